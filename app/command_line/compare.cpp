@@ -21,7 +21,7 @@ constexpr const char* compare_footer =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
     "from rest: locally, as a whole, and back and forth. Writes report.html, report.json and report.csv to FOLDER and\n"
     "prints the main table.\n\n"
-    "--against physics: the reference is neo-Hookean FEM on the same cells. FEM, BEM, free-form deformation and an\n"
+    "--against physics: the reference is neo-Hookean FEM on the same cells. The methods of elasticity and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used. Each object is nudged, pulled and\n"
     "bent, near and far, at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
     "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
@@ -59,11 +59,11 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
     throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");
   }
   if (options.meshes->count() == 0) {
-    return report::default_cases(softness);
+    return with_frames(report::default_cases(softness), options);
   }
   std::vector<report::Case> cases;
   for (const std::string& name : options.meshes->results()) {
-    report::Case object = case_of(name, softness);
+    report::Case object = case_of(name, options);
     object.drags = drags_of(object, recorded);
     cases.push_back(std::move(object));
   }
@@ -71,8 +71,10 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
 }
 
 void refuse_physics(const CompareArguments& arguments) {
-  for (const CLI::Option* option : {arguments.pins, arguments.grow, arguments.calibrated, arguments.elastic.young,
-                                    arguments.elastic.poisson, arguments.elastic.lattice}) {
+  for (const CLI::Option* option :
+       {arguments.pins, arguments.grow, arguments.calibrated, arguments.elastic.young, arguments.elastic.poisson,
+        arguments.elastic.lattice, arguments.elastic.iterations, arguments.reference, arguments.laws.materials,
+        arguments.laws.gent_limit, arguments.laws.fung_exponent}) {
     if (option->count() > 0) {
       throw Error(option->get_name(), "it works only with --against physics", "add --against physics");
     }

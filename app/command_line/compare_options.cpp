@@ -66,13 +66,22 @@ void add_contest(CLI::App& app, CompareArguments& options) {
 void add_physics(CLI::App& app, CompareArguments& options) {
   options.pins = add_pins(app);
   options.elastic = add_elastic(app);
+  options.laws = add_strain_laws(app);
+  options.reference =
+      add_value(app, "--reference", "same-cells|refined",
+                "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
+                "answer changes by less than 2 % [same-cells]");
   options.grow = add_value(app, "--grow", "SECONDS",
                            "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
   options.calibrated =
       add_value(app, "--calibrated", "on|off",
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
   for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
-                              options.elastic.poisson, options.elastic.lattice}) {
+                              options.elastic.poisson, options.elastic.lattice, options.elastic.iterations}) {
+    option->group("Against physics");
+  }
+  for (CLI::Option* option :
+       {options.reference, options.laws.materials, options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
   }
 }
@@ -100,16 +109,25 @@ Softness softness_of(const CompareArguments& arguments) {
   return softness_of(arguments.softness, preset ? preset_of(*preset) : LinkSoftness());
 }
 
-report::Case case_of(const std::string& file, const Softness& softness) {
+report::Case case_of(const std::string& file, const CompareArguments& arguments) {
+  const Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
+  const RegionFrame frame = frame_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()),
           "mesh from a file",
           opened.mesh,
           {},
           {},
-          {softness.global, std::move(opened.softness), softness.energy},
+          {softness.global, std::move(opened.softness), softness.energy, frame},
           {}};
+}
+
+std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments) {
+  for (report::Case& one : cases) {
+    one.softness.frame = frame_of(arguments.softness, *one.mesh);
+  }
+  return cases;
 }
 
 CompareArguments add_compare_arguments(CLI::App& app) {

@@ -15,7 +15,8 @@ struct CompareArguments {
   SoftnessArguments softness;
   CLI::Option *preset = nullptr, *moves = nullptr;
   ElasticArguments elastic;
-  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr;
+  StrainLawArguments laws;
+  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
@@ -25,7 +26,9 @@ report::CompareOptions contest_of(const CompareArguments& arguments, std::span<c
 /// Returns the global softness and the kind of energy: those of the preset, where single options override its values.
 Softness softness_of(const CompareArguments& arguments);
 /// Reads a mesh as a case of the report: at rest, without drags.
-report::Case case_of(const std::string& file, const Softness& softness);
+report::Case case_of(const std::string& file, const CompareArguments& arguments);
+/// Gives built-in objects the frame of the option.
+std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments);
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

@@ -31,6 +31,11 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   if (calibrated == "on") {
     options.calibrate = calibrator_for_reports(options.contest.scheme);
   }
+  const std::string reference = value_of(arguments.reference).value_or("same-cells");
+  check_word("--reference", reference, {"same-cells", "refined"});
+  if (reference == "refined") {
+    options.refine = ConvergingOptions();
+  }
   if (const auto seconds = value_of(arguments.grow)) {
     options.growth_seconds = parse_number_of("--grow", *seconds);
     if (options.growth_seconds < 0) {
@@ -50,17 +55,32 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
     if (arguments.pins->count() > 0) {
       throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
     }
-    return report::physics_cases(softness, elastic);
+    return with_frames(report::physics_cases(softness, elastic), arguments);
   }
   std::vector<report::Case> cases;
   for (const std::string& file : arguments.meshes->results()) {
-    report::Case object = case_of(file, softness);
+    report::Case object = case_of(file, arguments);
     object.pins = pins_of(arguments.pins, object.name, *object.mesh);
     object.elastic = elastic;
     object.drags = report::physics_drags(object);
     cases.push_back(std::move(object));
   }
   return cases;
+}
+
+/// Returns each case with each material of the reference solution. Names say the material, except neo-Hookean alone.
+std::vector<report::Case> with_materials(const std::vector<report::Case>& cases, const std::vector<StrainLaw>& laws) {
+  std::vector<report::Case> all;
+  for (const report::Case& object : cases) {
+    for (const StrainLaw& law : laws) {
+      all.push_back(object);
+      all.back().law = law;
+      if (laws.size() > 1 || law.kind != StrainLaw::Kind::neo_hookean) {
+        all.back().name += ", " + label(law);
+      }
+    }
+  }
+  return all;
 }
 
 void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
@@ -85,7 +105,14 @@ void add_plots(Outputs& outputs, const std::filesystem::path& folder, const repo
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line) {
   const report::PhysicsOptions options = physics_options(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  const std::vector<report::Case> cases = physics_cases(arguments);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, elastic_of(arguments.elastic).material);
+  std::vector<report::Case> objects = physics_cases(arguments);
+  if (options.refine) {
+    for (report::Case& object : objects) {
+      object.drags = report::physics_drags(object, true, report::patch_share);
+    }
+  }
+  const std::vector<report::Case> cases = with_materials(objects, laws);
   ProgressLine line;
   const report::PhysicsReport report = report::compare_with_physics(
       cases, options,

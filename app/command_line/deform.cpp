@@ -12,6 +12,9 @@
 #include "files/session/softness_csv.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
+#include "measure/inverted_cells.h"
+#include "measure/principal_stretch.h"
+#include "measure/volume_change.h"
 #include "mesh/error.h"
 #include "simulate/tape.h"
 
@@ -118,6 +121,9 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
           statistics.violation,
           elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions),
           measure_displacement(mesh, positions),
+          volume_change(mesh, positions),
+          inverted_cells(mesh, positions),
+          largest_principal_stretch(mesh, positions),
           info(simulation.relaxation().scheme).sweeps ? std::nullopt : simulation.certificate()};
 }
 
@@ -192,6 +198,7 @@ void deform(const DeformArguments& options) {
   OpenedMesh opened = open_mesh(options.mesh);
   const MeshPointer mesh = opened.mesh;
   softness.links = std::move(opened.softness);
+  softness.frame = frame_of(options.global, *mesh);
   check_algorithm(options, algorithm, *mesh);
   if (const auto file = value_of(options.softness)) {
     for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {

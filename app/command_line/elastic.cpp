@@ -29,15 +29,25 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
   return counts;
 }
 
+std::uint32_t iterations_of(const std::string& text) {
+  const auto count = parse_count(text);
+  if (!count) {
+    throw Error("--iterations", in_quotes(text) + " is not a number of iterations",
+                "use " + range_of(parameters::iterations));
+  }
+  return *count;
+}
+
 }  // namespace
 
 ElasticArguments add_material(CLI::App& app) {
-  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr};
+  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr, nullptr};
 }
 
 ElasticArguments add_elastic(CLI::App& app) {
   ElasticArguments arguments = add_material(app);
   arguments.lattice = add_value(app, "--lattice", "N|NxN[xN]", help_of(parameters::lattice));
+  arguments.iterations = add_parameter(app, parameters::iterations);
   return arguments;
 }
 
@@ -52,8 +62,42 @@ ElasticOptions elastic_of(const ElasticArguments& arguments) {
   if (const auto lattice = arguments.lattice == nullptr ? std::nullopt : value_of(arguments.lattice)) {
     options.lattice = lattice_of(*lattice);
   }
-  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}}, [&] { check(options); });
+  if (const auto iterations = arguments.iterations == nullptr ? std::nullopt : value_of(arguments.iterations)) {
+    options.iterations = iterations_of(*iterations);
+  }
+  in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}, {"iterations", "--iterations"}},
+             [&] { check(options); });
   return options;
+}
+
+StrainLawArguments add_strain_laws(CLI::App& app) {
+  return {add_value(app, "--material", "M,M,…",
+                    "materials of the reference solution: neo-hookean, or gent and fung, which stiffen as they are "
+                    "stretched [neo-hookean]"),
+          add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
+}
+
+std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material) {
+  constexpr std::array kinds{StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung};
+  std::vector<StrainLaw> laws;
+  for (const std::string& word : words_of("--material", value_of(arguments.materials).value_or("neo-hookean"))) {
+    const auto kind = std::ranges::find(kinds, word, [](StrainLaw::Kind one) { return name(one); });
+    if (kind == kinds.end()) {
+      check_word("--material", word, {"neo-hookean", "gent", "fung"});
+    }
+    laws.push_back({*kind, value_of(arguments.gent_limit, parameters::gent_limit),
+                    value_of(arguments.fung_exponent, parameters::fung_exponent)});
+    in_options({{"gent-limit", "--gent-limit"}, {"fung-exponent", "--fung-exponent"}},
+               [&] { check(laws.back(), material); });
+  }
+  for (const auto& [option, kind] : {std::pair(arguments.gent_limit, StrainLaw::Kind::gent),
+                                     std::pair(arguments.fung_exponent, StrainLaw::Kind::fung)}) {
+    if (option->count() > 0 && std::ranges::count(laws, kind, &StrainLaw::kind) == 0) {
+      throw Error(option->get_name(), "the material '" + name(kind) + "' does not take part",
+                  "add --material " + name(kind));
+    }
+  }
+  return laws;
 }
 
 std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word,

@@ -7,13 +7,21 @@ namespace chainmail::command_line {
 
 /// The options for methods of elasticity and free-form deformation.
 struct ElasticArguments {
-  CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr;
+  CLI::Option *young = nullptr, *poisson = nullptr, *lattice = nullptr, *iterations = nullptr;
 };
 ElasticArguments add_elastic(CLI::App& app);
 /// Adds only the options of the material.
 ElasticArguments add_material(CLI::App& app);
 /// Throws Error, with the option, if a value is out of range.
 ElasticOptions elastic_of(const ElasticArguments& arguments);
+
+/// The options for the material of the reference solution.
+struct StrainLawArguments {
+  CLI::Option *materials = nullptr, *gent_limit = nullptr, *fung_exponent = nullptr;
+};
+StrainLawArguments add_strain_laws(CLI::App& app);
+/// Returns the laws to compare with; neo-Hookean if none is named. Throws Error, with the option.
+std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material);
 
 /// Returns the elements of `boundary` or of a layer, like `bottom`; nothing for any other word. Throws Error, with the
 /// option, if the object has no boundary or layer with this name.

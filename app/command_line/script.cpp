@@ -125,29 +125,6 @@ std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& whe
   }
 }
 
-/// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`.
-Rotation parse_rotation(const std::string& where, std::string_view text) {
-  const std::size_t mark = text.find(':');
-  const std::string_view axis = text.substr(0, mark);
-  if (mark == std::string_view::npos) {
-    throw Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
-  }
-  Rotation rotation{Point::Zero(), parse_number_of(where, text.substr(mark + 1))};
-  if (const std::size_t k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos) {
-    rotation.axis[int(k)] = 1;
-    return rotation;
-  }
-  if (std::ranges::count(axis, ',') != 2) {
-    throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
-  }
-  const std::vector<double> coordinates = parse_coordinates(where, axis);
-  std::ranges::copy(coordinates, rotation.axis.begin());
-  if (rotation.axis.isZero(0)) {
-    throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
-  }
-  return rotation;
-}
-
 bool is_move(const Act& act) {
   return act.kind == Act::Kind::move || act.kind == Act::Kind::by || act.kind == Act::Kind::rotate;
 }
@@ -351,6 +328,28 @@ void Runner::pass(const commands::Drag& drag) {
 }
 
 }  // namespace
+
+Rotation parse_rotation(const std::string& where, std::string_view text) {
+  const std::size_t mark = text.find(':');
+  const std::string_view axis = text.substr(0, mark);
+  if (mark == std::string_view::npos) {
+    throw Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
+  }
+  Rotation rotation{Point::Zero(), parse_number_of(where, text.substr(mark + 1))};
+  if (const std::size_t k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos) {
+    rotation.axis[int(k)] = 1;
+    return rotation;
+  }
+  if (std::ranges::count(axis, ',') != 2) {
+    throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
+  }
+  const std::vector<double> coordinates = parse_coordinates(where, axis);
+  std::ranges::copy(coordinates, rotation.axis.begin());
+  if (rotation.axis.isZero(0)) {
+    throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
+  }
+  return rotation;
+}
 
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
   Act act{kind, option + " " + text, 0, 0, {}, {}};

@@ -31,6 +31,9 @@ struct Act {
 /// Error naming the option.
 Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
 
+/// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
+Rotation parse_rotation(const std::string& where, std::string_view text);
+
 /// Throws Error if an act does not fit the mesh or the acts before it: if the element, link or axis does not exist, or
 /// if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
 void check_acts(const std::vector<Act>& acts, const Mesh& mesh);

@@ -1,7 +1,12 @@
 #include "command_line/softness.h"
 
+#include <iostream>
 #include <string>
 #include <vector>
+
+#include "command_line/script.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -35,12 +40,41 @@ EnergyKind energy_of(const CLI::Option* option) {
   return energy_kind_of(*name);
 }
 
+RegionFrame frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
+  const auto text = value_of(arguments.frame);
+  if (!text || *text == "axes") {
+    return {};
+  }
+  if (*text == "object") {
+    const PrincipalAxes principal = principal_axes(mesh);
+    if (!principal.are_unique) {
+      std::cerr << "chainmail: --frame object: the object has equal spreads, so not all of its principal axes exist; "
+                   "the axes nearest to those of the world are used. Give a rotation, such as z:45, instead\n";
+    }
+    return principal.frame;
+  }
+  try {
+    const RegionFrame frame(FrameKind::given, parse_rotation("--frame", *text).vector());
+    check(frame, mesh);
+    return frame;
+  } catch (const Error& error) {
+    const bool is_rotation = text->find(':') != std::string::npos;
+    throw is_rotation ? Error("--frame", error.problem(), error.remedy())
+                      : Error("--frame", "'" + printable(*text) + "' is not known",
+                              "use axes, object, or a rotation such as z:45 or 1,2,3:30");
+  }
+}
+
 SoftnessArguments add_softness(CLI::App& app) {
   SoftnessArguments arguments;
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     arguments.numbers[i] = add_parameter(app, *softness_numbers[i].parameter);
   }
   arguments.energy = add_energy(app);
+  arguments.frame =
+      add_value(app, "--frame", "axes|object|AXIS:DEGREES",
+                "valid regions lie along the axes of the world, the principal axes of the object at rest, "
+                "or axes turned by a rotation; AXIS is x, y, z or X,Y,Z [axes]");
   return arguments;
 }
 

@@ -1,6 +1,7 @@
 #include "chainmail/body.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "api/access.h"
@@ -22,7 +23,8 @@ static_assert(Elasticity().young == parameters::young.standard &&
               Elasticity().poisson == parameters::poisson.standard &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&
               Elasticity().control_points[1] == ElasticOptions::control_points &&
-              Elasticity().control_points[2] == ElasticOptions::control_points);
+              Elasticity().control_points[2] == ElasticOptions::control_points &&
+              Elasticity().iterations == parameters::iterations.standard);
 
 namespace {
 
@@ -41,6 +43,7 @@ std::unique_ptr<Solver> copy_of(Solver& solver) {
   inner::Body& from = solver.body();
   auto copy = make_solver(from.mesh_pointer(), Algorithm::natural_queue, from.precision());
   inner::Body& body = copy->body();
+  body.work_in_frame(from.works_in_frame());
   body.store_displacements(from.stores_displacements());
   body.set_softness(from.shared_softness());
   body.set_elastic(from.elastic());
@@ -232,15 +235,37 @@ void Body::set_energy(EnergyKind kind) {
 
 EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
 
+void Body::set_frame(const Rotation& rotation) {
+  guarded([&] { inner::check(rotation_of(rotation), inside_->body().mesh()); });
+  Softness next = inside_->body().softness();
+  next.frame = RegionFrame(FrameKind::given, rotation_of(rotation).vector());
+  inside_->set_softness(next);
+}
+
+bool Body::set_frame_of_object() {
+  const PrincipalAxes principal = principal_axes(inside_->body().mesh());
+  Softness next = inside_->body().softness();
+  next.frame = principal.frame;
+  inside_->set_softness(next);
+  return principal.are_unique;
+}
+
+Rotation Body::frame() const {
+  const Point& turn = inside_->body().softness().frame.rotation();
+  const double angle = turn.norm();
+  return angle > 0 ? Rotation{vector_of(turn / angle), angle * 180 / std::numbers::pi} : Rotation();
+}
+
 void Body::set_elasticity(const Elasticity& elasticity) {
-  const ElasticOptions options{{elasticity.young, elasticity.poisson}, elasticity.control_points};
+  const ElasticOptions options{
+      {elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations};
   guarded([&] { inner::check(options); });
   inside_->body().set_elastic(options);
 }
 
 Elasticity Body::elasticity() const {
   const ElasticOptions& options = inside_->body().elastic();
-  return {options.material.young, options.material.poisson, options.lattice};
+  return {options.material.young, options.material.poisson, options.lattice, options.iterations};
 }
 
 }  // namespace chainmail::api

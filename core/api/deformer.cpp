@@ -29,7 +29,9 @@ struct Deformer::Inside {
   const Solver& solver() const { return *Access::inside(body).solver; }
   void set_algorithm(Algorithm next) {
     solver().set_algorithm(next);
-    solver().body().store_displacements(info(next).from_rest);  // a copied body may store positions the other way
+    // A copied body may store positions the other way.
+    solver().body().work_in_frame(info(next).family() == Family::chainmail);
+    solver().body().store_displacements(info(next).from_rest);
     algorithm = next;
   }
   template <class Move>

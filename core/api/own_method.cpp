@@ -54,8 +54,8 @@ void MovingBody::Inside::begin(inner::Body& on, const inner::HandleMove& with, s
   body = &on;
   handle = &with.handle;
   moved = &output;
-  if (!mesh) {
-    mesh = Access::mesh(on.mesh_pointer());
+  if (!mesh || Access::pointer(*mesh) != on.stored_mesh()) {
+    mesh = Access::mesh(on.stored_mesh());
     moved_in.resize(on.mesh().element_count());
   }
   if (++move == std::numeric_limits<std::uint32_t>::max()) {
@@ -141,7 +141,7 @@ bool MovingBody::is_fixed(ElementId element) const {
 
 Vector3 MovingBody::position(ElementId element) const {
   check_id(inside_.body->mesh(), element);
-  return vector_of(inner::point_of(inside_.body->mesh(), inside_.body->positions(), element));
+  return vector_of(inner::point_of(*inside_.body->stored_mesh(), inside_.body->stored_positions(), element));
 }
 
 void MovingBody::set_position(ElementId element, const Vector3& position) {
@@ -187,7 +187,7 @@ class OwnMethod final : public inner::Method {
   PassCount move(inner::Body& body, inner::HandleMove& move, PassOutput output) override {
     before_.clear();
     for (const ElementId element : move.handle.elements()) {
-      before_.push_back(vector_of(inner::point_of(body.mesh(), body.positions(), element)));
+      before_.push_back(vector_of(inner::point_of(*body.stored_mesh(), body.stored_positions(), element)));
     }
     state_.begin(body, move, output.moved);
     return {answer(move.handle), output.moved.size()};

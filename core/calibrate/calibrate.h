@@ -28,6 +28,7 @@ struct CalibrationOptions {
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
   EnergyKind energy = standard_energy;
+  StrainLaw law = {};  // of the reference solution
 };
 
 /// Distance of the elements from the reference solution at the end of a drag.

@@ -29,6 +29,7 @@ report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
                   const std::vector<ElementId>& handles, const std::stop_token& stop) {
     CalibrationOptions options;
     options.elastic = object.elastic;
+    options.law = object.law;
     options.pins = object.pins;
     options.algorithm = algorithm;
     options.scheme = equilibrium ? RelaxationScheme::equilibrium : scheme;

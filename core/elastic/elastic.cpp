@@ -13,7 +13,8 @@ namespace {
 
 // Largest number of elements by space dimension, for acceptable time and memory of a factorization (measured).
 constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, most_fem_elements};
-constexpr std::array<std::uint64_t, 4> neo_hookean_limit{0, 100'000, 20'000, 6'000};
+constexpr std::array<std::uint64_t, 4> nonlinear_limit{0, 100'000, 20'000, 6'000};
+constexpr std::array<std::uint64_t, 4> edge_limit{0, 1'000'000, 150'000, 100'000};
 constexpr std::uint64_t boundary_limit = 2'800;        // triangles; takes 28 s and 560 MB
 constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes; takes 3 s more for each new handle
 
@@ -34,6 +35,19 @@ void check_fem(const std::string& where, const Mesh& mesh, const std::array<std:
     throw Error(where, "the object has no triangles, so it is not a sheet", "use a mesh with faces");
   }
   const std::uint64_t most = limits[static_cast<std::size_t>(mesh.space_dimension)];
+  if (mesh.element_count() > most) {
+    refuse_size(where, mesh.element_count(), most, "elements");
+  }
+}
+
+/// The methods that work on the edges of cells or faces, of surfaces in space as well.
+void check_cells(const std::string& where, const Mesh& mesh) {
+  const bool is_full_grid = mesh.is_grid && mesh.object_dimension == mesh.space_dimension;
+  if (mesh.space_dimension > 1 && !is_full_grid && mesh.triangles.empty() && mesh.tetrahedra.empty() &&
+      mesh.hexahedra.empty()) {
+    throw Error(where, "the object has no faces or cells", "use a mesh with faces, or fill its surface");
+  }
+  const std::uint64_t most = edge_limit[static_cast<std::size_t>(mesh.space_dimension)];
   if (mesh.element_count() > most) {
     refuse_size(where, mesh.element_count(), most, "elements");
   }
@@ -63,9 +77,15 @@ constexpr std::array methods{
     MethodEntry{ElasticMethod::linear_fem, [](const Mesh& mesh) { check_fem("linear FEM", mesh, linear_limit); },
                 make_linear_fem},
     MethodEntry{ElasticMethod::neo_hookean,
-                [](const Mesh& mesh) { check_fem("neo-Hookean FEM", mesh, neo_hookean_limit); }, make_neo_hookean},
+                [](const Mesh& mesh) { check_fem("neo-Hookean FEM", mesh, nonlinear_limit); }, make_neo_hookean},
     MethodEntry{ElasticMethod::boundary, check_boundary, make_boundary_elements},
     MethodEntry{ElasticMethod::free_form, [](const Mesh&) {}, make_free_form},
+    MethodEntry{ElasticMethod::corotational,
+                [](const Mesh& mesh) { check_fem("corotational FEM", mesh, nonlinear_limit); }, make_corotational},
+    MethodEntry{ElasticMethod::arap, [](const Mesh& mesh) { check_cells("ARAP", mesh); }, make_arap},
+    MethodEntry{ElasticMethod::xpbd, [](const Mesh& mesh) { check_cells("XPBD", mesh); }, make_xpbd},
+    MethodEntry{ElasticMethod::projective, [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); },
+                make_projective},
 };
 
 const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(methods, method, &MethodEntry::method); }

@@ -14,7 +14,7 @@
 namespace chainmail {
 
 /// A method of elasticity: a model of the static answer of an object to a handle.
-enum class ElasticMethod { linear_fem, neo_hookean, boundary, free_form };
+enum class ElasticMethod { linear_fem, neo_hookean, boundary, free_form, corotational, arap, xpbd, projective };
 
 /// An object and its pins.
 struct ElasticProblem {
@@ -24,6 +24,7 @@ struct ElasticProblem {
   /// Displacements of the pins from rest, space_dimension coordinates each, in their order (mesh units).
   std::vector<double> pinned;
   ElasticOptions options;
+  StrainLaw law = {};  // of neo-Hookean FEM; the other methods are linear or have none
 };
 
 /// A handle: elements that move as one rigid body. Displacements and arms have space_dimension coordinates per element
@@ -72,6 +73,10 @@ class ElasticSolver {
   virtual const std::vector<double>& displacements() const = 0;
   /// Reason why the last answer is not the requested one, and which one it is. Usually empty.
   virtual const std::string& remark() const = 0;
+  /// True if the handle is at the target of the last move, whether the elements about it converged or not.
+  virtual bool reached() const { return remark().empty(); }
+  /// True if the answer depends on the path: then a rotation of the handle must be split into small ones.
+  virtual bool follows_path() const { return false; }
 
   /// Returns the current positions of the control points that a user may drag (free-form deformation only):
   /// space_dimension coordinates each (mesh units). Indices run fastest along the first axis.

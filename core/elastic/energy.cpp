@@ -1,5 +1,6 @@
 #include "elastic/energy.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -25,6 +26,12 @@ double log_of_free_stretch(double log_volume, const Lame& lame, int free_axes) {
 }
 
 }  // namespace
+
+CornerMatrix convex_part(const CornerMatrix& hessian) {
+  const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
+  const CornerMatrix& vectors = modes.eigenvectors();
+  return vectors * modes.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
+}
 
 VolumeTerm volume_term(double log_volume, const Lame& lame, int dimension) {
   const auto [mu, lambda] = lame;
@@ -71,6 +78,9 @@ SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const
                         term.slope * gradients.col(b) * gradients.col(a).transpose());
       block.diagonal().array() += volume * lame.mu * rest_gradients.col(a).dot(rest_gradients.col(b));
     }
+  }
+  if (want == Want::convex) {
+    result.hessian = convex_part(result.hessian);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "elastic/material.h"
 #include "elastic/simplices.h"
@@ -27,15 +28,24 @@ VolumeTerm volume_term(double log_volume, const Lame& lame, int dimension);
 
 /// Energy of a simplex whose corners are displaced, with its derivatives.
 struct SimplexEnergy {
-  bool inverted = false;  // then there is no energy
+  bool inverted = false;  // or strained beyond the limit of the material: then there is no energy
   double energy = 0;
   double magnitude = 0;   // of the terms whose difference is the energy; rounding is a share of it
   CornerVector gradient;  // by the coordinates of the corners, corner by corner
   CornerMatrix hessian;
 };
-enum class Want { energy, gradient, hessian };
+/// What to compute; each includes those before it. `convex` is the Hessian, or the nearest matrix without negative
+/// curvature instead of it (Teran et al. 2005).
+enum class Want { energy, gradient, hessian, convex };
 SimplexEnergy neo_hookean(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                           const Lame& lame, Want want);
+
+/// The energy of a material: neo_hookean or corotated, for example.
+using SimplexModel = std::function<SimplexEnergy(const Simplices& simplices, std::size_t simplex,
+                                                 const CornerDisplacements& at, const Lame& lame, Want want)>;
+
+/// Returns the nearest matrix without negative curvature.
+CornerMatrix convex_part(const CornerMatrix& hessian);
 
 /// Returns the stiffness of a simplex: the Hessian at rest.
 CornerMatrix stiffness(const Simplices& simplices, std::size_t simplex, const Lame& lame);

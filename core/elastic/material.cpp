@@ -1,12 +1,61 @@
 #include "elastic/material.h"
 
+#include <array>
+#include <cstdio>
+
+#include "mesh/error.h"
+
 namespace chainmail {
+namespace {
+
+std::string in_short(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+}  // namespace
 
 void check(const ElasticOptions& options) {
   check(parameters::young, options.material.young);
   check(parameters::poisson, options.material.poisson);
   for (const std::uint32_t count : options.lattice) {
     check(parameters::lattice, count);
+  }
+  check(parameters::iterations, options.iterations);
+}
+
+std::string name(StrainLaw::Kind kind) {
+  return kind == StrainLaw::Kind::gent ? "gent" : kind == StrainLaw::Kind::fung ? "fung" : "neo-hookean";
+}
+
+std::string label(const StrainLaw& law) {
+  switch (law.kind) {
+    case StrainLaw::Kind::gent:
+      return "Gent (limit " + in_short(law.gent_limit) + ")";
+    case StrainLaw::Kind::fung:
+      return "Fung (exponent " + in_short(law.fung_exponent) + ")";
+    default:
+      return "neo-Hookean";
+  }
+}
+
+/// Beyond its bound, the energy of a material that is compressed to nothing would fall without limit.
+void check(const StrainLaw& law, const Material& material) {
+  if (law.kind == StrainLaw::Kind::neo_hookean) {
+    return;
+  }
+  const bool is_gent = law.kind == StrainLaw::Kind::gent;
+  const Parameter& parameter = is_gent ? parameters::gent_limit : parameters::fung_exponent;
+  const double value = is_gent ? law.gent_limit : law.fung_exponent;
+  check(parameter, value);
+  const auto [mu, lambda] = lame(material);
+  if (is_gent ? lambda * value < 2 * mu : lambda < 2 * mu * value) {
+    throw Error(std::string(parameter.name),
+                in_short(value) + " is too " + (is_gent ? "low" : "high") + " for a Poisson's ratio of " +
+                    in_short(material.poisson) + ", for which it is at " + (is_gent ? "least " : "most ") +
+                    in_short(is_gent ? 2 * mu / lambda : lambda / (2 * mu)),
+                "change it, or use a higher Poisson's ratio");
   }
 }
 

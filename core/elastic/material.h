@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "mesh/parameters.h"
 
@@ -22,12 +23,32 @@ struct ElasticOptions {
   Material material;
   /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
   std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
+  /// Most iterations of XPBD and Projective Dynamics for one move.
+  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.standard);
 
   bool operator==(const ElasticOptions&) const = default;
 };
 
 /// Throws Error, with the name of the parameter, if one of the options is out of range.
 void check(const ElasticOptions& options);
+
+/// How the energy of an elastic material grows with the strain. At small strains, all are the same linear elasticity.
+/// `stiffening.h` has the formulas.
+struct StrainLaw {
+  enum class Kind { neo_hookean, gent, fung };
+
+  Kind kind = Kind::neo_hookean;
+  double gent_limit = parameters::gent_limit.standard;        // of Gent: I₁ − 3 stays below it
+  double fung_exponent = parameters::fung_exponent.standard;  // of Fung: factor of I₁ − 3 in the exponent
+
+  bool operator==(const StrainLaw&) const = default;
+};
+/// Returns `neo-hookean`, `gent` or `fung`.
+std::string name(StrainLaw::Kind kind);
+/// Returns a description for readers, with the parameter: `Gent (limit 2)`.
+std::string label(const StrainLaw& law);
+/// Throws Error, with the name of the parameter, if the law does not exist for this material.
+void check(const StrainLaw& law, const Material& material);
 
 /// Lamé's parameters of a material in three dimensions.
 struct Lame {

@@ -12,6 +12,10 @@ std::unique_ptr<ElasticSolver> make_linear_fem(const ElasticProblem& problem, co
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_boundary_elements(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_free_form(const ElasticProblem& problem, const Progress& progress);
+std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress);
+std::unique_ptr<ElasticSolver> make_arap(const ElasticProblem& problem, const Progress& progress);
+std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress);
+std::unique_ptr<ElasticSolver> make_projective(const ElasticProblem& problem, const Progress& progress);
 
 /// Throws Error if boundary elements do not support so many triangles, or so many elements of a volume (0 for a
 /// surface).

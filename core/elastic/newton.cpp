@@ -1,7 +1,7 @@
 #include "elastic/newton.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <utility>
 
 namespace chainmail {
 namespace {
@@ -29,13 +29,6 @@ CornerDisplacements corners_of(const Simplices& simplices, std::size_t simplex,
   return at;
 }
 
-/// Returns the nearest matrix without negative curvature (Teran et al. 2005).
-CornerMatrix convex_part(const CornerMatrix& hessian) {
-  const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
-  const CornerMatrix& vectors = modes.eigenvectors();
-  return vectors * modes.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
-}
-
 double cell_length(const Simplices& simplices) {
   double volume = 0;
   for (const double one : simplices.volumes) {
@@ -47,9 +40,10 @@ double cell_length(const Simplices& simplices) {
 }  // namespace
 
 Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
-               std::span<const ElementId> prescribed)
+               std::span<const ElementId> prescribed, SimplexModel model)
     : simplices_(simplices),
       lame_(lame),
+      model_(std::move(model)),
       unknowns_(simplices.dimension, elements, order, prescribed),
       stiffness_(simplices, unknowns_),
       length_(cell_length(simplices)) {
@@ -61,7 +55,7 @@ Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements,
 std::optional<Newton::Energy> Newton::energy(const std::vector<double>& displacements) const {
   Energy sum;
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
-    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::energy);
+    const auto one = model_(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::energy);
     if (one.inverted) {
       return std::nullopt;
     }
@@ -75,7 +69,7 @@ std::vector<double> Newton::gradient(const std::vector<double>& displacements) c
   const int n = simplices_.dimension;
   std::vector<double> sum(displacements.size(), 0.0);
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
-    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::gradient);
+    const auto one = model_(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::gradient);
     for (int i = 0; i < n * (n + 1); ++i) {
       const ElementId corner = simplices_.corners_of(s)[static_cast<std::size_t>(i / n)];
       sum[std::size_t{corner} * static_cast<std::size_t>(n) + static_cast<std::size_t>(i % n)] += one.gradient[i];
@@ -88,8 +82,9 @@ void Newton::assemble(const std::vector<double>& displacements, bool only_convex
   stiffness_.clear();
   for (std::size_t s = 0; s < simplices_.count(); ++s) {
     progress.report(s, simplices_.count());
-    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
-    stiffness_.add(s, only_convex ? convex_part(one.hessian) : one.hessian);
+    const auto one = model_(simplices_, s, corners_of(simplices_, s, displacements), lame_,
+                            only_convex ? Want::convex : Want::hessian);
+    stiffness_.add(s, one.hessian);
   }
 }
 
@@ -119,7 +114,7 @@ bool Newton::predict(std::vector<double>& displacements, const std::vector<doubl
     if (moved.isZero(0)) {
       continue;
     }
-    const auto one = neo_hookean(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
+    const auto one = model_(simplices_, s, corners_of(simplices_, s, displacements), lame_, Want::hessian);
     const CornerVector of_simplex = one.hessian * moved.reshaped();
     for (int i = 0; i < n * (n + 1); ++i) {
       const ElementId corner = simplices_.corners_of(s)[static_cast<std::size_t>(i / n)];

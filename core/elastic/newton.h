@@ -10,12 +10,12 @@
 
 namespace chainmail {
 
-/// Finds displacements of least neo-Hookean energy while the displacements of some elements are prescribed.
+/// Finds displacements of least energy while the displacements of some elements are prescribed.
 class Newton {
  public:
   /// `simplices` must outlive this object. `order` is the order of the unknowns, as in Unknowns.
   Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
-         std::span<const ElementId> prescribed);
+         std::span<const ElementId> prescribed, SimplexModel model = neo_hookean);
 
   /// Starts from displacements in equilibrium (n coordinates per element), moves the prescribed elements by `increment`
   /// (n coordinates per element; 0 for the others) and finds the new equilibrium. Returns false if it does not
@@ -39,6 +39,7 @@ class Newton {
 
   const Simplices& simplices_;
   Lame lame_;
+  SimplexModel model_;
   Unknowns unknowns_;
   Stiffness stiffness_;
   Cholesky factor_;

@@ -24,7 +24,13 @@ struct Squares {
 
 PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& positions,
                                      const ReferenceSolution& reference) {
-  Squares all, moving, displacements;
+  Squares all, moving, displacements, apart_of_relative;
+  std::vector<bool> left_out(mesh.element_count(), false);
+  if (reference.only_free) {
+    for (const ElementId e : reference.prescribed) {
+      left_out[e] = true;
+    }
+  }
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     double apart = 0, displacement = 0;
     for (int k = 0; k < mesh.space_dimension; ++k) {
@@ -34,13 +40,16 @@ PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& posit
       displacement += reference.displacements[at] * reference.displacements[at];
     }
     all.add(apart);
-    displacements.add(displacement);
+    if (!left_out[e]) {
+      apart_of_relative.add(apart);
+      displacements.add(displacement);
+    }
     if (std::sqrt(displacement) > counts_as_moving * reference.handle_displacement) {
       moving.add(apart);
     }
   }
   PhysicalError error;
-  error.relative = all.rms() / displacements.rms();
+  error.relative = apart_of_relative.rms() / displacements.rms();
   error.rms = all.rms() / reference.handle_displacement;
   error.max = std::sqrt(all.largest) / reference.handle_displacement;
   error.moving_rms = moving.rms() / reference.handle_displacement;
@@ -49,7 +58,7 @@ PhysicalError measure_physical_error(const Mesh& mesh, const PositionView& posit
   return error;
 }
 
-PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
+std::vector<double> positions_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
   const auto dimension = static_cast<std::size_t>(mesh.space_dimension);
   std::vector<double> positions = mesh.rest;
   for (const ElementId element : reference.prescribed) {
@@ -57,8 +66,13 @@ PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution&
       positions[at] = mesh.rest[at] + reference.displacements[at];
     }
   }
-  return measure_physical_error(
-      mesh, PositionView(positions.data(), dimension * sizeof(double), Precision::double_precision), reference);
+  return positions;
+}
+
+PhysicalError error_of_nothing_moving(const Mesh& mesh, const ReferenceSolution& reference) {
+  const std::vector<double> positions = positions_of_nothing_moving(mesh, reference);
+  const std::size_t stride = static_cast<std::size_t>(mesh.space_dimension) * sizeof(double);
+  return measure_physical_error(mesh, PositionView(positions.data(), stride, Precision::double_precision), reference);
 }
 
 double rms_displacement(const Mesh& mesh, const ReferenceSolution& reference) {

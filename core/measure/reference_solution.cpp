@@ -9,7 +9,10 @@
 namespace chainmail {
 
 ReferenceSolver::ReferenceSolver(const ElasticProblem& problem, const Progress& progress)
-    : mesh_(problem.mesh), pins_(problem.pins), solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
+    : mesh_(problem.mesh),
+      law_(problem.law),
+      pins_(problem.pins),
+      solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
 
 ReferenceSolution ReferenceSolver::at(ElementId handle, const Point& target, const Progress& progress) {
   std::vector<double> displacement;
@@ -39,7 +42,7 @@ ReferenceSolution ReferenceSolver::at(const std::vector<ElementId>& handle, cons
                 progress.part(0, 0.2));
   solver_->move(ElasticMotion::by(is_one ? displacements : std::vector<double>(n, 0.0)), progress.part(0.2, 1));
   if (const std::string& remark = solver_->remark(); !remark.empty()) {
-    throw Error("neo-Hookean FEM", remark, "drag less far, or use a finer mesh");
+    throw Error(label(law_) + " FEM", remark, "drag less far, or use a finer mesh");
   }
   std::vector<ElementId> prescribed = pins_;
   prescribed.insert(prescribed.end(), handle.begin(), handle.end());

@@ -15,11 +15,13 @@ struct ReferenceSolution {
   double handle_displacement = 0;
   /// The handle's elements and the pins. Every method gets their positions as input.
   std::vector<ElementId> prescribed;
+  /// True: the relative error leaves out the prescribed elements, which may be many.
+  bool only_free = false;
 };
 
-/// Computes reference solutions by neo-Hookean finite elements in double, with prescribed positions of the handle and
-/// the pins. A solution is converged on the object's own cells, but not under refinement of the mesh: one displaced
-/// node has no continuum limit.
+/// Computes reference solutions by finite elements in double, neo-Hookean or of the problem's law, with prescribed
+/// positions of the handle and the pins. A solution is converged on the object's own cells, but not under refinement of
+/// the mesh: one displaced node has no continuum limit.
 class ReferenceSolver {
  public:
   /// The lattice in the options has no effect. Throws Error if the object has no static solution, and Cancelled.
@@ -36,6 +38,7 @@ class ReferenceSolver {
 
  private:
   MeshPointer mesh_;
+  StrainLaw law_;
   std::vector<ElementId> pins_;
   std::unique_ptr<ElasticSolver> solver_;
 };

@@ -10,12 +10,19 @@ namespace chainmail {
 namespace {
 
 template <int Dimension>
-double excess(const Mesh& mesh, const LinkSoftness& softness, const PositionView& position, ElementId a, ElementId b) {
-  const auto region = valid_region<double, Dimension>(mesh, a, b, softness);
+double excess(const Mesh& mesh, const LinkSoftness& softness, const RegionFrame& frame, const PositionView& position,
+              ElementId a, ElementId b) {
+  const auto region = valid_region<double, Dimension>(mesh, frame, a, b, softness);
+  double vector[Dimension];
+  for (int k = 0; k < Dimension; ++k) {
+    vector[k] = position.between(a, b, k);
+  }
+  if (frame.is_turned()) {
+    turn_into_frame(mesh, frame, vector);
+  }
   double square = 0;
   for (int k = 0; k < Dimension; ++k) {
-    const double vector = position.between(a, b, k);
-    const double outside = std::max({region.low[k] - vector, vector - region.high[k], 0.0});
+    const double outside = std::max({region.low[k] - vector[k], vector[k] - region.high[k], 0.0});
     square += outside * outside;
   }
   return std::sqrt(square);
@@ -65,9 +72,10 @@ double axial_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts
 double link_violation(const Mesh& mesh, const Softness& softness, const PositionView& position, LinkId link) {
   const auto [a, b] = mesh.links[link];
   const LinkSoftness& of_link = softness.of(link);
-  const double outside = mesh.space_dimension == 1   ? excess<1>(mesh, of_link, position, a, b)
-                         : mesh.space_dimension == 2 ? excess<2>(mesh, of_link, position, a, b)
-                                                     : excess<3>(mesh, of_link, position, a, b);
+  const RegionFrame& frame = softness.frame;
+  const double outside = mesh.space_dimension == 1   ? excess<1>(mesh, of_link, frame, position, a, b)
+                         : mesh.space_dimension == 2 ? excess<2>(mesh, of_link, frame, position, a, b)
+                                                     : excess<3>(mesh, of_link, frame, position, a, b);
   if (outside == 0) {
     return 0;
   }

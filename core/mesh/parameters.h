@@ -146,6 +146,28 @@ inline constexpr Parameter poisson{
     .step = 0.01,
     .decimals = 3,
     .help = "how much the elastic material narrows when stretched: 0 not at all, near 0.5 keeps its volume"};
+inline constexpr Parameter gent_limit{
+    .name = "gent-limit",
+    .label = "Limit of strain",
+    .unit = "of I1 - 3",
+    .standard = 2,
+    .lowest = above_zero,
+    .highest = 1e6,
+    .slider_highest = 100,
+    .step = 0.1,
+    .decimals = 3,
+    .help = "bound of I1 - 3, the sum of the squared principal stretches less 3, in the material 'gent'"};
+inline constexpr Parameter fung_exponent{
+    .name = "fung-exponent",
+    .label = "Exponent",
+    .unit = "per I1 - 3",
+    .standard = 0.5,
+    .lowest = above_zero,
+    .highest = 1e3,
+    .slider_highest = 10,
+    .step = 0.1,
+    .decimals = 3,
+    .help = "factor of I1 - 3 in the exponential of the material 'fung': more stiffens earlier"};
 inline constexpr Parameter lattice{.name = "lattice",
                                    .label = "Control points",
                                    .unit = "along each axis",
@@ -156,6 +178,17 @@ inline constexpr Parameter lattice{.name = "lattice",
                                    .step = 1,
                                    .decimals = 0,
                                    .help = "control points of free-form deformation along each axis"};
+inline constexpr Parameter iterations{
+    .name = "iterations",
+    .label = "Iterations",
+    .unit = "per move, at most",
+    .standard = 2000,
+    .lowest = 1,
+    .highest = 100'000,
+    .slider_highest = 10'000,
+    .step = 100,
+    .decimals = 0,
+    .help = "most iterations of XPBD and Projective Dynamics for one move: they stop earlier if they converge"};
 
 }  // namespace parameters
 

@@ -312,6 +312,7 @@ void Simulation::carry_out(const commands::Release&) {
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness->global);
+  check(command.softness->frame, *mesh_);
   for (const auto& [link, softness] : command.softness->links) {
     check_links(*mesh_, std::span(&link, 1));
     check(softness);
@@ -337,7 +338,16 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 /// Equal softness leaves all regions unchanged.
 void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
+    const RegionFrame before = body().frame();
     solver_->body().set_softness(softness);
+    note_frame(before);
+  }
+}
+
+/// Another frame rounds all positions.
+void Simulation::note_frame(const RegionFrame& before) {
+  if (body().frame().rotation() != before.rotation() && !away_.empty()) {
+    mark_all();
   }
 }
 
@@ -407,7 +417,9 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 }
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
+  const RegionFrame frame = body().frame();
   solver_->set_algorithm(command.algorithm);
+  note_frame(frame);
   const Algorithm before = std::exchange(algorithm_, command.algorithm);
   if (before == algorithm_) {
     return;
@@ -475,8 +487,7 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "the command contains no mesh", "use a command with a mesh");
   }
-  const auto softness =
-      std::make_shared<const Softness>(Softness{this->softness().global, {}, this->softness().energy});
+  const auto softness = std::make_shared<const Softness>(kept_for(*command.mesh, this->softness()));
   take_mesh(command.mesh);
   set_softness(softness);
 }
@@ -620,7 +631,7 @@ void Simulation::take_positions(const Snapshot& positions) {
   changed_.insert(unkept_);
   last_kept_ = positions;
   unkept_.clear();
-  if (positions.from_rest != info(algorithm_).from_rest) {
+  if (positions.from_rest != info(algorithm_).from_rest || positions.frame.rotation() != body().frame().rotation()) {
     unkept_ = away_;  // the positions have been converted and rounded
   }
 }

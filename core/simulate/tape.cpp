@@ -35,7 +35,7 @@ void Tape::note(const Command& command) {
   } else if (const auto* drop = std::get_if<DropState>(&command)) {
     kept_.erase(drop->state);
   } else if (std::holds_alternative<ReplaceMesh>(command)) {
-    begin_mesh();
+    begin_mesh(*std::get<ReplaceMesh>(command).mesh);
   } else if (!is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint>(command)) {
     add(command);
   }
@@ -97,11 +97,11 @@ void Tape::drop_unreachable() {
   }
 }
 
-/// Begins the timeline of a new object, which keeps the global softness and the kind of energy.
-void Tape::begin_mesh() {
+/// Begins the timeline of a new object, which keeps the global softness, the kind of energy and the frame.
+void Tape::begin_mesh(const Mesh& mesh) {
   const auto before = object().softness;
   begin();
-  if (const Softness kept{before->global, {}, before->energy}; kept != Softness()) {
+  if (const Softness kept = kept_for(mesh, *before); kept != Softness()) {
     add(commands::SetSoftness{kept});
   }
 }

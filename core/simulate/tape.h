@@ -69,7 +69,7 @@ class Tape {
 
   void add(const Command& command);
   void begin();
-  void begin_mesh();
+  void begin_mesh(const Mesh& mesh);
   void return_to(Node last);
   void drop_unreachable();
   Node last() const { return position_ == 0 ? beginning_ : timeline_[position_ - 1]; }

@@ -109,6 +109,42 @@ std::vector<AlgorithmInfo> make_table() {
        .make = make_elastic_method<ElasticMethod::free_form>,
        .elastic = ElasticMethod::free_form,
        .has_control_points = true},
+      {.algorithm = Algorithm::corotational,
+       .name = "corotational",
+       .label = "Corotational FEM",
+       .source = "Mueller and Gross 2004; Sifakis and Barbic 2012",
+       .summary = "linear elasticity on the cells, in frames that turn with them",
+       .look = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#ff4d55"},  // two squares that overlap
+       .make = make_elastic_method<ElasticMethod::corotational>,
+       .elastic = ElasticMethod::corotational,
+       .needs_pins = true},
+      {.algorithm = Algorithm::arap,
+       .name = "arap",
+       .label = "ARAP",
+       .source = "Sorkine and Alexa 2007; Chao et al. 2010",
+       .summary = "every part turns as a rigid body would, as far as the others let it",
+       .look = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#784b3c"},  // pentagon
+       .make = make_elastic_method<ElasticMethod::arap>,
+       .elastic = ElasticMethod::arap,
+       .needs_pins = true},
+      {.algorithm = Algorithm::xpbd,
+       .name = "xpbd",
+       .label = "XPBD",
+       .source = "Macklin et al. 2016",
+       .summary = "springs and volumes as constraints that give way, solved one after another",
+       .look = {"M-1.2-.9H1.2L.35.9H-.35Z", "#b400e1"},  // trapezium
+       .make = make_elastic_method<ElasticMethod::xpbd>,
+       .elastic = ElasticMethod::xpbd,
+       .needs_pins = true},
+      {.algorithm = Algorithm::projective,
+       .name = "projective",
+       .label = "Projective Dynamics",
+       .source = "Bouaziz et al. 2014",
+       .summary = "springs and turning cells, with one matrix for all iterations",
+       .look = {"M-1 1V-1L1 1Z", "#5fd35f"},  // right triangle
+       .make = make_elastic_method<ElasticMethod::projective>,
+       .elastic = ElasticMethod::projective,
+       .needs_pins = true},
   };
 }
 

@@ -22,7 +22,11 @@ enum class Algorithm {
   linear_fem,
   neo_hookean,
   boundary_elements,
-  free_form
+  free_form,
+  corotational,
+  arap,
+  xpbd,
+  projective
 };
 
 /// ChainMail, or the methods that ChainMail is compared with.

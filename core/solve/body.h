@@ -13,6 +13,7 @@
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 #include "solve/positions.h"
+#include "solve/region_frame.h"
 #include "solve/region_table.h"
 #include "solve/snapshot.h"
 #include "solve/softness.h"
@@ -39,7 +40,8 @@ class BodyView;
 
 /// The state of one object: mesh, positions, cuts, pins and softness. Each part that can change has a revision.
 ///
-/// Positions are in one precision and as many axes as the space has. Bulk functions work on any body; a method that
+/// Positions are in one precision and as many axes as the space has. They may be stored in the coordinates of a frame:
+/// views give access to these, everything else speaks of the world. Bulk functions work on any body; a method that
 /// needs typed access asks for a view.
 class Body {
  public:
@@ -71,6 +73,19 @@ class Body {
   void set_elastic(const ElasticOptions& options);
 
   PositionView positions() const;
+
+  /// The frame whose coordinates are stored: that of the softness, or none while the body does not work in it.
+  const RegionFrame& frame() const { return frame_; }
+  /// The mesh with its rest positions in these coordinates: mesh() itself if nothing is turned. The views of methods
+  /// have it, and so do the valid regions.
+  const MeshPointer& stored_mesh() const { return stored_mesh_; }
+  /// The positions in these coordinates.
+  PositionView stored_positions() const;
+  /// Works in the frame of the softness, as the ChainMail family does, or along the axes of the world. This rounds if
+  /// the frame is turned, except at rest.
+  void work_in_frame(bool works);
+  bool works_in_frame() const { return works_in_frame_; }
+
   /// Writes the coordinates of the elements from `first` on into `out`, space_dimension per element (mesh units).
   void copy_positions(ElementId first, std::span<float> out) const;
   void copy_positions(ElementId first, std::span<double> out) const;
@@ -147,8 +162,16 @@ class Body {
   void copy(ElementId first, std::span<Out> out) const;
   /// Call this after positions were set.
   void note_positions_set(bool at_rest);
+  PositionView view_of_stored(const Mesh& from_rest, const AxisTurn* turn) const;
+  const AxisTurn* turn() const { return frame_.is_turned() ? &turn_ : nullptr; }
+  /// Stores the positions in the coordinates of a frame, with the regions of a softness in it.
+  void store_in(const RegionFrame& frame, const Softness& softness);
 
   MeshPointer mesh_;
+  MeshPointer stored_mesh_;
+  RegionFrame frame_;
+  AxisTurn turn_;  // from the frame into the world
+  bool works_in_frame_ = true;
   Precision precision_;
   Cuts cuts_;
   std::vector<ElementId> pins_;  // ascending

@@ -33,7 +33,7 @@ double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x,
 }
 
 /// Typed access to a body for the loops of a pass, for one scalar and one space dimension. It is a handful of pointers:
-/// made for a pass, not kept.
+/// made for a pass, not kept. All coordinates are those of the body's frame.
 template <class Scalar_, int Dimension_>
 class BodyView {
  public:
@@ -41,7 +41,7 @@ class BodyView {
   static constexpr int Dimension = Dimension_;
 
   explicit BodyView(Body& body)
-      : mesh(body.mesh_.get()),
+      : mesh(body.stored_mesh_.get()),
         cuts(body.cuts_),
         positions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).positions),
         regions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).regions),

@@ -75,14 +75,14 @@ PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput outp
 void ElasticDeformation::move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress) {
   const Pose from = move.handle.pose(), target = std::exchange(move.pose, from);
   const double angle = angle_between(from.rotation, target.rotation);
-  const int steps = method_ == ElasticMethod::neo_hookean ? std::max(1, int(std::ceil(angle / largest_turn))) : 1;
+  const int steps = solver_->follows_path() ? std::max(1, int(std::ceil(angle / largest_turn))) : 1;
   for (int step = 1; step <= steps; ++step) {
     const double share = double(step) / steps;
     const Pose to = step == steps ? target
                                   : Pose{from.pivot + share * (target.pivot - from.pivot),
                                          rotation_between(from.rotation, target.rotation, share)};
     solver_->move(elastic_motion(mesh, move.handle.motion(to)), progress.part(double(step - 1) / steps, share));
-    if (!solver_->remark().empty()) {
+    if (!solver_->reached()) {
       return;
     }
     move.pose = to;

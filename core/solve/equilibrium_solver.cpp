@@ -85,7 +85,7 @@ class Equilibrator final : public EquilibriumSolver {
   double largest_step() const override { return largest_step_; }
 
   std::optional<EquilibriumCertificate> certificate(const Body& body) override {
-    if (shown_.mesh != &body.mesh() || seen_ != body.revisions() || has_moved(body)) {
+    if (shown_.mesh != body.stored_mesh().get() || seen_ != body.revisions() || has_moved(body)) {
       return std::nullopt;
     }
     EquilibriumCertificate result;
@@ -105,7 +105,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   void follow(Body& body, std::span<const ElementId> held) {
     const Revisions& now = body.revisions();
-    const bool is_new = shown_.mesh != &body.mesh();
+    const bool is_new = shown_.mesh != body.stored_mesh().get();
     if (is_new) {
       begin(body);
     }
@@ -142,7 +142,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void begin(const Body& body) {
-    mesh_ = body.mesh_pointer();
+    mesh_ = body.stored_mesh();
     shown_.mesh = mesh_.get();
     shown_.positions.resize(mesh_->element_count());
     iterate_.resize(mesh_->element_count());
@@ -165,7 +165,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void read(const Body& body) {
-    const PositionView positions = body.positions();
+    const PositionView positions = body.stored_positions();
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
       for (int k = 0; k < D; ++k) {
         shown_.positions[e][k] = positions(e, k) - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
@@ -548,7 +548,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// Returns true if elements have moved since the last call of write.
   bool has_moved(const Body& body) const {
-    const PositionView positions = body.positions();
+    const PositionView positions = body.stored_positions();
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
       for (int k = 0; k < D; ++k) {
         const double at = positions(e, k), rest = mesh_->rest[std::size_t{e} * D + std::size_t(k)];

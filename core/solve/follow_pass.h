@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -80,10 +81,24 @@ struct RecordedBody {
     chainmail::for_each_neighbour(*mesh, pass.conditions->cuts, element, visit);
   }
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
+    const Softness& softness = *pass.conditions->softness;
     const auto region =
-        valid_region<float, Dimension>(*mesh, sponsor, element, pass.conditions->softness->of(mesh->entry_link[entry]));
+        valid_region<float, Dimension>(*mesh, softness.frame, sponsor, element, softness.of(mesh->entry_link[entry]));
+    if (softness.frame.is_turned()) {
+      const auto own = in_frame(element), about = in_frame(sponsor);
+      return candidate_violation(*mesh, element, own.data(), sponsor, about.data(), region);
+    }
     return candidate_violation(*mesh, element, &positions[std::size_t{element} * Dimension], sponsor,
                                &positions[std::size_t{sponsor} * Dimension], region);
+  }
+  /// Returns the position of an element in the coordinates of the frame, which the pass computed in.
+  std::array<float, Dimension> in_frame(ElementId element) const {
+    std::array<double, Dimension> own;
+    std::copy_n(positions.begin() + std::ptrdiff_t(std::size_t{element} * Dimension), Dimension, own.begin());
+    turn_into_frame(*mesh, pass.conditions->softness->frame, own.data());
+    std::array<float, Dimension> result;
+    std::copy(own.begin(), own.end(), result.begin());
+    return result;
   }
   void set_position(ElementId element, std::span<const float> position) {
     std::ranges::copy(position, positions.begin() + static_cast<std::ptrdiff_t>(std::size_t{element} * Dimension));

@@ -122,6 +122,16 @@ Handle::Handle(const Body& body, std::vector<ElementId> elements) : elements_(st
   grab_ = has_one() ? 0 : new_grab();
 }
 
+Handle Handle::in_frame(const RegionFrame& frame) const {
+  Handle result = *this;
+  for (Point& position : result.positions_) {
+    position = frame.into_frame(position);
+  }
+  result.pivot_ = frame.into_frame(pivot_);
+  result.pose_ = into_frame(frame, pose_);
+  return result;
+}
+
 bool Handle::contains(ElementId element) const { return std::ranges::binary_search(elements_, element); }
 
 }  // namespace chainmail

@@ -30,6 +30,14 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
+/// Return a pose in the coordinates of a frame, and back.
+inline Pose into_frame(const RegionFrame& frame, const Pose& pose) {
+  return {frame.into_frame(pose.pivot), frame.into_frame(pose.rotation)};
+}
+inline Pose into_world(const RegionFrame& frame, const Pose& pose) {
+  return {frame.into_world(pose.pivot), frame.into_world(pose.rotation)};
+}
+
 /// A rigid motion of a handle from where it was grabbed. It displaces a point at `arm` from the pivot by
 /// turn · arm + translation.
 struct RigidMotion {
@@ -80,6 +88,8 @@ class Handle {
   /// Returns the target of element number i for a motion (mesh units). Without a motion, this is exactly where it was
   /// grabbed. A handle of one element goes to the pivot of the pose instead, which needs no difference.
   Point target(std::size_t i, const RigidMotion& motion) const { return positions_[i] + motion.of(arm(i)); }
+  /// Returns the same handle in the coordinates of a frame.
+  Handle in_frame(const RegionFrame& frame) const;
 
  private:
   std::vector<ElementId> elements_;

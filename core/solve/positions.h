@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <variant>
@@ -49,23 +50,45 @@ Position<Scalar, Dimension> clamped(const Position<Scalar, Dimension>& position,
   return result;
 }
 
+/// Turns vectors from a frame into the world, on the axes that exist.
+struct AxisTurn {
+  int dimension = 0;
+  std::array<std::array<double, 3>, 3> rows{};  // row k gives axis k of the world
+
+  template <class Of>
+  double operator()(int k, Of of) const {
+    double sum = 0;
+    for (int j = 0; j < dimension; ++j) {
+      sum += rows[std::size_t(k)][std::size_t(j)] * of(j);
+    }
+    return sum;
+  }
+};
+
 /// The current positions of all elements, without a copy. Valid until the solver changes.
 class PositionView {
  public:
-  /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh.
-  PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr)
-      : first_(static_cast<const std::byte*>(first)), stride_(stride), precision_(precision), from_rest_(from_rest) {}
+  /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh. If `turn` is given,
+  /// what they hold is in the coordinates of a frame.
+  PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr,
+               const AxisTurn* turn = nullptr)
+      : first_(static_cast<const std::byte*>(first)),
+        stride_(stride),
+        precision_(precision),
+        from_rest_(from_rest),
+        turn_(turn) {}
 
   /// Returns coordinate k (of the axes that exist) of an element, in mesh units.
   double operator()(ElementId element, int k) const {
-    const double at = held(element, k);
+    const double at = turn_ == nullptr ? held(element, k) : (*turn_)(k, [&](int j) { return held(element, j); });
     return from_rest_ == nullptr ? at : rest(element, k) + at;
   }
 
   /// Returns the distance from one element to another along axis k (mesh units). Displacements keep their digits,
   /// however far the object is from the origin or from rest.
   double between(ElementId from, ElementId to, int k) const {
-    const double apart = held(to, k) - held(from, k);
+    const auto held_apart = [&](int j) { return held(to, j) - held(from, j); };
+    const double apart = turn_ == nullptr ? held_apart(k) : (*turn_)(k, held_apart);
     return from_rest_ == nullptr ? apart : rest(to, k) - rest(from, k) + apart;
   }
 
@@ -83,6 +106,7 @@ class PositionView {
   std::size_t stride_;
   Precision precision_;
   const Mesh* from_rest_;
+  const AxisTurn* turn_;
 };
 
 /// Returns the position of an element with all three coordinates (mesh units).

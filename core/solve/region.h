@@ -8,7 +8,8 @@
 
 namespace chainmail {
 
-/// The valid region: the axis-aligned box in which a neighbour may lie, relative to its sponsor (mesh units).
+/// The valid region: the box along the axes of the coordinates in which a neighbour may lie, relative to its sponsor
+/// (mesh units).
 template <class Scalar, int Dimension>
 struct Region {
   Scalar low[Dimension];
@@ -38,7 +39,7 @@ Region<Scalar, Dimension> valid_region(const double (&rest_vector)[Dimension], c
   return region;
 }
 
-/// Returns the valid region of element `to` relative to element `from`.
+/// Returns the valid region of element `to` relative to element `from`, along the axes of the mesh's coordinates.
 template <class Scalar, int Dimension>
 Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, ElementId to, const LinkSoftness& softness,
                                        bool about_rest_vector = false) {
@@ -47,6 +48,21 @@ Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, Element
     rest_vector[k] = mesh.rest[std::size_t{to} * Dimension + k] - mesh.rest[std::size_t{from} * Dimension + k];
   }
   return valid_region<Scalar, Dimension>(rest_vector, softness, about_rest_vector);
+}
+
+/// The same along the axes of a frame, for a mesh whose coordinates are those of the world.
+template <class Scalar, int Dimension>
+Region<Scalar, Dimension> valid_region(const Mesh& mesh, const RegionFrame& frame, ElementId from, ElementId to,
+                                       const LinkSoftness& softness) {
+  if (!frame.is_turned()) {
+    return valid_region<Scalar, Dimension>(mesh, from, to, softness);
+  }
+  double rest_vector[Dimension];
+  for (int k = 0; k < Dimension; ++k) {
+    rest_vector[k] = mesh.rest[std::size_t{to} * Dimension + k] - mesh.rest[std::size_t{from} * Dimension + k];
+  }
+  turn_into_frame(mesh, frame, rest_vector);
+  return valid_region<Scalar, Dimension>(rest_vector, softness);
 }
 
 }  // namespace chainmail

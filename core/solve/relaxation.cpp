@@ -314,7 +314,7 @@ void Relaxation::follow_energy(const Body& body) {
     energy_ = body.revisions().energy;
     weights_.resize(body.mesh().link_count());
     for (LinkId link = 0; link < body.mesh().link_count(); ++link) {
-      weights_[link] = link_weights(body.mesh(), body.softness(), link);
+      weights_[link] = link_weights(*body.stored_mesh(), body.softness(), link);
     }
   }
   if (body.softness().energy == EnergyKind::corotated && rotations_.empty()) {

@@ -7,6 +7,7 @@
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 #include "solve/positions.h"
+#include "solve/region_frame.h"
 
 namespace chainmail {
 
@@ -24,6 +25,8 @@ struct Snapshot {
   bool from_rest = false;
   /// One for each block of the mesh; or none if all elements are at rest.
   std::vector<Block> blocks;
+  /// The frame whose coordinates they are.
+  RegionFrame frame = {};
 
   bool is_at_rest() const;
   /// Returns the blocks with an element that may be away from rest.
@@ -40,6 +43,8 @@ struct PositionRuns {
   std::vector<ElementId> runs;
   /// space_dimension coordinates for each element of the runs.
   std::vector<double> held;
+  /// The frame whose coordinates they are.
+  RegionFrame frame = {};
 
   bool operator==(const PositionRuns&) const = default;
 };

@@ -151,13 +151,18 @@ void set_energy(Softness& softness, EnergyKind kind) {
   softness.energy = kind;
 }
 
+Softness kept_for(const Mesh& mesh, const Softness& softness) {
+  return {softness.global, {}, softness.energy, frame_for(mesh, softness.frame)};
+}
+
 bool has_global_regions(const Softness& softness) {
   return std::all_of(softness.links.begin(), softness.links.end(),
                      [&](const OwnSoftness::Entry& own) { return same_region(own.second, softness.global); });
 }
 
 SoftnessChange change_of(const Softness& before, const Softness& after) {
-  SoftnessChange change{.regions = false, .energy = before.energy != after.energy};
+  SoftnessChange change{.regions = before.frame.rotation() != after.frame.rotation(),
+                        .energy = before.energy != after.energy};
   add_change(change, before.global, after.global);
   for (const auto& [link, own] : before.links) {
     add_change(change, own, after.of(link));

@@ -13,6 +13,7 @@
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
 #include "solve/energy_kind.h"
+#include "solve/region_frame.h"
 
 namespace chainmail {
 
@@ -152,11 +153,13 @@ class OwnSoftness::Iterator {
   Entry entry_;
 };
 
-/// The softness of an object: a global one, different ones for single links, and the kind of energy of all links.
+/// The softness of an object: a global one, different ones for single links, the kind of energy of all links, and the
+/// axes along which their valid regions lie.
 struct Softness {
   LinkSoftness global;
   OwnSoftness links;
   EnergyKind energy = standard_energy;
+  RegionFrame frame = {};
 
   const LinkSoftness& of(LinkId link) const {
     const LinkSoftness* own = links.find(link);
@@ -168,6 +171,9 @@ struct Softness {
 
 /// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
 void set_energy(Softness& softness, EnergyKind kind);
+
+/// Returns what another object keeps of a softness: all but that of single links.
+Softness kept_for(const Mesh& mesh, const Softness& softness);
 
 /// True if the valid regions of all links follow from the global softness.
 bool has_global_regions(const Softness& softness);

@@ -10,7 +10,14 @@ namespace chainmail {
 
 Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
     : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
-  body_.store_displacements(algorithm_.from_rest);
+  store_for(algorithm_);
+}
+
+/// Stores positions as the algorithm needs them. Valid regions lie along the axes of their frame: so does the ChainMail
+/// family. All others have no such axes, or have their own.
+void Solver::store_for(const AlgorithmInfo& algorithm) {
+  body_.work_in_frame(algorithm.family() == Family::chainmail);
+  body_.store_displacements(algorithm.from_rest);
 }
 
 void Solver::set_algorithm(Algorithm algorithm) {
@@ -18,7 +25,7 @@ void Solver::set_algorithm(Algorithm algorithm) {
   if (algorithm == algorithm_.algorithm) {
     return;
   }
-  body_.store_displacements(info(algorithm).from_rest);
+  store_for(info(algorithm));
   algorithm_ = info(algorithm);
   method_.reset();
 }
@@ -47,9 +54,27 @@ PassCount Solver::run(Pass pass) {
 
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
   check_free(body_, handle.elements());
+  if (body_.frame().is_turned()) {
+    return move_in_frame(handle, target, trace);
+  }
   HandleMove move{handle, target};
   const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
   handle.set_pose(move.pose);
+  return count;
+}
+
+/// The same in the coordinates of the body's frame. A target that is reached, and a pose that is kept, are not rounded.
+PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace) {
+  const RegionFrame& frame = body_.frame();
+  const Handle turned = handle.in_frame(frame);
+  const ElementId first = handle.elements()[0];
+  Pose to = into_frame(frame, target);
+  if (handle.has_one() && target.pivot == point_of(body_.mesh(), body_.positions(), first)) {
+    to.pivot = point_of(*body_.stored_mesh(), body_.stored_positions(), first);
+  }
+  HandleMove move{turned, to};
+  const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
+  handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(frame, move.pose));
   return count;
 }
 

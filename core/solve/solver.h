@@ -75,6 +75,8 @@ class Solver {
   Method& method();
   template <class Pass>
   PassCount run(Pass pass);
+  void store_for(const AlgorithmInfo& algorithm);
+  PassCount move_in_frame(Handle& handle, const Pose& target, Trace* trace);
   template <class Solve>
   RelaxationResult equilibrate(Solve solve);
 

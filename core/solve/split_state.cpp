@@ -18,7 +18,8 @@ class CarriedPositions {
  public:
   CarriedPositions(const Split& split, const Snapshot& positions, Precision precision)
       : split_(split),
-        after_(*split.after),
+        after_mesh_(in_frame(split.after, positions.frame)),
+        after_(*after_mesh_),
         old_(split.before->element_count()),
         dimension_(std::size_t(after_.space_dimension)),
         precision_(precision),
@@ -47,6 +48,7 @@ class CarriedPositions {
   Snapshot::Block block(std::size_t number) const;
 
   const Split& split_;
+  MeshPointer after_mesh_;  // in the frame of the positions
   const Mesh& after_;
   ElementId old_;
   std::size_t dimension_;
@@ -108,7 +110,7 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
   if (softness->links.empty()) {
     return softness;
   }
-  Softness result{softness->global, {}, softness->energy};
+  Softness result{softness->global, {}, softness->energy, softness->frame};
   for (LinkId link = 0; link < split.parents.size(); ++link) {
     LinkId one = split.parents[link], other = one;
     if (one == Split::none) {

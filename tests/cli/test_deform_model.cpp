@@ -23,6 +23,7 @@ class DeformModelTest : public QObject {
   void a_hand_that_pins_stop();
   void links_have_softness_of_their_own();
   void relaxation_by_links();
+  void regions_lie_along_a_frame();
   void what_does_not_fit_is_refused_data();
   void what_does_not_fit_is_refused();
 
@@ -124,6 +125,35 @@ void DeformModelTest::relaxation_by_links() {
       close(xs("--algorithm natural-queue --move 0:-0.1 --relax 1 --relaxation link"), {-0.1, 0.975, 1.9875, 2.9875}));
 }
 
+void DeformModelTest::regions_lie_along_a_frame() {
+  QCOMPARE(program_->run("generate grid 5x4 -o grid.obj").code, 0);
+  const auto largest_difference = [this](const QByteArray& frame) {
+    const auto positions = [&](const QByteArray& options) {
+      const auto outcome = program_->run(
+          "deform grid.obj --algorithm exact --move 19:6,5 --positions out.csv --json out.json " + options);
+      return outcome.code == 0 ? rows_of(program_->read("out.csv")) : decltype(rows_of(QByteArray()))();
+    };
+    const auto world = positions(""), turned = positions(frame);
+    double largest = world.size() == turned.size() ? 0 : 1e9;
+    for (qsizetype i = 0; i < std::min(world.size(), turned.size()); ++i) {
+      for (int k = 1; k <= 2; ++k) {
+        largest = std::max(largest, std::abs(world[i][k].toDouble() - turned[i][k].toDouble()));
+      }
+    }
+    return largest;
+  };
+  QCOMPARE(largest_difference("--frame axes"), 0.0);
+  QCOMPARE(largest_difference("--frame object"), 0.0);  // its sides lie along the axes
+  QVERIFY(largest_difference("--frame z:90") < 1e-12);
+  QVERIFY(largest_difference("--frame z:45") > 0.1);
+  QVERIFY(program_->json("out.json")["violation"]["max"].toDouble() < 1e-12);  // measured in the frame
+  QVERIFY(program_->run("deform grid.obj --algorithm exact --move 19:6,5 --frame object").error.isEmpty());
+  QCOMPARE(program_->run("generate grid 4x4 -o square.obj").code, 0);
+  const auto square = program_->run("deform square.obj --algorithm exact --move 15:6,5 --frame object");
+  QCOMPARE(square.code, 0);
+  QVERIFY2(square.error.startsWith("chainmail: --frame object: the object has equal spreads"), square.error);
+}
+
 void DeformModelTest::what_does_not_fit_is_refused_data() {
   QTest::addColumn<QString>("where");
   const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
@@ -133,6 +163,9 @@ void DeformModelTest::what_does_not_fit_is_refused_data() {
   row("--pin", "--pin");
   row("--pin 2 --by 2:1", "--by 2:1: element 2 is already pinned");
   row("--pin 2 --cut 0-1 --move 0:1 --move 2:2", "--move 2:2: element 2 is already pinned");
+  row("--frame sideways", "--frame: 'sideways' is not known");
+  row("--frame z:45", "--frame: turned about z, its axes would leave the space of the object");  // a line
+  row("--frame q:45", "--frame: 'q' is not an axis");
   row("--relaxation links", "--relaxation: 'links'");
   row("--softness none.csv", "none.csv: there is no such file");
   row("--softness bad.csv", "bad.csv:2: ");

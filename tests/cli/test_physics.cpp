@@ -1,4 +1,6 @@
 #include <QXmlStreamReader>
+#include <algorithm>
+#include <cmath>
 
 #include "cli/chainmail_program.h"
 
@@ -14,6 +16,8 @@ class PhysicsCommandTest : public QObject {
     QCOMPARE(program_->run("generate cloth 5x5 -o cloth.obj").code, 0);
   }
   void the_report_is_written();
+  void every_material_has_its_own_objects();
+  void a_refined_reference_tells_its_levels();
   void nothing_pins_it();
   void calibrates_and_saves_a_preset();
   void a_preset_is_compared();
@@ -84,6 +88,56 @@ void PhysicsCommandTest::the_report_is_written() {
   const auto plain = program_->run("compare cloth.obj --pins top --calibrated off" + QByteArray(short_run));
   QVERIFY2(plain.code == 0, plain.error);
   QVERIFY(!plain.out.contains("calibrated"));
+}
+
+void PhysicsCommandTest::every_material_has_its_own_objects() {
+  const auto outcome = program_->run(
+      "compare cloth.obj --pins top --calibrated off --material neo-hookean,gent,fung "
+      "--gent-limit 3 --fung-exponent 0.25" +
+      QByteArray(short_run));
+  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
+  const auto objects = report()["objects"].toArray();
+  QCOMPARE(objects.size(), 3);
+  QCOMPARE(objects[0]["name"].toString(), QString("cloth.obj, neo-Hookean"));
+  QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj, Gent (limit 3)"));
+  QCOMPARE(objects[1]["material"]["law"].toString(), QString("gent"));
+  QCOMPARE(objects[1]["material"]["gent_limit"].toDouble(), 3.0);
+  QCOMPARE(objects[2]["material"]["fung_exponent"].toDouble(), 0.25);
+  // Neo-Hookean FEM meets its own material, and misses the others by the pull.
+  const auto error_of_pull = [&](int object) {
+    const auto contestants = objects[object]["drags"][1]["contestants"].toArray();
+    const auto found = std::ranges::find_if(
+        contestants, [](const QJsonValue& one) { return one["algorithm"].toString() == "neo-hookean"; });
+    return QJsonValue(*found)["error"]["relative"].toDouble(-1);
+  };
+  QVERIFY(error_of_pull(0) < 1e-5);
+  QVERIFY(error_of_pull(1) > 0.01 && error_of_pull(2) > 0.01);
+  QVERIFY(outcome.out.contains("; reference: Gent (limit 3)"));
+}
+
+void PhysicsCommandTest::a_refined_reference_tells_its_levels() {
+  // In a coarser sheet, the handles would be points, for which there is no limit.
+  QCOMPARE(program_->run("generate cloth 13x13 -o sheet.obj").code, 0);
+  const auto outcome =
+      program_->run("compare sheet.obj --pins top --calibrated off --reference refined" + QByteArray(short_run));
+  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
+  const auto drags = report()["objects"][0]["drags"].toArray();
+  QCOMPARE(drags.size(), 13);
+  for (const QJsonValue drag : drags) {
+    const auto reference = drag["refined_reference"];
+    const auto levels = reference["levels"].toArray();
+    QVERIFY(levels.size() >= 2 && levels[0]["change"].isNull());
+    QVERIFY(reference["converged"].toBool() && levels.last()["change"].toDouble(1) < 0.02);
+    QVERIFY(levels.size() < 3 || reference["order"].toDouble() > 0.3);
+    QVERIFY(std::abs(drag["contestants"][0]["error"]["relative"].toDouble() - 1) < 1e-12);  // nothing moves
+    const auto contestants = drag["contestants"].toArray();
+    const auto fem = std::ranges::find_if(
+        contestants, [](const QJsonValue& one) { return one["algorithm"].toString() == "neo-hookean"; });
+    QVERIFY(QJsonValue(*fem)["error"]["relative"].toDouble() > 1e-3);  // the object's own cells are coarser
+  }
+  QVERIFY(outcome.out.contains("In this report, the reference is on refined cells"));
+  QVERIFY(outcome.out.contains(
+      "; elements of the reference on refined cells (largest change from the level before): 169,"));
 }
 
 void PhysicsCommandTest::nothing_pins_it() {
@@ -165,6 +219,19 @@ void PhysicsCommandTest::wrong_usage_data() {
       "--calibrated: 'maybe' is not known; ");
   row("compare cloth.obj --calibrated on -o out", "--calibrated: it works only with --against physics; ");
   row("compare cloth.obj --against physics --pins top --moves x.json -o out", "--moves: ");
+  row("compare cloth.obj --material gent -o out", "--material: it works only with --against physics; ");
+  row("compare cloth.obj --reference refined -o out", "--reference: it works only with --against physics; ");
+  row("compare cloth.obj --against physics --pins top --reference fine -o out", "--reference: 'fine' is not known; ");
+  row("compare cloth.obj --against physics --pins top --material rubber -o out",
+      "--material: 'rubber' is not known; use neo-hookean, gent or fung");
+  row("compare cloth.obj --against physics --pins top --material gent,gent -o out",
+      "--material: 'gent' is given twice; ");
+  row("compare cloth.obj --against physics --pins top --gent-limit 3 -o out",
+      "--gent-limit: the material 'gent' does not take part; add --material gent");
+  row("compare cloth.obj --against physics --pins top --material gent --gent-limit 1 -o out",
+      "--gent-limit: 1 is too low for a Poisson's ratio of 0.3, for which it is at least 1.333; ");
+  row("compare cloth.obj --against physics --pins top --material fung --fung-exponent 0.8 -o out",
+      "--fung-exponent: 0.8 is too high for a Poisson's ratio of 0.3, for which it is at most 0.75; ");
   row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
   row("compare cloth.obj --preset cloth.obj -o out", "cloth.obj:1: ");
   row("calibrate", "MESH: it is missing; ");

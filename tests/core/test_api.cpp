@@ -25,6 +25,7 @@ class ApiTest : public QObject {
   void a_snapshot_restores_every_bit();
   void bodies_are_independent();
   void links_are_cut_and_soft();
+  void a_frame_turns_the_regions();
   void bad_input_of_a_body_changes_nothing();
 };
 
@@ -261,6 +262,30 @@ void ApiTest::links_are_cut_and_soft() {
   QCOMPARE(deformer.body().softness(1).stretch, 100.0);
   QCOMPARE(deformer.body().softness(0), deformer.body().softness());
   QCOMPARE(deformer.move(0, {-5, 0, 0}).moved, std::uint64_t(1));
+}
+
+void ApiTest::a_frame_turns_the_regions() {
+  cm::Body body(cm::make_grid(5, 4));
+  QVERIFY(body.frame() == cm::Rotation());
+  body.set_frame({{0, 0, 2}, 30});
+  QVERIFY(std::abs(body.frame().degrees - 30) < 1e-12 && std::abs(body.frame().axis.z - 1) < 1e-12);
+  const std::vector<double> at = body.positions(), rest = body.mesh().rest_positions();
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    QVERIFY(std::abs(at[i] - rest[i]) < 1e-14);
+  }
+  QVERIFY(cm::Body(body).frame() == body.frame());
+  QVERIFY(has(refusal_of([&] { body.set_frame({{1, 0, 0}, 30}); }), "rotation"));
+  QVERIFY(has(refusal_of([&] { body.set_frame({{0, 0, 0}, 30}); }), "rotation"));
+  QVERIFY(std::abs(body.frame().degrees - 30) < 1e-12);
+  cm::Deformer turned(body, "exact"), plain(cm::Body(body.mesh()), "exact");
+  turned.move(19, {6, 5, 0});
+  plain.move(19, {6, 5, 0});
+  QVERIFY(!same_numbers(turned.body().positions(), plain.body().positions()));
+  QVERIFY(cm::violation(turned.body()).max < 1e-12);
+  QVERIFY((turned.body().position(19) == cm::Vector3{6, 5, 0}) || std::abs(turned.body().position(19).x - 6) < 1e-12);
+  QVERIFY(body.set_frame_of_object());
+  QVERIFY(body.frame() == cm::Rotation());
+  QVERIFY(!cm::Body(cm::make_grid(4, 4)).set_frame_of_object());
 }
 
 void ApiTest::bad_input_of_a_body_changes_nothing() {

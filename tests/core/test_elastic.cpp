@@ -4,6 +4,7 @@
 
 #include "elastic/energy.h"
 #include "elastic/newton.h"
+#include "elastic/stiffening.h"
 #include "elastic/stiffness.h"
 #include "elastic_problems.h"
 #include "mesh/cells.h"
@@ -22,6 +23,10 @@ class ElasticTest : public QObject {
   void rigid_motion_costs_nothing();
   void stiffness_at_rest_is_that_of_textbooks();
   void derivatives_are_those_of_differences();
+  void stiffening_derivatives_are_those_of_differences();
+  void stiffening_equals_linear_elasticity_at_small_strains();
+  void stretches_are_those_of_the_closed_form();
+  void the_limit_of_strain_is_kept();
   void a_bent_sheet_converges();
   void a_bent_solid_converges();
   void a_cantilever_bends_as_beams_do();
@@ -160,6 +165,168 @@ void ElasticTest::derivatives_are_those_of_differences() {
       }
     }
   }
+}
+
+namespace {
+
+constexpr StrainLaw gent{StrainLaw::Kind::gent, 1.5, 0.5}, fung{StrainLaw::Kind::fung, 2, 0.7};
+
+/// The slope of the energy by I₁, f', written as in the papers.
+double slope_by_i1(const StrainLaw& law, double i1, double mu) {
+  return law.kind == StrainLaw::Kind::gent ? mu / 2 * law.gent_limit / (law.gent_limit - (i1 - 3))
+                                           : mu / 2 * std::exp(law.fung_exponent * (i1 - 3));
+}
+
+/// The principal stress by the area at rest along an axis with this stretch: 2 f' s + (λ' ln J − μ) / s.
+double stress_along(double stretch, const std::array<double, 3>& all, const StrainLaw& law, const Lame& lame) {
+  const double f = slope_by_i1(law, all[0] * all[0] + all[1] * all[1] + all[2] * all[2], lame.mu);
+  const double correction =
+      law.kind == StrainLaw::Kind::gent ? 2 * lame.mu / law.gent_limit : 2 * lame.mu * law.fung_exponent;
+  const double log_volume = std::log(all[0] * all[1] * all[2]);
+  return 2 * f * stretch + ((lame.lambda - correction) * log_volume - lame.mu) / stretch;
+}
+
+/// The root of a function that grows, by bisection.
+double root_of(const std::function<double(double)>& value, double low, double high) {
+  for (int turn = 0; turn < 100; ++turn) {
+    const double middle = (low + high) / 2;
+    (value(middle) > 0 ? high : low) = middle;
+  }
+  return low;
+}
+
+/// The stresses that an object's energy gives: its derivatives by F, of a simplex with F = diag(stretches).
+std::vector<double> stresses_of(const std::vector<double>& stretches, const StrainLaw& law, const Lame& lame) {
+  const int n = int(stretches.size());
+  const MeshPointer mesh = of_dimension(n);
+  const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+  CornerDisplacements at(n, n + 1), corners(n, n + 1);
+  for (int a = 0; a <= n; ++a) {
+    const Point rest = mesh->rest_position(simplices.corners_of(0)[std::size_t(a)]);
+    for (int k = 0; k < n; ++k) {
+      corners(k, a) = rest[k];
+      at(k, a) = (stretches[std::size_t(k)] - 1) * rest[k];
+    }
+  }
+  const CornerVector gradient = model_of(law)(simplices, 0, at, lame, Want::gradient).gradient;
+  std::vector<double> stresses;
+  for (int k = 0; k < n; ++k) {
+    double work = 0;  // of moving all corners in proportion to this coordinate
+    for (int a = 0; a <= n; ++a) {
+      work += gradient[n * a + k] * corners(k, a);
+    }
+    stresses.push_back(work / simplices.volumes[0]);
+  }
+  return stresses;
+}
+
+}  // namespace
+
+void ElasticTest::stiffening_derivatives_are_those_of_differences() {
+  std::mt19937_64 random(5);
+  const Lame material = lame({2, 0.45});
+  for (const StrainLaw& law : {gent, fung}) {
+    const SimplexModel model = model_of(law);
+    for (const int dimension : {1, 2, 3}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      for (int trial = 0; trial < 20; ++trial) {
+        const std::size_t s = std::size_t(trial) % simplices.count();
+        const CornerDisplacements at = 2 * some_corners(dimension, random);
+        const SimplexEnergy here = model(simplices, s, at, material, Want::hessian);
+        QVERIFY(!here.inverted);
+        constexpr double step = 1e-6;
+        for (int i = 0; i < dimension * (dimension + 1); ++i) {
+          CornerDisplacements forward = at, back = at;
+          forward.reshaped()[i] += step;
+          back.reshaped()[i] -= step;
+          const auto ahead = model(simplices, s, forward, material, Want::gradient);
+          const auto behind = model(simplices, s, back, material, Want::gradient);
+          QVERIFY(std::abs((ahead.energy - behind.energy) / (2 * step) - here.gradient[i]) < 1e-7);
+          const CornerVector column = (ahead.gradient - behind.gradient) / (2 * step);
+          QVERIFY((column - here.hessian.col(i)).norm() < 1e-6 * (1 + here.hessian.norm()));
+        }
+      }
+    }
+  }
+}
+
+void ElasticTest::stiffening_equals_linear_elasticity_at_small_strains() {
+  for (const StrainLaw& law : {gent, fung}) {
+    for (const int dimension : {1, 2, 3}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      const CornerDisplacements rest = CornerDisplacements::Zero(dimension, dimension + 1);
+      const SimplexEnergy at_rest = model_of(law)(simplices, 0, rest, lame({3, 0.4}), Want::hessian);
+      const CornerMatrix linear = stiffness(simplices, 0, lame({3, 0.4}));
+      QVERIFY((at_rest.hessian - linear).norm() < 1e-12 * linear.norm());
+      QVERIFY(std::abs(at_rest.energy) < 1e-14 && at_rest.gradient.norm() < 1e-13);
+    }
+  }
+}
+
+/// Uniaxial stretch (a bar, and a solid with its sides free) and equibiaxial stretch (a sheet): the other stretches are
+/// the roots of the equations that the stress along them is 0.
+void ElasticTest::stretches_are_those_of_the_closed_form() {
+  const Lame material = lame({3, 0.45});
+  for (const StrainLaw& law : {gent, fung}) {
+    for (const double stretch : {0.8, 0.9, 1.05, 1.2, 1.3}) {
+      // The roots are between narrow stretches and those at which I₁ − 3 is 1.5, the limit.
+      const double square = stretch * stretch;
+      const double side = root_of(
+          [&](double s) {
+            return stress_along(s, {stretch, s, s}, law, material);
+          },
+          0.5, 0.999 * std::sqrt((4.5 - square) / 2));
+      const double expected = stress_along(stretch, {stretch, side, side}, law, material);
+      QVERIFY(std::abs(stresses_of({stretch}, law, material)[0] - expected) < 1e-11);
+      const auto solid = stresses_of({stretch, side, side}, law, material);
+      QVERIFY(std::abs(solid[0] - expected) < 1e-11 && std::abs(solid[1]) < 1e-11 && std::abs(solid[2]) < 1e-11);
+      const double thickness = root_of(
+          [&](double s) {
+            return stress_along(s, {stretch, stretch, s}, law, material);
+          },
+          0.3, 0.999 * std::sqrt(4.5 - 2 * square));
+      const double biaxial = stress_along(stretch, {stretch, stretch, thickness}, law, material);
+      for (const double stress : stresses_of({stretch, stretch}, law, material)) {
+        QVERIFY(std::abs(stress - biaxial) < 1e-11);
+      }
+    }
+    // It stiffens: at a stretch of 1.3 the stress is well above the neo-Hookean one.
+    QVERIFY(stresses_of({1.3}, law, material)[0] > 1.05 * stresses_of({1.3}, {}, material)[0]);
+  }
+}
+
+/// The energy is infinite from the limit on, and a pull that a neo-Hookean bar follows is refused.
+void ElasticTest::the_limit_of_strain_is_kept() {
+  const Lame material = lame({3, 0.45});
+  for (const int dimension : {1, 2, 3}) {
+    for (const auto& [stretch, exists] : {std::pair(1.3, true), std::pair(2.5, false)}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      CornerDisplacements at = CornerDisplacements::Zero(dimension, dimension + 1);
+      for (int a = 0; a <= dimension; ++a) {
+        at(0, a) = (stretch - 1) * mesh->rest_position(simplices.corners_of(0)[std::size_t(a)]).x();
+      }
+      QCOMPARE(!model_of(gent)(simplices, 0, at, material, Want::energy).inverted, exists);
+      QVERIFY(!model_of(fung)(simplices, 0, at, material, Want::energy).inverted);
+    }
+  }
+  const MeshPointer bar = make_mesh(MeshKind::tetra, {7, 2, 2});
+  for (const auto& [law, far, reached] : {std::tuple(StrainLaw(), 8.0, true), std::tuple(gent, 8.0, false),
+                                          std::tuple(gent, 2.0, true), std::tuple(fung, 2.0, true)}) {
+    ElasticProblem problem = pinned(bar, layer(*bar, *find_side("left")), 0.45);
+    problem.law = law;
+    const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
+    const std::vector<ElementId> end = layer(*bar, *find_side("right"));
+    const std::vector<double> none(3 * end.size(), 0.0);
+    solver->hold({end, none, none});
+    solver->move(ElasticMotion::by(std::vector<double>{far, 0, 0}));
+    QCOMPARE(solver->remark().empty(), reached);
+  }
+  QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::gent, 0.1, 1}, Material{1, 0.3}));
+  QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::fung, 1, 0.8}, Material{1, 0.3}));
+  check(StrainLaw{StrainLaw::Kind::fung, 1, 0.75}, Material{1, 0.3});
 }
 
 /// A cantilever under an end load in plane stress (Timoshenko and Goodier 1951). Both ends have the displacements of

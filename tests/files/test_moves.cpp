@@ -293,6 +293,10 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "stiffness": 0})", "0: stiffness: ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": "elastic"})",
       "0: there is no such kind of energy; use isotropic, axial or corotated");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "own"}})",
+      "0: the kind of 'frame' is not known; ");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "given"}})",
+      "0: 'rotation' is missing; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": 1})", "0: 'energy' is not a text; ");
   const char* softness = R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": )";
   const std::vector<std::pair<std::string, const char*>> links{

@@ -21,6 +21,7 @@ class SessionTest : public QObject {
  private slots:
   void what_is_written_reads_back_data();
   void what_is_written_reads_back();
+  void a_frame_comes_back();
   void polygons_and_loose_elements_do_too();
   void a_picture_comes_back_with_its_sheet();
   void bytes_are_written_in_base_64();
@@ -93,6 +94,23 @@ void SessionTest::what_is_written_reads_back() {
   const std::string text = session_text(session);
   const Session again = parse_session(text, "a.chainmail");
   compare(again, session);
+  QCOMPARE(session_text(again), text);
+}
+
+void SessionTest::a_frame_comes_back() {
+  Session session = session_on(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}));
+  QVERIFY(!QString::fromStdString(session_text(session)).contains(QStringLiteral("frame")));
+  const RegionFrame frame(FrameKind::object, {0.1, 1.0 / 3, -0.7});
+  Softness softness = *session.softness;
+  softness.frame = frame;
+  session.softness = std::make_shared<const Softness>(softness);
+  session.panels[0].placement.frame = RegionFrame(FrameKind::given, frame.rotation());
+  session.moves.insert(session.moves.begin(), commands::SetSoftness{session.softness});
+  const std::string text = session_text(session);
+  const Session again = parse_session(text, "a.chainmail");
+  compare(again, session);
+  QVERIFY(*std::get<commands::SetSoftness>(again.moves[0]).softness == softness);
+  QVERIFY(again.panels[1].placement.frame == RegionFrame());
   QCOMPARE(session_text(again), text);
 }
 

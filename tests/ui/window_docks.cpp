@@ -196,6 +196,42 @@ class WindowDocks : public QObject {
     QVERIFY(now() == EnergyKind::corotated);
   }
 
+  void theFrameOfRegions() {
+    Workbench bench;
+    MeshParts parts;
+    parts.rest = {{0, 0, 0}, {3, 4, 0}, {6, 8, 0}, {-0.8, 0.6, 0}};
+    parts.links = {{0, 1}, {1, 2}, {0, 3}};
+    bench.document().replaceMesh(build_mesh(std::move(parts)), QStringLiteral("leaning"), QStringLiteral("open"));
+    auto* field = bench.find<QComboBox>("frame");
+    auto* note = bench.find<QLabel>("frameNote");
+    const auto choose = [&](FrameKind kind) {
+      field->setCurrentIndex(field->findData(int(kind)));
+      emit field->activated(field->currentIndex());
+    };
+    const auto now = [&] { return bench.document().wholeSoftness()->frame; };
+    QCOMPARE(field->currentData().toInt(), int(FrameKind::axes));
+    QCOMPARE(field->count(), 2);
+    const int steps = bench.document().undoStack().count();
+    choose(FrameKind::object);
+    QVERIFY(now().kind() == FrameKind::object && now().is_turned() && note->isHidden());
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("regions along the object's axes"));
+    bench.find<QDoubleSpinBox>("shearSpin")->setValue(0.5);
+    QVERIFY(now().is_turned());
+    bench.document().undoStack().undo();
+    bench.document().undoStack().undo();
+    QVERIFY(now() == RegionFrame());
+    QCOMPARE(field->currentData().toInt(), int(FrameKind::axes));
+    bench.document().undoStack().redo();
+    QVERIFY(now().kind() == FrameKind::object);
+    QCOMPARE(bench.document().undoStack().count(), steps + 2);
+    // A square has no axes of its own: the dock says so. The choice stays for the next object.
+    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("square"),
+                                 QStringLiteral("open"));
+    QVERIFY(now().kind() == FrameKind::object && !now().is_turned() && !note->isHidden());
+    bench.trigger("resetStiffness");
+    QVERIFY(now() == RegionFrame() && note->isHidden());
+  }
+
   void oneDragOfASliderIsOneStepOfUndo() {
     Workbench bench;
     auto* slider = bench.find<QSlider>("stretchSlider");

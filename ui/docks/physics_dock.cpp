@@ -4,6 +4,7 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 
 #include "common/dock_scroll.h"
 #include "common/icons.h"
@@ -16,10 +17,12 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
       poisson_(new ParameterRow(parameters::poisson)),
+      iterations_(new ParameterRow(parameters::iterations)),
       pins_(new QLabel) {
   addRow(young_, &Material::young);
   addRow(poisson_, &Material::poisson);
   column_->addLayout(makeLattice());
+  addIterations();
   column_->addLayout(makePins(layers));
   auto* calibration = new CalibrationBox(document, jobs);
   column_->addWidget(calibration);
@@ -38,6 +41,15 @@ void PhysicsDock::addRow(ParameterRow* row, double Material::*member) {
     ElasticOptions options = document_.elastic();
     options.material.*member = value;
     document_.setElastic(options, row->label(), gesture);
+  });
+}
+
+void PhysicsDock::addIterations() {
+  column_->addWidget(iterations_);
+  connect(iterations_, &ParameterRow::changed, this, [this](double value, int gesture) {
+    ElasticOptions options = document_.elastic();
+    options.iterations = std::uint32_t(std::lround(value));
+    document_.setElastic(options, iterations_->label(), gesture);
   });
 }
 
@@ -94,6 +106,7 @@ void PhysicsDock::showElastic() {
   const ElasticOptions& options = document_.elastic();
   young_->show(options.material.young);
   poisson_->show(options.material.poisson);
+  iterations_->show(options.iterations);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     const QSignalBlocker block(lattice_[k]);
     lattice_[k]->setValue(int(options.lattice[k]));

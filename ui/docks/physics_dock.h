@@ -26,6 +26,7 @@ class PhysicsDock : public QDockWidget {
 
  private:
   void addRow(ParameterRow* row, double Material::*member);
+  void addIterations();
   QLayout* makeLattice();
   QLayout* makePins(PinLayers& layers);
   void setLattice();
@@ -37,6 +38,7 @@ class PhysicsDock : public QDockWidget {
   QVBoxLayout* column_;
   ParameterRow* young_;
   ParameterRow* poisson_;
+  ParameterRow* iterations_;
   std::array<QSpinBox*, 3> lattice_{};
   QLabel* pins_;
 };

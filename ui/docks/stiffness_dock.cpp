@@ -10,11 +10,17 @@
 namespace chainmail {
 
 StiffnessDock::StiffnessDock(Document& document)
-    : document_(document), column_(new QVBoxLayout), presets_(new PresetRow(document)), energy_(new QComboBox) {
+    : document_(document),
+      column_(new QVBoxLayout),
+      presets_(new PresetRow(document)),
+      frame_(new QComboBox),
+      frameNote_(new QLabel),
+      energy_(new QComboBox) {
   presets_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   column_->addWidget(presets_);
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     if (i == region_numbers) {
+      addFrame();
       addEnergy();
     }
     addRow(softness_numbers[i]);
@@ -22,6 +28,7 @@ StiffnessDock::StiffnessDock(Document& document)
   column_->addWidget(new SelectedLinks(document));
   setColumn(*this, *column_);
   connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
+  connect(&document, &Document::meshChanged, this, &StiffnessDock::showFrame);
   showSoftness();
 }
 
@@ -33,6 +40,53 @@ void StiffnessDock::addRow(const SoftnessNumber& number) {
     softness.*member = value;
     document_.setSoftness(softness, row->label().toLower(), gesture);
   });
+}
+
+/// The axes of valid regions. A given rotation comes from a session or from moves: it is listed while it applies.
+void StiffnessDock::addFrame() {
+  frame_->setObjectName(QStringLiteral("frame"));
+  frame_->setAccessibleName(QStringLiteral("Regions along"));
+  frame_->setFocusPolicy(Qt::StrongFocus);
+  frame_->addItem(QStringLiteral("World's axes"), int(FrameKind::axes));
+  frame_->addItem(QStringLiteral("Object's axes"), int(FrameKind::object));
+  const QString help = QStringLiteral(
+      "Axes along which valid regions lie.\nWorld's axes: x, y and z\nObject's axes: the principal axes of the object "
+      "at rest, so that a turned object deforms as it does unturned");
+  frame_->setToolTip(help);
+  auto* label = new QLabel(QStringLiteral("Regions along"));
+  label->setBuddy(frame_);
+  label->setToolTip(help);
+  auto* row = new QHBoxLayout;
+  row->addWidget(label);
+  row->addWidget(frame_, 1);
+  column_->addLayout(row);
+  frameNote_->setObjectName(QStringLiteral("frameNote"));
+  frameNote_->setWordWrap(true);
+  frameNote_->setText(
+      QStringLiteral("The object extends equally in several directions, so not all of its axes exist. Those nearest to "
+                     "the world's axes are used."));
+  column_->addWidget(frameNote_);
+  connect(frame_, &QComboBox::activated, this,
+          [this] { document_.setFrame(FrameKind(frame_->currentData().toInt())); });
+}
+
+void StiffnessDock::showFrame() {
+  const RegionFrame& frame = document_.wholeSoftness()->frame;
+  const int given = frame_->findData(int(FrameKind::given));
+  if (frame.kind() == FrameKind::given && given < 0) {
+    frame_->addItem(QStringLiteral("Given axes"), int(FrameKind::given));
+  } else if (frame.kind() != FrameKind::given && given >= 0) {
+    frame_->removeItem(given);
+  }
+  frame_->setCurrentIndex(frame_->findData(int(frame.kind())));
+  frame_->setEnabled(document_.mesh()->space_dimension > 1);
+  if (frame.kind() != FrameKind::object) {
+    frameNote_->hide();
+    notedMesh_.reset();
+  } else if (notedMesh_ != document_.mesh()) {  // takes time in proportion to the object
+    notedMesh_ = document_.mesh();
+    frameNote_->setVisible(!principal_axes(*notedMesh_).are_unique);
+  }
 }
 
 /// The kind of energy applies to all links. With isotropic energy, the numbers below it do not count.
@@ -59,6 +113,7 @@ void StiffnessDock::addEnergy() {
 }
 
 void StiffnessDock::showSoftness() {
+  showFrame();
   const EnergyKind kind = document_.wholeSoftness()->energy;
   energy_->setCurrentIndex(energy_->findData(int(kind)));
   for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
 #include <QVBoxLayout>
 #include <vector>
 
@@ -11,8 +12,8 @@
 
 namespace chainmail {
 
-/// Softness of all links: its numbers, each with a reset button, the kind of energy, and presets; below, softness of
-/// the selected links.
+/// Softness of all links: its numbers, each with a reset button, the axes of valid regions, the kind of energy, and
+/// presets; below, softness of the selected links.
 class StiffnessDock : public QDockWidget {
   Q_OBJECT
 
@@ -23,12 +24,17 @@ class StiffnessDock : public QDockWidget {
  private:
   void showSoftness();
   void addRow(const SoftnessNumber& number);
+  void addFrame();
   void addEnergy();
+  void showFrame();
 
   Document& document_;
   QVBoxLayout* column_;
   PresetRow* presets_;
   std::vector<ParameterRow*> rows_;  // in the order of softness_numbers
+  QComboBox* frame_;
+  QLabel* frameNote_;
+  MeshPointer notedMesh_;  // of which the note is
   QComboBox* energy_;
 };
 

@@ -183,9 +183,8 @@ void Document::carryOut(const Change& change, const Contents& before) {
   if (isOther) {
     post(commands::ReplaceMesh{after.object->mesh});  // keeps only the global softness
   }
-  const bool softnessIsThere = isOther
-                                   ? *after.softness == Softness{before.softness->global, {}, before.softness->energy}
-                                   : after.softness == before.softness;
+  const bool softnessIsThere =
+      isOther ? *after.softness == kept_for(*after.object->mesh, *before.softness) : after.softness == before.softness;
   if (!softnessIsThere && !follows) {
     post(commands::SetSoftness{after.softness});
   }
@@ -310,8 +309,20 @@ void Document::redo() {
 void Document::setSoftness(const LinkSoftness& global, const QString& text, int gesture) {
   if (global != softness()) {
     Change edit = change(text, gesture);
-    edit.after.softness =
-        std::make_shared<const Softness>(Softness{global, wholeSoftness()->links, wholeSoftness()->energy});
+    edit.after.softness = std::make_shared<const Softness>(
+        Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->frame});
+    apply(std::move(edit));
+  }
+}
+
+void Document::setFrame(FrameKind kind) {
+  const RegionFrame frame = kind == FrameKind::object ? principal_axes(*mesh()).frame : RegionFrame();
+  if (kind != FrameKind::given && frame != wholeSoftness()->frame) {
+    Softness softness = *wholeSoftness();
+    softness.frame = frame;
+    Change edit = change(kind == FrameKind::object ? QStringLiteral("regions along the object's axes")
+                                                   : QStringLiteral("regions along the axes"));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     apply(std::move(edit));
   }
 }
@@ -361,8 +372,8 @@ void Document::setSoftnessAndRelaxation(const LinkSoftness& global, const comman
   if (global != softness() || relaxation != contents_.relaxation) {
     Change edit = change(text);
     if (global != softness()) {
-      edit.after.softness =
-          std::make_shared<const Softness>(Softness{global, wholeSoftness()->links, wholeSoftness()->energy});
+      edit.after.softness = std::make_shared<const Softness>(
+          Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->frame});
     }
     edit.after.relaxation = relaxation;
     apply(std::move(edit));
@@ -444,9 +455,10 @@ void Document::resetObject() {
 void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
   Change edit = change(text);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
-  if (own != wholeSoftness()->links) {
-    edit.after.softness =
-        std::make_shared<const Softness>(Softness{softness(), std::move(own), wholeSoftness()->energy});
+  Softness carried = kept_for(*mesh, *wholeSoftness());
+  carried.links = std::move(own);
+  if (carried != *wholeSoftness()) {
+    edit.after.softness = std::make_shared<const Softness>(std::move(carried));
   }
   apply(std::move(edit));
 }

@@ -19,9 +19,7 @@ RegionShape::RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView
   right_ = toView.row(0).toVector3D().normalized() * float(unitsPerPixel);
   up_ = toView.row(1).toVector3D().normalized() * float(unitsPerPixel);
   for (int i = 0; i < 8; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      corners_[std::size_t(i)][k] = float((i >> k & 1) != 0 ? region.high[k] : region.low[k]);
-    }
+    corners_[std::size_t(i)] = asVector(region.corner(i));
   }
   if (spaceDimension == 1) {
     // The bar is horizontal or vertical, across the axis of the mesh.

@@ -18,7 +18,7 @@ constexpr float rimWidth = 2, linkWidth = 1.5F;
 double reachOf(const Point& element, const std::vector<NeighbourRegion>& regions) {
   double reach = 0;
   for (const NeighbourRegion& region : regions) {
-    for (const Point& point : {region.low, region.high, region.at}) {
+    for (const Point& point : {region.corner(0), region.corner(7), region.at}) {
       reach = std::max(reach, (point - element).norm());
     }
   }
@@ -50,8 +50,11 @@ Point RegionLens::magnified(const Point& point) const { return centre_ + scale_ 
 
 NeighbourRegion RegionLens::magnified(const NeighbourRegion& region) const {
   NeighbourRegion larger = region;
-  for (Point* point : {&larger.low, &larger.high, &larger.at, &larger.nearest}) {
+  for (Point* point : {&larger.at, &larger.nearest}) {
     *point = magnified(*point);
+  }
+  for (Point* point : {&larger.low, &larger.high}) {
+    *point = region.frame.into_frame(magnified(region.frame.into_world(*point)));
   }
   return larger;
 }

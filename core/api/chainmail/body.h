@@ -40,6 +40,8 @@ struct Elasticity {
   double poisson = 0.3;  ///< Poisson's ratio: 0 to below 0.5.
   /// Number of control points of free-form deformation along each axis, 2 to 8.
   std::array<std::uint32_t, 3> control_points{4, 4, 4};
+  /// Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000. They stop earlier if they converge.
+  std::uint32_t iterations = 2000;
 
   /// True if all values are equal.
   bool operator==(const Elasticity&) const = default;
@@ -139,6 +141,18 @@ class Body {
   void set_energy(EnergyKind kind);
   /// The kind of elastic energy.
   EnergyKind energy() const;
+
+  /// Turns the axes along which valid regions lie, of all links: `rotation` leads from the axes of the world, which a
+  /// new body has, to them. An object that is turned together with its axes and its moves deforms in the same way.
+  /// Nothing moves; the next move answers. Methods of elasticity ignore it. Throws Error if the rotation has no axis or
+  /// leaves the space of the object.
+  void set_frame(const Rotation& rotation);
+  /// Turns these axes to the principal axes of the object at rest, with the order and the signs nearest to the axes of
+  /// the world. Returns false if some do not exist, as for a cube: the axes nearest to those of the world are used
+  /// then.
+  bool set_frame_of_object();
+  /// The rotation from the axes of the world to these axes.
+  Rotation frame() const;
 
   /// Sets the settings of the methods of elasticity. Throws Error if a value is out of its range.
   void set_elasticity(const Elasticity& elasticity);

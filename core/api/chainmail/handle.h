@@ -11,15 +11,6 @@ namespace chainmail::api {
 
 struct Access;
 
-/// A rotation about an axis. In a plane, only the axis across it is possible, and on a line none.
-struct Rotation {
-  Vector3 axis = {};   ///< Axis of any length above 0, unless there is no rotation.
-  double degrees = 0;  ///< Counterclockwise as seen from the tip of the axis.
-
-  /// True if axis and angle are equal.
-  bool operator==(const Rotation&) const = default;
-};
-
 /// Where a handle is.
 struct Pose {
   /// Position of its pivot (mesh units). Coordinates that do not exist are 0 or those of the object.

@@ -21,7 +21,7 @@ struct Box {
 };
 
 /// Access to an object while a method of your own answers a move. It notes which elements move. Every function throws
-/// Error if an id does not exist.
+/// Error if an id does not exist. All coordinates are along the axes on which valid regions lie (see Body::set_frame).
 class MovingBody {
  public:
   MovingBody(const MovingBody&) = delete;
@@ -57,7 +57,7 @@ class MovingBody {
 /// The move that a method answers.
 struct HandleMove {
   std::span<const ElementId> elements = {};  ///< The grabbed elements, ascending. They are at their targets already.
-  std::span<const Vector3> before = {};      ///< Their positions before the move (mesh units).
+  std::span<const Vector3> before = {};  ///< Their positions before the move (mesh units), as MovingBody gives them.
 };
 
 /// A method of your own. Each Deformer has one, made by the factory when the first move comes; it may keep data between

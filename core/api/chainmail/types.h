@@ -29,6 +29,15 @@ constexpr Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - 
 /// Returns a multiple of a vector.
 constexpr Vector3 operator*(double factor, const Vector3& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
 
+/// A rotation about an axis. In a plane, only the axis across it is possible, and on a line none.
+struct Rotation {
+  Vector3 axis = {};   ///< Axis of any length above 0, unless there is no rotation.
+  double degrees = 0;  ///< Counterclockwise as seen from the tip of the axis.
+
+  /// True if axis and angle are equal.
+  bool operator==(const Rotation&) const = default;
+};
+
 /// Type of the numbers in which an object stores its positions and a method computes: float or double.
 enum class Precision {
   single_precision,  ///< float: half the memory

@@ -17,6 +17,7 @@ Json to_json(const report::PhysicsEntry& entry);
 Json to_json(const report::PhysicsDrag& drag);
 Json to_json(const report::PhysicsObject& object);
 Json to_json(const report::Calibration& calibration);
+Json to_json(const report::Symmetry& symmetry);
 Json to_json(const report::GrowthSeries& series);
 Json to_json(const report::PhysicsGrowth& growth);
 Json to_json(const report::RampVerdict& verdict);
@@ -69,6 +70,14 @@ Json to_json(const std::optional<Distance>& distance) {
   return distance ? Json{{"max", distance->max}, {"rms", distance->rms}} : Json();
 }
 
+Json to_json(const report::ShapeFigures& shape) {
+  return {{"hausdorff", to_json(shape.hausdorff)},
+          {"volume_change", to_json(shape.volume_change)},
+          {"inverted_cells", shape.inverted_cells ? Json(*shape.inverted_cells) : Json()},
+          {"largest_stretch", to_json(shape.stretch)},
+          {"violation_max", shape.violation}};
+}
+
 Json to_json(const report::Errors& errors) {
   const Violation& violation = errors.violation;
   return {{"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
@@ -76,7 +85,8 @@ Json to_json(const report::Errors& errors) {
           {"energy_over_exact", to_json(errors.energy_over_exact)},
           {"float_to_double", to_json(std::optional(errors.float_to_double))},
           {"largest_over_hand", to_json(errors.largest_over_handle)},
-          {"distance_to_equilibrium", to_json(errors.to_equilibrium)}};
+          {"distance_to_equilibrium", to_json(errors.to_equilibrium)},
+          {"shape", to_json(errors.shape)}};
 }
 
 Json to_json(const report::Entry& entry) {
@@ -154,11 +164,28 @@ Json to_json(const report::PhysicsEntry& entry) {
   json["factorize_ms"] = spread_or_none(measured.prepare.factorize);
   json["grab_ms"] = spread_or_none(measured.prepare.grab);
   json["error"] = to_json(measured.error);
+  json["shape"] = to_json(measured.shape);
   return json;
+}
+
+/// Returns null if the reference was computed on the object's own cells.
+Json refined_of(const std::optional<ConvergedReference>& reference) {
+  if (!reference) {
+    return {};
+  }
+  Json levels = Json::array();
+  for (const ReferenceLevel& level : reference->levels) {
+    levels.push_back({{"elements", level.elements}, {"change", level.change ? Json(*level.change) : Json()}});
+  }
+  return {{"levels", std::move(levels)},
+          {"order", reference->order ? Json(*reference->order) : Json()},
+          {"converged", reference->converged},
+          {"end", reference->end}};
 }
 
 Json to_json(const report::PhysicsDrag& drag) {
   return {{"name", drag.name},
+          {"refined_reference", refined_of(drag.refined)},
           {"description", drag.description},
           {"handle", drag.handle},
           {"moves", drag.moves},
@@ -182,14 +209,40 @@ Json to_json(const report::Calibration& calibration) {
   return json;
 }
 
+/// Returns the material of a reference solution, with the parameter of its law.
+Json material_of(const StrainLaw& law) {
+  Json json{{"law", name(law.kind)}};
+  if (law.kind == StrainLaw::Kind::gent) {
+    json["gent_limit"] = law.gent_limit;
+  } else if (law.kind == StrainLaw::Kind::fung) {
+    json["fung_exponent"] = law.fung_exponent;
+  }
+  return json;
+}
+
+Json to_json(const report::Symmetry& symmetry) {
+  Json json = begin_with(symmetry.contestant);
+  if (!symmetry.refusal.empty()) {
+    json["refusal"] = symmetry.refusal;
+    return json;
+  }
+  json["turns"] = Json::array();
+  for (const report::TurnDifference& turn : symmetry.turns) {
+    json["turns"].push_back({{"degrees", turn.degrees}, {"max", turn.max}, {"relative", turn.relative}});
+  }
+  return json;
+}
+
 Json to_json(const report::PhysicsObject& object) {
   return {{"name", object.name},
           {"description", object.description},
           {"elements", object.elements},
           {"links", object.links},
           {"pins", object.pins},
+          {"material", material_of(object.law)},
           {"drags", all_of(object.drags)},
-          {"calibrations", all_of(object.calibrations)}};
+          {"calibrations", all_of(object.calibrations)},
+          {"turned_object", all_of(object.symmetry)}};
 }
 
 Json to_json(const report::GrowthSeries& series) {
@@ -264,6 +317,7 @@ void write_json(std::ostream& out, const report::PhysicsReport& report, const re
   options["young"] = report.elastic.material.young;
   options["poisson"] = report.elastic.material.poisson;
   options["lattice"] = report.elastic.lattice;
+  options["iterations"] = report.elastic.iterations;
   options["growth_seconds"] = report.options.growth_seconds;
   write_report(out, {{"origin", to_json(origin)},
                      {"options", std::move(options)},

@@ -99,6 +99,12 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
             {"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
             {"energy", summary.energy},
             {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
+  if (summary.volume_change || summary.inverted_cells || summary.largest_stretch) {
+    const auto or_null = [](const auto& figure) { return figure ? Json(*figure) : Json(); };
+    json["shape"] = {{"volume_change", or_null(summary.volume_change)},
+                     {"inverted_cells", or_null(summary.inverted_cells)},
+                     {"largest_stretch", or_null(summary.largest_stretch)}};
+  }
   if (const auto& found = summary.equilibrium) {
     json["equilibrium"] = {{"violation", found->violation},
                            {"residual", found->residual},

@@ -63,6 +63,10 @@ struct DeformSummary {
   Violation violation;
   double energy = 0;
   Displacement displacement;
+  // Figures about the shape; none where they are not defined.
+  std::optional<double> volume_change = {};                // relative
+  std::optional<std::uint64_t> inverted_cells = {};        // number of them
+  std::optional<double> largest_stretch = {};              // principal stretch
   std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
 };
 void write_json(std::ostream& out, const DeformSummary& summary);

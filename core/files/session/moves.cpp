@@ -298,9 +298,12 @@ Command MovesReader::unpin(const Members& of) {
 
 Command MovesReader::softness(const Members& of) {
   auto keys = softness_keys();
-  keys.insert(keys.end(), {"do", "energy", "links"});
+  keys.insert(keys.end(), {"do", "energy", "frame", "links"});
   fields_.check_keys(of.members, keys);
-  Softness result{fields_.softness(of.members), {}, fields_.energy(of.members, absent_energy_)};
+  Softness result{fields_.softness(of.members),
+                  {},
+                  fields_.energy(of.members, absent_energy_),
+                  fields_.frame(of.members, *fields_.mesh())};
   if (!of.members.contains("links")) {
     return commands::SetSoftness{result};
   }

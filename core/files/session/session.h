@@ -71,11 +71,14 @@ bool is_session(const std::filesystem::path& path);
 ///      "cuts": [a, b of each cut link…], "pins": [id…],
 ///      "softness": {"compression": c, "stretch": s, "shear": h, "lateral": b, "stiffness": k, "exponent": p,
 ///        "energy": "isotropic", "axial" or "corotated",
+///        "frame": {"kind": "object" or "given", "rotation": [x, y, z: the axis times the angle in radians]},
 ///        "own": [both ends, c, s, h, b, k, p of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
-///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis]},
+///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis],
+///      "iterations": most of a move},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
-///        "runs": [first, end of each run of elements that are given…], "held": [their coordinates…]}],
+///        "frame": [rotation, as above], "runs": [first, end of each run of elements that are given…], "held": [their
+///        coordinates…]}],
 ///      "moves": {as in files/session/moves.h}, "moves_done": how many of them,
 ///      "lesson": {"title": …, "steps": [{"title": …, "text": …, "until": number of moves that are carried out,
 ///        "algorithms": [name for each panel], "candidate": n, "colour": …, "show": …, "dock": …, "tool": …}]},
@@ -85,6 +88,9 @@ bool is_session(const std::filesystem::path& path);
 /// are done. In place of all its members, "mesh" may hold "file", the name of a mesh or a picture, and for a picture
 /// "across", the number of elements along its width. "lesson" is left out without steps, and in a step all but "title",
 /// "text" and "until" may be left out.
+///
+/// "frame" of "softness" is left out for the axes of the world. "frame" of a panel is there if its coordinates are
+/// those of a turned frame.
 ///
 /// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
 /// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"

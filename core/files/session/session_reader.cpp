@@ -108,9 +108,10 @@ void SessionReader::take_softness() {
   const Json& object = fields_.object(tree_, "softness");
   fields_.say_at(file_ + ": softness");
   auto keys = softness_keys();
-  keys.insert(keys.end(), {"energy", "own"});
+  keys.insert(keys.end(), {"energy", "frame", "own"});
   fields_.check_keys(object, keys);
-  Softness softness{fields_.softness(object), {}, fields_.energy(object, absent_energy_)};
+  Softness softness{
+      fields_.softness(object), {}, fields_.energy(object, absent_energy_), fields_.frame(object, *result_.mesh)};
   take_own(softness, object);
   try {
     for (const auto& [link, own] : softness.links) {
@@ -162,7 +163,7 @@ void SessionReader::take_elastic() {
   }
   const Json& object = fields_.object(tree_, "elastic");
   fields_.say_at(file_ + ": elastic");
-  fields_.check_keys(object, {"young", "poisson", "lattice"});
+  fields_.check_keys(object, {"young", "poisson", "lattice", "iterations"});
   ElasticOptions options;
   options.material = {fields_.number(fields_.member(object, "young")),
                       fields_.number(fields_.member(object, "poisson"))};
@@ -173,6 +174,11 @@ void SessionReader::take_elastic() {
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     options.lattice[k] = lattice[k].is_number_unsigned() && lattice[k] < Json(9U) ? lattice[k].get<std::uint32_t>() : 0;
   }
+  if (object.contains("iterations")) {
+    const Json& iterations = object["iterations"];
+    const bool counts = iterations.is_number_unsigned() && iterations <= Json(parameters::iterations.highest);
+    options.iterations = counts ? iterations.get<std::uint32_t>() : 0;
+  }
   try {
     check(options);
   } catch (const Error& error) {
@@ -182,15 +188,20 @@ void SessionReader::take_elastic() {
 }
 
 Snapshot SessionReader::placement(const Json& object, Precision precision) const {
-  return snapshot_of({fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held")},
-                     *result_.mesh, precision);
+  const RegionFrame frame = object.contains("frame")
+                                ? RegionFrame(FrameKind::given, fields_.rotation_vector(object, "frame"))
+                                : RegionFrame();
+  check(frame, *result_.mesh);
+  return snapshot_of(
+      {fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held"), frame},
+      *result_.mesh, precision);
 }
 
 Session::Panel SessionReader::panel(const Json& object) {
   if (!object.is_object()) {
     fields_.fail("it is not an object", "write it in { }");
   }
-  fields_.check_keys(object, {"algorithm", "precision", "from_rest", "runs", "held"});
+  fields_.check_keys(object, {"algorithm", "precision", "from_rest", "frame", "runs", "held"});
   const auto algorithm = find_algorithm(fields_.text(object, "algorithm"));
   if (!algorithm) {
     fields_.fail("'algorithm' is not known", "use one that 'chainmail deform --help' lists");

@@ -228,8 +228,9 @@ void SessionWriter::write_state() {
                                {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
-    const auto& [material, lattice] = session_.elastic;
-    const OrderedJson elastic{{"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}};
+    const auto& [material, lattice, iterations] = session_.elastic;
+    const OrderedJson elastic{
+        {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
     out_ << ",\n\"elastic\": " << elastic.dump();
   }
 }
@@ -240,6 +241,12 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
        << "\", \"from_rest\": " << std::string_view(placement.from_rest ? "true" : "false");
+  if (placement.frame.is_turned()) {
+    const Point& turn = placement.frame.rotation();
+    out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
+    out_ << ", " << digits_(turn.y(), Precision::double_precision);
+    out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";
+  }
   write_ids("runs", placement.runs);
   write_array("held", placement.held.size(), progress,
               [&](std::size_t i) { out_ << digits_(placement.held[i], panel.precision); });

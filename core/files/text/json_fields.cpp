@@ -129,6 +129,41 @@ EnergyKind JsonFields::energy(const Json& object, EnergyKind absent) const {
   }
 }
 
+Point JsonFields::rotation_vector(const Json& object, const std::string& key) const {
+  const Json& values = array(object, key);
+  if (values.size() != 3) {
+    fail(in_quotes(key) + " does not have three coordinates", "write [x, y, z]: the axis times the angle in radians");
+  }
+  return {number(values[0]), number(values[1]), number(values[2])};
+}
+
+RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh) const {
+  if (!object.contains("frame")) {
+    return {};
+  }
+  const Json& frame = this->object(object, "frame");
+  check_keys(frame, {"kind", "rotation"});
+  const std::string kind = text(frame, "kind");
+  const auto found = std::ranges::find(frame_kinds, kind);
+  if (found == frame_kinds.end()) {
+    fail("the kind of 'frame' is not known", "use axes, object or given");
+  }
+  const auto which = FrameKind(found - frame_kinds.begin());
+  if (which == FrameKind::axes) {
+    return {};
+  }
+  if (which == FrameKind::object && !frame.contains("rotation")) {
+    return principal_axes(mesh).frame;
+  }
+  const RegionFrame result(which, rotation_vector(frame, "rotation"));
+  try {
+    check(result, mesh);
+  } catch (const Error& error) {
+    fail("'frame': " + error.problem(), error.remedy());
+  }
+  return result;
+}
+
 std::vector<std::string> softness_keys() {
   std::vector<std::string> keys;
   keys.reserve(softness_numbers.size());
@@ -143,6 +178,10 @@ void add_softness(nlohmann::ordered_json& object, const Softness& softness) {
     object[std::string(parameter->name)] = softness.global.*value;
   }
   object["energy"] = info(softness.energy).name;
+  if (const RegionFrame& frame = softness.frame; frame.kind() != FrameKind::axes) {
+    const Point& turn = frame.rotation();
+    object["frame"] = {{"kind", frame_kinds[std::size_t(frame.kind())]}, {"rotation", {turn.x(), turn.y(), turn.z()}}};
+  }
 }
 
 RelaxationScheme JsonFields::relaxation_scheme(const Json& name) const {

@@ -19,6 +19,13 @@ void write_errors(std::ostream& out, const Errors& errors) {
   write_distance(out, errors.to_equilibrium);
 }
 
+constexpr int shape_figures_written = 4;  // number of columns
+
+void write_shape(std::ostream& out, const ShapeFigures& shape) {
+  out << ',' << all_digits(shape.hausdorff) << ',' << all_digits(shape.volume_change) << ','
+      << (shape.inverted_cells ? std::to_string(*shape.inverted_cells) : "") << ',' << all_digits(shape.stretch);
+}
+
 void write_measurement(std::ostream& out, const Measurement& measurement) {
   const TimeSpread& ms = measurement.ms_per_move;
   out << ',' << ms.count;
@@ -37,7 +44,8 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
   out << "object,elements,links,drag,moves,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,"
          "ms_upper_quartile,ms_min,ms_max,worst_move_ms,checked,moved,violation_max,violation_rms,violation_fraction,"
          "exact_distance_max,exact_distance_rms,energy_over_exact,float_double_max,float_double_rms,largest_over_hand,"
-         "equilibrium_distance_max,equilibrium_distance_rms,equilibrium\n";
+         "equilibrium_distance_max,equilibrium_distance_rms,equilibrium,hausdorff,volume_change,inverted_cells,"
+         "largest_stretch\n";
   for (const CaseResult& object : comparison.cases) {
     for (const DragResult& drag : object.drags) {
       for (const Entry& entry : drag.entries) {
@@ -49,7 +57,13 @@ void write_csv(std::ostream& out, const Comparison& comparison) {
         } else {
           out << std::string(comparison_figures, ',');
         }
-        out << ',' << (entry.contestant.equilibrium ? 1 : 0) << '\n';
+        out << ',' << (entry.contestant.equilibrium ? 1 : 0);
+        if (entry.measurement) {
+          write_shape(out, entry.measurement->errors.shape);
+        } else {
+          out << std::string(shape_figures_written, ',');
+        }
+        out << '\n';
       }
     }
   }

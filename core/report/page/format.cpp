@@ -115,6 +115,12 @@ std::string figure(double number, int digits) {
 
 std::string figure(const std::optional<double>& number) { return number ? figure(*number) : "n/a"; }
 
+std::string signed_percent(const std::optional<double>& change) {
+  return change ? (*change > 0 ? "+" : "") + figure(100 * *change) : figure(change);
+}
+
+std::string count(const std::optional<std::uint64_t>& number) { return number ? thousands(*number) : "n/a"; }
+
 std::string percent(double share) { return figure(100 * share) + "%"; }
 
 std::string all_digits(double number) {

@@ -19,6 +19,10 @@ std::string thousands(std::uint64_t count);
 std::vector<std::string> aligned(std::vector<std::string> column);
 /// Formats a share for people, in percent.
 std::string percent(double share);
+/// Formats a change for people, in percent with its sign; `n/a` if there is none.
+std::string signed_percent(const std::optional<double>& change);
+/// Formats a number of things for people; `n/a` if there is none.
+std::string count(const std::optional<std::uint64_t>& number);
 /// Formats a number for programs, with the fewest digits that read back as the same number; empty if there is none.
 std::string all_digits(double number);
 std::string all_digits(const std::optional<double>& number);

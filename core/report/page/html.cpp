@@ -24,7 +24,10 @@ energy, until the residual is at most 0.001, in at most 200 iterations. Errors a
 handle is still held; figures near 10⁻⁶ are the rounding of single precision. In the plots, lower is better and further
 left is faster: a contestant with no other one below and left of it is a good choice. In the tables, <b>float to
 double</b> is the distance between a contestant in both precisions, and <b>farthest / handle</b> is the largest
-displacement over that of the handle: above 1, an element moved further than the handle.</p>
+displacement over that of the handle: above 1, an element moved further than the handle. The <b>Hausdorff distance</b> is
+the largest distance from a point of one surface to the nearest point of the other. Volume is that of the cells, or what
+the faces enclose; in a plane it is the area. A cell is <b>inverted</b> if it is turned inside out. The <b>largest
+stretch</b> is the largest factor by which any direction in a cell is lengthened.</p>
 )";
 
 /// A column of a detail table, with its group.
@@ -59,6 +62,13 @@ std::string handle_cell(const Measurement& m, const DragResult&) { return figure
 std::string rest_max(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::max); }
 std::string rest_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::rms); }
 
+std::string hausdorff_cell(const Measurement& m, const DragResult&) { return figure(m.errors.shape.hausdorff); }
+std::string volume_cell(const Measurement& m, const DragResult&) {
+  return signed_percent(m.errors.shape.volume_change);
+}
+std::string inverted_cell(const Measurement& m, const DragResult&) { return count(m.errors.shape.inverted_cells); }
+std::string stretch_cell(const Measurement& m, const DragResult&) { return figure(m.errors.shape.stretch); }
+
 std::vector<DetailColumn> columns_for(const DragResult& drag) {
   std::vector<DetailColumn> columns{
       {"ms per move", "median", time_cell},
@@ -75,6 +85,10 @@ std::vector<DetailColumn> columns_for(const DragResult& drag) {
       {"float to double (mean rest lengths)", "max", float_max},
       {"float to double (mean rest lengths)", "RMS", float_rms},
       {"farthest", "/ handle (ratio)", handle_cell},
+      {"shape", "Hausdorff to Exact (mean rest lengths)", hausdorff_cell},
+      {"shape", "volume change (%)", volume_cell},
+      {"shape", "inverted cells", inverted_cell},
+      {"shape", "largest stretch (ratio)", stretch_cell},
   };
   const bool has_equilibrium = std::ranges::any_of(
       drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });

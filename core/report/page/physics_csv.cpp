@@ -32,6 +32,24 @@ void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
   write_spread(out, measured.prepare.grab);
 }
 
+constexpr int physics_shape_figures = 5;  // number of columns
+
+void write_physics_shape(std::ostream& out, const ShapeFigures& shape) {
+  out << ',' << all_digits(shape.hausdorff) << ',' << all_digits(shape.volume_change) << ','
+      << (shape.inverted_cells ? std::to_string(*shape.inverted_cells) : "") << ',' << all_digits(shape.stretch) << ','
+      << all_digits(shape.violation);
+}
+
+/// Writes by how much the contestant differs on the turned object; empty fields if that was not measured.
+void write_symmetry(std::ostream& out, const PhysicsObject& object, const PhysicsContestant& contestant) {
+  const Symmetry* symmetry = find_symmetry(object.symmetry, contestant);
+  for (std::size_t i = 0; i < symmetry_angles.size(); ++i) {
+    const bool known = symmetry != nullptr && i < symmetry->turns.size();
+    out << ',' << (known ? all_digits(symmetry->turns[i].max) : "") << ','
+        << (known ? all_digits(symmetry->turns[i].relative) : "");
+  }
+}
+
 void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
   for (const GrowthSeries& series : growth.series) {
     for (const GrowthPoint& point : series.points) {
@@ -41,7 +59,8 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
           << series.contestant.sweeps << ",,1," << all_digits(point.ms_per_move) << ",,,,,"
           << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
           << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
-          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0) << '\n';
+          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0)
+          << std::string(physics_shape_figures + 2 * symmetry_angles.size(), ',') << '\n';
     }
   }
 }
@@ -54,7 +73,9 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
          "first_ms,first_lower_quartile,first_upper_quartile,first_repetitions,"
          "after_cut_ms,after_cut_lower_quartile,after_cut_upper_quartile,after_cut_repetitions,"
          "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
-         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium\n";
+         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium,"
+         "hausdorff,volume_change,inverted_cells,largest_stretch,violation_max,"
+         "turned_45_max,turned_45_relative,turned_90_max,turned_90_relative\n";
   for (const PhysicsObject& object : report.objects) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {
@@ -67,7 +88,14 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
           out << std::string(physics_figures, ',');
         }
         out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << ','
-            << (entry.contestant.equilibrium ? 1 : 0) << '\n';
+            << (entry.contestant.equilibrium ? 1 : 0);
+        if (entry.measurement) {
+          write_physics_shape(out, entry.measurement->shape);
+        } else {
+          out << std::string(physics_shape_figures, ',');
+        }
+        write_symmetry(out, object, entry.contestant);
+        out << '\n';
       }
     }
   }

@@ -21,6 +21,10 @@ prescribed positions: its relative error is about 1, and a method with a larger 
 other errors are over the displacement of the handle: 10% is a tenth of it. They look small if most of the object moves
 little, also when nothing moves. <b>What moves</b> are the elements that the reference displaces by more than 1% of that
 displacement.</p>
+<p><b>Shape</b>: the Hausdorff distance is the largest distance from a point of one surface to the nearest point of the
+other, between the answer and the reference. Volume is that of the cells, or what the faces enclose; in a plane it is the
+area. A cell is inverted if it is turned inside out. The stretch is the largest factor by which any direction in a cell is
+lengthened. Violation is that of the valid regions of ChainMail, which methods of elasticity do not know.</p>
 <p><b>Times</b> include the sweeps of relaxation that follow a move: time of the first move of a drag, mean time of a later
 move, and time of the move <b>after a cut</b> in the middle of a drag, with all repeated preparation. <b>Prepare</b> is the
 work of a method before its first move: it factorizes once for an object, its pins and its cuts, and finds the response of
@@ -52,7 +56,11 @@ void write_growths(std::ostream& out, const PhysicsReport& report) {
 
 void write_html(std::ostream& out, const PhysicsReport& report, const Origin& origin) {
   begin_page(out, "ChainMail against physics", origin);
-  out << how_to_read_physics << "<h2>Time against error</h2>\n";
+  out << how_to_read_physics;
+  if (has_refined(report)) {
+    out << "<p>" << escaped(how_to_read_refined) << "</p>\n";
+  }
+  out << "<h2>Time against error</h2>\n";
   if (report.objects.size() > 1) {
     out << "<h3>All objects, means of their drags</h3>\n";
     write_figure(out, physics_overview(report));
@@ -66,13 +74,22 @@ void write_html(std::ostream& out, const PhysicsReport& report, const Origin& or
   for (const PhysicsObject& object : report.objects) {
     write_html(out, physics_table(object));
   }
+  if (const FigureTable turned = symmetry_table(report); !turned.rows.empty()) {
+    out << "<h2>Turned objects</h2>\n<p>The object, its pins and one move are turned by 45° and 90°, in the plane or "
+           "about z, and the answer is turned back. A method that does not depend on the axes differs by about 0. The "
+           "largest distance is over all elements; the relative one is RMS over RMS of the displacements. The valid "
+           "regions of ChainMail lie along axes: choose those of the object with <code>--frame object</code>.</p>\n";
+    write_html(out, turned);
+  }
   write_growths(out, report);
   const Material& material = report.elastic.material;
   const auto& lattice = report.elastic.lattice;
-  end_page(out, origin, report.options.contest,
-           {{"material", "Young’s modulus " + figure(material.young) + ", Poisson’s ratio " + figure(material.poisson)},
-            {"FFD", std::to_string(lattice[0]) + " × " + std::to_string(lattice[1]) + " × " +
-                        std::to_string(lattice[2]) + " control points"}});
+  end_page(
+      out, origin, report.options.contest,
+      {{"material", "Young’s modulus " + figure(material.young) + ", Poisson’s ratio " + figure(material.poisson)},
+       {"FFD", std::to_string(lattice[0]) + " × " + std::to_string(lattice[1]) + " × " + std::to_string(lattice[2]) +
+                   " control points"},
+       {"XPBD, Projective Dynamics", "at most " + std::to_string(report.elastic.iterations) + " iterations per move"}});
 }
 
 }  // namespace chainmail::report

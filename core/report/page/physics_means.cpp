@@ -43,6 +43,7 @@ PhysicsEntry mean_of(const Drags& drags, std::size_t entry) {
     mix(to.prepare.factorize, from.prepare.factorize, weight);
     mix(to.prepare.grab, from.prepare.grab, weight);
     mix(to.error, from.error, weight);
+    take_worst(to.shape, from.shape);
   }
   return mean;
 }

@@ -4,9 +4,9 @@
 
 namespace chainmail::report {
 
-/// Returns one drag per name, with the means of errors and times over its handles and the maximum of the largest
-/// errors. Drags without a reference solution do not count. A contestant that is missing from one of the drags has no
-/// mean.
+/// Returns one drag per name, with the means of errors and times over its handles, the maximum of the largest
+/// errors and the worst figures of shape. Drags without a reference solution do not count. A contestant that is missing
+/// from one of the drags has no mean.
 std::vector<PhysicsDrag> means_by_name(const PhysicsObject& object);
 /// Returns the mean of all drags without a cut.
 PhysicsDrag mean_of_drags(const PhysicsObject& object);

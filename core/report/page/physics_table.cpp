@@ -12,6 +12,8 @@ using CellOf = std::string (*)(const PhysicsMeasurement&);
 
 // Relative errors below this come from Newton's method and from single precision: the method equals the reference.
 constexpr double reference_found_again = 1e-5;
+// Differences below this come from rounding.
+constexpr double rounding_of_turns = 1e-6;
 
 std::string relative_cell(const PhysicsMeasurement& m) {
   return m.error.relative < reference_found_again ? "<1e-5" : figure(m.error.relative);
@@ -32,6 +34,23 @@ constexpr ErrorColumns groups[]{{"relative error (ratio)", relative_cell, true},
                                 {"largest error (%)", max_cell},
                                 {"RMS, what moves (%)", moving_rms_cell},
                                 {"largest, what moves (%)", moving_max_cell}};
+
+std::string hausdorff_cell(const PhysicsMeasurement& m) { return figure(m.shape.hausdorff); }
+std::string volume_cell(const PhysicsMeasurement& m) { return signed_percent(m.shape.volume_change); }
+std::string inverted_cell(const PhysicsMeasurement& m) { return count(m.shape.inverted_cells); }
+std::string stretch_cell(const PhysicsMeasurement& m) { return figure(m.shape.stretch); }
+std::string violation_cell(const PhysicsMeasurement& m) { return figure(m.shape.violation); }
+
+/// Columns of a page about the shape, the worst of all drags without a cut.
+struct ShapeColumn {
+  const char* name;
+  CellOf cell;
+};
+constexpr ShapeColumn shape_columns[]{{"Hausdorff (rest lengths)", hausdorff_cell},
+                                      {"volume change (%)", volume_cell},
+                                      {"inverted cells", inverted_cell},
+                                      {"stretch (ratio)", stretch_cell},
+                                      {"violation (rest lengths)", violation_cell}};
 
 /// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
@@ -96,6 +115,12 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
       add_errors(row, means, entry, group);
     }
   }
+  for (const ShapeColumn& column : shape_columns) {
+    if (!for_text) {
+      const auto& measured = means.all.entries[entry].measurement;
+      row.cells.push_back(measured ? column.cell(*measured) : "n/a");
+    }
+  }
   return row;
 }
 
@@ -116,6 +141,11 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
   for (const ErrorColumns& group : groups) {
     if (!group.in_text && !for_text) {
       add_group(group);
+    }
+  }
+  for (const ShapeColumn& column : shape_columns) {
+    if (!for_text) {
+      columns.push_back({"shape: worst of the drags", column.name});
     }
   }
   return columns;
@@ -152,6 +182,59 @@ std::string what_happens(const PhysicsDrag& drag) {
   return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
 }
 
+/// Returns the elements of each level, as on the first of the drags, and the largest change on that level.
+std::string about_levels(const std::vector<const ConvergedReference*>& references) {
+  std::string text;
+  for (std::size_t level = 0;; ++level) {
+    std::uint64_t elements = 0;
+    double change = 0;
+    for (const ConvergedReference* one : references) {
+      if (level < one->levels.size()) {
+        elements = elements == 0 ? one->levels[level].elements : elements;
+        change = std::max(change, one->levels[level].change.value_or(0));
+      }
+    }
+    if (elements == 0) {
+      return text;
+    }
+    text += (level == 0 ? "" : ", ") + thousands(elements) + (level == 0 ? "" : " (" + percent(change) + ")");
+  }
+}
+
+std::string about_orders(const std::vector<const ConvergedReference*>& references) {
+  std::vector<double> orders;
+  for (const ConvergedReference* one : references) {
+    if (one->order) {
+      orders.push_back(*one->order);
+    }
+  }
+  if (orders.empty()) {
+    return {};
+  }
+  const auto [low, high] = std::ranges::minmax(orders);
+  return "; observed order " + figure(low) + " to " + figure(high);
+}
+
+/// Returns the levels of the references on refined cells; empty if there are none.
+std::string about_refined(const PhysicsObject& object) {
+  std::vector<const ConvergedReference*> references;
+  std::string end;
+  for (const PhysicsDrag& drag : object.drags) {
+    if (drag.refined) {
+      references.push_back(&*drag.refined);
+      end = drag.refined->converged ? end : drag.refined->end;
+    }
+  }
+  if (references.empty()) {
+    return {};
+  }
+  const auto converged = std::ranges::count(references, true, &ConvergedReference::converged);
+  return "; elements of the reference on refined cells (largest change from the level before): " +
+         about_levels(references) + "; below " + percent(converged_change) + " in " + std::to_string(converged) +
+         " of " + std::to_string(references.size()) + " drags" +
+         (end.empty() ? "" : ", in others not, because " + end) + about_orders(references);
+}
+
 std::string about(const PhysicsObject& object) {
   std::vector<ElementId> handles;
   std::vector<std::string> names;
@@ -173,7 +256,10 @@ std::string about(const PhysicsObject& object) {
   for (const ElementId handle : handles) {
     text += (handle == handles.front() ? "" : ", ") + std::to_string(handle);
   }
-  text += drags + left_out;
+  text += drags + left_out + about_refined(object);
+  if (object.law.kind != StrainLaw::Kind::neo_hookean) {
+    text += "; reference: " + label(object.law);
+  }
   for (const Calibration& calibration : object.calibrations) {
     text += "; " + about(calibration);
   }
@@ -183,7 +269,8 @@ std::string about(const PhysicsObject& object) {
 constexpr const char* how_to_read_text =
     "Relative error: RMS of the error over RMS of the reference's displacements, over all elements; means over the\n"
     "handles of an object. An object that does not move has about 1: a larger error is no better than no method.\n"
-    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under refinement of the mesh;\n"
+    "The reference is neo-Hookean FEM, converged on the same cells as linear FEM, not under "
+    "refinement of the mesh;\n"
     "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
     "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
     "object, its pins and its cuts; grabbing is done once for each handle.\n";
@@ -245,6 +332,33 @@ FigureTable physics_table(const PhysicsObject& object, bool for_text) {
   return table;
 }
 
+FigureTable symmetry_table(const PhysicsReport& report) {
+  FigureTable table{"Turned object",
+                    "difference of the answer after turning back, at the end of one move",
+                    "detail",
+                    "object, contestant",
+                    {},
+                    {}};
+  for (const char* group : {"largest (mean rest lengths)", "relative (ratio)"}) {
+    for (const double degrees : symmetry_angles) {
+      table.columns.push_back({group, "turned by " + figure(degrees) + "°"});
+    }
+  }
+  for (const PhysicsObject& object : report.objects) {
+    for (const Symmetry& one : object.symmetry) {
+      FigureTable::Row& row = table.rows.emplace_back();
+      row.label = object.name + ": " + label(one.contestant);
+      row.refusal = one.refusal;
+      for (const auto member : {&TurnDifference::max, &TurnDifference::relative}) {
+        for (const TurnDifference& turn : one.turns) {
+          row.cells.push_back(turn.*member < rounding_of_turns ? "0" : figure(turn.*member));
+        }
+      }
+    }
+  }
+  return table;
+}
+
 FigureTable physics_summary(const PhysicsReport& report) {
   FigureTable table{"Summary", "contestants without sweeps, at equilibrium, and calibrated ones",
                     "detail",  "object, contestant",
@@ -291,13 +405,25 @@ FigureTable growth_table(const PhysicsGrowth& growth) {
   return table;
 }
 
+bool has_refined(const PhysicsReport& report) {
+  return std::ranges::any_of(report.objects, [](const PhysicsObject& object) {
+    return std::ranges::any_of(object.drags, [](const PhysicsDrag& drag) { return drag.refined.has_value(); });
+  });
+}
+
 void write_text(std::ostream& out, const PhysicsReport& report) {
   out << how_to_read_text;
+  if (has_refined(report)) {
+    out << how_to_read_refined << '\n';
+  }
   if (report.objects.size() > 1) {
     write_table(out, physics_summary(report));
   }
   for (const PhysicsObject& object : report.objects) {
     write_table(out, physics_table(object, true));
+  }
+  if (const FigureTable turned = symmetry_table(report); !turned.rows.empty()) {
+    write_table(out, turned);
   }
   for (const PhysicsGrowth& growth : report.growths) {
     out << (&growth == &report.growths.front() ? "\nGrowing objects\n" : "");

@@ -12,8 +12,18 @@ FigureTable physics_summary(const PhysicsReport& report);
 /// Returns the main table of one object: relative errors and times. The table of a page also has the errors divided by
 /// the handle's displacement.
 FigureTable physics_table(const PhysicsObject& object, bool for_text = false);
+/// Returns by how much each contestant differs on turned objects.
+FigureTable symmetry_table(const PhysicsReport& report);
 /// Returns a table of the largest size of each contestant and the growth of its time.
 FigureTable growth_table(const PhysicsGrowth& growth);
+
+/// How to read a report whose references are on refined cells, and whether a report is one.
+inline constexpr const char* how_to_read_refined =
+    "In this report, the reference is on refined cells instead, as each object says, and handles are patches. The\n"
+    "relative error is over the elements that are neither pinned nor in the handle: 1 for an object that does not "
+    "move.\n"
+    "'The same cells' are those of the object.";
+bool has_refined(const PhysicsReport& report);
 
 /// Writes the report as text.
 void write_text(std::ostream& out, const PhysicsReport& report);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct RecordedMoves {
   std::string name;
   std::string description;
   std::vector<Command> commands;
+  // If the handle is a patch, the element at its centre and its radius (mesh units).
+  std::optional<ElementId> centre = {};
+  double radius = 0;
 };
 
 /// An object at rest, and the drags to run on it.
@@ -25,6 +29,7 @@ struct Case {
   Softness softness;
   std::vector<RecordedMoves> drags;
   ElasticOptions elastic = {};
+  StrainLaw law = {};  // of the reference solution; no contestant knows it
 };
 
 /// Returns the built-in objects of the comparison, each with its three drags. All links have this softness, except

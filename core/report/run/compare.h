@@ -11,6 +11,7 @@
 #include "measure/time_spread.h"
 #include "measure/violation.h"
 #include "report/run/cases.h"
+#include "report/run/shape_figures.h"
 
 namespace chainmail::report {
 
@@ -70,6 +71,8 @@ struct Errors {
   std::optional<double> largest_over_handle;
   /// Distance to the end of full relaxation; none if that is not defined or not computed.
   std::optional<Distance> to_equilibrium;
+  /// The reference of the Hausdorff distance is Exact ChainMail, as for `to_exact`.
+  ShapeFigures shape;
 
   bool operator==(const Errors&) const = default;
 };

@@ -1,6 +1,7 @@
 #include "report/run/contest.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "mesh/error.h"
@@ -25,7 +26,7 @@ class Contest::Participant {
       return;
     }
     if (contestant.calibrated) {
-      object_.softness = {*contestant.calibrated, {}, object_.softness.energy};
+      object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.frame};
     }
     try {
       runner_ = std::make_unique<Runner>(object_, *contestant.algorithm, options.precision, options);
@@ -40,7 +41,10 @@ class Contest::Participant {
     times_ = {};
     warm_ = false;
     if (!contestant_.algorithm) {
-      entry_.measurement.emplace().error = error_of_nothing_moving(*object_.mesh, reference);
+      PhysicsMeasurement& measured = entry_.measurement.emplace();
+      measured.error = error_of_nothing_moving(*object_.mesh, reference);
+      const std::vector<double> at = positions_of_nothing_moving(*object_.mesh, reference);
+      measured.shape = shape_of(view_of(at), Cuts(object_.mesh), reference);
       return;
     }
     if (!runner_) {
@@ -108,10 +112,21 @@ class Contest::Participant {
     if (!stopped_ && entry_.refusal.empty()) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
       measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), reference);
+      measured.shape = shape_of(simulation.body().positions(), simulation.body().cuts(), reference);
       if (preparing_) {
         measured.prepare = preparing_->of(handle);
       }
     }
+  }
+
+  PositionView view_of(const std::vector<double>& positions) const {
+    return {positions.data(), std::size_t(object_.mesh->space_dimension) * sizeof(double), Precision::double_precision};
+  }
+
+  ShapeFigures shape_of(const PositionView& positions, const Cuts& cuts, const ReferenceSolution& reference) const {
+    std::vector<double> at = object_.mesh->rest;
+    std::ranges::transform(at, reference.displacements, at.begin(), std::plus());
+    return shape_figures(*object_.mesh, object_.softness, cuts, positions, view_of(at));
   }
 
   Case object_;  // with the softness of the contestant

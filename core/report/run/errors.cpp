@@ -65,6 +65,8 @@ Errors References::errors_of(const Runner& runner, const Contestant& contestant)
   const Simulation& simulation = runner.simulation();
   const PositionView positions = simulation.body().positions();
   Errors errors;
+  errors.shape = shape_figures(simulation.mesh(), simulation.softness(), simulation.body().cuts(), positions,
+                               exact_ ? std::optional(exact_->simulation().body().positions()) : std::nullopt);
   errors.violation = measure_violation(simulation.mesh(), simulation.softness(), simulation.body().cuts(), positions);
   if (exact_) {
     errors.to_exact = between(runner, *exact_);

@@ -37,7 +37,7 @@ ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut)
     throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
   }
   try {
-    return ReferenceSolver(elastic_problem(object, cut));
+    return ReferenceSolver(reference_problem(object, cut));
   } catch (const Error& error) {
     throw error.at(object.name);
   }
@@ -59,11 +59,40 @@ ReferenceSolution reference_at_end(ReferenceSolver& solver, const RecordedMoves&
   return solver.at(handle_of(moves), target);
 }
 
+/// References on refined cells, with the cells kept for the drags of an object without a cut.
+class RefinedReferences {
+ public:
+  RefinedReferences(const Case& object, const ConvergingOptions& options) : object_(object), options_(options) {}
+
+  ConvergedReference at_end(const RecordedMoves& moves) {
+    const Patch patch{object_.mesh->rest_position(handle_of(moves)), moves.radius};
+    const Point way = std::get<commands::Drag>(moves.commands.back()).target;
+    if (const std::vector<LinkId> cut = cuts_of(moves); !cut.empty()) {
+      return ConvergingReference(reference_problem(object_, cut), options_).at(patch, way);
+    }
+    if (!uncut_) {
+      uncut_.emplace(reference_problem(object_), options_);
+    }
+    return uncut_->at(patch, way);
+  }
+
+ private:
+  const Case& object_;
+  ConvergingOptions options_;
+  std::optional<ConvergingReference> uncut_;
+};
+
 PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, ReferenceSolver& uncut,
-                    const std::function<void(double)>& tell, const std::stop_token& stop) {
+                    RefinedReferences* refined, const std::function<void(double)>& tell, const std::stop_token& stop) {
   const std::vector<LinkId> cut = cuts_of(moves);
   PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cut.empty(), 0, {}, {}};
   try {
+    if (refined != nullptr && moves.radius > 0) {
+      drag.refined = refined->at_end(moves);
+      drag.handle_displacement = drag.refined->solution.handle_displacement;
+      drag.entries = contest.run(moves, drag.refined->solution, tell, stop);
+      return drag;
+    }
     std::optional<ReferenceSolver> with_cut;
     if (drag.has_cut) {
       with_cut.emplace(reference_of(object, cut));
@@ -162,15 +191,22 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               object.mesh->link_count(),
               object.pins.size(),
               {},
-              {}};
+              {},
+              object.law};
     ReferenceSolver solver = reference_of(object, {});
+    std::optional<RefinedReferences> refined;
+    if (report.options.refine) {
+      refined.emplace(object, *report.options.refine);
+    }
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
-    Contest contest(object, contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations), how);
+    const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
+    result.symmetry = symmetry_under_rotation(object, contestants, how, teller.of_drag(object.name + ", turned"), stop);
+    Contest contest(object, contestants, how);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);
-      PhysicsDrag drag = drag_of(contest, object, moves, solver, tell, stop);
+      PhysicsDrag drag = drag_of(contest, object, moves, solver, refined ? &*refined : nullptr, tell, stop);
       if (stop.stop_requested()) {
         report.stopped = true;
         return report;

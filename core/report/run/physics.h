@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "measure/converging_reference.h"
 #include "measure/physical_error.h"
 #include "report/run/compare.h"
 #include "report/run/growth.h"
 #include "report/run/physics_contestant.h"
+#include "report/run/shape_figures.h"
+#include "report/run/symmetry.h"
 
 namespace chainmail::report {
 
@@ -24,6 +27,7 @@ struct PhysicsOptions {
   /// Options of the contest. If its list of algorithms is empty, all take part. Its sweeps apply to the ChainMail
   /// family.
   CompareOptions contest;
+  std::optional<ConvergingOptions> refine;  // the reference is computed on refined cells; the handles must be patches
   double growth_seconds = 1;  // time budget per contestant and kind of growing object; 0: growth is not measured
   Calibrator calibrate;       // finds the softness of the calibrated contestants; empty: no contestant is calibrated
 };
@@ -43,6 +47,7 @@ struct PhysicsMeasurement {
   TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
+  ShapeFigures shape;  // at the end of the drag; the reference of the Hausdorff distance is the reference solution
 };
 
 struct PhysicsEntry {
@@ -59,6 +64,7 @@ struct PhysicsDrag {
   double handle_displacement = 0;     // mesh units
   std::vector<PhysicsEntry> entries;  // all contestants, in the same order for all drags; none without a reference
   std::string no_reference;           // reason why there is no reference solution; empty if there is one
+  std::optional<ConvergedReference> refined = {};  // its levels, if it was computed on refined cells
 };
 
 struct PhysicsObject {
@@ -66,6 +72,8 @@ struct PhysicsObject {
   std::uint64_t elements = 0, links = 0, pins = 0;
   std::vector<PhysicsDrag> drags;
   std::vector<Calibration> calibrations;
+  StrainLaw law;                        // of the reference solution
+  std::vector<Symmetry> symmetry = {};  // of contestants without sweeps
 };
 
 /// Figures of a contestant at one size.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "elastic/elastic.h"
+#include "measure/converging_reference.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
@@ -127,9 +128,29 @@ RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const 
   return drag;
 }
 
+/// The handle is a patch about an element, without pins.
+RecordedMoves drag(const Case& object, ElementId element, double radius, const Point& way, const std::string& name,
+                   const std::string& description) {
+  if (radius == 0) {
+    return drag(*object.mesh, element, way, name, description);
+  }
+  std::vector<ElementId> pins = object.pins;
+  std::ranges::sort(pins);
+  const Patch patch{object.mesh->rest_position(element), radius};
+  RecordedMoves drag{name,
+                     "element " + std::to_string(element) + ", " + description,
+                     {commands::Grab{elements_in(*object.mesh, patch, pins)}},
+                     element,
+                     radius};
+  for (int move = 1; move <= moves_of_drag; ++move) {
+    drag.commands.emplace_back(commands::Drag{way * move / moves_of_drag, {}, true});
+  }
+  return drag;
+}
+
 /// Returns half of a pull, then a cut into the object, then one more move; no commands if no cut is possible.
 RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
-  const ElementId handle = std::get<commands::Grab>(pull.commands.front()).elements.front();
+  const ElementId handle = handle_of(pull);
   std::vector<LinkId> links = links_to_cut(object, handle);
   if (links.empty()) {
     return {};
@@ -137,7 +158,9 @@ RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   RecordedMoves cut{"cut, then move",
                     "element " + std::to_string(handle) + ", half of the pull, a cut through the object (" +
                         std::to_string(links.size()) + " links), and one more move",
-                    {pull.commands.begin(), pull.commands.begin() + 1 + moves_before_cut}};
+                    {pull.commands.begin(), pull.commands.begin() + 1 + moves_before_cut},
+                    pull.centre,
+                    pull.radius};
   cut.commands.emplace_back(commands::Cut{std::move(links)});
   cut.commands.push_back(pull.commands[1 + moves_before_cut]);
   return cut;
@@ -193,19 +216,21 @@ std::vector<ElementId> physics_handles(const Case& object) {
   return handles;
 }
 
-std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut) {
+std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, double radius_share) {
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
-  const double size = (high - low).maxCoeff();
+  const double size = (high - low).maxCoeff(), radius = radius_share * size;
   std::vector<RecordedMoves> drags;
   for (const ElementId handle : physics_handles(object)) {
     const Point outward = outward_of(object, handle), across = across_of(mesh, outward);
+    drags.push_back(drag(object, handle, radius, nudge_share * size * (outward + across).normalized(), "nudge",
+                         "5 % of the object’s size"));
+    drags.push_back(drag(object, handle, radius, pull_share * size * outward, "pull",
+                         "20 % of the object’s size away from the pins"));
     drags.push_back(
-        drag(mesh, handle, nudge_share * size * (outward + across).normalized(), "nudge", "5 % of the object’s size"));
+        drag(object, handle, radius, pull_share * size * across, "bend", "20 % of the object’s size across"));
     drags.push_back(
-        drag(mesh, handle, pull_share * size * outward, "pull", "20 % of the object’s size away from the pins"));
-    drags.push_back(drag(mesh, handle, pull_share * size * across, "bend", "20 % of the object’s size across"));
-    drags.push_back(drag(mesh, handle, far_share * size * across, "far bend", "50 % of the object’s size across"));
+        drag(object, handle, radius, far_share * size * across, "far bend", "50 % of the object’s size across"));
   }
   if (RecordedMoves cut = with_cut ? cut_then_move(object, drags[1]) : RecordedMoves(); !cut.commands.empty()) {
     drags.push_back(std::move(cut));

@@ -25,6 +25,10 @@ std::vector<ElementId> physics_handles(const Case& object);
 /// a pull (20 % away from the pins) and a bend (20 % across). Then `cut, then move`: half of the first handle's pull,
 /// the deepest cut between the handle and the nearest pin that leaves linear elasticity a unique solution, and one more
 /// move. It is missing if there is no such cut. Finding the cut takes about as long as a factorization.
-std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut = true);
+///
+/// With a radius, as a share of the largest extent, a handle is the patch of all elements without a pin within it.
+std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut = true, double radius_share = 0);
+/// The radius of the patches of comparisons with a refined reference.
+inline constexpr double patch_share = 0.16;
 
 }  // namespace chainmail::report

@@ -5,12 +5,13 @@
 namespace chainmail::report {
 namespace {
 
-/// Returns a remark on the cells that a method works on. Two methods have the same cells as the reference solution, so
+/// Returns a remark on the cells that a method works on. Some have the same cells as the reference solution, so
 /// their errors do not include the error of the mesh.
 const char* cells_of(Algorithm algorithm) {
   switch (algorithm) {
     case Algorithm::linear_fem:
     case Algorithm::neo_hookean:
+    case Algorithm::corotational:
       return ", on the same cells";
     case Algorithm::boundary_elements:
       return ", on its surface mesh";

@@ -18,6 +18,8 @@ struct PhysicsContestant {
   std::optional<LinkSoftness> calibrated =
       {};                    // result of the calibration on this object; none: the object's own softness
   bool equilibrium = false;  // true: relaxed to the equilibrium after each move, instead of sweeps
+
+  bool operator==(const PhysicsContestant&) const = default;
 };
 /// Returns the name in files: `nothing`, or that of the algorithm.
 std::string name(const PhysicsContestant& contestant);

@@ -59,7 +59,7 @@ std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget
   }
   const double start = growth_clock();
   try {
-    ReferenceSolver solver(elastic_problem(object));
+    ReferenceSolver solver(reference_problem(object));
     const auto& commands = object.drags.front().commands;
     ReferenceSolution reference = solver.at(std::get<commands::Grab>(commands.front()).elements.front(),
                                             std::get<commands::Drag>(commands.back()).target);

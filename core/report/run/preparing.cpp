@@ -12,6 +12,31 @@ namespace {
 constexpr int most_preparations = 15;
 constexpr double enough_preparing = 1;  // seconds
 
+/// Returns the handle of the first drag that grabs an element, about its middle.
+ElasticHandle elastic_handle(const Case& object, ElementId handle) {
+  const Mesh& mesh = *object.mesh;
+  const auto drag = std::ranges::find(object.drags, handle, handle_of);
+  if (drag == object.drags.end() || drag->radius == 0) {
+    return ElasticHandle::of(handle);
+  }
+  const auto n = static_cast<std::size_t>(mesh.space_dimension);
+  std::vector<ElementId> elements = std::get<commands::Grab>(drag->commands.front()).elements;
+  if (elements.size() == 1) {
+    return ElasticHandle::of(elements.front());
+  }
+  std::vector<double> middle(n, 0.0), arms;
+  for (const ElementId e : elements) {
+    for (std::size_t k = 0; k < n; ++k) {
+      arms.push_back(mesh.rest[e * n + k]);
+      middle[k] += arms.back() / double(elements.size());
+    }
+  }
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    arms[i] -= middle[i % n];
+  }
+  return {std::move(elements), std::vector<double>(arms.size(), 0.0), arms};
+}
+
 }  // namespace
 
 PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
@@ -25,7 +50,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {
       try {
-        const double seconds = seconds_of(clocks, [&] { solver->hold(ElasticHandle::of(handle)); });
+        const double seconds = seconds_of(clocks, [&] { solver->hold(elastic_handle(object, handle)); });
         grab_[handle].push_back(1e3 * seconds);
       } catch (const Error&) {
         grab_.erase(handle);  // the drag itself reports the reason
@@ -49,6 +74,12 @@ ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cu
   return problem;
 }
 
+ElasticProblem reference_problem(const Case& object, const std::vector<LinkId>& cut) {
+  ElasticProblem problem = elastic_problem(object, cut);
+  problem.law = object.law;
+  return problem;
+}
+
 std::vector<ElementId> handles_of(const Case& object) {
   std::vector<ElementId> handles;
   for (const RecordedMoves& moves : object.drags) {
@@ -60,6 +91,9 @@ std::vector<ElementId> handles_of(const Case& object) {
 }
 
 ElementId handle_of(const RecordedMoves& moves) {
+  if (moves.centre) {
+    return *moves.centre;
+  }
   for (const Command& command : moves.commands) {
     if (const auto* grab = std::get_if<commands::Grab>(&command)) {
       return grab->elements.front();

@@ -22,6 +22,8 @@ class PreparingTimes {
 
 /// Returns the elastic problem of an object with its pins at rest, with these links cut.
 ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cut = {});
+/// The same, with the material of the reference solution.
+ElasticProblem reference_problem(const Case& object, const std::vector<LinkId>& cut = {});
 /// Returns the elements that the drags of an object grab, each once, in their order.
 std::vector<ElementId> handles_of(const Case& object);
 /// Returns the element that a drag grabs, the first of many, or 0 if it grabs none.

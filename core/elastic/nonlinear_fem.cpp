@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "elastic/corotated.h"
 #include "elastic/elimination.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
+#include "elastic/rigid_fit.h"
+#include "elastic/stiffening.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -21,12 +24,13 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Finite deformations on linear elements: Newton's method with a line search. The handle's displacement is applied in
-/// load steps.
-class NeoHookean final : public ElasticSolver {
+/// Finite deformations on linear elements, of a neo-Hookean or a corotated energy, or of a material that stiffens:
+/// Newton's method with a line search. The handle's displacement is applied in load steps.
+class NonlinearFem final : public ElasticSolver {
  public:
-  NeoHookean(const ElasticProblem& problem, const Progress& progress)
-      : dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
+  NonlinearFem(const char* name, SimplexModel model, const ElasticProblem& problem, const Progress& progress)
+      : model_(std::move(model)),
+        dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
         elements_(problem.mesh->element_count()),
         pins_(problem.pins),
         pinned_(problem.pinned),
@@ -36,11 +40,7 @@ class NeoHookean final : public ElasticSolver {
         base_(problem.mesh->rest.size(), 0.0) {
     check_held(simplices_, *problem.mesh, problem.pins);
     if (std::ranges::any_of(pinned_, [](double one) { return one != 0; })) {
-      Newton newton(simplices_, lame_, elements_, order_, pins_);
-      const std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 1));
-      if (!stuck.empty()) {
-        throw Error("neo-Hookean FEM", "with the pins at their positions, " + stuck, "reset the object, then pin it");
-      }
+      find_base(name, rigid_fit(problem), progress);
     }
     reset();
   }
@@ -49,7 +49,7 @@ class NeoHookean final : public ElasticSolver {
     if (!newton_ || handle.elements != handle_.elements) {
       std::vector<ElementId> prescribed = pins_;
       prescribed.insert(prescribed.end(), handle.elements.begin(), handle.elements.end());
-      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed);
+      newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed, model_);
     }
     handle_ = handle;
   }
@@ -81,8 +81,32 @@ class NeoHookean final : public ElasticSolver {
   }
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return remark_; }
+  bool follows_path() const override { return true; }
 
  private:
+  /// Computes the answer to the pins alone: from the rigid motion that is closest to theirs, or else from rest.
+  void find_base(const char* name, const std::vector<double>& rigid, const Progress& progress) {
+    Newton newton(simplices_, lame_, elements_, order_, pins_, model_);
+    std::vector<double> from_rest = base_;
+    start_rigidly(rigid);
+    std::string stuck = carry(newton, pins_, pinned_, base_, progress.part(0.1, 0.5));
+    if (!stuck.empty()) {
+      stuck = carry(newton, pins_, pinned_, from_rest, progress.part(0.5, 1));
+      base_ = std::move(from_rest);
+    }
+    if (!stuck.empty()) {
+      throw Error(name, "with the pins at their positions, " + stuck, "reset the object, then pin it");
+    }
+  }
+
+  /// Elements without a cell stay at rest.
+  void start_rigidly(const std::vector<double>& displacements) {
+    for (const ElementId e : order_) {
+      std::copy_n(displacements.begin() + static_cast<std::ptrdiff_t>(e * dimension_), dimension_,
+                  base_.begin() + static_cast<std::ptrdiff_t>(e * dimension_));
+    }
+  }
+
   /// Moves some prescribed elements from their displacements to their targets. Returns an empty text if it converged.
   /// Otherwise returns the reason, and `displacements` is the last converged state.
   std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
@@ -117,6 +141,7 @@ class NeoHookean final : public ElasticSolver {
     return {};
   }
 
+  SimplexModel model_;
   std::size_t dimension_;
   ElementId elements_;
   std::vector<ElementId> pins_;
@@ -133,7 +158,12 @@ class NeoHookean final : public ElasticSolver {
 }  // namespace
 
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
-  return std::make_unique<NeoHookean>(problem, progress);
+  check(problem.law, problem.options.material);
+  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.law), problem, progress);
+}
+
+std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress) {
+  return std::make_unique<NonlinearFem>("corotational FEM", corotated, problem, progress);
 }
 
 }  // namespace chainmail

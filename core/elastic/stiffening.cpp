@@ -1,0 +1,164 @@
+#include "elastic/stiffening.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace chainmail {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr int longest_search =
+    200;  // turns; bisection alone reaches the rounding of a double in 60, from a bound found in as many
+
+/// f and its first two derivatives at I₁ − 3 = x.
+struct Shape {
+  double value = 0, slope = 0, curvature = 0;
+};
+Shape shape_of(double x, const StrainLaw& law, double mu) {
+  if (law.kind == StrainLaw::Kind::gent) {
+    const double left = 1 - x / law.gent_limit;
+    return left > 0 ? Shape{-mu / 2 * law.gent_limit * std::log1p(-x / law.gent_limit), mu / 2 / left,
+                            mu / 2 / (law.gent_limit * left * left)}
+                    : Shape{infinite, infinite, infinite};
+  }
+  if (law.kind == StrainLaw::Kind::fung) {
+    const double b = law.fung_exponent, grown = std::exp(b * x);
+    return {mu / 2 * std::expm1(b * x) / b, mu / 2 * grown, mu / 2 * b * grown};
+  }
+  return {mu / 2 * x, mu / 2, 0};
+}
+
+/// Finds ln s for the stretch s on the axes that are free of stress: 2 f'(I₁ − 3) s² − μ + λ' (ln J + m ln s) = 0.
+class FreeStretch {
+ public:
+  FreeStretch(double s, double l, const StrainLaw& law, const Lame& lame, double corrected, int axes)
+      : s_(s), l_(l), law_(law), mu_(lame.mu), lambda_(corrected), axes_(axes) {}
+
+  /// Newton's method between bounds, which are halved where it leaves them: the left side grows with ln s.
+  double log() const {
+    double low = -1, high = 1, a = 0;
+    while (slope(low) > 0 && low > -longest_search) {
+      low *= 2;
+    }
+    while (slope(high) < 0 && high < longest_search) {
+      high *= 2;
+    }
+    for (int turn = 0; turn < longest_search; ++turn) {
+      const double here = slope(a);
+      (here > 0 ? high : low) = a;
+      const double to = a - here / curvature(a);
+      const double next = to > low && to < high ? to : (low + high) / 2;  // also if it is not a number
+      const double step = next - a;
+      a = next;
+      if (std::abs(step) <= 1e-15 * (1 + std::abs(a))) {
+        break;
+      }
+    }
+    return a;
+  }
+  double curvature(double a) const {
+    const Shape f = at(a);
+    const double squared = std::exp(2 * a);
+    return 4 * squared * (f.slope + axes_ * squared * f.curvature) + axes_ * lambda_;
+  }
+
+ private:
+  Shape at(double a) const { return shape_of(s_ + axes_ * std::expm1(2 * a), law_, mu_); }
+  double slope(double a) const { return 2 * at(a).slope * std::exp(2 * a) - mu_ + lambda_ * (l_ + axes_ * a); }
+
+  double s_, l_;
+  const StrainLaw& law_;
+  double mu_, lambda_;
+  int axes_;
+};
+
+SimplexEnergy stiffening_energy(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
+                                const Lame& lame, Want want, const StrainLaw& law) {
+  const int n = simplices.dimension;
+  const auto rest_gradients = simplices.gradients_of(simplex);
+  const double volume = simplices.volumes[simplex];
+  const SmallMatrix strain = at * rest_gradients.transpose();  // F − 1
+  const SmallMatrix deformation = SmallMatrix::Identity(n, n) + strain;
+  SimplexEnergy result;
+  const double determinant = deformation.determinant();
+  result.inverted = !(determinant > 0);
+  if (result.inverted) {
+    return result;
+  }
+  const StiffeningTerm term =
+      stiffening_term(2 * strain.trace() + strain.squaredNorm(), std::log(determinant), law, lame, n);
+  result.inverted = term.infinite;
+  if (result.inverted) {
+    return result;
+  }
+  result.energy = volume * term.value;
+  result.magnitude = volume * term.magnitude;
+  if (want == Want::energy) {
+    return result;
+  }
+  const CornerDisplacements by_volume = deformation.inverse().transpose() * rest_gradients;  // derivatives of L
+  const CornerDisplacements by_shape = 2 * deformation * rest_gradients;                     // of S
+  const CornerDisplacements forces = volume * (term.slope_s * by_shape + term.slope_l * by_volume);
+  result.gradient = Eigen::Map<const CornerVector>(forces.data(), forces.size());
+  if (want == Want::gradient) {
+    return result;
+  }
+  const Eigen::Map<const CornerVector> l(by_volume.data(), by_volume.size()), s(by_shape.data(), by_shape.size());
+  result.hessian = volume * (term.curvature_ss * s * s.transpose() + term.curvature_ll * l * l.transpose() +
+                             term.curvature_sl * (s * l.transpose() + l * s.transpose()));
+  for (int a = 0; a <= n; ++a) {
+    for (int b = 0; b <= n; ++b) {
+      auto block = result.hessian.block(n * a, n * b, n, n);
+      block -= volume * term.slope_l * by_volume.col(b) * by_volume.col(a).transpose();
+      block.diagonal().array() += 2 * volume * term.slope_s * rest_gradients.col(a).dot(rest_gradients.col(b));
+    }
+  }
+  if (want == Want::convex) {
+    result.hessian = convex_part(result.hessian);
+  }
+  return result;
+}
+
+}  // namespace
+
+StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const Lame& lame, int dimension) {
+  const double corrected = lame.lambda - 4 * shape_of(0, law, lame.mu).curvature;
+  const int axes = 3 - dimension;
+  const FreeStretch free(s, l, law, lame, corrected, axes);
+  const bool is_gent = law.kind == StrainLaw::Kind::gent;
+  StiffeningTerm term;
+  // The stretch on the free axes lowers S by less than 1 each.
+  term.infinite = !std::isfinite(s) || (is_gent && s - axes >= law.gent_limit);
+  if (term.infinite) {
+    return term;
+  }
+  const double a = axes == 0 ? 0 : free.log();
+  const double squared = std::exp(2 * a), whole = l + axes * a;
+  const Shape f = shape_of(s + axes * std::expm1(2 * a), law, lame.mu);
+  term.infinite = !std::isfinite(f.value) || !std::isfinite(f.curvature);
+  if (term.infinite) {
+    return term;
+  }
+  term.value = f.value - lame.mu * whole + corrected / 2 * whole * whole;
+  term.magnitude = std::abs(f.value) + std::abs(lame.mu * whole) + corrected / 2 * whole * whole;
+  term.slope_s = f.slope;
+  term.slope_l = corrected * whole - lame.mu;
+  const double by_s = axes == 0 ? 0 : -2 * f.curvature * squared / free.curvature(a);  // derivatives of a
+  const double by_l = axes == 0 ? 0 : -corrected / free.curvature(a);
+  term.curvature_ss = f.curvature * (1 + 2 * axes * squared * by_s);
+  term.curvature_sl = 2 * f.curvature * axes * squared * by_l;
+  term.curvature_ll = corrected * (1 + axes * by_l);
+  return term;
+}
+
+SimplexModel model_of(const StrainLaw& law) {
+  if (law.kind == StrainLaw::Kind::neo_hookean) {
+    return neo_hookean;
+  }
+  return [law](const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at, const Lame& lame,
+               Want want) { return stiffening_energy(simplices, simplex, at, lame, want, law); };
+}
+
+}  // namespace chainmail

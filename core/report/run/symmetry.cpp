@@ -1,0 +1,145 @@
+#include "report/run/symmetry.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "measure/distance.h"
+#include "mesh/error.h"
+#include "report/run/clocks.h"
+#include "report/run/preparing.h"
+#include "report/run/runner.h"
+
+namespace chainmail::report {
+namespace {
+
+// Contestants whose move takes longer than this (s), with all preparation, do not run on the turned objects.
+constexpr double longest_answer = 10;
+
+/// Returns the rotation across the plane of the object, or about z.
+Point rotation_by(const Mesh& mesh, double degrees) {
+  const Point axis = mesh.space_dimension == 2 ? Point(Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])))
+                                               : Point(Point::Unit(2));
+  return axis * (degrees * std::numbers::pi / 180);
+}
+
+/// Returns the frame that turns with the object. Principal axes are found anew, as a user's would be.
+RegionFrame turned(const RegionFrame& frame, const Mesh& mesh, const Eigen::Matrix3d& turn) {
+  if (frame.kind() != FrameKind::given) {
+    return frame_for(mesh, frame);
+  }
+  const Eigen::AngleAxisd both(Eigen::Matrix3d(turn * frame.axes()));
+  return {FrameKind::given, both.angle() * both.axis()};
+}
+
+/// Returns one move to the end of a drag without a cut.
+RecordedMoves one_move(const Case& object) {
+  const auto bend = std::ranges::find(object.drags, "bend", &RecordedMoves::name);
+  const RecordedMoves& moves = bend == object.drags.end() ? object.drags.front() : *bend;
+  RecordedMoves result{moves.name, moves.description, {moves.commands.front()}};
+  for (const Command& command : moves.commands) {
+    if (std::holds_alternative<commands::Drag>(command)) {
+      result.commands.resize(1, command);
+      result.commands.push_back(command);
+    }
+  }
+  return result;
+}
+
+/// Returns the answer of a contestant, turned back: space_dimension coordinates per element. Throws Error, also if the
+/// contestant does not reach its target.
+std::vector<double> answer_of(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options,
+                              const RegionFrame& back, const std::stop_token& stop) {
+  Runner runner(object, *contestant.algorithm, Precision::double_precision, options);
+  runner.run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, stop);
+  const Simulation& simulation = runner.simulation();
+  if (const std::string& remark = simulation.statistics().remark; !remark.empty()) {
+    throw Error(object.name, remark, "drag it less far");
+  }
+  std::vector<double> positions(object.mesh->rest.size());
+  simulation.body().copy_positions(positions);
+  for (std::size_t at = 0; at < positions.size(); at += std::size_t(object.mesh->space_dimension)) {
+    turn_into_frame(*object.mesh, back, positions.data() + at);
+  }
+  return positions;
+}
+
+PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
+  return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
+}
+
+bool takes_part(const PhysicsContestant& contestant) {
+  return contestant.algorithm && (contestant.sweeps == 0 || contestant.calibrated);
+}
+
+}  // namespace
+
+Case turned(const Case& object, const Point& rotation) {
+  const RegionFrame turn(FrameKind::given, rotation), back(FrameKind::given, -rotation);
+  Case result = object;
+  result.mesh = in_frame(object.mesh, back);
+  result.softness.frame = turned(object.softness.frame, *result.mesh, turn.axes());
+  for (RecordedMoves& moves : result.drags) {
+    for (Command& command : moves.commands) {
+      if (auto* drag = std::get_if<commands::Drag>(&command)) {
+        drag->target = turn.into_world(drag->target);
+        drag->rotation.axis = turn.into_world(drag->rotation.axis);
+      }
+    }
+  }
+  return result;
+}
+
+const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsContestant& contestant) {
+  const auto found = std::ranges::find(all, contestant, &Symmetry::contestant);
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vector<PhysicsContestant>& contestants,
+                                              const CompareOptions& options, const std::function<void(double)>& tell,
+                                              const std::stop_token& stop) {
+  std::vector<Symmetry> result;
+  if (asked.mesh->space_dimension < 2 || asked.drags.empty()) {
+    return result;
+  }
+  const Clocks clocks = machine_clocks();
+  Case object = asked;
+  object.drags = {one_move(asked)};
+  for (std::size_t i = 0; i < contestants.size() && !stop.stop_requested(); ++i) {
+    tell(double(i) / double(contestants.size()));
+    if (!takes_part(contestants[i])) {
+      continue;
+    }
+    Symmetry& one = result.emplace_back(Symmetry{contestants[i], {}, {}});
+    if (contestants[i].calibrated) {
+      object.softness = {*contestants[i].calibrated, {}, asked.softness.energy, asked.softness.frame};
+    } else {
+      object.softness = asked.softness;
+    }
+    try {
+      const Mesh& mesh = *object.mesh;
+      const double start = clocks.wall();
+      const std::vector<double> own = answer_of(object, contestants[i], options, {}, stop);
+      if (const double seconds = clocks.wall() - start; seconds > longest_answer) {
+        throw Error(object.name, "one move takes " + std::to_string(int(seconds)) + " s, so it is not repeated turned",
+                    "use a smaller object");
+      }
+      const double displacement = measure_distance(mesh, view_of(mesh, own), view_of(mesh, mesh.rest)).rms;
+      for (const double degrees : symmetry_angles) {
+        const Point rotation = rotation_by(mesh, degrees);
+        const std::vector<double> back =
+            answer_of(turned(object, rotation), contestants[i], options, RegionFrame(FrameKind::given, rotation), stop);
+        const Distance apart = measure_distance(mesh, view_of(mesh, own), view_of(mesh, back));
+        one.turns.push_back({degrees, apart.max, displacement > 0 ? apart.rms / displacement : 0});
+      }
+    } catch (const Error& error) {
+      one.turns.clear();
+      one.refusal = error.what();
+    }
+  }
+  return result;
+}
+
+}  // namespace chainmail::report
