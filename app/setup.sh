@@ -7,15 +7,15 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev nlohmann-json3-dev libcli11-dev
-  libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libseccomp-dev
+  libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libbullet-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
-test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen)
+test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen parallel python3 python3-jsonschema)
 check_packages=(clang-tidy mold python3)
 mutant_packages=(python3)
-bench_packages=(libbenchmark-dev libbullet-dev)
+bench_packages=(libbenchmark-dev)
 fuzz_packages=(clang libclang-rt-14-dev)
 
 # Lets ccache reuse objects of other checkouts and earlier builds. The last two are needed for precompiled headers.

@@ -31,7 +31,9 @@ constexpr const char* compare_footer =
     "     \"rotate\": {\"axis\": [0, 0, 1], \"degrees\": 20}}]}\n\n"
     "Example:\n"
     "  chainmail compare cloth.obj --algorithms natural-queue,exact --relax 0,10 -o report\n"
-    "  chainmail compare organ.msh --against physics --pins bottom --poisson 0.45 -o report";
+    "  chainmail compare organ.msh --against physics --pins bottom --poisson 0.45 -o report\n"
+    "  chainmail compare --suite -o suite\n"
+    "  chainmail compare --merge part1/report.json part2/report.json -o suite";
 
 /// Returns the drags of an object: the recorded ones, or the three standard drags.
 std::vector<report::RecordedMoves> drags_of(const report::Case& object, const std::optional<std::string>& recorded) {
@@ -59,11 +61,16 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
     throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");
   }
   if (options.meshes->count() == 0) {
+    refuse_pins(options);
     return with_frames(report::default_cases(softness), options);
   }
   std::vector<report::Case> cases;
   for (const std::string& name : options.meshes->results()) {
     report::Case object = case_of(name, options);
+    object.elastic = elastic_of(options.elastic);
+    if (options.pins->count() > 0) {
+      object.pins = pins_of(options.pins, object.name, *object.mesh);
+    }
     object.drags = drags_of(object, recorded);
     cases.push_back(std::move(object));
   }
@@ -72,17 +79,24 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
 
 void refuse_physics(const CompareArguments& arguments) {
   for (const CLI::Option* option :
-       {arguments.pins, arguments.grow, arguments.calibrated, arguments.elastic.young, arguments.elastic.poisson,
-        arguments.elastic.lattice, arguments.elastic.iterations, arguments.reference, arguments.laws.materials,
-        arguments.laws.gent_limit, arguments.laws.fung_exponent}) {
+       {arguments.grow, arguments.calibrated, arguments.reference, arguments.laws.materials, arguments.laws.gent_limit,
+        arguments.laws.fung_exponent}) {
     if (option->count() > 0) {
       throw Error(option->get_name(), "it works only with --against physics", "add --against physics");
     }
   }
 }
 
+void refuse_suite(const CompareArguments& arguments) {
+  for (const CLI::Option* option : {arguments.experiments, arguments.shard}) {
+    if (option->count() > 0) {
+      throw Error(option->get_name(), "it works only with --suite", "add --suite");
+    }
+  }
+}
+
 void compare(const CompareArguments& options, const std::string& command_line) {
-  const report::CompareOptions how = contest_of(options, algorithms(), "0,10,equilibrium");
+  const report::CompareOptions how = contest_of(options, every_algorithm(), "0,10,equilibrium");
   OutputFolder folder(*value_of(options.output));
   const std::vector<report::Case> cases = cases_to_compare(options);
 
@@ -108,7 +122,14 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of time against error");
   const CompareArguments arguments = add_compare_arguments(*app);
   app->footer(compare_footer);
-  return {app, [arguments, command_line] {
+  return {app, [app, arguments, command_line] {
+            if (arguments.merge->count() > 0) {
+              return merge_suites(*app, arguments);
+            }
+            if (arguments.suite->count() > 0) {
+              return run_suite(*app, arguments, command_line);
+            }
+            refuse_suite(arguments);
             const std::string against = value_of(arguments.against).value_or("exact");
             check_word("--against", against, {"exact", "physics"});
             if (against == "physics") {

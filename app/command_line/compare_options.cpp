@@ -51,7 +51,7 @@ LinkSoftness preset_of(const std::string& name) {
 
 void add_contest(CLI::App& app, CompareArguments& options) {
   options.against = add_value(app, "--against", "exact|physics", "reference for the errors [exact]");
-  options.algorithms = add_value(app, "--algorithms", "A,B,…", "algorithms to compare: see deform --help [all]");
+  options.algorithms = add_value(app, "--algorithms", "A,B,…", "algorithms to compare: see deform --help [all; against exact: the ChainMail family]");
   options.relax =
       add_value(app, "--relax", "N,N,…",
                 "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
@@ -76,17 +76,34 @@ void add_physics(CLI::App& app, CompareArguments& options) {
   options.calibrated =
       add_value(app, "--calibrated", "on|off",
                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
-  for (CLI::Option* option : {options.pins, options.grow, options.calibrated, options.elastic.young,
-                              options.elastic.poisson, options.elastic.lattice, options.elastic.iterations}) {
+  for (CLI::Option* option : {options.grow, options.calibrated, options.reference, options.laws.materials,
+                              options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
   }
-  for (CLI::Option* option :
-       {options.reference, options.laws.materials, options.laws.gent_limit, options.laws.fung_exponent}) {
-    option->group("Against physics");
+  for (CLI::Option* option : {options.pins, options.elastic.young, options.elastic.poisson, options.elastic.lattice,
+                              options.elastic.iterations}) {
+    option->group("Pins and methods of elasticity");
+  }
+}
+
+void add_suite(CLI::App& app, CompareArguments& options) {
+  options.suite = app.add_flag("--suite")->description(
+      "run the suite of experiments, about 15 minutes: all contestants against closed forms and converged references");
+  options.experiments = add_value(app, "--experiments", "NAME,…", "only these experiments of the suite [all]");
+  options.shard = add_value(app, "--shard", "I/N", "only part I of N of the suite, for several machines [1/1]");
+  options.merge = app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
+  for (CLI::Option* option : {options.suite, options.experiments, options.shard, options.merge}) {
+    option->group("Suite");
   }
 }
 
 }  // namespace
+
+bool is_calibrated(const CompareArguments& arguments) {
+  const std::string calibrated = value_of(arguments.calibrated).value_or("on");
+  check_word("--calibrated", calibrated, {"on", "off"});
+  return calibrated == "on";
+}
 
 report::CompareOptions contest_of(const CompareArguments& options, std::span<const AlgorithmInfo> algorithms,
                                   const std::string& relax) {
@@ -123,6 +140,12 @@ report::Case case_of(const std::string& file, const CompareArguments& arguments)
           {}};
 }
 
+void refuse_pins(const CompareArguments& arguments) {
+  if (arguments.pins->count() > 0) {
+    throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
+  }
+}
+
 std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments) {
   for (report::Case& one : cases) {
     one.softness.frame = frame_of(arguments.softness, *one.mesh);
@@ -146,6 +169,7 @@ CompareArguments add_compare_arguments(CLI::App& app) {
       add_value(app, "--moves", "FILE", "recorded moves (JSON) to run from rest, instead of the three drags");
   options.output = add_value(app, "-o", "FOLDER", "folder for the report; created if missing")->required();
   add_physics(app, options);
+  add_suite(app, options);
   return options;
 }
 

@@ -17,6 +17,7 @@ struct CompareArguments {
   ElasticArguments elastic;
   StrainLawArguments laws;
   CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
+  CLI::Option *suite = nullptr, *experiments = nullptr, *shard = nullptr, *merge = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
@@ -27,8 +28,18 @@ report::CompareOptions contest_of(const CompareArguments& arguments, std::span<c
 Softness softness_of(const CompareArguments& arguments);
 /// Reads a mesh as a case of the report: at rest, without drags.
 report::Case case_of(const std::string& file, const CompareArguments& arguments);
+/// Throws Error if there are pins: built-in objects have their own, or none.
+void refuse_pins(const CompareArguments& arguments);
 /// Gives built-in objects the frame of the option.
 std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments);
+
+/// Returns true if contestants are calibrated.
+bool is_calibrated(const CompareArguments& arguments);
+
+/// Runs the experiments of the suite and writes the report. Throws Error before it writes anything.
+void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line);
+/// Joins reports of the suite. Throws Error before it writes anything.
+void merge_suites(const CLI::App& app, const CompareArguments& arguments);
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

@@ -26,9 +26,7 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100,equilibrium");
   options.contest.seconds = seconds_per_drag;
   std::ranges::sort(options.contest.sweeps);  // in ascending order, because a curve connects them
-  const std::string calibrated = value_of(arguments.calibrated).value_or("on");
-  check_word("--calibrated", calibrated, {"on", "off"});
-  if (calibrated == "on") {
+  if (is_calibrated(arguments)) {
     options.calibrate = calibrator_for_reports(options.contest.scheme);
   }
   const std::string reference = value_of(arguments.reference).value_or("same-cells");
@@ -52,9 +50,7 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
     throw Error("--moves", "the comparison with physics uses its own drags", "leave out the option");
   }
   if (arguments.meshes->count() == 0) {
-    if (arguments.pins->count() > 0) {
-      throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
-    }
+    refuse_pins(arguments);
     return with_frames(report::physics_cases(softness, elastic), arguments);
   }
   std::vector<report::Case> cases;

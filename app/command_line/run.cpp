@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "command_line/common.h"
+#include "command_line/version.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 
@@ -88,7 +89,7 @@ std::string as_typed(int argc, char** argv) {
 
 void run(int argc, char** argv) {
   CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");
-  root.set_version_flag("--version", std::string("chainmail ") + CHAINMAIL_VERSION, "Print the version and exit");
+  root.set_version_flag("--version", version_in_words(), "Print the version and exit");
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{add_generate(root),

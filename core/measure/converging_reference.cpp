@@ -1,5 +1,6 @@
 #include "measure/converging_reference.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,11 +13,13 @@
 #include "mesh/cells.h"
 #include "mesh/error.h"
 #include "mesh/refine.h"
+#include "solve/elastic_deformation.h"
 
 namespace chainmail {
 namespace {
 
 constexpr double growth_of_time = 12;  // of a level over the one before: eight times the cells, and more fill
+constexpr double largest_turn = 0.25;  // of the handle in one load step (radians)
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -80,7 +83,35 @@ void add_pins(ElasticProblem& problem, const ElasticProblem& before, const Refin
   }
 }
 
+/// Returns a handle of elements at rest, with their arms from the mean of their positions.
+ElasticHandle handle_about_middle(const Mesh& mesh, const std::vector<ElementId>& elements) {
+  const Point middle = middle_of(mesh, elements);
+  ElasticHandle handle{elements, {}, {}};
+  for (const ElementId element : elements) {
+    const Point arm = mesh.rest_position(element) - middle;
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      handle.arms.push_back(arm[mesh.axes[std::size_t(k)]]);
+    }
+  }
+  handle.displacements.assign(handle.arms.size(), 0.0);
+  return handle;
+}
+
+/// Returns the rotation vector of a motion.
+Point rotation_of(const RigidMotion& motion) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion.turn + Eigen::Matrix3d::Identity()));
+  return turn.angle() * turn.axis();
+}
+
 }  // namespace
+
+Point middle_of(const Mesh& mesh, const std::vector<ElementId>& elements) {
+  Point middle = Point::Zero();
+  for (const ElementId element : elements) {
+    middle += mesh.rest_position(element) / double(elements.size());
+  }
+  return middle;
+}
 
 std::vector<ElementId> elements_in(const Mesh& mesh, const Patch& patch, const std::vector<ElementId>& excluded) {
   std::vector<ElementId> elements;
@@ -138,20 +169,20 @@ void ConvergingReference::add_level() {
 }
 
 std::vector<double> ConvergingReference::from_rest(Level& level, const std::vector<ElementId>& elements,
-                                                   const Point& way, const Progress& progress) {
+                                                   const RigidMotion& motion, const Progress& progress) {
   const Mesh& mesh = *level.refinement.mesh;
-  std::vector<double> displacement;
-  displacement.reserve(3);
-  for (int k = 0; k < mesh.space_dimension; ++k) {
-    displacement.push_back(way[mesh.axes[std::size_t(k)]]);
-  }
-  const std::vector<double> none(elements.size() * displacement.size(), 0.0);
   ElasticSolver& solver = *level.solver;
   solver.reset();
-  solver.hold(elements.size() == 1 ? ElasticHandle::of(elements.front()) : ElasticHandle{elements, none, none});
-  solver.move(ElasticMotion::by(displacement), progress);
-  if (!solver.remark().empty()) {
-    throw Error(label(level.problem.law) + " FEM", solver.remark(), "drag less far, or use a finer mesh");
+  solver.hold(elements.size() == 1 ? ElasticHandle::of(elements.front()) : handle_about_middle(mesh, elements));
+  const Point rotation = rotation_of(motion);
+  const int steps = std::max(1, int(std::ceil(rotation.norm() / largest_turn)));
+  for (int step = 1; step <= steps; ++step) {
+    const double share = double(step) / steps;
+    const RigidMotion part = step == steps ? motion : RigidMotion{turn_of(share * rotation), share * motion.translation};
+    solver.move(elastic_motion(mesh, part), progress.part(double(step - 1) / steps, share));
+    if (!solver.remark().empty()) {
+      throw Error(label(level.problem.law) + " FEM", solver.remark(), "drag less far, or use a finer mesh");
+    }
   }
   return solver.displacements();
 }
@@ -188,16 +219,22 @@ bool ConvergingReference::is_last(ConvergedReference& result, double expected) c
 }
 
 ConvergedReference ConvergingReference::at(const Patch& patch, const Point& way, const Progress& progress) {
-  const double begin = now();
-  const MeshPointer own = levels_.front()->refinement.mesh;
-  const std::vector<ElementId>& pins = levels_.front()->problem.pins;
-  const std::vector<ElementId> grabbed = elements_in(*own, patch, pins);
+  const Level& own = *levels_.front();
+  const std::vector<ElementId> grabbed = elements_in(*own.refinement.mesh, patch, own.problem.pins);
   if (grabbed.empty()) {
     throw Error("handle", "no free element is within its radius", "use a larger radius, or another element");
   }
+  return at(grabbed, {Eigen::Matrix3d::Zero(), way}, progress);
+}
+
+ConvergedReference ConvergingReference::at(const std::vector<ElementId>& grabbed, const RigidMotion& motion,
+                                           const Progress& progress) {
+  const double begin = now();
+  const MeshPointer own = levels_.front()->refinement.mesh;
+  const std::vector<ElementId>& pins = levels_.front()->problem.pins;
   ConvergedReference result;
   std::vector<ElementId> handle = grabbed;
-  std::vector<double> last = from_rest(*levels_.front(), handle, way, progress);
+  std::vector<double> last = from_rest(*levels_.front(), handle, motion, progress);
   result.levels.push_back({own->element_count(), std::nullopt});
   double spent = now() - begin;
   for (std::size_t level = 1; !is_last(result, now() - begin + growth_of_time * spent); ++level) {
@@ -222,7 +259,11 @@ ConvergedReference ConvergingReference::at(const Patch& patch, const Point& way,
     result.order = std::log2(*result.levels[n - 2].change / *result.levels[n - 1].change);
   }
   result.solution.displacements.assign(last.begin(), last.begin() + std::ptrdiff_t(own->rest.size()));
-  result.solution.handle_displacement = way.norm();
+  const Point middle = middle_of(*own, grabbed);
+  for (const ElementId element : grabbed) {
+    const double displacement = motion.of(own->rest_position(element) - middle).norm();
+    result.solution.handle_displacement = std::max(result.solution.handle_displacement, displacement);
+  }
   result.solution.only_free = true;
   result.solution.prescribed = pins;
   result.solution.prescribed.insert(result.solution.prescribed.end(), grabbed.begin(), grabbed.end());

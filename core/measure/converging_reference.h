@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/reference_solution.h"
+#include "solve/handle.h"
 
 namespace chainmail {
 
@@ -17,6 +18,9 @@ struct Patch {
 };
 /// Returns the elements of a patch, ascending, without those of `excluded` (ascending).
 std::vector<ElementId> elements_in(const Mesh& mesh, const Patch& patch, const std::vector<ElementId>& excluded = {});
+
+/// Returns the mean of the rest positions of some elements (mesh units).
+Point middle_of(const Mesh& mesh, const std::vector<ElementId>& elements);
 
 /// A reference counts as converged if the last refinement changed the answer by less than this share: the RMS of the
 /// change over the RMS of the displacements, over the object's own elements.
@@ -61,13 +65,16 @@ class ConvergingReference {
   /// Returns the solution with the elements of the patch displaced by `way` (mesh units), as far as the time and the
   /// limit of the method allow. Throws Error if the object's own cells have no answer, and Cancelled.
   ConvergedReference at(const Patch& patch, const Point& way, const Progress& progress = {});
+  /// The same for these elements of the object (ascending, none pinned), which move as one rigid body about the mean of
+  /// their rest positions.
+  ConvergedReference at(const std::vector<ElementId>& handle, const RigidMotion& motion, const Progress& progress = {});
 
  private:
   struct Level;
 
   void add_level();
   // These return the displacements of all elements of a level.
-  static std::vector<double> from_rest(Level& level, const std::vector<ElementId>& elements, const Point& way,
+  static std::vector<double> from_rest(Level& level, const std::vector<ElementId>& elements, const RigidMotion& motion,
                                        const Progress& progress);
   static std::vector<double> from_start(Level& level, const std::vector<ElementId>& elements,
                                         std::vector<double> displacements, const Progress& progress);

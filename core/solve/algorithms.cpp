@@ -135,7 +135,8 @@ std::vector<AlgorithmInfo> make_table() {
        .look = {"M-1.2-.9H1.2L.35.9H-.35Z", "#b400e1"},  // trapezium
        .make = make_elastic_method<ElasticMethod::xpbd>,
        .elastic = ElasticMethod::xpbd,
-       .needs_pins = true},
+       .needs_pins = true,
+       .obeys_iterations = true},
       {.algorithm = Algorithm::projective,
        .name = "projective",
        .label = "Projective Dynamics",
@@ -144,7 +145,8 @@ std::vector<AlgorithmInfo> make_table() {
        .look = {"M-1 1V-1L1 1Z", "#5fd35f"},  // right triangle
        .make = make_elastic_method<ElasticMethod::projective>,
        .elastic = ElasticMethod::projective,
-       .needs_pins = true},
+       .needs_pins = true,
+       .obeys_iterations = true},
   };
 }
 

@@ -31,6 +31,11 @@ ElasticHandle elastic_handle(const Mesh& mesh, const Handle& handle) {
   return result;
 }
 
+// Largest rotation in one step of a method that depends on the path (radians).
+constexpr double largest_turn = 0.25;
+
+}  // namespace
+
 ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion) {
   const int n = mesh.space_dimension;
   ElasticMotion result{SmallMatrix(n, n), SmallVector(n)};
@@ -43,11 +48,6 @@ ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion) {
   }
   return result;
 }
-
-// Largest rotation in one step of a method that depends on the path (radians).
-constexpr double largest_turn = 0.25;
-
-}  // namespace
 
 PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput output) {
   std::array<double, 3> displacement{};  // of a handle of one element

@@ -47,6 +47,9 @@ class ElasticDeformation final : public Method {
   Grab held_;
 };
 
+/// Returns a motion in the coordinates that exist.
+ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion);
+
 /// Makes the method of an entry of the algorithm table.
 template <ElasticMethod Which>
 std::unique_ptr<Method> make_elastic_method(Precision /*precision*/, int /*dimension*/) {

@@ -33,6 +33,7 @@ const QList<Room> rooms{
     {"core/mesh", {}},
     {"core/elastic", {"core/mesh"}},
     {"core/solve", {"core/elastic"}},
+    {"core/bullet", {"core/solve"}},
     {"core/measure", {"core/solve"}},
     {"core/simulate", {"core/measure"}},
     {"core/report/run", {"core/simulate"}},
@@ -57,7 +58,7 @@ const QList<Room> rooms{
     {"ui/io", {"ui/panels"}},
     {"ui/docks", {"ui/tools", "ui/io"}},
     {"ui/window", {"ui/docks"}},
-    {"app/command_line", {"core/files/session", "core/files/results"}},
+    {"app/command_line", {"core/bullet", "core/files/session", "core/files/results"}},
     {"app", {"app/command_line", "ui/window"}},
 };
 
@@ -78,6 +79,7 @@ const QList<Wrapped> libraries{
      "libraries that read meshes run only in the import program"},
     {QRegularExpression("^seccomp"), {"core/files/import"}, "the sandbox belongs in core/files/import"},
     {QRegularExpression("^nlopt"), {"core/calibrate"}, "optimization belongs in core/calibrate"},
+    {QRegularExpression("^(Bullet|LinearMath/|btBullet)"), {"core/bullet"}, "Bullet belongs in core/bullet"},
     {QRegularExpression("^CLI/|^CLI\\."), {"app"}, "arguments belong in app"},
     {QRegularExpression("^Eigen/"),
      {"core/mesh", "core/elastic", "core/solve", "core/measure", "core/simulate", "core/report", "core/files",
@@ -202,6 +204,9 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/files/import/program/fill.cpp", "#include <gmsh.h>", true);
   row("core/files/repair/repair.cpp", "#include \"files/import/import_process.h\"", true);
   row("core/calibrate/optimum.cpp", "#include <nlopt.h>", true);
+  row("core/bullet/soft_body.cpp", "#include <BulletSoftBody/btSoftBody.h>", true);
+  row("core/bullet/soft_body.h", "#include \"solve/algorithms.h\"", true);
+  row("app/command_line/compare_options.cpp", "#include \"bullet/soft_body.h\"", true);
   row("core/calibrate/drags.h", "#include \"report/run/cases.h\"", true);
   row("core/api/chainmail/body.h", "#include \"chainmail/mesh.h\"", true);
   row("core/api/body.cpp", "#include \"solve/solver.h\"", true);
@@ -235,6 +240,9 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/simulate/parameters.h", "#include \"files/mesh/mesh_file.h\"", false);
   row("core/report/run/compare.cpp", "#include <nlopt.hpp>", false);
   row("core/report/run/compare.cpp", "#include \"calibrate/calibrate.h\"", false);
+  row("core/solve/algorithms.cpp", "#include <BulletSoftBody/btSoftBody.h>", false);
+  row("core/solve/algorithms.cpp", "#include \"bullet/soft_body.h\"", false);
+  row("core/bullet/soft_body.h", "#include \"report/run/compare.h\"", false);
   row("core/report/run/compare.cpp", "#include \"report/page/table.h\"", false);
   row("core/files/formats/obj.h", "#include \"files/mesh/mesh_file.h\"", false);
   row("core/files/repair/repair.cpp", "#include <CGAL/Surface_mesh.h>", false);

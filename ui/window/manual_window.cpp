@@ -32,7 +32,7 @@ constexpr int lineHeight = 125;  // percent
 constexpr int rowSpacing = 3;    // of the list
 
 constexpr std::array files{"index.md",   "tour.md",         "algorithms.md", "hard-cases.md", "speed.md",
-                           "physics.md", "command-line.md", "formats.md",    "sessions.md",   "library.md"};
+                           "physics.md", "suite.md", "command-line.md", "formats.md",    "sessions.md",   "library.md"};
 
 QUrl urlOf(const QString& page) { return QStringLiteral("qrc:/manual/") + page; }
 

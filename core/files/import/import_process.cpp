@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "files/import/channels.h"
+#include "files/text/program_folder.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -34,7 +35,7 @@ std::filesystem::path import_program(const std::filesystem::path& given) {
   if (std::filesystem::is_regular_file(given, none)) {
     return given;
   }
-  const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  const auto folder = program_folder();
   for (const char* subfolder : {"", "../bin", "../libexec/chainmail"}) {
     if (auto program = folder / subfolder / "chainmail-import"; std::filesystem::is_regular_file(program, none)) {
       return program;

@@ -70,6 +70,25 @@ void write_html(std::ostream& out, const FigureTable& table) {
   out << "</tbody></table></div>\n";
 }
 
+void write_text(std::ostream& out, const FigureTable& table) {
+  std::vector<std::vector<std::string>> rows{{""}, {table.corner}};
+  std::string group;
+  for (const FigureTable::Column& column : table.columns) {
+    rows[0].push_back(column.group == group ? "" : column.group);
+    rows[1].push_back(column.name);
+    group = column.group;
+  }
+  for (const FigureTable::Row& row : table.rows) {
+    rows.push_back({row.label});
+    rows.back().insert(rows.back().end(), row.cells.begin(), row.cells.end());
+    if (!row.refusal.empty()) {
+      rows.back().push_back(row.refusal);
+    }
+  }
+  out << '\n' << table.caption << ": " << table.about << '\n';
+  write_columns(out, rows);
+}
+
 void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

@@ -28,6 +28,9 @@ struct FigureTable {
 /// Writes the table as part of a page, in a box that scrolls horizontally.
 void write_html(std::ostream& out, const FigureTable& table);
 
+/// Writes the table as aligned text, with its caption above it.
+void write_text(std::ostream& out, const FigureTable& table);
+
 /// Writes rows as aligned text. Each column is as wide as its widest cell; the first column is left-aligned. A row of
 /// two cells is a name and a sentence.
 void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows);

@@ -275,25 +275,6 @@ constexpr const char* how_to_read_text =
     "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
     "object, its pins and its cuts; grabbing is done once for each handle.\n";
 
-void write_table(std::ostream& out, const FigureTable& table) {
-  std::vector<std::vector<std::string>> rows{{""}, {table.corner}};
-  std::string group;
-  for (const FigureTable::Column& column : table.columns) {
-    rows[0].push_back(column.group == group ? "" : column.group);
-    rows[1].push_back(column.name);
-    group = column.group;
-  }
-  for (const FigureTable::Row& row : table.rows) {
-    rows.push_back({row.label});
-    rows.back().insert(rows.back().end(), row.cells.begin(), row.cells.end());
-    if (!row.refusal.empty()) {
-      rows.back().push_back(row.refusal);
-    }
-  }
-  out << '\n' << table.caption << ": " << table.about << '\n';
-  write_columns(out, rows);
-}
-
 FigureTable::Row row_of(const GrowthSeries& series) {
   FigureTable::Row row;
   row.label = label(series.contestant);
@@ -417,17 +398,17 @@ void write_text(std::ostream& out, const PhysicsReport& report) {
     out << how_to_read_refined << '\n';
   }
   if (report.objects.size() > 1) {
-    write_table(out, physics_summary(report));
+    write_text(out, physics_summary(report));
   }
   for (const PhysicsObject& object : report.objects) {
-    write_table(out, physics_table(object, true));
+    write_text(out, physics_table(object, true));
   }
   if (const FigureTable turned = symmetry_table(report); !turned.rows.empty()) {
-    write_table(out, turned);
+    write_text(out, turned);
   }
   for (const PhysicsGrowth& growth : report.growths) {
     out << (&growth == &report.growths.front() ? "\nGrowing objects\n" : "");
-    write_table(out, growth_table(growth));
+    write_text(out, growth_table(growth));
   }
 }
 

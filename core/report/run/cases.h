@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct RecordedMoves {
   // If the handle is a patch, the element at its centre and its radius (mesh units).
   std::optional<ElementId> centre = {};
   double radius = 0;
+  /// The displacement of a point of the object at rest at the end of the drag, if theory knows it (mesh units).
+  std::function<Point(const Point& rest)> closed_form = {};
 };
 
 /// An object at rest, and the drags to run on it.

@@ -68,6 +68,10 @@ class Experiment {
       : object_(object), moves_(moves), options_(options), stop_(stop) {
     result_ = {moves.name, moves.description, count_moves(moves), {}, {}};
     for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
+      if (!info(options.algorithms[i]).relaxes()) {
+        add(i, {options.algorithms[i], 0});
+        continue;
+      }
       for (const int sweeps : options.sweeps) {
         add(i, {options.algorithms[i], sweeps});
       }
@@ -137,7 +141,10 @@ class Experiment {
     try {
       const Runner::Run run = runner.run(moves_, entry.contestant.relaxing(), stop_);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (!run.stopped) {
+      if (const std::string remark = runner.simulation().statistics().remark;
+          !remark.empty() && info(entry.contestant.algorithm).elastic) {
+        entry.refusal = remark;
+      } else if (!run.stopped) {
         entry.measurement = Measurement{{}, 0, run.checked, run.moved, references.errors_of(runner, entry.contestant)};
       }
       return seconds;

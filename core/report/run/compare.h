@@ -21,10 +21,12 @@ inline constexpr double compared_residual = 1e-2;
 
 /// The relaxation after each pass: a number of sweeps, or iterations to the equilibrium.
 struct Relaxing {
-  Relaxing(int count = 0, bool to_equilibrium = false) : sweeps(count), equilibrium(to_equilibrium) {}
+  Relaxing(int count = 0, bool to_equilibrium = false, int most = equilibrium_iterations)
+      : sweeps(count), equilibrium(to_equilibrium), iterations(most) {}
 
   int sweeps;        // 0 with `equilibrium`
-  bool equilibrium;  // until the residual is below compared_residual, but at most equilibrium_iterations
+  bool equilibrium;  // until the residual is below compared_residual, but at most `iterations`
+  int iterations;
 
   bool is_none() const { return sweeps == 0 && !equilibrium; }
 };

@@ -1,11 +1,13 @@
 #include "report/run/contest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
 #include "mesh/error.h"
 #include "report/run/drag_times.h"
+#include "report/run/memory_in_use.h"
 #include "report/run/preparing.h"
 #include "report/run/runner.h"
 
@@ -14,6 +16,24 @@ namespace {
 
 constexpr int fewest_repetitions = 3, most_repetitions = 51;
 constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated
+constexpr double rounding_of_handle = 1e-4;    // mean rest lengths; positions are in float
+
+/// Returns true if the handle is where the reference has it.
+bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>& handle,
+                     const ReferenceSolution& reference) {
+  const Mesh& mesh = simulation.mesh();
+  const PositionView positions = simulation.body().positions();
+  const auto n = std::size_t(mesh.space_dimension);
+  return std::ranges::all_of(handle, [&](ElementId element) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double target = mesh.rest[element * n + k] + reference.displacements[element * n + k];
+      if (!(std::abs(positions(element, int(k)) - target) <= rounding_of_handle * mesh.mean_link_length)) {
+        return false;
+      }
+    }
+    return true;
+  });
+}
 
 }  // namespace
 
@@ -25,18 +45,24 @@ class Contest::Participant {
     if (!contestant.algorithm) {
       return;
     }
+    if (contestant.limit > 0 && !contestant.equilibrium) {
+      object_.elastic.iterations = std::uint32_t(contestant.limit);
+    }
     if (contestant.calibrated) {
       object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.frame};
     }
+    const auto before = bytes_in_use();
     try {
       runner_ = std::make_unique<Runner>(object_, *contestant.algorithm, options.precision, options);
     } catch (const Error& error) {
       refusal_ = error.what();
     }
+    bytes_ = bytes_since(before);
   }
 
-  /// Runs a drag for the first time and measures the errors.
-  void try_out(const RecordedMoves& moves, const ReferenceSolution& reference, const std::stop_token& stop) {
+  /// Runs a drag for the first time and measures the errors. `preparations` is null if nothing is timed.
+  void try_out(const RecordedMoves& moves, const ReferenceSolution& reference, Preparations* preparations,
+               const std::stop_token& stop) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
@@ -51,11 +77,17 @@ class Contest::Participant {
       return;
     }
     try {
-      prepare();
+      const PreparingTimes* preparing = preparations != nullptr && prepares(contestant_) ? &prepared(*preparations) : nullptr;
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
+      const auto before = bytes_in_use();
       run(stop);
-      measure(handle_of(moves), reference);
+      bytes_ = has_run_ ? bytes_ : sum_of(bytes_, bytes_since(before));
+      has_run_ = true;
+      measure(reference);
+      if (entry_.measurement && preparing != nullptr) {
+        entry_.measurement->prepare = preparing->of(handle_of(moves));
+      }
     } catch (const Error& error) {
       entry_.refusal = error.what();
     }
@@ -86,16 +118,23 @@ class Contest::Participant {
   }
 
  private:
-  /// Prepares once for the object and all its handles.
-  void prepare() {
-    if (prepares(contestant_) && !preparing_) {
-      preparing_.emplace(object_, *info(*contestant_.algorithm).elastic);
-    }
+  /// Returns the times of preparation for the object and all its handles. Measures them for the first contestant of a
+  /// method.
+  const PreparingTimes& prepared(Preparations& preparations) const {
+    const ElasticMethod method = *info(*contestant_.algorithm).elastic;
+    const auto found = preparations.find(method);
+    return found != preparations.end() ? found->second
+                                       : preparations.emplace(method, PreparingTimes(object_, method)).first->second;
+  }
+
+  Relaxing relaxing() const {
+    return contestant_.limit > 0 ? Relaxing{contestant_.sweeps, contestant_.equilibrium, contestant_.limit}
+                                 : Relaxing{contestant_.sweeps, contestant_.equilibrium};
   }
 
   void run(const std::stop_token& stop) {
     const double start = clocks_.wall();
-    const Runner::Run run = runner_->run(moves_, {contestant_.sweeps, contestant_.equilibrium}, stop);
+    const Runner::Run run = runner_->run(moves_, relaxing(), stop);
     stopped_ = run.stopped;
     if (run.stopped) {
       return;
@@ -106,15 +145,20 @@ class Contest::Participant {
     times_.add(times);
   }
 
-  void measure(ElementId handle, const ReferenceSolution& reference) {
+  /// A contestant that did not converge has no figures, unless its iterations are limited.
+  void measure(const ReferenceSolution& reference) {
     const Simulation& simulation = runner_->simulation();
-    entry_.refusal = simulation.statistics().remark;
+    if (contestant_.limit == 0 || !handle_is_there(simulation, runner_->handle(), reference)) {
+      entry_.refusal = simulation.statistics().remark;
+    }
     if (!stopped_ && entry_.refusal.empty()) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
       measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), reference);
       measured.shape = shape_of(simulation.body().positions(), simulation.body().cuts(), reference);
-      if (preparing_) {
-        measured.prepare = preparing_->of(handle);
+      measured.bytes = bytes_;
+      if (!std::isfinite(measured.error.relative)) {
+        entry_.measurement.reset();
+        entry_.refusal = "its positions are not numbers: it diverged";
       }
     }
   }
@@ -133,7 +177,8 @@ class Contest::Participant {
   PhysicsContestant contestant_;
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
-  std::optional<PreparingTimes> preparing_;
+  std::optional<std::uint64_t> bytes_;  // held after the first drag
+  bool has_run_ = false;
   Clocks clocks_ = machine_clocks();
   // State of the current drag:
   PhysicsEntry entry_;
@@ -144,8 +189,9 @@ class Contest::Participant {
   bool warm_ = false, stopped_ = false;
 };
 
-Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options)
-    : options_(options) {
+Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options,
+                 Measured measured)
+    : options_(options), measured_(measured) {
   for (const PhysicsContestant& contestant : contestants) {
     participants_.push_back(std::make_unique<Participant>(object, contestant, options_));
   }
@@ -158,12 +204,12 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
   const double count = double(participants_.size());
   for (std::size_t i = 0; i < participants_.size() && !stop.stop_requested(); ++i) {
     tell(0.5 * double(i) / count);
-    participants_[i]->try_out(moves, reference, stop);
+    participants_[i]->try_out(moves, reference, measured_ == Measured::errors ? nullptr : &preparations_, stop);
   }
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
   // less often.
   const auto wanted = [&](const Participant& one) {
-    return options_.repetitions ? std::min(one.repetitions(1e9), *options_.repetitions)
+    return measured_ == Measured::errors ? 0 : options_.repetitions ? std::min(one.repetitions(1e9), *options_.repetitions)
                                 : one.repetitions(options_.seconds / count);
   };
   for (int repetition = 0; repetition < most_repetitions && !stop.stop_requested(); ++repetition) {

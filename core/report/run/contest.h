@@ -1,20 +1,29 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <stop_token>
 #include <vector>
 
 #include "report/run/physics.h"
+#include "report/run/preparing.h"
 
 namespace chainmail::report {
+
+/// What a contest measures.
+enum class Measured {
+  times_and_errors,
+  errors  // no preparation is timed, and no drag is repeated
+};
 
 /// Runs all contestants on one object, drag by drag. Each contestant keeps its preparation for the object and for a
 /// handle.
 class Contest {
  public:
   /// The object must outlive the contest. A contestant that cannot take part is listed with the reason.
-  Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options);
+  Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options,
+          Measured measured = Measured::times_and_errors);
   ~Contest();
 
   /// Runs a drag with all contestants, and compares them with the reference solution at its end.
@@ -23,8 +32,12 @@ class Contest {
 
  private:
   class Participant;
+  /// Times of preparation, which contestants of one method share.
+  using Preparations = std::map<ElasticMethod, PreparingTimes>;
 
   CompareOptions options_;
+  Measured measured_;
+  Preparations preparations_;
   std::vector<std::unique_ptr<Participant>> participants_;
 };
 

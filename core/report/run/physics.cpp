@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "report/run/contest.h"
+#include "report/run/drag_reference.h"
 #include "report/run/physics_cases.h"
 #include "report/run/preparing.h"
 #include "report/run/runner.h"
@@ -31,105 +31,19 @@ PhysicsOptions checked(PhysicsOptions options) {
   return options;
 }
 
-/// Returns the solver of the reference solution. Throws Error if physics has no solution for the object.
-ReferenceSolver reference_of(const Case& object, const std::vector<LinkId>& cut) {
-  if (object.pins.empty()) {
-    throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
-  }
+PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences& references,
+                    const std::function<void(double)>& tell, const std::stop_token& stop) {
+  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cuts_of(moves).empty(),
+                   0,          {},                {}};
   try {
-    return ReferenceSolver(reference_problem(object, cut));
-  } catch (const Error& error) {
-    throw error.at(object.name);
-  }
-}
-
-/// Returns the reference solution at the end of a drag.
-ReferenceSolution reference_at_end(ReferenceSolver& solver, const RecordedMoves& moves) {
-  Point target = Point::Zero();
-  for (const Command& command : moves.commands) {
-    const auto* grab = std::get_if<commands::Grab>(&command);
-    const auto* drag = std::get_if<commands::Drag>(&command);
-    if ((drag != nullptr && (drag->relative || drag->rotation.degrees != 0)) ||
-        (grab != nullptr && grab->elements.size() != 1)) {
-      throw Error(moves.name, "it moves many elements, or by a distance",
-                  "compare with physics on drags of one element to a position");
-    }
-    target = drag != nullptr ? drag->target : target;
-  }
-  return solver.at(handle_of(moves), target);
-}
-
-/// References on refined cells, with the cells kept for the drags of an object without a cut.
-class RefinedReferences {
- public:
-  RefinedReferences(const Case& object, const ConvergingOptions& options) : object_(object), options_(options) {}
-
-  ConvergedReference at_end(const RecordedMoves& moves) {
-    const Patch patch{object_.mesh->rest_position(handle_of(moves)), moves.radius};
-    const Point way = std::get<commands::Drag>(moves.commands.back()).target;
-    if (const std::vector<LinkId> cut = cuts_of(moves); !cut.empty()) {
-      return ConvergingReference(reference_problem(object_, cut), options_).at(patch, way);
-    }
-    if (!uncut_) {
-      uncut_.emplace(reference_problem(object_), options_);
-    }
-    return uncut_->at(patch, way);
-  }
-
- private:
-  const Case& object_;
-  ConvergingOptions options_;
-  std::optional<ConvergingReference> uncut_;
-};
-
-PhysicsDrag drag_of(Contest& contest, const Case& object, const RecordedMoves& moves, ReferenceSolver& uncut,
-                    RefinedReferences* refined, const std::function<void(double)>& tell, const std::stop_token& stop) {
-  const std::vector<LinkId> cut = cuts_of(moves);
-  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cut.empty(), 0, {}, {}};
-  try {
-    if (refined != nullptr && moves.radius > 0) {
-      drag.refined = refined->at_end(moves);
-      drag.handle_displacement = drag.refined->solution.handle_displacement;
-      drag.entries = contest.run(moves, drag.refined->solution, tell, stop);
-      return drag;
-    }
-    std::optional<ReferenceSolver> with_cut;
-    if (drag.has_cut) {
-      with_cut.emplace(reference_of(object, cut));
-    }
-    const ReferenceSolution reference = reference_at_end(with_cut ? *with_cut : uncut, moves);
-    drag.handle_displacement = reference.handle_displacement;
-    drag.entries = contest.run(moves, reference, tell, stop);
+    DragReference reference = references.at_end(moves);
+    drag.handle_displacement = reference.solution.handle_displacement;
+    drag.entries = contest.run(moves, reference.solution, tell, stop);
+    drag.refined = std::move(reference.refined);
   } catch (const Error& error) {
     drag.no_reference = error.what();
   }
   return drag;
-}
-
-/// Calibrates those of `calibrated_algorithms` that take part and support the object.
-std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
-                                         const std::function<void(double)>& tell, const std::stop_token& stop) {
-  std::vector<Calibration> found;
-  const std::vector<ElementId> handles = handles_of(object);
-  for (const Algorithm algorithm : calibrated_algorithms) {
-    const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
-    for (const bool equilibrium : {false, true}) {
-      const bool wanted = equilibrium ? options.contest.equilibrium && takes_part_at_equilibrium(algorithm)
-                                      : !options.contest.sweeps.empty();
-      if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
-        continue;
-      }
-      tell(0);
-      try {
-        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, stop));
-      } catch (const Error& error) {
-        found.push_back({algorithm, equilibrium, {}, 0, 0, 0, 0, error.what()});
-      } catch (const Cancelled&) {
-        return found;
-      }
-    }
-  }
-  return found;
 }
 
 /// Converts the progress of the parts to progress of the whole comparison.
@@ -175,6 +89,31 @@ void add_growths(PhysicsReport& report, const Softness& softness, const Teller& 
 
 }  // namespace
 
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
+                                         const std::function<void(double)>& tell, const std::stop_token& stop) {
+  std::vector<Calibration> found;
+  const std::vector<ElementId> handles = handles_of(object);
+  for (const Algorithm algorithm : calibrated_algorithms) {
+    const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
+    for (const bool equilibrium : {false, true}) {
+      const bool wanted = equilibrium ? options.contest.equilibrium && takes_part_at_equilibrium(algorithm)
+                                      : !options.contest.sweeps.empty();
+      if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
+        continue;
+      }
+      tell(0);
+      try {
+        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, stop));
+      } catch (const Error& error) {
+        found.push_back({algorithm, equilibrium, {}, 0, 0, 0, 0, error.what()});
+      } catch (const Cancelled&) {
+        return found;
+      }
+    }
+  }
+  return found;
+}
+
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked,
                                    const Progress& progress, const std::stop_token& stop) {
   PhysicsReport report{checked(asked), cases.empty() ? ElasticOptions() : cases.front().elastic, {}, {}, false};
@@ -193,11 +132,7 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               {},
               {},
               object.law};
-    ReferenceSolver solver = reference_of(object, {});
-    std::optional<RefinedReferences> refined;
-    if (report.options.refine) {
-      refined.emplace(object, *report.options.refine);
-    }
+    DragReferences references(object, report.options.refine);
     const CompareOptions& how = report.options.contest;
     result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
     const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
@@ -206,7 +141,7 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = teller.of_drag(object.name + ", " + moves.name);
       tell(0);
-      PhysicsDrag drag = drag_of(contest, object, moves, solver, refined ? &*refined : nullptr, tell, stop);
+      PhysicsDrag drag = drag_of(contest, moves, references, tell, stop);
       if (stop.stop_requested()) {
         report.stopped = true;
         return report;

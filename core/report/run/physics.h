@@ -47,6 +47,7 @@ struct PhysicsMeasurement {
   TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
+  std::optional<std::uint64_t> bytes;  // memory of the solver after its first drag; none where it is not known
   ShapeFigures shape;  // at the end of the drag; the reference of the Hausdorff distance is the reference solution
 };
 
@@ -110,6 +111,10 @@ struct PhysicsReport {
 /// cannot take part.
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
                                    const Progress& progress = {}, const std::stop_token& stop = {});
+
+/// Calibrates Natural Queue and Exact ChainMail, as far as they take part and support the object.
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
+                                         const std::function<void(double)>& tell, const std::stop_token& stop);
 
 /// Measures the growth of time and error on one kind of object. `made` returns an object with about the given number of
 /// elements.

@@ -30,6 +30,12 @@ std::string label(const PhysicsContestant& contestant) {
   if (!contestant.algorithm) {
     return "Nothing moves";
   }
+  if (contestant.limit > 0) {
+    PhysicsContestant unlimited = contestant;
+    unlimited.limit = 0;
+    return label(unlimited) + ", " + std::to_string(contestant.limit) +
+           (contestant.limit == 1 ? " iteration" : " iterations");
+  }
   if (!contestant.calibrated) {
     return label(Contestant{*contestant.algorithm, contestant.sweeps, contestant.equilibrium}) +
            cells_of(*contestant.algorithm);

@@ -18,6 +18,7 @@ struct PhysicsContestant {
   std::optional<LinkSoftness> calibrated =
       {};                    // result of the calibration on this object; none: the object's own softness
   bool equilibrium = false;  // true: relaxed to the equilibrium after each move, instead of sweeps
+  int limit = 0;             // most iterations per move, whether they converge or not; 0: those of the method
 
   bool operator==(const PhysicsContestant&) const = default;
 };

@@ -16,11 +16,8 @@ constexpr double enough_preparing = 1;  // seconds
 ElasticHandle elastic_handle(const Case& object, ElementId handle) {
   const Mesh& mesh = *object.mesh;
   const auto drag = std::ranges::find(object.drags, handle, handle_of);
-  if (drag == object.drags.end() || drag->radius == 0) {
-    return ElasticHandle::of(handle);
-  }
+  std::vector<ElementId> elements = drag == object.drags.end() ? std::vector{handle} : grabbed_by(*drag);
   const auto n = static_cast<std::size_t>(mesh.space_dimension);
-  std::vector<ElementId> elements = std::get<commands::Grab>(drag->commands.front()).elements;
   if (elements.size() == 1) {
     return ElasticHandle::of(elements.front());
   }
@@ -90,16 +87,15 @@ std::vector<ElementId> handles_of(const Case& object) {
   return handles;
 }
 
-ElementId handle_of(const RecordedMoves& moves) {
-  if (moves.centre) {
-    return *moves.centre;
-  }
+ElementId handle_of(const RecordedMoves& moves) { return moves.centre ? *moves.centre : grabbed_by(moves).front(); }
+
+std::vector<ElementId> grabbed_by(const RecordedMoves& moves) {
   for (const Command& command : moves.commands) {
     if (const auto* grab = std::get_if<commands::Grab>(&command)) {
-      return grab->elements.front();
+      return grab->elements;
     }
   }
-  return 0;
+  return {0};
 }
 
 std::vector<LinkId> cuts_of(const RecordedMoves& moves) {

@@ -28,6 +28,8 @@ ElasticProblem reference_problem(const Case& object, const std::vector<LinkId>& 
 std::vector<ElementId> handles_of(const Case& object);
 /// Returns the element that a drag grabs, the first of many, or 0 if it grabs none.
 ElementId handle_of(const RecordedMoves& moves);
+/// Returns the elements of the first handle of a drag; element 0 if there is none.
+std::vector<ElementId> grabbed_by(const RecordedMoves& moves);
 /// Returns the links that a drag cuts.
 std::vector<LinkId> cuts_of(const RecordedMoves& moves);
 

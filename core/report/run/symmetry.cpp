@@ -18,13 +18,6 @@ namespace {
 // Contestants whose move takes longer than this (s), with all preparation, do not run on the turned objects.
 constexpr double longest_answer = 10;
 
-/// Returns the rotation across the plane of the object, or about z.
-Point rotation_by(const Mesh& mesh, double degrees) {
-  const Point axis = mesh.space_dimension == 2 ? Point(Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])))
-                                               : Point(Point::Unit(2));
-  return axis * (degrees * std::numbers::pi / 180);
-}
-
 /// Returns the frame that turns with the object. Principal axes are found anew, as a user's would be.
 RegionFrame turned(const RegionFrame& frame, const Mesh& mesh, const Eigen::Matrix3d& turn) {
   if (frame.kind() != FrameKind::given) {
@@ -75,6 +68,12 @@ bool takes_part(const PhysicsContestant& contestant) {
 }
 
 }  // namespace
+
+Point rotation_by(const Mesh& mesh, double degrees) {
+  const Point axis = mesh.space_dimension == 2 ? Point(Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])))
+                                               : Point(Point::Unit(2));
+  return axis * (degrees * std::numbers::pi / 180);
+}
 
 Case turned(const Case& object, const Point& rotation) {
   const RegionFrame turn(FrameKind::given, rotation), back(FrameKind::given, -rotation);

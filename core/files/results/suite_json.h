@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+
+#include "report/run/suite.h"
+
+namespace chainmail {
+
+/// Version of the format. resources/schemas/suite.schema.json describes it.
+inline constexpr int suite_schema_version = 1;
+
+/// Writes the results of a suite as JSON. A figure that does not exist is missing.
+void write_json(std::ostream& out, const report::Suite& suite);
+
+/// Reads what write_json has written. Throws Error.
+report::Suite read_suite(const std::filesystem::path& path);
+
+}  // namespace chainmail

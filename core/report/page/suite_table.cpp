@@ -1,0 +1,292 @@
+#include "report/page/suite_table.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "report/page/format.h"
+
+namespace chainmail::report {
+namespace {
+
+// The reference is neo-Hookean: on the object's own cells, neo-Hookean FEM is what the reference converges from. It is
+// listed, but no finding names it.
+constexpr std::string_view of_reference = "neo-hookean", null_model = "nothing";
+
+std::string cell_of(const std::optional<double>& value) { return value ? figure(*value) : "-"; }
+
+/// A mean of the values that exist.
+class Mean {
+ public:
+  void add(const std::optional<double>& value) {
+    if (value) {
+      sum_ += *value;
+      ++count_;
+    }
+  }
+  std::optional<double> value() const { return count_ == 0 ? std::nullopt : std::optional(sum_ / count_); }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
+
+std::vector<std::string> contestants_in(const std::vector<SuiteRow>& rows) {
+  std::vector<std::string> names;
+  for (const SuiteRow& row : rows) {
+    if (std::ranges::find(names, row.contestant) == names.end()) {
+      names.push_back(row.contestant);
+    }
+  }
+  return names;
+}
+
+SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
+  SuiteMean mean;
+  Mean relative, turned, later, cut;
+  for (const SuiteRow& row : result.rows) {
+    if (row.contestant != contestant) {
+      continue;
+    }
+    mean.contestant = contestant;
+    mean.algorithm = row.algorithm;
+    cut.add(row.after_cut_ms);
+    if (row.has_cut) {
+      continue;
+    }
+    ++mean.of;
+    mean.drags += row.relative ? 1 : 0;
+    mean.refusal = row.refusal.empty() ? mean.refusal : row.refusal;
+    relative.add(row.relative);
+    turned.add(row.relative_turned);
+    later.add(row.later_ms);
+  }
+  mean.relative = relative.value();
+  mean.relative_turned = turned.value();
+  mean.later_ms = later.value();
+  mean.after_cut_ms = cut.value();
+  return mean;
+}
+
+bool may_win(const SuiteMean& mean) {
+  return mean.relative && mean.drags == mean.of && mean.algorithm != of_reference && mean.algorithm != null_model;
+}
+
+const SuiteMean* closest(const std::vector<SuiteMean>& means) {
+  const SuiteMean* best = nullptr;
+  for (const SuiteMean& mean : means) {
+    if (may_win(mean) && (best == nullptr || *mean.relative < *best->relative)) {
+      best = &mean;
+    }
+  }
+  return best;
+}
+
+/// Returns the fastest contestant below an error.
+const SuiteMean* fastest(const std::vector<SuiteMean>& means, double below) {
+  const SuiteMean* best = nullptr;
+  for (const SuiteMean& mean : means) {
+    if (may_win(mean) && *mean.relative <= below && mean.later_ms &&
+        (best == nullptr || *mean.later_ms < *best->later_ms)) {
+      best = &mean;
+    }
+  }
+  return best;
+}
+
+std::string summary_cell(const SuiteMean& mean, const SuiteMean* best) {
+  if (!mean.relative) {
+    return "-";
+  }
+  const std::string number = figure(*mean.relative) + (best != nullptr && best->contestant == mean.contestant ? "*" : "");
+  return mean.drags == mean.of ? number
+                               : number + " (" + std::to_string(mean.drags) + " of " + std::to_string(mean.of) + ")";
+}
+
+std::string error_of(const SuiteMean& mean) { return mean.contestant + " (" + figure(*mean.relative) + ")"; }
+
+const SuiteTime* find_time(const SuiteResult& result, std::string_view begin, std::string_view end) {
+  const auto found = std::ranges::find_if(result.times, [&](const SuiteTime& one) {
+    return one.contestant.starts_with(begin) && one.contestant.ends_with(end);
+  });
+  return found == result.times.end() ? nullptr : &*found;
+}
+
+/// Says how much faster Exact at equilibrium, calibrated, is than another method at the error 0.3.
+void add_ratio(std::vector<std::string>& sentences, const SuiteResult& result, std::string_view other) {
+  constexpr std::size_t at = 1;  // suite_errors[1] is 0.3
+  const SuiteTime* ours = find_time(result, "Exact + equilibrium", "calibrated");
+  const SuiteTime* theirs = find_time(result, other, "");
+  if (ours == nullptr || theirs == nullptr) {
+    return;
+  }
+  std::string text = result.name + ": to a relative error of " + figure(suite_errors[at]) + ", ";
+  const auto& mine = ours->ms_per_move[at];
+  const auto& its = theirs->ms_per_move[at];
+  if (!mine || !its) {
+    text += std::string(mine ? theirs->contestant : ours->contestant) + " does not come";
+  } else {
+    text += ours->contestant + " takes " + figure(*mine) + " ms per move and " + theirs->contestant + " " +
+            figure(*its) + " ms: " + figure(*its / *mine) + " times as long";
+  }
+  sentences.push_back(text);
+}
+
+std::string about(const SuiteResult& result) {
+  std::string text = result.description + "; " + thousands(result.elements) + " elements, " + thousands(result.links) +
+                     " links, " + std::to_string(result.pins) + " pinned; reference: " + result.reference;
+  for (const std::string& note : result.notes) {
+    text += "; " + note;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<SuiteMean> means_of(const SuiteResult& result) {
+  std::vector<SuiteMean> means;
+  for (const std::string& contestant : contestants_in(result.rows)) {
+    means.push_back(mean_of(result, contestant));
+  }
+  return means;
+}
+
+FigureTable suite_summary(const Suite& suite) {
+  FigureTable table{"Summary",
+                    "mean relative error over the drags of an experiment without a cut. 1: as wrong as an object that "
+                    "does not move. *: the closest, without neo-Hookean FEM, the material of most references",
+                    "detail",
+                    "contestant",
+                    {},
+                    {}};
+  std::vector<std::vector<SuiteMean>> columns;
+  for (const SuiteResult& result : suite.results) {
+    if (!result.rows.empty()) {
+      table.columns.push_back({"relative error (ratio)", result.name});
+      columns.push_back(means_of(result));
+    }
+  }
+  std::vector<std::string> names;
+  for (const auto& column : columns) {
+    for (const SuiteMean& mean : column) {
+      if (std::ranges::find(names, mean.contestant) == names.end()) {
+        names.push_back(mean.contestant);
+      }
+    }
+  }
+  for (const std::string& name : names) {
+    FigureTable::Row row{name, {}, {}};
+    for (const auto& column : columns) {
+      const auto found = std::ranges::find(column, name, &SuiteMean::contestant);
+      row.cells.push_back(found == column.end() ? "-" : summary_cell(*found, closest(column)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+FigureTable time_table(const SuiteResult& result) {
+  FigureTable table{result.name, about(result), "detail", "contestant", {{"relative error (ratio)", "least"}}, {}};
+  for (const double error : suite_errors) {
+    table.columns.push_back({"ms per later move, below", figure(error)});
+  }
+  for (const double error : suite_errors) {
+    table.columns.push_back({"ms from a fresh grab, below", figure(error)});
+  }
+  table.columns.push_back({"prepare (ms)", "factorize"});
+  for (const SuiteTime& time : result.times) {
+    FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{time.contestant, {}, time.refusal});
+    if (!time.refusal.empty()) {
+      continue;
+    }
+    row.cells.push_back(cell_of(time.least_error));
+    for (const auto* times : {&time.ms_per_move, &time.fresh_ms}) {
+      std::ranges::transform(*times, std::back_inserter(row.cells), [](const auto& ms) { return cell_of(ms); });
+    }
+    row.cells.push_back(cell_of(time.factorize_ms));
+  }
+  return table;
+}
+
+FigureTable order_table(const SuiteResult& result) {
+  FigureTable table{result.name, about(result), "detail", "contestant", {}, {}};
+  std::vector<std::uint64_t> sizes;
+  for (const SuiteOrder& one : result.orders) {
+    for (const SuiteOrder::Size& size : one.sizes) {
+      if (std::ranges::find(sizes, size.elements) == sizes.end()) {
+        sizes.push_back(size.elements);
+      }
+    }
+  }
+  std::ranges::sort(sizes);
+  for (const std::uint64_t size : sizes) {
+    table.columns.push_back({"relative error (ratio), elements", thousands(size)});
+  }
+  table.columns.push_back({"observed", "order"});
+  for (const SuiteOrder& one : result.orders) {
+    FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{one.contestant, {}, {}});
+    if (one.sizes.empty()) {
+      row.refusal = one.refusal;
+      continue;
+    }
+    for (const std::uint64_t size : sizes) {
+      const auto found = std::ranges::find(one.sizes, size, &SuiteOrder::Size::elements);
+      row.cells.push_back(found == one.sizes.end() ? "-" : figure(found->relative));
+    }
+    row.cells.push_back(cell_of(one.order));
+  }
+  return table;
+}
+
+FigureTable suite_table(const SuiteResult& result) {
+  FigureTable table{result.name, about(result), "detail", "drag, contestant", {}, {}};
+  for (const SuiteFigure& figure : suite_figures) {
+    table.columns.push_back({std::string(figure.group), std::string(figure.heading)});
+  }
+  for (const SuiteRow& one : result.rows) {
+    const std::string where = one.drag + ", element " + std::to_string(one.handle) + ": ";
+    FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{where + one.contestant, {}, one.refusal});
+    for (const SuiteFigure& figure : suite_figures) {
+      if (one.refusal.empty()) {
+        row.cells.push_back(cell_of(one.*figure.value));
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<std::string> suite_findings(const Suite& suite) {
+  std::vector<std::string> sentences;
+  for (const SuiteResult& result : suite.results) {
+    const auto means = means_of(result);
+    if (const SuiteMean* best = closest(means)) {
+      std::string text = result.name + ": " + error_of(*best) + " is closest";
+      if (const SuiteMean* fast = fastest(means, suite_errors[1])) {
+        text += "; " + error_of(*fast) + " is the fastest below " + figure(suite_errors[1]) + ", with " +
+                figure(*fast->later_ms) + " ms per later move";
+      }
+      sentences.push_back(text);
+    }
+    add_ratio(sentences, result, "XPBD");
+    add_ratio(sentences, result, "Bullet");
+  }
+  return sentences;
+}
+
+void write_text(std::ostream& out, const Suite& suite) {
+  for (const std::string& sentence : suite_findings(suite)) {
+    out << sentence << '\n';
+  }
+  if (const FigureTable summary = suite_summary(suite); !summary.rows.empty()) {
+    write_text(out, summary);
+  }
+  for (const SuiteResult& result : suite.results) {
+    if (!result.orders.empty()) {
+      write_text(out, order_table(result));
+    }
+    if (!result.times.empty()) {
+      write_text(out, time_table(result));
+    }
+  }
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ostream>
+
+#include "report/page/figure_table.h"
+#include "report/run/suite.h"
+
+namespace chainmail::report {
+
+/// The mean figures of a contestant over the drags of an experiment that are not cut. Turned copies exist for some of
+/// the drags only, so their mean has its own number of drags.
+struct SuiteMean {
+  std::string contestant, algorithm, refusal;  // a refusal of one of the drags
+  int drags = 0;                               // number of drags with figures
+  int of = 0;                                  // number of drags
+  std::optional<double> relative, relative_turned, later_ms, after_cut_ms;
+};
+std::vector<SuiteMean> means_of(const SuiteResult& result);
+
+/// The summary: the mean relative error of each contestant in each experiment with drags. The best error of each column
+/// has a star.
+FigureTable suite_summary(const Suite& suite);
+/// The times until a contestant is below each error, of one experiment.
+FigureTable time_table(const SuiteResult& result);
+/// The errors on finer and finer meshes, with the observed order.
+FigureTable order_table(const SuiteResult& result);
+/// All figures of one experiment with drags.
+FigureTable suite_table(const SuiteResult& result);
+
+/// Returns sentences that say who is closest and who is fastest in each experiment.
+std::vector<std::string> suite_findings(const Suite& suite);
+
+/// Writes findings, the summary, times and orders as text.
+void write_text(std::ostream& out, const Suite& suite);
+
+}  // namespace chainmail::report

@@ -1,0 +1,107 @@
+#include "report/run/drag_reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/error.h"
+#include "report/run/preparing.h"
+
+namespace chainmail::report {
+namespace {
+
+ReferenceSolver solver_of(const Case& object, const std::vector<LinkId>& cut) {
+  if (object.pins.empty()) {
+    throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
+  }
+  try {
+    return ReferenceSolver(reference_problem(object, cut));
+  } catch (const Error& error) {
+    throw error.at(object.name);
+  }
+}
+
+void add_axes(std::vector<double>& to, const Mesh& mesh, const Point& displacement) {
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    to.push_back(displacement[mesh.axes[std::size_t(k)]]);
+  }
+}
+
+/// Returns the displacements of the handle's elements at the end of a drag.
+std::vector<double> displacements_of_handle(const Mesh& mesh, const RecordedMoves& moves) {
+  const std::vector<ElementId> handle = grabbed_by(moves);
+  const RigidMotion motion = motion_at_end(mesh, moves);
+  const Point middle = middle_of(mesh, handle);
+  std::vector<double> displacements;
+  for (const ElementId element : handle) {
+    add_axes(displacements, mesh, motion.of(mesh.rest_position(element) - middle));
+  }
+  return displacements;
+}
+
+/// The pins and the handle are where the drag has them: theory may differ from that by small terms.
+ReferenceSolution closed_form_of(const Case& object, const RecordedMoves& moves) {
+  const Mesh& mesh = *object.mesh;
+  const auto n = std::size_t(mesh.space_dimension);
+  const std::vector<ElementId> handle = grabbed_by(moves);
+  const std::vector<double> of_handle = displacements_of_handle(mesh, moves);
+  ReferenceSolution solution;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    add_axes(solution.displacements, mesh, moves.closed_form(mesh.rest_position(e)));
+  }
+  for (const ElementId pin : object.pins) {
+    std::fill_n(solution.displacements.begin() + std::ptrdiff_t(pin * n), n, 0.0);
+  }
+  for (std::size_t i = 0; i < handle.size(); ++i) {
+    const auto from = of_handle.begin() + std::ptrdiff_t(i * n);
+    std::copy_n(from, n, solution.displacements.begin() + std::ptrdiff_t(handle[i] * n));
+    const double square = std::inner_product(from, from + std::ptrdiff_t(n), from, 0.0);
+    solution.handle_displacement = std::max(solution.handle_displacement, std::sqrt(square));
+  }
+  solution.prescribed = object.pins;
+  solution.prescribed.insert(solution.prescribed.end(), handle.begin(), handle.end());
+  solution.only_free = true;
+  return solution;
+}
+
+}  // namespace
+
+RigidMotion motion_at_end(const Mesh& mesh, const RecordedMoves& moves) {
+  RigidMotion motion;
+  for (const Command& command : moves.commands) {
+    if (const auto* drag = std::get_if<commands::Drag>(&command)) {
+      const Point from = drag->relative ? Point(Point::Zero()) : middle_of(mesh, grabbed_by(moves));
+      motion = {turn_of(drag->rotation.vector()), drag->target - from};
+    }
+  }
+  return motion;
+}
+
+DragReferences::DragReferences(const Case& object, const std::optional<ConvergingOptions>& refine)
+    : object_(object), refine_(refine), solver_(solver_of(object, {})) {}
+
+DragReference DragReferences::at_end(const RecordedMoves& moves) {
+  if (moves.closed_form) {
+    return {closed_form_of(object_, moves), std::nullopt};
+  }
+  const Mesh& mesh = *object_.mesh;
+  const std::vector<ElementId> handle = grabbed_by(moves);
+  const std::vector<LinkId> cut = cuts_of(moves);
+  if (refine_ && (handle.size() > 1 || moves.radius > 0)) {
+    if (cut.empty() && !refined_) {
+      refined_.emplace(reference_problem(object_), *refine_);
+    }
+    const RigidMotion motion = motion_at_end(mesh, moves);
+    const ConvergedReference found = cut.empty()
+                                         ? refined_->at(handle, motion)
+                                         : ConvergingReference(reference_problem(object_, cut), *refine_).at(handle, motion);
+    return {found.solution, found};
+  }
+  std::optional<ReferenceSolver> with_cut;
+  if (!cut.empty()) {
+    with_cut.emplace(solver_of(object_, cut));
+  }
+  return {(with_cut ? *with_cut : solver_).at(handle, displacements_of_handle(mesh, moves)), std::nullopt};
+}
+
+}  // namespace chainmail::report

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "measure/converging_reference.h"
+#include "report/run/cases.h"
+
+namespace chainmail::report {
+
+/// What the answers at the end of a drag are compared with.
+struct DragReference {
+  ReferenceSolution solution;
+  std::optional<ConvergedReference> refined;  // its levels, if it was computed on refined cells
+};
+
+/// The references of the drags of one object.
+class DragReferences {
+ public:
+  /// Handles of many elements have references on refined cells, if `refine` is given. The object must outlive this.
+  /// Throws Error, with the name of the object, if physics has no solution for it.
+  DragReferences(const Case& object, const std::optional<ConvergingOptions>& refine);
+
+  /// Returns the closed form of the drag, if it has one, else a solution by finite elements. Throws Error if there is
+  /// none.
+  DragReference at_end(const RecordedMoves& moves);
+
+ private:
+  const Case& object_;
+  std::optional<ConvergingOptions> refine_;
+  ReferenceSolver solver_;                      // without a cut
+  std::optional<ConvergingReference> refined_;  // without a cut; made when it is first needed
+};
+
+/// Returns the motion of the handle from rest to the end of a drag, about the mean of its rest positions.
+RigidMotion motion_at_end(const Mesh& mesh, const RecordedMoves& moves);
+
+}  // namespace chainmail::report

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/run/machine.h"
+#include "report/run/physics.h"
+
+namespace chainmail::report {
+
+/// Figures of a contestant in one drag, or the reason why there are none. A figure that is not defined is none.
+struct SuiteRow {
+  std::string drag;
+  std::uint64_t handle = 0;           // an element of the handle
+  bool has_cut = false;               // a cut precedes the last move
+  std::string contestant, algorithm;  // label for readers; name in files
+  std::string refusal;                // empty if there are figures
+  std::optional<double> relative = {}, relative_turned = {};
+  std::optional<double> hausdorff = {}, volume_change = {}, inverted_cells = {}, stretch = {}, violation = {};
+  std::optional<double> factorize_ms = {}, grab_ms = {}, first_ms = {}, later_ms = {}, after_cut_ms = {};
+  std::optional<double> bytes = {};
+};
+
+/// One figure of a row: its key in files, its heading in tables, and its docstring for the reader of a page.
+struct SuiteFigure {
+  std::string_view key, group, heading;
+  std::optional<double> SuiteRow::*value;
+};
+/// All figures of a row. Files, pages and the reader follow this table.
+inline constexpr std::array suite_figures{
+    SuiteFigure{"relative", "relative error (ratio)", "as it is", &SuiteRow::relative},
+    SuiteFigure{"relative_turned", "relative error (ratio)", "turned by 45°", &SuiteRow::relative_turned},
+    SuiteFigure{"factorize_ms", "prepare (ms)", "factorize", &SuiteRow::factorize_ms},
+    SuiteFigure{"grab_ms", "prepare (ms)", "grab", &SuiteRow::grab_ms},
+    SuiteFigure{"first_ms", "move (ms)", "first", &SuiteRow::first_ms},
+    SuiteFigure{"later_ms", "move (ms)", "later", &SuiteRow::later_ms},
+    SuiteFigure{"after_cut_ms", "move (ms)", "after cut", &SuiteRow::after_cut_ms},
+    SuiteFigure{"bytes", "memory", "bytes", &SuiteRow::bytes},
+    SuiteFigure{"hausdorff", "shape", "Hausdorff (rest lengths)", &SuiteRow::hausdorff},
+    SuiteFigure{"volume_change", "shape", "volume change (ratio)", &SuiteRow::volume_change},
+    SuiteFigure{"inverted_cells", "shape", "inverted cells", &SuiteRow::inverted_cells},
+    SuiteFigure{"stretch", "shape", "stretch (ratio)", &SuiteRow::stretch},
+    SuiteFigure{"violation", "shape", "violation (rest lengths)", &SuiteRow::violation},
+};
+
+/// Relative errors of a contestant on finer and finer meshes of one problem.
+struct SuiteOrder {
+  struct Size {
+    std::uint64_t elements = 0;
+    double relative = 0;
+  };
+  std::string contestant, algorithm, refusal;
+  std::vector<Size> sizes;
+  std::optional<double> order;  // observed: by the last two meshes, of which the finer one has half the mesh width
+};
+
+/// Relative errors for which the suite measures the time until a contestant is below them.
+inline constexpr std::array suite_errors{0.5, 0.3, 0.2, 0.1};
+
+/// The shortest times with which a contestant comes below each of `suite_errors`, over all numbers of iterations and
+/// sweeps that it may use per move; none if no number is enough.
+struct SuiteTime {
+  std::string contestant, algorithm, refusal;
+  std::optional<double> least_error;  // of all numbers of iterations
+  std::optional<double> factorize_ms;
+  std::array<std::optional<double>, suite_errors.size()> ms_per_move = {};  // a later move of a drag
+  std::array<std::optional<double>, suite_errors.size()> fresh_ms = {};     // one move from rest, with the grab
+};
+
+/// The result of one experiment.
+struct SuiteResult {
+  std::string name, description;
+  std::string reference;  // what the errors are measured against, with its levels
+  std::uint64_t elements = 0, links = 0, pins = 0;
+  double seconds = 0;  // duration of the experiment
+  std::vector<std::string> notes;
+  std::vector<SuiteRow> rows;
+  std::vector<SuiteOrder> orders;
+  std::vector<SuiteTime> times;
+};
+
+/// A run of the suite, or of a part of it, on one machine.
+struct SuiteRun {
+  Origin origin;
+  std::string shard;  // such as 1/4
+  std::vector<std::string> experiments;
+};
+
+struct Suite {
+  std::vector<SuiteRun> runs;
+  std::vector<SuiteResult> results;  // in the order of the experiments
+  bool stopped = false;              // true: contains only the finished experiments
+};
+
+struct SuiteOptions {
+  std::vector<Algorithm> algorithms;  // empty: all
+  std::optional<int> repetitions;     // of each drag; none: as many as fit
+  double seconds = 1;                 // for the repetitions of one drag with all contestants
+  Calibrator calibrate;               // empty: no contestant is calibrated
+  MeshPointer organ;                  // the solid of the experiments with an organ
+};
+
+/// A part of the suite: number `index` of `count`, from 1. Together, the parts have every experiment once.
+struct Shard {
+  int index = 1, count = 1;
+};
+
+/// Runs experiments of the suite by their names, in turns on the calling thread. Throws Error for a name that does not
+/// exist.
+Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress = {},
+                const std::stop_token& stop = {});
+
+/// Returns the names of all experiments, in their order.
+std::vector<std::string> suite_names();
+/// Returns every count-th of the names, from the index-th on. Long and short experiments follow each other, so that all
+/// parts take about as long.
+std::vector<std::string> part_of(const std::vector<std::string>& names, const Shard& shard);
+
+/// Joins the results of several runs. Throws Error if an experiment occurs twice.
+Suite merged(const std::vector<Suite>& parts);
+/// Returns the names of the experiments that a suite lacks.
+std::vector<std::string> missing_from(const Suite& suite);
+
+}  // namespace chainmail::report

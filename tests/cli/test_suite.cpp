@@ -1,0 +1,173 @@
+#include <QRegularExpression>
+#include <QXmlStreamReader>
+#include <algorithm>
+
+#include "cli/chainmail_program.h"
+
+using namespace chainmail::test;
+
+/// Tests `chainmail compare --suite` and `--merge`, with the experiments that take least time.
+class SuiteCommandTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() { program_ = std::make_unique<Program>(); }
+  void writes_a_report_of_the_schema();
+  void the_whole_is_the_sum_of_its_parts();
+  void the_example_of_the_manual_runs();
+  void damaged_parts_are_refused_data();
+  void damaged_parts_are_refused();
+  void wrong_usage_data();
+  void wrong_usage();
+
+ private:
+  static constexpr const char* short_run =
+      " --experiments refinement,cantilever --algorithms exact,fem --calibrated off --repetitions 1";
+
+  Outcome run(const char* line) const { return program_->run("compare" + QByteArray(line)); }
+  /// Runs a shell in the folder of the program, where `chainmail` is this program.
+  QByteArray shell(const QString& script) const;
+  QByteArray fault_against_schema(const QString& report) const;
+
+  std::unique_ptr<Program> program_;
+};
+
+QByteArray SuiteCommandTest::shell(const QString& script) const {
+  QProcess process;
+  process.setWorkingDirectory(program_->path(""));
+  auto environment = QProcessEnvironment::systemEnvironment();
+  const QString folder = QFileInfo(QStringLiteral(CHAINMAIL_PROGRAM)).path();
+  environment.insert("PATH", folder + ":/usr/bin:/bin");
+  process.setProcessEnvironment(environment);
+  process.setProcessChannelMode(QProcess::MergedChannels);
+  process.start("bash", {"-euc", script});
+  process.waitForFinished(120'000);
+  return process.exitCode() == 0 ? QByteArray() : "failed: " + process.readAll();
+}
+
+/// Checks a report with an independent reader of JSON Schema.
+QByteArray SuiteCommandTest::fault_against_schema(const QString& report) const {
+  return shell("/usr/bin/python3 -c 'import json, sys, jsonschema; "
+               "jsonschema.validate(json.load(open(sys.argv[1])), json.load(open(sys.argv[2])))' " +
+               program_->path(report) + " " PROJECT_SOURCE_DIR "/resources/schemas/suite.schema.json");
+}
+
+void SuiteCommandTest::writes_a_report_of_the_schema() {
+  const auto outcome = run((" --suite -o out" + QByteArray(short_run)).constData());
+  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
+  QCOMPARE(QDir(program_->path("out")).entryList(QDir::Files),
+           (QStringList{"overview.svg", "report.csv", "report.html", "report.json"}));
+  const QByteArray fault = fault_against_schema("out/report.json");
+  QVERIFY2(fault.isEmpty(), fault);
+  for (const char* file : {"out/report.html", "out/overview.svg"}) {
+    QXmlStreamReader reader(program_->read(file));
+    while (!reader.atEnd()) {
+      reader.readNext();
+    }
+    QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
+  }
+  const auto report = program_->json("out/report.json");
+  QVERIFY(report["runs"][0]["version"].toString().startsWith("chainmail "));
+  // The refinement has 4 meshes of nothing, Exact, Exact at equilibrium and FEM; the cantilever one drag of them.
+  QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 4 * 4 + 4);
+  QVERIFY(outcome.out.contains("cantilever: Linear FEM, on the same cells ("));
+  QVERIFY(outcome.out.contains("observed"));
+  // The schema has no room for a misspelt figure.
+  auto text = program_->read("out/report.json");
+  program_->write("wrong.json", text.replace("\"relative\"", "\"relativ\""));
+  QVERIFY(!fault_against_schema("wrong.json").isEmpty());
+}
+
+void SuiteCommandTest::the_whole_is_the_sum_of_its_parts() {
+  const auto whole = run((" --suite -o whole" + QByteArray(short_run)).constData());
+  QVERIFY2(whole.code == 0, whole.error);
+  for (const char* shard : {"1", "2"}) {
+    const auto outcome = run((" --suite -o part" + QByteArray(shard) + " --shard " + shard + "/2" + short_run).constData());
+    QVERIFY2(outcome.code == 0, outcome.error);
+  }
+  const auto merged = run(" --merge part2/report.json part1/report.json -o merged");
+  QVERIFY2(merged.code == 0 && merged.error.isEmpty(), merged.error);
+  const auto figures = [&](const QString& folder) {
+    QJsonArray all;
+    for (const QJsonValue experiment : program_->json(folder + "/report.json")["experiments"].toArray()) {
+      QJsonArray rows = experiment["rows"].toArray();
+      for (QJsonArray::iterator row = rows.begin(); row != rows.end(); ++row) {
+        all.append((*row).toObject()["contestant"]);
+        all.append((*row).toObject()["relative"]);
+      }
+      all.append(experiment["orders"]);
+    }
+    return all;
+  };
+  QVERIFY(!figures("whole").isEmpty());
+  QCOMPARE(figures("merged"), figures("whole"));
+  QCOMPARE(program_->json("merged/report.json")["runs"].toArray().size(), 2);
+  const QByteArray fault = fault_against_schema("merged/report.json");
+  QVERIFY2(fault.isEmpty(), fault);
+}
+
+/// The lines for GNU parallel, with two short experiments in two parts.
+void SuiteCommandTest::the_example_of_the_manual_runs() {
+  QFile manual(PROJECT_SOURCE_DIR "/resources/manual/suite.md");
+  QVERIFY(manual.open(QIODevice::ReadOnly));
+  const QString page = QString::fromUtf8(manual.readAll());
+  const auto match = QRegularExpression("\n    (parallel [^\n]+)\n    (chainmail compare --merge [^\n]+)\n").match(page);
+  QVERIFY(match.hasMatch());
+  QString lines = match.captured(1) + "\n" + match.captured(2);
+  lines.replace("parallel ", "parallel --will-cite ").replace("--suite", "--suite" + QString(short_run));
+  lines.replace("/4", "/2").replace("::: 1 2 3 4", "::: 1 2");
+  const QByteArray fault = shell("export HOME=$PWD\n" + lines);
+  QVERIFY2(fault.isEmpty(), fault);
+  QCOMPARE(program_->json("suite/report.json")["experiments"].toArray().size(), 2);
+}
+
+void SuiteCommandTest::damaged_parts_are_refused_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::addColumn<QString>("where");
+  QTest::newRow("no JSON") << QByteArray("{\"kind\": ") << "bad.json:1: ";
+  QTest::newRow("another report") << QByteArray("{\"origin\": {}}") << "bad.json: it is not a report of compare --suite";
+  QTest::newRow("a list") << QByteArray("[1]") << "bad.json: it is not a report of compare --suite";
+  QTest::newRow("a later version") << QByteArray("{\"kind\": \"chainmail suite\", \"schema_version\": 9}")
+                                   << "bad.json: its format has version 9";
+  QTest::newRow("no runs") << QByteArray("{\"kind\": \"chainmail suite\", \"schema_version\": 1}")
+                           << "bad.json: 'runs' is missing";
+  QTest::newRow("a wrong experiment")
+      << QByteArray("{\"kind\": \"chainmail suite\", \"schema_version\": 1, \"runs\": [], \"experiments\": [7]}")
+      << "bad.json: 'experiments' has an entry that is not an object";
+}
+
+void SuiteCommandTest::damaged_parts_are_refused() {
+  QFETCH(QByteArray, text);
+  QFETCH(QString, where);
+  program_->write("bad.json", text);
+  check_refused(*program_, "compare --merge bad.json -o out", where);
+}
+
+void SuiteCommandTest::wrong_usage_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
+  row("compare --suite", "-o: it is missing; ");
+  row("compare --suite grid.dat -o out", "MESH: it does not work with --suite; ");
+  row("compare --suite --pins left -o out", "--pins: it does not work with --suite; ");
+  row("compare --suite --against physics -o out", "--against: it does not work with --suite; ");
+  row("compare --suite --experiments hammer -o out", "--experiments: ");
+  row("compare --suite --experiments bar,bar -o out", "--experiments: ");
+  row("compare --suite --shard 0/2 -o out", "--shard: '0/2' is not a part of a whole; ");
+  row("compare --suite --shard 3/2 -o out", "--shard: '3/2' is not a part of a whole; ");
+  row("compare --suite --shard 2 -o out", "--shard: '2' is not a part of a whole; ");
+  row("compare --suite --shard 2/2 --experiments bar -o out", "--shard: no experiment is in this part; ");
+  row("compare --shard 1/2 -o out", "--shard: it works only with --suite; ");
+  row("compare --experiments bar -o out", "--experiments: it works only with --suite; ");
+  row("compare --suite --algorithms best -o out", "--algorithms: ");
+  row("compare --merge nothing.json -o out", "nothing.json: ");
+  row("compare --merge a.json --suite -o out", "--suite: it does not work with --merge; ");
+  row("compare --merge -o out", "--merge: the files are missing; ");
+}
+
+void SuiteCommandTest::wrong_usage() {
+  QFETCH(QString, where);
+  check_refused(*program_, QTest::currentDataTag(), where);
+}
+
+QTEST_GUILESS_MAIN(SuiteCommandTest)
+#include "test_suite.moc"

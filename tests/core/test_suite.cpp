@@ -1,0 +1,256 @@
+#include <Eigen/Geometry>
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "mesh/error.h"
+#include "mesh/generate.h"
+#include "mesh/layers.h"
+#include "report/page/suite_csv.h"
+#include "report/page/suite_table.h"
+#include "report/run/beam.h"
+#include "report/run/contest.h"
+#include "report/run/drag_reference.h"
+#include "report/run/preparing.h"
+#include "report/run/suite.h"
+#include "report/run/suite_experiments.h"
+
+using namespace chainmail;
+using namespace chainmail::report;
+
+namespace {
+
+const SuiteRow& row_of(const Suite& suite, const std::string& algorithm) {
+  return *std::ranges::find(suite.results.front().rows, algorithm, &SuiteRow::algorithm);
+}
+
+/// A bar whose end section is turned about its axis.
+Case twisted_bar(double degrees) {
+  Case object;
+  object.name = "bar";
+  object.mesh = generate({MeshKind::tetra, {6, 3, 3}});
+  object.pins = layer(*object.mesh, *find_side("left"));
+  object.drags = {{"twist", "", {commands::Grab{layer(*object.mesh, *find_side("right"))}}}};
+  object.drags.front().commands.emplace_back(commands::Drag{Point::Zero(), {Point::UnitX(), degrees}, true});
+  return object;
+}
+
+Suite part(std::vector<std::string> names) {
+  Suite suite;
+  suite.runs = {{{}, "1/1", names}};
+  for (const std::string& name : names) {
+    suite.results.push_back({name, "", "", 0, 0, 0, 0, {}, {}, {}, {}});
+  }
+  return suite;
+}
+
+}  // namespace
+
+/// Tests the suite of experiments: its closed forms, its references, its figures, and how parts are joined.
+class SuiteTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void timoshenko_meets_both_ends();
+  void timoshenko_balances_its_forces();
+  void a_slender_beam_bends_as_euler_says();
+  void linear_fem_has_its_theoretical_order();
+  void linear_fem_meets_the_beam();
+  void a_handle_that_turns_has_a_reference();
+  void limited_iterations_count_unlimited_ones_must_converge();
+  void times_grow_with_the_accuracy();
+  void parts_have_every_experiment_once();
+  void parts_are_joined();
+  void an_experiment_twice_is_refused();
+  void means_leave_out_the_cut();
+  void unknown_experiments_are_refused();
+};
+
+void SuiteTest::timoshenko_meets_both_ends() {
+  const Beam beam{10, 2, {1, 0, 0}, 0.3};
+  for (const double across : {-1.0, 0.0, 1.0}) {
+    QVERIFY(timoshenko(beam, 0.5, {1, 0, across}).norm() < 1e-12);
+    QVERIFY((timoshenko(beam, 0.5, {11, 0, across}) - Point(0, 0, 0.5)).norm() < 1e-12);
+  }
+}
+
+/// Along the beam the shear strain w' - φ is constant, and the moment E I φ' falls linearly: its slope is the shear force.
+void SuiteTest::timoshenko_balances_its_forces() {
+  const Beam beam{8, 1, Point::Zero(), 0.25};
+  const double step = 1e-4, shear_modulus = 1 / (2 * 1.25), inertia = 1.0 / 12, coefficient = 10 * 1.25 / (12 + 2.75);
+  const auto deflection = [&](double x) { return timoshenko(beam, 1, {x, 0, 0}).z(); };
+  const auto turn = [&](double x) { return -timoshenko(beam, 1, {x, 0, 1}).x(); };
+  for (const double x : {1.0, 3.0, 6.5}) {
+    const double slope = (deflection(x + step) - deflection(x - step)) / (2 * step);
+    const double force = coefficient * shear_modulus * (slope - turn(x));
+    const double moment_falls = -inertia * (turn(x + step) - 2 * turn(x) + turn(x - step)) / (step * step);
+    QVERIFY2(std::abs(force - moment_falls) < 1e-5 * force, qPrintable(QString::number(force / moment_falls)));
+  }
+}
+
+void SuiteTest::a_slender_beam_bends_as_euler_says() {
+  const double length = 1000;
+  const Beam beam{length, 1, Point::Zero(), 0.3};
+  for (const double x : {200.0, 500.0, 800.0}) {
+    const double euler = 3 * std::pow(x / length, 2) - 2 * std::pow(x / length, 3);
+    QVERIFY(std::abs(timoshenko(beam, 1, {x, 0, 0}).z() - euler) < 1e-5);
+  }
+}
+
+void SuiteTest::linear_fem_has_its_theoretical_order() {
+  SuiteOptions options;
+  options.algorithms = {Algorithm::linear_fem, Algorithm::natural_queue};
+  const Suite suite = run_suite({"refinement"}, options);
+  const auto& orders = suite.results.front().orders;
+  const auto fem = std::ranges::find(orders, "fem", &SuiteOrder::algorithm);
+  QCOMPARE(fem->sizes.size(), std::size_t(4));
+  QVERIFY2(std::abs(fem->order.value() - 2) < 0.1, qPrintable(QString::number(*fem->order)));
+  QVERIFY(fem->sizes.back().relative < 1e-4);
+  const auto chainmail = std::ranges::find(orders, "natural-queue", &SuiteOrder::algorithm);
+  QVERIFY(std::abs(chainmail->order.value()) < 0.1);  // no figure of the mesh makes a pass come closer
+}
+
+void SuiteTest::linear_fem_meets_the_beam() {
+  SuiteOptions options;
+  options.algorithms = {Algorithm::linear_fem, Algorithm::exact};
+  options.repetitions = 1;
+  const Suite suite = run_suite({"cantilever"}, options);
+  QCOMPARE(suite.results.front().reference, std::string("closed form"));
+  const SuiteRow& nothing = row_of(suite, "nothing");
+  QVERIFY(std::abs(nothing.relative.value() - 1) < 1e-12 && std::abs(nothing.relative_turned.value() - 1) < 1e-12);
+  const SuiteRow& fem = row_of(suite, "fem");
+  QVERIFY2(fem.relative.value() < 0.01, qPrintable(QString::number(*fem.relative)));
+  QVERIFY(std::abs(*fem.relative - fem.relative_turned.value()) < 1e-5);
+  QVERIFY(fem.factorize_ms.value() > 0 && fem.grab_ms.value() > 0 && fem.later_ms.value() > 0 && !fem.after_cut_ms);
+  const SuiteRow& exact = row_of(suite, "exact");
+  QVERIFY(exact.violation.value() < 1e-4 && !exact.factorize_ms);
+}
+
+void SuiteTest::a_handle_that_turns_has_a_reference() {
+  const double degrees = 40;
+  const Case object = twisted_bar(degrees);
+  const Mesh& mesh = *object.mesh;
+  const auto coarse = DragReferences(object, std::nullopt).at_end(object.drags.front());
+  ConvergingOptions options;
+  options.most_levels = 2;
+  const auto fine = DragReferences(object, options).at_end(object.drags.front());
+  QCOMPARE(fine.refined->levels.size(), std::size_t(2));
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Point::UnitX()));
+  for (const ElementId element : grabbed_by(object.drags.front())) {
+    const Point rest = mesh.rest_position(element), middle(rest.x(), 1, 1);
+    const Point expected = middle + turn * (rest - middle) - rest;
+    for (const auto* solution : {&coarse.solution, &fine.solution}) {
+      const Point found = mesh.to_point(solution->displacements.data() + element * 3);
+      QVERIFY((found - expected).norm() < 1e-9);
+    }
+  }
+  // The first level is the answer on the object's own cells, which the refinement changes by its `change`.
+  double apart = 0, all = 0;
+  for (std::size_t i = 0; i < coarse.solution.displacements.size(); ++i) {
+    apart += std::pow(fine.solution.displacements[i] - coarse.solution.displacements[i], 2);
+    all += std::pow(fine.solution.displacements[i], 2);
+  }
+  QVERIFY(std::abs(std::sqrt(apart / all) - fine.refined->levels[1].change.value()) < 1e-6);
+}
+
+void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
+  Case object = twisted_bar(20);
+  object.elastic.iterations = 2;
+  PhysicsContestant free{Algorithm::xpbd}, limited{Algorithm::xpbd};
+  limited.limit = 2;
+  CompareOptions options;
+  Contest contest(object, {free, limited}, options, Measured::errors);
+  const auto reference = DragReferences(object, std::nullopt).at_end(object.drags.front());
+  const auto entries = contest.run(object.drags.front(), reference.solution, [](double) {}, {});
+  QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
+  QVERIFY(entries[1].measurement && entries[1].refusal.empty());
+  QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
+}
+
+void SuiteTest::times_grow_with_the_accuracy() {
+  SuiteOptions options;
+  options.algorithms = {Algorithm::exact, Algorithm::linear_fem, Algorithm::boundary_elements};
+  options.repetitions = 1;
+  const Suite suite = run_suite({"time-sheet"}, options);
+  const auto& times = suite.results.front().times;
+  const auto named = [&](const char* name) { return *std::ranges::find(times, name, &SuiteTime::contestant); };
+  const SuiteTime fem = named("Linear FEM, on the same cells"), equilibrium = named("Exact + equilibrium");
+  QVERIFY(fem.least_error.value() < 0.1 && fem.factorize_ms.value() > 0);
+  for (std::size_t i = 0; i < suite_errors.size(); ++i) {
+    QVERIFY(fem.ms_per_move[i].has_value() && fem.fresh_ms[i].value() > fem.ms_per_move[i].value());
+    QCOMPARE(equilibrium.ms_per_move[i].has_value(), equilibrium.least_error.value() <= suite_errors[i]);
+  }
+  for (std::size_t i = 1; i < suite_errors.size(); ++i) {
+    QCOMPARE(fem.ms_per_move[i], fem.ms_per_move[0]);  // it has no iterations to choose
+  }
+  QVERIFY(!named("BEM, on its surface mesh").refusal.empty());
+}
+
+void SuiteTest::parts_have_every_experiment_once() {
+  for (int count = 1; count <= 20; ++count) {
+    std::multiset<std::string> all;
+    for (int index = 1; index <= count; ++index) {
+      const auto names = part_of(suite_names(), {index, count});
+      all.insert(names.begin(), names.end());
+    }
+    const auto names = suite_names();
+    QVERIFY(all == std::multiset<std::string>(names.begin(), names.end()));
+  }
+}
+
+void SuiteTest::parts_are_joined() {
+  const Suite all = merged({part({"sheet", "torsion"}), part({"bar", "cantilever"})});
+  std::vector<std::string> names;
+  for (const SuiteResult& result : all.results) {
+    names.push_back(result.name);
+  }
+  QCOMPARE(names, (std::vector<std::string>{"cantilever", "torsion", "bar", "sheet"}));
+  QCOMPARE(all.runs.size(), std::size_t(2));
+  const auto missing = missing_from(all);
+  QCOMPARE(missing.size(), suite_names().size() - 4);
+  QVERIFY(std::ranges::count(missing, "organ") == 1 && std::ranges::count(missing, "bar") == 0);
+}
+
+void SuiteTest::an_experiment_twice_is_refused() {
+  try {
+    merged({part({"sheet", "bar"}), part({"bar"})});
+    QFAIL("not refused");
+  } catch (const Error& error) {
+    QCOMPARE(error.where(), std::string("bar"));
+  }
+}
+
+void SuiteTest::means_leave_out_the_cut() {
+  SuiteResult result;
+  SuiteRow row{"pull", 1, false, "Exact ChainMail", "exact", ""};
+  row.relative = 0.2;
+  row.later_ms = 2;
+  result.rows.push_back(row);
+  row.relative = 0.4;
+  result.rows.push_back(row);
+  row.has_cut = true;
+  row.relative = 9;
+  row.after_cut_ms = 5;
+  result.rows.push_back(row);
+  result.rows.push_back({"pull", 1, false, "XPBD", "xpbd", "it did not converge"});
+  const auto means = means_of(result);
+  QCOMPARE(means.size(), std::size_t(2));
+  QCOMPARE(means[0].relative.value(), 0.3);
+  QCOMPARE(means[0].after_cut_ms.value(), 5.0);
+  QVERIFY(means[0].drags == 2 && means[0].of == 2);
+  QVERIFY(!means[1].relative && means[1].refusal == "it did not converge");
+}
+
+void SuiteTest::unknown_experiments_are_refused() {
+  try {
+    run_suite({"hammer"}, {});
+    QFAIL("not refused");
+  } catch (const Error& error) {
+    QVERIFY(std::string(error.what()).find("hammer") != std::string::npos);
+  }
+}
+
+QTEST_APPLESS_MAIN(SuiteTest)
+#include "test_suite.moc"
