@@ -78,9 +78,8 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
 }
 
 void refuse_physics(const CompareArguments& arguments) {
-  for (const CLI::Option* option :
-       {arguments.grow, arguments.calibrated, arguments.reference, arguments.laws.materials, arguments.laws.gent_limit,
-        arguments.laws.fung_exponent}) {
+  for (const CLI::Option* option : {arguments.grow, arguments.calibrated, arguments.reference, arguments.laws.materials,
+                                    arguments.laws.gent_limit, arguments.laws.fung_exponent}) {
     if (option->count() > 0) {
       throw Error(option->get_name(), "it works only with --against physics", "add --against physics");
     }

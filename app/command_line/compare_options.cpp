@@ -51,7 +51,8 @@ LinkSoftness preset_of(const std::string& name) {
 
 void add_contest(CLI::App& app, CompareArguments& options) {
   options.against = add_value(app, "--against", "exact|physics", "reference for the errors [exact]");
-  options.algorithms = add_value(app, "--algorithms", "A,B,…", "algorithms to compare: see deform --help [all; against exact: the ChainMail family]");
+  options.algorithms = add_value(app, "--algorithms", "A,B,…",
+                                 "algorithms to compare: see deform --help [all; against exact: the ChainMail family]");
   options.relax =
       add_value(app, "--relax", "N,N,…",
                 "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
@@ -91,7 +92,8 @@ void add_suite(CLI::App& app, CompareArguments& options) {
       "run the suite of experiments, about 15 minutes: all contestants against closed forms and converged references");
   options.experiments = add_value(app, "--experiments", "NAME,…", "only these experiments of the suite [all]");
   options.shard = add_value(app, "--shard", "I/N", "only part I of N of the suite, for several machines [1/1]");
-  options.merge = app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
+  options.merge =
+      app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
   for (CLI::Option* option : {options.suite, options.experiments, options.shard, options.merge}) {
     option->group("Suite");
   }

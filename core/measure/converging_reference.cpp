@@ -178,7 +178,8 @@ std::vector<double> ConvergingReference::from_rest(Level& level, const std::vect
   const int steps = std::max(1, int(std::ceil(rotation.norm() / largest_turn)));
   for (int step = 1; step <= steps; ++step) {
     const double share = double(step) / steps;
-    const RigidMotion part = step == steps ? motion : RigidMotion{turn_of(share * rotation), share * motion.translation};
+    const RigidMotion part =
+        step == steps ? motion : RigidMotion{turn_of(share * rotation), share * motion.translation};
     solver.move(elastic_motion(mesh, part), progress.part(double(step - 1) / steps, share));
     if (!solver.remark().empty()) {
       throw Error(label(level.problem.law) + " FEM", solver.remark(), "drag less far, or use a finer mesh");

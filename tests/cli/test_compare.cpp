@@ -107,8 +107,8 @@ void CompareCommandTest::the_equilibrium_is_compared() {
 }
 
 void CompareCommandTest::methods_of_elasticity_take_part() {
-  const auto outcome = program_->run(
-      "compare cloth.obj --pins left --algorithms exact,fem,xpbd,bem --relax 0,3 --repetitions 1 -o out");
+  const auto outcome =
+      program_->run("compare cloth.obj --pins left --algorithms exact,fem,xpbd,bem --relax 0,3 --repetitions 1 -o out");
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
   const auto entries = report()["objects"][0]["drags"][0]["contestants"].toArray();
   QCOMPARE(entries.size(), 5);  // sweeps follow Exact only
@@ -118,8 +118,8 @@ void CompareCommandTest::methods_of_elasticity_take_part() {
   // Without pins they have no answer, which the report says; XPBD that does not converge has no figures either.
   QCOMPARE(program_->run("compare cloth.obj --algorithms fem --repetitions 1 -o out").code, 0);
   QVERIFY(report()["objects"][0]["drags"][0]["contestants"][0]["refusal"].toString().contains("pin"));
-  QCOMPARE(
-      program_->run("compare cloth.obj --pins left --algorithms xpbd --iterations 1 --repetitions 1 -o out").code, 0);
+  QCOMPARE(program_->run("compare cloth.obj --pins left --algorithms xpbd --iterations 1 --repetitions 1 -o out").code,
+           0);
   QVERIFY(
       report()["objects"][0]["drags"][0]["contestants"][0]["refusal"].toString().contains("it did not converge in 1"));
 }

@@ -47,9 +47,10 @@ QByteArray SuiteCommandTest::shell(const QString& script) const {
 
 /// Checks a report with an independent reader of JSON Schema.
 QByteArray SuiteCommandTest::fault_against_schema(const QString& report) const {
-  return shell("/usr/bin/python3 -c 'import json, sys, jsonschema; "
-               "jsonschema.validate(json.load(open(sys.argv[1])), json.load(open(sys.argv[2])))' " +
-               program_->path(report) + " " PROJECT_SOURCE_DIR "/resources/schemas/suite.schema.json");
+  return shell(
+      "/usr/bin/python3 -c 'import json, sys, jsonschema; "
+      "jsonschema.validate(json.load(open(sys.argv[1])), json.load(open(sys.argv[2])))' " +
+      program_->path(report) + " " PROJECT_SOURCE_DIR "/resources/schemas/suite.schema.json");
 }
 
 void SuiteCommandTest::writes_a_report_of_the_schema() {
@@ -82,7 +83,8 @@ void SuiteCommandTest::the_whole_is_the_sum_of_its_parts() {
   const auto whole = run((" --suite -o whole" + QByteArray(short_run)).constData());
   QVERIFY2(whole.code == 0, whole.error);
   for (const char* shard : {"1", "2"}) {
-    const auto outcome = run((" --suite -o part" + QByteArray(shard) + " --shard " + shard + "/2" + short_run).constData());
+    const auto outcome =
+        run((" --suite -o part" + QByteArray(shard) + " --shard " + shard + "/2" + short_run).constData());
     QVERIFY2(outcome.code == 0, outcome.error);
   }
   const auto merged = run(" --merge part2/report.json part1/report.json -o merged");
@@ -111,7 +113,8 @@ void SuiteCommandTest::the_example_of_the_manual_runs() {
   QFile manual(PROJECT_SOURCE_DIR "/resources/manual/suite.md");
   QVERIFY(manual.open(QIODevice::ReadOnly));
   const QString page = QString::fromUtf8(manual.readAll());
-  const auto match = QRegularExpression("\n    (parallel [^\n]+)\n    (chainmail compare --merge [^\n]+)\n").match(page);
+  const auto match =
+      QRegularExpression("\n    (parallel [^\n]+)\n    (chainmail compare --merge [^\n]+)\n").match(page);
   QVERIFY(match.hasMatch());
   QString lines = match.captured(1) + "\n" + match.captured(2);
   lines.replace("parallel ", "parallel --will-cite ").replace("--suite", "--suite" + QString(short_run));
@@ -125,7 +128,8 @@ void SuiteCommandTest::damaged_parts_are_refused_data() {
   QTest::addColumn<QByteArray>("text");
   QTest::addColumn<QString>("where");
   QTest::newRow("no JSON") << QByteArray("{\"kind\": ") << "bad.json:1: ";
-  QTest::newRow("another report") << QByteArray("{\"origin\": {}}") << "bad.json: it is not a report of compare --suite";
+  QTest::newRow("another report") << QByteArray("{\"origin\": {}}")
+                                  << "bad.json: it is not a report of compare --suite";
   QTest::newRow("a list") << QByteArray("[1]") << "bad.json: it is not a report of compare --suite";
   QTest::newRow("a later version") << QByteArray("{\"kind\": \"chainmail suite\", \"schema_version\": 9}")
                                    << "bad.json: its format has version 9";

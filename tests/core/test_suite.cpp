@@ -76,7 +76,8 @@ void SuiteTest::timoshenko_meets_both_ends() {
   }
 }
 
-/// Along the beam the shear strain w' - φ is constant, and the moment E I φ' falls linearly: its slope is the shear force.
+/// Along the beam the shear strain w' - φ is constant, and the moment E I φ' falls linearly: its slope is the shear
+/// force.
 void SuiteTest::timoshenko_balances_its_forces() {
   const Beam beam{8, 1, Point::Zero(), 0.25};
   const double step = 1e-4, shear_modulus = 1 / (2 * 1.25), inertia = 1.0 / 12, coefficient = 10 * 1.25 / (12 + 2.75);

@@ -26,9 +26,9 @@ void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean) {
   const bool calibrated = mean.contestant.find("calibrated") != std::string::npos;
   const bool equilibrium = mean.contestant.find("equilibrium") != std::string::npos;
   const std::string note = equilibrium ? (calibrated ? "eq. cal." : equilibrium_mark) : calibrated ? "cal." : "";
-  panel.marks.push_back({ms, ms, ms, *mean.relative, series_of(plot, *algorithm), calibrated || equilibrium, note,
-                         mean.contestant + ": " + figure(ms) + " ms per later move, relative error " +
-                             figure(*mean.relative)});
+  panel.marks.push_back(
+      {ms, ms, ms, *mean.relative, series_of(plot, *algorithm), calibrated || equilibrium, note,
+       mean.contestant + ": " + figure(ms) + " ms per later move, relative error " + figure(*mean.relative)});
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ std::string summary_cell(const SuiteMean& mean, const SuiteMean* best) {
   if (!mean.relative) {
     return "-";
   }
-  const std::string number = figure(*mean.relative) + (best != nullptr && best->contestant == mean.contestant ? "*" : "");
+  const std::string number =
+      figure(*mean.relative) + (best != nullptr && best->contestant == mean.contestant ? "*" : "");
   return mean.drags == mean.of ? number
                                : number + " (" + std::to_string(mean.drags) + " of " + std::to_string(mean.of) + ")";
 }

@@ -16,8 +16,8 @@ struct Beam {
 /// section, 10 (1 + ν) / (12 + 11 ν). For small deflections.
 Point timoshenko(const Beam& beam, double deflection, const Point& rest);
 
-/// Returns the displacement of a point of a sheet in the plane z = 0, clamped at x = 0, whose section at the end turns by
-/// `angle` (radians): pure bending. Poisson's ratio must be 0: then this solves the equations of linear elasticity
+/// Returns the displacement of a point of a sheet in the plane z = 0, clamped at x = 0, whose section at the end turns
+/// by `angle` (radians): pure bending. Poisson's ratio must be 0: then this solves the equations of linear elasticity
 /// exactly, also at both ends. For small angles.
 Point pure_bending(const Beam& sheet, double angle, const Point& rest);
 

@@ -77,7 +77,8 @@ class Contest::Participant {
       return;
     }
     try {
-      const PreparingTimes* preparing = preparations != nullptr && prepares(contestant_) ? &prepared(*preparations) : nullptr;
+      const PreparingTimes* preparing =
+          preparations != nullptr && prepares(contestant_) ? &prepared(*preparations) : nullptr;
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
@@ -209,8 +210,9 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
   // less often.
   const auto wanted = [&](const Participant& one) {
-    return measured_ == Measured::errors ? 0 : options_.repetitions ? std::min(one.repetitions(1e9), *options_.repetitions)
-                                : one.repetitions(options_.seconds / count);
+    return measured_ == Measured::errors ? 0
+           : options_.repetitions        ? std::min(one.repetitions(1e9), *options_.repetitions)
+                                         : one.repetitions(options_.seconds / count);
   };
   for (int repetition = 0; repetition < most_repetitions && !stop.stop_requested(); ++repetition) {
     tell(0.5 + 0.5 * repetition / most_repetitions);

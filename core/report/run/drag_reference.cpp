@@ -92,9 +92,9 @@ DragReference DragReferences::at_end(const RecordedMoves& moves) {
       refined_.emplace(reference_problem(object_), *refine_);
     }
     const RigidMotion motion = motion_at_end(mesh, moves);
-    const ConvergedReference found = cut.empty()
-                                         ? refined_->at(handle, motion)
-                                         : ConvergingReference(reference_problem(object_, cut), *refine_).at(handle, motion);
+    const ConvergedReference found =
+        cut.empty() ? refined_->at(handle, motion)
+                    : ConvergingReference(reference_problem(object_, cut), *refine_).at(handle, motion);
     return {found.solution, found};
   }
   std::optional<ReferenceSolver> with_cut;

@@ -33,8 +33,8 @@ PhysicsOptions checked(PhysicsOptions options) {
 
 PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences& references,
                     const std::function<void(double)>& tell, const std::stop_token& stop) {
-  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cuts_of(moves).empty(),
-                   0,          {},                {}};
+  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cuts_of(moves).empty(), 0, {},
+                   {}};
   try {
     DragReference reference = references.at_end(moves);
     drag.handle_displacement = reference.solution.handle_displacement;

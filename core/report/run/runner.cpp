@@ -75,8 +75,8 @@ Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const cha
 
 void Runner::relax(Relaxing relaxing) {
   if (relaxing.equilibrium) {
-    simulation_.apply(
-        commands::Relax{std::uint32_t(relaxing.iterations), relax_step_, RelaxationScheme::equilibrium, compared_residual});
+    simulation_.apply(commands::Relax{std::uint32_t(relaxing.iterations), relax_step_, RelaxationScheme::equilibrium,
+                                      compared_residual});
   } else {
     simulation_.relax(relaxing.sweeps, relax_step_);
   }

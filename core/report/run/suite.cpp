@@ -53,7 +53,7 @@ std::optional<double> median_of(const TimeSpread& ms) {
 }
 
 SuiteRow row_of(const RecordedMoves& moves, const PhysicsEntry& entry) {
-  SuiteRow row{moves.name, handle_of(moves), !cuts_of(moves).empty(), label(entry.contestant), name(entry.contestant),
+  SuiteRow row{moves.name,   handle_of(moves), !cuts_of(moves).empty(), label(entry.contestant), name(entry.contestant),
                entry.refusal};
   if (!entry.measurement) {
     return row;
@@ -122,7 +122,8 @@ class Turned {
         there.displacements[at + k] = displacement[mesh.axes[k]];
       }
     }
-    const auto entries = contest_.run(object_.drags[drag], there, [](double) {}, stop);
+    const auto entries = contest_.run(
+        object_.drags[drag], there, [](double) {}, stop);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].measurement) {
         rows[i].relative_turned = entries[i].measurement->error.relative;
@@ -170,7 +171,8 @@ void run_drags(Running& running, const Case& object) {
       const DragReference reference = references.at_end(moves);
       running.result.reference = running.result.reference.empty() ? sentence_of(reference) : running.result.reference;
       const std::size_t first = running.result.rows.size();
-      for (const PhysicsEntry& entry : contest.run(moves, reference.solution, [](double) {}, running.stop)) {
+      for (const PhysicsEntry& entry : contest.run(
+               moves, reference.solution, [](double) {}, running.stop)) {
         running.result.rows.push_back(row_of(moves, entry));
       }
       if (handle_of(moves) == handle_of(object.drags.front()) && cuts_of(moves).empty()) {
@@ -205,7 +207,8 @@ void run_refinement(Running& running, const std::vector<Case>& sizes) {
     Contest contest(sizes[i], contestants, options, Measured::errors);
     const RecordedMoves& moves = sizes[i].drags.front();
     const auto reference = DragReferences(sizes[i], std::nullopt).at_end(moves);
-    const auto entries = contest.run(moves, reference.solution, [](double) {}, running.stop);
+    const auto entries = contest.run(
+        moves, reference.solution, [](double) {}, running.stop);
     for (std::size_t k = 0; k < entries.size(); ++k) {
       if (entries[k].measurement) {
         orders[k].sizes.push_back({sizes[i].mesh->element_count(), entries[k].measurement->error.relative});
@@ -326,9 +329,8 @@ Suite merged(const std::vector<Suite>& parts) {
 
 std::vector<std::string> missing_from(const Suite& suite) {
   auto names = suite_names();
-  std::erase_if(names, [&](const std::string& name) {
-    return std::ranges::count(suite.results, name, &SuiteResult::name) > 0;
-  });
+  std::erase_if(
+      names, [&](const std::string& name) { return std::ranges::count(suite.results, name, &SuiteResult::name) > 0; });
   return names;
 }
 

@@ -66,8 +66,8 @@ std::vector<Case> cantilever(const MeshPointer& /*organ*/) {
   return {std::move(object)};
 }
 
-/// Returns a strip of triangles, four times as long as high, whose inner elements are moved a little: on a regular mesh,
-/// linear FEM would be exact at the elements.
+/// Returns a strip of triangles, four times as long as high, whose inner elements are moved a little: on a regular
+/// mesh, linear FEM would be exact at the elements.
 MeshPointer irregular_strip() {
   constexpr double most = 0.2;  // spacings
   const MeshPointer regular = generate({MeshKind::cloth, {17, 5, 1}});
@@ -144,10 +144,12 @@ std::vector<Case> indentation(const MeshPointer& /*organ*/) {
     return std::max(std::abs(from_middle.x()), std::abs(from_middle.z())) <= height / 4;
   });
   for (const auto& [tool, handle] : {std::pair{"stamp", stamp}, std::pair{"plate", plate}}) {
-    for (const auto& [strain, share] : {std::pair{"5 %", 0.05}, std::pair{"12.5 %", 0.125}, std::pair{"18.25 %", 0.1825}}) {
-      object.drags.push_back(rigid_drag(std::string(tool) + " " + strain,
-                                        std::string("the ") + tool + " on the top goes down by " + strain + " of the height",
-                                        handle, {0, -share * height, 0}));
+    for (const auto& [strain, share] :
+         {std::pair{"5 %", 0.05}, std::pair{"12.5 %", 0.125}, std::pair{"18.25 %", 0.1825}}) {
+      object.drags.push_back(
+          rigid_drag(std::string(tool) + " " + strain,
+                     std::string("the ") + tool + " on the top goes down by " + strain + " of the height", handle,
+                     {0, -share * height, 0}));
     }
   }
   return {std::move(object)};
@@ -158,7 +160,8 @@ std::vector<Case> with_patches(Case object, std::size_t handles) {
   object.drags = physics_drags(object, true, patch_share);
   std::vector<ElementId> kept = handles_of(object);
   kept.resize(std::min(handles, kept.size()));
-  std::erase_if(object.drags, [&](const RecordedMoves& drag) { return std::ranges::count(kept, handle_of(drag)) == 0; });
+  std::erase_if(object.drags,
+                [&](const RecordedMoves& drag) { return std::ranges::count(kept, handle_of(drag)) == 0; });
   return {std::move(object)};
 }
 
@@ -197,8 +200,10 @@ constexpr std::array experiments{
     SuiteExperiment{"extension", "a bar of tetrahedra, three times as long as high", SuiteKind::drags, extension},
     SuiteExperiment{"compression", "a bar of tetrahedra, three times as long as high", SuiteKind::drags, compression},
     SuiteExperiment{"torsion", "a bar of tetrahedra, three times as long as high", SuiteKind::drags, torsion},
-    SuiteExperiment{"indentation", "a cube of tetrahedra, Poisson's ratio 0.45, under a stamp and a plate, at the strains of the Truth Cube",
-                    SuiteKind::drags, indentation},
+    SuiteExperiment{
+        "indentation",
+        "a cube of tetrahedra, Poisson's ratio 0.45, under a stamp and a plate, at the strains of the Truth Cube",
+        SuiteKind::drags, indentation},
     SuiteExperiment{"bar", "a bar of tetrahedra at three handles, and one cut while dragging", SuiteKind::drags,
                     [](const MeshPointer&) { return with_patches(plain_bar(), all_handles); }},
     SuiteExperiment{"bar-gent", "the bar at one handle, of a material that stiffens (Gent 1996)", SuiteKind::drags,
@@ -206,8 +211,7 @@ constexpr std::array experiments{
     SuiteExperiment{"bar-fung", "the bar at one handle, of a material that stiffens (Demiray 1972)", SuiteKind::drags,
                     [](const MeshPointer&) { return with_patches(made_of(plain_bar(), StrainLaw::Kind::fung), 1); }},
     SuiteExperiment{"sheet", "a sheet of triangles in a plane at three handles, and one cut while dragging",
-                    SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(plain_sheet(), all_handles); }},
+                    SuiteKind::drags, [](const MeshPointer&) { return with_patches(plain_sheet(), all_handles); }},
     SuiteExperiment{"sheet-gent", "the sheet at one handle, of a material that stiffens (Gent 1996)", SuiteKind::drags,
                     [](const MeshPointer&) { return with_patches(made_of(plain_sheet(), StrainLaw::Kind::gent), 1); }},
     SuiteExperiment{"sheet-fung", "the sheet at one handle, of a material that stiffens (Demiray 1972)",
