@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "elastic/cell_edges.h"
 #include "elastic/corotated.h"
@@ -13,10 +14,35 @@ namespace chainmail {
 namespace {
 
 // The time step makes the mean spring this many times as stiff as the inertia of an element. It decides on how fast the
-// iterations converge, not on the answer (measured).
+// iterations converge, not on the answer. If they diverge, it is halved, at most so often (measured).
 constexpr double springs_over_inertia = 2;
-// An answer has converged if no element and no constraint moves it by more than this share of the mean edge length.
-constexpr double last_move_below = 1e-8;
+constexpr int most_step_halvings = 6;
+// Iterations diverge if one moves an element by this many mean edge lengths.
+constexpr double diverging_move = 100;
+// An answer has converged if it is estimated to be this close to the equilibrium, or hardly moves (mean edge lengths).
+constexpr double converged_distance = 3e-7, last_move_below = 1e-8;
+// The rate at which moves shrink is measured over so many iterations.
+constexpr std::size_t rated_iterations = 32;
+
+/// The largest moves of the last iterations, and how far the answer is estimated to be from the limit.
+class ShrinkingMoves {
+ public:
+  void add(double move) { moves_.push_back(move); }
+
+  /// If moves shrink by a factor per iteration, the moves that are still to come are a geometric series.
+  double distance() const {
+    const double last = moves_.back();
+    if (last == 0 || moves_.size() <= rated_iterations) {
+      return last == 0 ? 0 : std::numeric_limits<double>::infinity();
+    }
+    const double before = moves_[moves_.size() - 1 - rated_iterations];
+    const double rate = std::pow(last / before, 1.0 / rated_iterations);
+    return rate < 1 ? last * rate / (1 - rate) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  std::vector<double> moves_;
+};
 
 /// Extended position based dynamics (Macklin et al. 2016) at rest: distance constraints on the edges, and constraints
 /// of the volume of tetrahedra, or of the area of triangles in a plane.
@@ -199,22 +225,58 @@ class Xpbd final : public IteratedSolver {
     if (!is_where_it_was(displacements)) {
       forget_forces();
     }
-    std::vector<double> before;
+    const std::vector<double> start = displacements;
+    ShrinkingMoves moves;
     double largest = 0;
+    int halvings = 0;
     for (std::uint32_t i = 0; i < iterations_; ++i) {
       progress.report(double(i) / iterations_);
-      before = displacements;
-      predict(displacements);
-      largest = sweep(displacements);
-      for (std::size_t k = 0; k < before.size(); ++k) {
-        largest = std::max(largest, std::abs(displacements[k] - before[k]));
+      largest = iterate(displacements);
+      if (largest > diverging_move * length_) {
+        if (halvings++ == most_step_halvings) {
+          break;
+        }
+        displacements = start;
+        halve_step();
+        moves = {};
+        continue;
       }
-      if (largest <= last_move_below * length_) {
-        break;
+      moves.add(largest);
+      if (largest <= last_move_below * length_ || moves.distance() <= converged_distance * length_) {
+        last_ = displacements;
+        return {};
       }
     }
+    if (halvings > most_step_halvings) {
+      displacements = start;
+      forget_forces();
+    }
     last_ = displacements;
-    return largest <= last_move_below * length_ ? std::string() : not_converged(iterations_, largest / length_);
+    return halvings > most_step_halvings ? "it diverged; the elements stay, but for the handle"
+                                    : not_converged(iterations_, largest / length_);
+  }
+
+  /// One time step. Returns how far it moves an element, or infinity if that is not a number.
+  double iterate(std::vector<double>& displacements) {
+    before_ = displacements;
+    predict(displacements);
+    double largest = sweep(displacements);
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      const double move = std::abs(displacements[k] - before_[k]);
+      largest = move <= largest ? largest : move;  // also if it is not a number
+    }
+    return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+  }
+
+  /// Halves the square of the time step, by which compliances are divided.
+  void halve_step() {
+    for (Distance& one : distances_) {
+      one.compliance *= 2;
+    }
+    for (Volume& one : volumes_) {
+      one.compliance *= 2;
+    }
+    forget_forces();
   }
 
   /// True if the multipliers are those of these displacements. Those of prescribed elements may differ.
@@ -241,8 +303,8 @@ class Xpbd final : public IteratedSolver {
   std::vector<double> mobility_;  // inverse mass of each element: 1, or 0 if its displacement is prescribed
   std::vector<Distance> distances_;
   std::vector<Volume> volumes_;
-  double length_ = 1;                     // mean of the edges, the unit of moves (mesh units)
-  std::vector<double> last_, predicted_;  // the last iterate
+  double length_ = 1;                              // mean of the edges, the unit of moves (mesh units)
+  std::vector<double> last_, predicted_, before_;  // iterates
 };
 
 }  // namespace

@@ -32,13 +32,17 @@ struct ReferenceLevel {
   std::optional<double> change;  // from the level before, as a share of the RMS displacement; none on the first level
 };
 
-/// A reference solution on the finest cells that were computed, at the object's own elements.
-struct ConvergedReference {
-  ReferenceSolution solution;
+/// How the answer changed from level to level.
+struct Convergence {
   std::vector<ReferenceLevel> levels;
   std::optional<double> order;  // observed: the logarithm to base 2 of the ratio of the last two changes
   bool converged = false;
   std::string end;  // reason why the last level is the last one
+};
+
+/// A reference solution on the finest cells that were computed, at the object's own elements.
+struct ConvergedReference : Convergence {
+  ReferenceSolution solution;
 };
 
 struct ConvergingOptions {

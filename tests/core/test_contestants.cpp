@@ -23,6 +23,7 @@ class ContestantsTest : public QObject {
   void projective_is_at_the_least_energy();
   void xpbd_is_at_the_least_energy_data() { dimensions(); }
   void xpbd_is_at_the_least_energy();
+  void xpbd_shortens_its_step_where_it_diverges();
   void xpbd_hardly_changes_after_50_iterations_data() { dimensions(); }
   void xpbd_hardly_changes_after_50_iterations();
   void too_few_iterations_are_told_data();
@@ -306,6 +307,21 @@ void ContestantsTest::xpbd_is_at_the_least_energy() {
     };
     const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
     QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+  }
+}
+
+/// A stretched sheet of a material that hardly changes its volume: with a long time step, iterations diverge.
+void ContestantsTest::xpbd_shortens_its_step_where_it_diverges() {
+  const MeshPointer mesh = generate({MeshKind::cloth, {32, 32, 1}});
+  for (const double poisson : {0.3, 0.45}) {
+    ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    problem.options.iterations = 5000;
+    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
+    drag(*solver, *mesh, far);
+    for (const double displacement : solver->displacements()) {
+      QVERIFY(std::isfinite(displacement) && std::abs(displacement) < 2 * far.norm());
+    }
+    QVERIFY2(solver->remark().find("diverged") == std::string::npos, solver->remark().c_str());
   }
 }
 

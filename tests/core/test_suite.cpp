@@ -41,7 +41,7 @@ Suite part(std::vector<std::string> names) {
   Suite suite;
   suite.runs = {{{}, "1/1", names}};
   for (const std::string& name : names) {
-    suite.results.push_back({name, "", "", 0, 0, 0, 0, {}, {}, {}, {}});
+    suite.results.push_back({name, "", "", {}, 0, 0, 0, 0, {}, {}, {}, {}});
   }
   return suite;
 }

@@ -31,6 +31,7 @@ ROOMS = {
     "core/simulate": ["core"],
     "core/report": ["core", "cli"],
     "core/calibrate": ["core", "cli"],
+    "core/bullet": ["core"],
     "core/api": ["core", "cli"],
     "core/files": ["files", "cli"],
     "app": ["cli"],

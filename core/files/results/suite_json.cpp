@@ -84,6 +84,19 @@ Json time_json(const report::SuiteTime& time) {
   return json;
 }
 
+Json reference_json(const Convergence& reference) {
+  Json json{{"levels", list_of(reference.levels,
+                               [](const ReferenceLevel& level) {
+                                 Json one{{"elements", level.elements}};
+                                 add_number(one, "change", level.change);
+                                 return one;
+                               })},
+            {"converged", reference.converged},
+            {"end", reference.end}};
+  add_number(json, "order", reference.order);
+  return json;
+}
+
 Json result_json(const report::SuiteResult& result) {
   return {{"name", result.name},
           {"description", result.description},
@@ -92,6 +105,7 @@ Json result_json(const report::SuiteResult& result) {
           {"links", result.links},
           {"pins", result.pins},
           {"seconds", result.seconds},
+          {"references", list_of(result.references, reference_json)},
           {"notes", result.notes},
           {"rows", list_of(result.rows, row_json)},
           {"orders", list_of(result.orders, order_json)},
@@ -196,6 +210,11 @@ class SuiteReader {
     }
     return time;
   }
+  ReferenceLevel level(const Read& json) const { return {whole(json, "elements"), number_if_any(json, "change")}; }
+  Convergence reference(const Read& json) const {
+    return {list<ReferenceLevel>(json, "levels", &SuiteReader::level), number_if_any(json, "order"),
+            fields_.boolean(json, "converged"), fields_.text(json, "end")};
+  }
   report::SuiteResult result(const Read& json) const {
     report::SuiteResult result;
     result.name = fields_.text(json, "name");
@@ -205,6 +224,7 @@ class SuiteReader {
     result.links = whole(json, "links");
     result.pins = whole(json, "pins");
     result.seconds = fields_.number(fields_.member(json, "seconds"));
+    result.references = list<Convergence>(json, "references", &SuiteReader::reference);
     result.notes = texts(json, "notes");
     result.rows = list<report::SuiteRow>(json, "rows", &SuiteReader::row);
     result.orders = list<report::SuiteOrder>(json, "orders", &SuiteReader::order);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/page/convergence.h"
 #include "report/page/format.h"
 #include "report/page/physics_means.h"
 
@@ -182,57 +183,15 @@ std::string what_happens(const PhysicsDrag& drag) {
   return drag.description.starts_with(handle) ? drag.description.substr(handle.size()) : drag.description;
 }
 
-/// Returns the elements of each level, as on the first of the drags, and the largest change on that level.
-std::string about_levels(const std::vector<const ConvergedReference*>& references) {
-  std::string text;
-  for (std::size_t level = 0;; ++level) {
-    std::uint64_t elements = 0;
-    double change = 0;
-    for (const ConvergedReference* one : references) {
-      if (level < one->levels.size()) {
-        elements = elements == 0 ? one->levels[level].elements : elements;
-        change = std::max(change, one->levels[level].change.value_or(0));
-      }
-    }
-    if (elements == 0) {
-      return text;
-    }
-    text += (level == 0 ? "" : ", ") + thousands(elements) + (level == 0 ? "" : " (" + percent(change) + ")");
-  }
-}
-
-std::string about_orders(const std::vector<const ConvergedReference*>& references) {
-  std::vector<double> orders;
-  for (const ConvergedReference* one : references) {
-    if (one->order) {
-      orders.push_back(*one->order);
-    }
-  }
-  if (orders.empty()) {
-    return {};
-  }
-  const auto [low, high] = std::ranges::minmax(orders);
-  return "; observed order " + figure(low) + " to " + figure(high);
-}
-
 /// Returns the levels of the references on refined cells; empty if there are none.
 std::string about_refined(const PhysicsObject& object) {
-  std::vector<const ConvergedReference*> references;
-  std::string end;
+  std::vector<Convergence> all;
   for (const PhysicsDrag& drag : object.drags) {
     if (drag.refined) {
-      references.push_back(&*drag.refined);
-      end = drag.refined->converged ? end : drag.refined->end;
+      all.push_back(*drag.refined);
     }
   }
-  if (references.empty()) {
-    return {};
-  }
-  const auto converged = std::ranges::count(references, true, &ConvergedReference::converged);
-  return "; elements of the reference on refined cells (largest change from the level before): " +
-         about_levels(references) + "; below " + percent(converged_change) + " in " + std::to_string(converged) +
-         " of " + std::to_string(references.size()) + " drags" +
-         (end.empty() ? "" : ", in others not, because " + end) + about_orders(references);
+  return all.empty() ? "" : "; " + convergence_in_words(all);
 }
 
 std::string about(const PhysicsObject& object) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "report/page/convergence.h"
 #include "report/page/format.h"
 
 namespace chainmail::report {
@@ -135,6 +136,9 @@ void add_ratio(std::vector<std::string>& sentences, const SuiteResult& result, s
 std::string about(const SuiteResult& result) {
   std::string text = result.description + "; " + thousands(result.elements) + " elements, " + thousands(result.links) +
                      " links, " + std::to_string(result.pins) + " pinned; reference: " + result.reference;
+  if (!result.references.empty()) {
+    text += "; " + convergence_in_words(result.references);
+  }
   for (const std::string& note : result.notes) {
     text += "; " + note;
   }

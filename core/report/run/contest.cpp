@@ -135,7 +135,7 @@ class Contest::Participant {
 
   void run(const std::stop_token& stop) {
     const double start = clocks_.wall();
-    const Runner::Run run = runner_->run(moves_, relaxing(), stop);
+    const Runner::Run run = runner_->run(moves_, relaxing(), stop, contestant_.limit == 0);
     stopped_ = run.stopped;
     if (run.stopped) {
       return;

@@ -82,7 +82,7 @@ DragReferences::DragReferences(const Case& object, const std::optional<Convergin
 
 DragReference DragReferences::at_end(const RecordedMoves& moves) {
   if (moves.closed_form) {
-    return {closed_form_of(object_, moves), std::nullopt};
+    return {closed_form_of(object_, moves), std::nullopt, true};
   }
   const Mesh& mesh = *object_.mesh;
   const std::vector<ElementId> handle = grabbed_by(moves);
@@ -101,7 +101,7 @@ DragReference DragReferences::at_end(const RecordedMoves& moves) {
   if (!cut.empty()) {
     with_cut.emplace(solver_of(object_, cut));
   }
-  return {(with_cut ? *with_cut : solver_).at(handle, displacements_of_handle(mesh, moves)), std::nullopt};
+  return {(with_cut ? *with_cut : solver_).at(handle, displacements_of_handle(mesh, moves))};
 }
 
 }  // namespace chainmail::report

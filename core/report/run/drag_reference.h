@@ -10,7 +10,8 @@ namespace chainmail::report {
 /// What the answers at the end of a drag are compared with.
 struct DragReference {
   ReferenceSolution solution;
-  std::optional<ConvergedReference> refined;  // its levels, if it was computed on refined cells
+  std::optional<ConvergedReference> refined = {};  // its levels, if it was computed on refined cells
+  bool is_closed_form = false;
 };
 
 /// The references of the drags of one object.

@@ -49,11 +49,12 @@ void Runner::go_to_rest() {
   handle_.clear();
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop) {
+Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop,
+                        bool must_converge) {
   job_.cancelled = false;
   const std::stop_callback cancel(stop, [this] { job_.cancelled = true; });
   try {
-    return run(moves, relaxing, chainmail::Progress(job_));
+    return run(moves, relaxing, chainmail::Progress(job_), must_converge);
   } catch (const Cancelled&) {
     Run stopped;
     stopped.stopped = true;
@@ -61,13 +62,18 @@ Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std
   }
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress) {
+Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress,
+                        bool must_converge) {
   Run run;
   simulation_.set_progress(progress);
   go_to_rest();
   for (const Command& command : moves.commands) {
     progress.report(0);
     carry_out(command, relaxing, run);
+    const Statistics& now = simulation_.statistics();
+    if (must_converge && info(now.algorithm).elastic && !now.remark.empty()) {
+      break;
+    }
   }
   progress.report(1);
   return run;

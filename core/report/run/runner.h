@@ -23,9 +23,11 @@ class Runner {
   };
   /// Runs the moves. A stop request takes effect within a pass of a method of elasticity, between passes of other
   /// algorithms, within sweeps, and between iterations.
-  Run run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop);
+  /// With `must_converge`, a drag ends at the first move of a method of elasticity that does not converge.
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop, bool must_converge = false);
   /// Does the same, and throws Cancelled when it is cancelled.
-  Run run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress);
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress,
+          bool must_converge = false);
 
   const Simulation& simulation() const { return simulation_; }
   /// Returns the elements of the last handle; none before the first run.

@@ -78,25 +78,14 @@ SuiteRow row_of(const RecordedMoves& moves, const PhysicsEntry& entry) {
   return row;
 }
 
-std::string levels_in_words(const ConvergedReference& reference) {
-  std::string text = "neo-Hookean or stiffening FEM on refined cells: ";
-  for (const ReferenceLevel& level : reference.levels) {
-    text += (&level == &reference.levels.front() ? "" : ", ") + std::to_string(level.elements);
+/// Notes what the answers of a drag are compared with.
+void note(SuiteResult& result, const DragReference& reference, const StrainLaw& law) {
+  if (reference.refined) {
+    result.references.push_back(*reference.refined);
   }
-  return text + " elements";
-}
-
-std::string sentence_of(const DragReference& reference) {
-  if (!reference.refined) {
-    return "closed form";
+  if (result.reference.empty()) {
+    result.reference = reference.is_closed_form ? "closed form" : label(law) + " FEM";
   }
-  const ConvergedReference& refined = *reference.refined;
-  std::string text = levels_in_words(refined);
-  if (const auto& change = refined.levels.back().change) {
-    text += "; the last level changed it by " + std::to_string(std::lround(1000 * *change)) + " per mille";
-  }
-  return text + (refined.converged ? "" : ", which is not below 2 %, because " + refined.end) +
-         (refined.order ? "; observed order " + std::to_string(*refined.order).substr(0, 4) : "");
 }
 
 /// The object, turned by 45° with its drags, and the contest on it.
@@ -169,7 +158,7 @@ void run_drags(Running& running, const Case& object) {
     running.tell(double(i) / double(object.drags.size()));
     try {
       const DragReference reference = references.at_end(moves);
-      running.result.reference = running.result.reference.empty() ? sentence_of(reference) : running.result.reference;
+      note(running.result, reference, object.law);
       const std::size_t first = running.result.rows.size();
       for (const PhysicsEntry& entry : contest.run(
                moves, reference.solution, [](double) {}, running.stop)) {
@@ -194,7 +183,6 @@ std::optional<double> order_of(const std::vector<SuiteOrder::Size>& sizes) {
 
 void run_refinement(Running& running, const std::vector<Case>& sizes) {
   describe(running.result, sizes.back());
-  running.result.reference = "closed form";
   CompareOptions options = running.options.contest;
   options.precision = Precision::double_precision;  // the object hardly moves
   const auto contestants = contestants_of(options.algorithms, options.sweeps, options.equilibrium, {});
@@ -207,6 +195,7 @@ void run_refinement(Running& running, const std::vector<Case>& sizes) {
     Contest contest(sizes[i], contestants, options, Measured::errors);
     const RecordedMoves& moves = sizes[i].drags.front();
     const auto reference = DragReferences(sizes[i], std::nullopt).at_end(moves);
+    note(running.result, reference, sizes[i].law);
     const auto entries = contest.run(
         moves, reference.solution, [](double) {}, running.stop);
     for (std::size_t k = 0; k < entries.size(); ++k) {
@@ -227,7 +216,7 @@ void run_time_to_error(Running& running, const Case& object) {
   const auto contestants = calibrated_contestants(running, object);
   const RecordedMoves &drag = object.drags.front(), &one_move = object.drags.back();
   const DragReference reference = DragReferences(object, running.options.refine).at_end(drag);
-  running.result.reference = sentence_of(reference);
+  note(running.result, reference, object.law);
   running.result.times = times_to_error(object, contestants, drag, one_move, reference.solution,
                                         running.options.contest, running.tell, running.stop);
 }

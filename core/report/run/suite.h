@@ -26,7 +26,7 @@ struct SuiteRow {
   std::optional<double> bytes = {};
 };
 
-/// One figure of a row: its key in files, its heading in tables, and its docstring for the reader of a page.
+/// One figure of a row: its key in files, and its heading in tables.
 struct SuiteFigure {
   std::string_view key, group, heading;
   std::optional<double> SuiteRow::*value;
@@ -75,7 +75,8 @@ struct SuiteTime {
 /// The result of one experiment.
 struct SuiteResult {
   std::string name, description;
-  std::string reference;  // what the errors are measured against, with its levels
+  std::string reference;                // what the errors are measured against
+  std::vector<Convergence> references;  // of the drags whose reference is on refined cells, in their order
   std::uint64_t elements = 0, links = 0, pins = 0;
   double seconds = 0;  // duration of the experiment
   std::vector<std::string> notes;
