@@ -253,7 +253,7 @@ class Xpbd final : public IteratedSolver {
     }
     last_ = displacements;
     return halvings > most_step_halvings ? "it diverged; the elements stay, but for the handle"
-                                    : not_converged(iterations_, largest / length_);
+                                         : not_converged(iterations_, largest / length_);
   }
 
   /// One time step. Returns how far it moves an element, or infinity if that is not a number.
