@@ -54,7 +54,7 @@ RegionFrame frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
     return principal.frame;
   }
   try {
-    const RegionFrame frame(FrameKind::given, parse_rotation("--frame", *text).vector());
+    RegionFrame frame(FrameKind::given, parse_rotation("--frame", *text).vector());
     check(frame, mesh);
     return frame;
   } catch (const Error& error) {

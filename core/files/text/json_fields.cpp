@@ -155,7 +155,7 @@ RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh) const {
   if (which == FrameKind::object && !frame.contains("rotation")) {
     return principal_axes(mesh).frame;
   }
-  const RegionFrame result(which, rotation_vector(frame, "rotation"));
+  RegionFrame result(which, rotation_vector(frame, "rotation"));
   try {
     check(result, mesh);
   } catch (const Error& error) {

@@ -113,24 +113,27 @@ const SuiteTime* find_time(const SuiteResult& result, std::string_view begin, st
   return found == result.times.end() ? nullptr : &*found;
 }
 
+/// Compares two times to an error: "0.1 ms and XPBD 0.7 ms, 7 times as long".
+std::string ratio_in_words(const std::optional<double>& mine, const SuiteTime& theirs,
+                           const std::optional<double>& its) {
+  if (!mine) {
+    return "does not come there";
+  }
+  return "takes " + figure(*mine) + " ms, " + theirs.contestant + " " +
+         (its ? figure(*its) + " ms, " + figure(*its / *mine) + " times as long" : "does not come there");
+}
+
 /// Says how much faster Exact at equilibrium, calibrated, is than another method at the error 0.3.
 void add_ratio(std::vector<std::string>& sentences, const SuiteResult& result, std::string_view other) {
   constexpr std::size_t at = 1;  // suite_errors[1] is 0.3
   const SuiteTime* ours = find_time(result, "Exact + equilibrium", "calibrated");
   const SuiteTime* theirs = find_time(result, other, "");
-  if (ours == nullptr || theirs == nullptr) {
-    return;
+  if (ours != nullptr && theirs != nullptr) {
+    sentences.push_back(result.name + ": to a relative error of " + figure(suite_errors[at]) + ", " + ours->contestant +
+                        " " + ratio_in_words(ours->ms_per_move[at], *theirs, theirs->ms_per_move[at]) +
+                        " per later move; from a fresh grab, it " +
+                        ratio_in_words(ours->fresh_ms[at], *theirs, theirs->fresh_ms[at]));
   }
-  std::string text = result.name + ": to a relative error of " + figure(suite_errors[at]) + ", ";
-  const auto& mine = ours->ms_per_move[at];
-  const auto& its = theirs->ms_per_move[at];
-  if (!mine || !its) {
-    text += std::string(mine ? theirs->contestant : ours->contestant) + " does not come";
-  } else {
-    text += ours->contestant + " takes " + figure(*mine) + " ms per move and " + theirs->contestant + " " +
-            figure(*its) + " ms: " + figure(*its / *mine) + " times as long";
-  }
-  sentences.push_back(text);
 }
 
 std::string about(const SuiteResult& result) {

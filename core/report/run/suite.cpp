@@ -277,10 +277,8 @@ std::vector<std::string> part_of(const std::vector<std::string>& names, const Sh
 
 Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress,
                 const std::stop_token& stop) {
-  std::vector<const SuiteExperiment*> chosen;
-  for (const std::string& name : names) {
-    chosen.push_back(&experiment_named(name));
-  }
+  std::vector<const SuiteExperiment*> chosen(names.size());
+  std::ranges::transform(names, chosen.begin(), [](const std::string& name) { return &experiment_named(name); });
   Suite suite;
   for (std::size_t i = 0; i < chosen.size() && !stop.stop_requested(); ++i) {
     const Tell tell = [&](double share) {

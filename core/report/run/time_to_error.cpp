@@ -101,10 +101,8 @@ std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<Phys
       drag, reference, [&](double share) { tell(0.1 + 0.6 * share); }, stop);
   const auto fresh = contest.run(
       one_move, reference, [&](double share) { tell(0.7 + 0.3 * share); }, stop);
-  std::vector<SuiteTime> times;
-  for (const Group& group : groups) {
-    times.push_back(time_of(group, along, fresh));
-  }
+  std::vector<SuiteTime> times(groups.size());
+  std::ranges::transform(groups, times.begin(), [&](const Group& group) { return time_of(group, along, fresh); });
   return times;
 }
 
