@@ -35,13 +35,14 @@ void OutputsCommandTest::json_has_the_keys_of_the_contract() {
   const QByteArray text = program_->read("a.json");
   qsizetype last = -1;
   for (const char* key : {"algorithm", "elements", "links", "passes", "element", "target", "checked", "moved",
-                          "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement"}) {
+                          "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement", "shape"}) {
     const auto at = text.indexOf('"' + QByteArray(key) + '"');
     QVERIFY2(at > last, key);
     last = at;
   }
   const auto json = program_->json("a.json");
-  QCOMPARE(json.keys().size(), 7);
+  QCOMPARE(json.keys().size(), 8);
+  QCOMPARE(json["shape"].toObject().keys(), (QStringList{"inverted_cells", "largest_stretch", "volume_change"}));
   QCOMPARE(json["passes"][0].toObject().keys().size(), 5);
   QCOMPARE(json["violation"].toObject().keys(), (QStringList{"fraction", "max", "rms"}));
   QCOMPARE(json["displacement"].toObject().keys(), (QStringList{"max", "rms"}));
