@@ -135,8 +135,9 @@ def draw(root, wanted, generator):
 class Tests:
     """The tests of the release build, with the files that each includes and the time that it takes."""
 
-    def __init__(self, root):
+    def __init__(self, root, most):
         build = root / "build/release"
+        self.most = most
         self.includes = {}  # per test: the files of the project that its sources include
         self.folder = {}
         deps = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True, text=True).stdout
@@ -165,7 +166,10 @@ class Tests:
                     self.seconds[match.group(1)] = float(match.group(3))
 
     def related(self, path):
-        """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room."""
+        """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room.
+
+        There are at most `most` of them.
+        """
         header = re.sub(r"\.cpp$", ".h", path)
         words = set(re.findall(r"[a-z]+", pathlib.Path(path).stem))
         folders = ROOMS[room_of(path)]
@@ -176,7 +180,7 @@ class Tests:
             return (-alike, not includes, self.seconds[name] * (1 + len(self.includes[name]) / 100))
 
         return sorted((n for n in self.includes if self.folder[n] in folders
-                       or (header in self.includes[n] and self.folder[n] not in ("ui", "hard"))), key=key)
+                       or (header in self.includes[n] and self.folder[n] not in ("ui", "hard"))), key=key)[:self.most]
 
 
 class Worker:
@@ -286,6 +290,7 @@ def main():
     parser.add_argument("--room", default="all", help="all, or a folder or file under " + ", ".join(ROOMS))
     parser.add_argument("--seed", type=int)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--tests", type=int, help="run at most this many tests for a fault, the most specific ones")
     parser.add_argument("--at-least", type=float, default=0, help="exit with status 1 if a smaller share is caught")
     options = parser.parse_args()
     root = options.root.resolve()
@@ -298,7 +303,7 @@ def main():
 
     os.environ.setdefault("CCACHE_DIR", subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True,
                                                        text=True).stdout.strip())
-    tests = Tests(root)
+    tests = Tests(root, options.tests)
     workers = [Worker(root, i, tests) for i in range(min(options.jobs, options.count))]
     lock, results, uncompiled, started = threading.Lock(), [], [0], time.time()
 

@@ -103,7 +103,7 @@ void Propagation::letGo() {
 }
 
 void Propagation::awaitPass() {
-  if (isShown() && follows_ && !fetch_.isActive()) {
+  if (isShown() && (follows_ || lacksPass()) && !fetch_.isActive()) {
     fetch_.start(fetchMilliseconds);
   }
 }
@@ -120,14 +120,18 @@ bool Propagation::tooLargeNow() const {
 }
 
 void Propagation::takePasses() {
-  if (!isShown() || !follows_ || tooLargeNow()) {
+  if (!isShown() || tooLargeNow()) {
     return;
   }
+  const std::size_t step = position();
   QElapsedTimer clock;
   clock.start();
   bool any = false;
   for (int panel = 0; panel < document_.panels(); ++panel) {
     auto& player = players_[std::size_t(panel)];
+    if (player && !follows_) {
+      continue;
+    }
     const Frame* frame = document_.frame(panel);
     auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
     // Elastic methods solve for all elements at once: they have no steps.
@@ -135,6 +139,10 @@ void Propagation::takePasses() {
     if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
       player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
       any = true;
+      if (!follows_ && together_) {
+        player->setStep(step);
+        show(panel);
+      }
     }
   }
   if (any) {
@@ -145,6 +153,16 @@ void Propagation::takePasses() {
 
 bool Propagation::hasPass() const {
   return std::any_of(players_.begin(), players_.end(), [](auto& player) { return player != nullptr; });
+}
+
+/// True if the first pass of a panel is not there yet. The steps of another panel may have been shown before it came.
+bool Propagation::lacksPass() const {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    if (!players_[std::size_t(panel)] && info(document_.algorithm(panel)).has_steps()) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::size_t Propagation::stepCount() const {

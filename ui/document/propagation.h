@@ -61,6 +61,7 @@ class Propagation : public QObject {
 
  private:
   void awaitPass();
+  bool lacksPass() const;
   bool tooLargeNow() const;
   void takePasses();
   void letGo();

@@ -1,0 +1,1 @@
+// Nothing is here: this file only makes the precompiled header of the tests.
