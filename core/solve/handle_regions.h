@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "mesh/large_pages.h"
 #include "solve/body_view.h"
 #include "solve/exact_schedule.h"
 #include "solve/trace.h"
@@ -92,12 +94,9 @@ class HandleRegions {
     pins_.clear();
     frontier_.clear();
     handle_size_ = static_cast<Index>(handle.size());
-    for (const ElementId element : handle) {
-      frontier_.push_back(add(element));
-      regions_.back() = {};
-      searched_.back().state = waits;
-    }
+    std::ranges::for_each(handle, [this](ElementId element) { add(element); });
     set_offsets(offsets);
+    opened_ = {};
     schedule_.begin_drag();
     visits_ = 0;
   }
@@ -137,19 +136,22 @@ class HandleRegions {
     for (const Pin& pin : pins_) {
       reach.hold(body.positions[pin.element], pin.region);
     }
+    open_sides(reach);
     schedule_.begin();
     admit_frontier(body, reach);
     while (!schedule_.empty()) {
-      const auto [key, index] = schedule_.take();
+      const Index index = schedule_.take();
       Searched& one = searched_[index];
-      if (one.state != queued || (one.key != key && !schedule_.keeps_position())) {
-        continue;  // visited already, or admitted again with a smaller key
+      if (one.state != queued) {
+        continue;  // visited already, from a lower bucket
       }
       one.state = done;
       ++visits_;
       visit(body, reach, index);
       if constexpr (Schedule::adapts) {
-        schedule_.visited(visits_, elements_.size(), [this](Index i) { return searched_[i].key; });
+        if (schedule_.must_adapt(visits_, elements_.size())) {
+          schedule_.adapt(bucket_width(body), [this](Index i) { return searched_[i].key; });
+        }
       }
     }
   }
@@ -177,22 +179,67 @@ class HandleRegions {
     Bounds region;
   };
 
-  /// Sets the regions of the handle's elements: the offsets themselves. Keys are paths from the extreme offsets, so
-  /// that none is below 0.
   void set_offsets(std::span<const Offset> offsets) {
+    offsets_.assign(offsets.begin(), offsets.end());
     for (int k = 0; k < Dimension; ++k) {
       const auto of_axis = [k](const Offset& one) { return one[k]; };
       least_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::min_element(offsets, {}, of_axis));
       most_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
     }
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      std::copy_n(offsets[i].at, Dimension, regions_[i].low);
-      std::copy_n(offsets[i].at, Dimension, regions_[i].high);
-      searched_[i].key = Reach::infinite;
-      for (int k = 0; k < Dimension; ++k) {
-        searched_[i].key = std::min({searched_[i].key, offsets[i][k] - least_[k], most_[k] - offsets[i][k]});
+  }
+
+  /// Opens the sides to which the handle moves for the first time in this drag. A side that no move needs costs
+  /// nothing: its bounds stay infinite, so that nothing on it ever becomes narrower.
+  void open_sides(const Reach& reach) {
+    for (int k = 0; k < Dimension; ++k) {
+      if (reach.low[k] > -Reach::infinite && !std::exchange(opened_.low[k], true)) {
+        open_side(k, [&](Index i, Scalar offset) {
+          regions_[i].low[k] = offset;
+          return most_[k] - offset;
+        });
+      }
+      if (reach.high[k] < Reach::infinite && !std::exchange(opened_.high[k], true)) {
+        open_side(k, [&](Index i, Scalar offset) {
+          regions_[i].high[k] = offset;
+          return offset - least_[k];
+        });
       }
     }
+  }
+
+  /// Begins the paths of a side: `set` gives an element of the handle its bound, its offset, and returns its key. Keys
+  /// are paths from the extreme offsets, so that none is below 0.
+  template <class Set>
+  void open_side(int k, Set set) {
+    for (Index i = 0; i < handle_size_; ++i) {
+      Searched& one = searched_[i];
+      const Scalar key = set(i, offsets_.empty() ? Scalar{0} : offsets_[i][k]);
+      one.key = one.state == waits ? std::min(one.key, key) : key;
+      if (one.state != waits) {
+        one.state = waits;
+        frontier_.push_back(i);
+      }
+    }
+  }
+
+  /// Returns the width of buckets in which few elements are visited again: a share of the mean length of the links of
+  /// some known elements, over the sides that are open.
+  Scalar bucket_width(const State& body) const {
+    double sum = 0;
+    std::size_t count = 0;
+    const std::size_t step = elements_.size() / sampled_elements + 1;
+    for (std::size_t i = 0; i < elements_.size(); i += step) {
+      body.for_each_neighbour(elements_[i], [&](ElementId, EntryId entry) {
+        const Bounds& link = body.regions[entry];
+        for (int k = 0; k < Dimension; ++k) {
+          sum -= opened_.low[k] ? double(link.low[k]) : 0;
+          sum += opened_.high[k] ? double(link.high[k]) : 0;
+          count += std::size_t(opened_.low[k]) + std::size_t(opened_.high[k]);
+        }
+      });
+    }
+    const auto width = static_cast<Scalar>(width_in_links * sum / double(std::max<std::size_t>(1, count)));
+    return width > 0 ? width : Scalar{1};
   }
 
   bool in_handle(ElementId element) const { return index_[element] < handle_size_; }
@@ -243,11 +290,11 @@ class HandleRegions {
   void visit(const State& body, Reach& reach, Index index) {
     const Bounds from = regions_[index];
     const bool has_pins = body.pin_count > 0, has_inner_links = handle_size_ > 1 && index < handle_size_;
-    body.for_each_neighbour(elements_[index], [&](ElementId neighbour, EntryId entry) {
+    body.for_each_link(elements_[index], [&](ElementId neighbour, std::uint32_t id) {
       if (has_inner_links && in_handle(neighbour)) {
         return;
       }
-      const Bounds& link = body.regions[entry];
+      const Bounds& link = body.regions.at(id);
       Bounds through;
       for (int k = 0; k < Dimension; ++k) {
         through.low[k] = from.low[k] + link.low[k];
@@ -265,18 +312,17 @@ class HandleRegions {
   void narrow(const State& body, const Reach& reach, ElementId element, const Bounds& through) {
     const Index index = index_[element] == unknown ? add(element) : index_[element];
     Bounds& region = regions_[index];
+    // Without branches for each side: which of them become narrower cannot be predicted.
+    Bounds both;
     Scalar key = Reach::infinite;
     for (int k = 0; k < Dimension; ++k) {
-      if (through.low[k] > region.low[k]) {
-        region.low[k] = through.low[k];
-        key = std::min(key, most_[k] - through.low[k]);
-      }
-      if (through.high[k] < region.high[k]) {
-        region.high[k] = through.high[k];
-        key = std::min(key, through.high[k] - least_[k]);
-      }
+      both.low[k] = std::max(region.low[k], through.low[k]);
+      both.high[k] = std::min(region.high[k], through.high[k]);
+      key = std::min(key, through.low[k] > region.low[k] ? most_[k] - through.low[k] : Reach::infinite);
+      key = std::min(key, through.high[k] < region.high[k] ? through.high[k] - least_[k] : Reach::infinite);
     }
     if (key < Reach::infinite) {
+      region = both;
       await(body, reach, index, key);
     }
   }
@@ -284,10 +330,10 @@ class HandleRegions {
   /// Call this when an element's region became narrower. The regions of its neighbours may follow when it moves.
   void await(const State& body, const Reach& reach, Index index, Scalar key) {
     Searched& one = searched_[index];
-    const bool is_smaller = one.state == done || key < one.key;
-    one.key = is_smaller ? key : one.key;
+    const Scalar before = one.state == done ? Reach::infinite : one.key;
+    one.key = std::min(before, key);
     if (one.state == queued) {
-      if (is_smaller && !schedule_.keeps_position()) {
+      if (key < before && !schedule_.keeps_position() && schedule_.number(key) < schedule_.number(before)) {
         schedule_.admit(index, key);
       }
     } else if (moves(body, reach, index)) {
@@ -298,14 +344,22 @@ class HandleRegions {
     }
   }
 
-  std::vector<Index> index_;  // of each element; unknown if the drag has not come near it
-  std::vector<ElementId> elements_;
-  std::vector<Bounds> regions_;
-  std::vector<Searched> searched_;
+  struct Sides {
+    bool low[Dimension], high[Dimension];
+  };
+  static constexpr std::size_t sampled_elements = 256;
+  static constexpr double width_in_links = 0.05;  // measured by bench_passes
+
+  LargeVector<Index> index_;  // of each element; unknown if the drag has not come near it
+  LargeVector<ElementId> elements_;
+  LargeVector<Bounds> regions_;
+  LargeVector<Searched> searched_;
   std::vector<Index> frontier_;  // elements that wait until they move, and some that no longer wait
   std::vector<Pin> pins_;        // may contain duplicates
   Index handle_size_ = 0;
+  std::vector<Offset> offsets_;                    // of the handle's elements; empty for one element
   Scalar least_[Dimension]{}, most_[Dimension]{};  // offsets of the handle's elements, 0 for one element
+  Sides opened_{};                                 // the sides whose bounds are searched
   Schedule schedule_;
   std::uint64_t visits_ = 0;
 };
