@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "mesh/large_pages.h"
@@ -94,9 +93,12 @@ class HandleRegions {
     pins_.clear();
     frontier_.clear();
     handle_size_ = static_cast<Index>(handle.size());
-    std::ranges::for_each(handle, [this](ElementId element) { add(element); });
+    for (const ElementId element : handle) {
+      frontier_.push_back(add(element));
+      regions_.back() = {};
+      searched_.back().state = waits;
+    }
     set_offsets(offsets);
-    opened_ = {};
     schedule_.begin_drag();
     visits_ = 0;
   }
@@ -136,7 +138,6 @@ class HandleRegions {
     for (const Pin& pin : pins_) {
       reach.hold(body.positions[pin.element], pin.region);
     }
-    open_sides(reach);
     schedule_.begin();
     admit_frontier(body, reach);
     while (!schedule_.empty()) {
@@ -179,51 +180,26 @@ class HandleRegions {
     Bounds region;
   };
 
+  /// Sets the regions of the handle's elements: the offsets themselves. Keys are paths from the extreme offsets, so
+  /// that none is below 0.
   void set_offsets(std::span<const Offset> offsets) {
-    offsets_.assign(offsets.begin(), offsets.end());
     for (int k = 0; k < Dimension; ++k) {
       const auto of_axis = [k](const Offset& one) { return one[k]; };
       least_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::min_element(offsets, {}, of_axis));
       most_[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
     }
-  }
-
-  /// Opens the sides to which the handle moves for the first time in this drag. A side that no move needs costs
-  /// nothing: its bounds stay infinite, so that nothing on it ever becomes narrower.
-  void open_sides(const Reach& reach) {
-    for (int k = 0; k < Dimension; ++k) {
-      if (reach.low[k] > -Reach::infinite && !std::exchange(opened_.low[k], true)) {
-        open_side(k, [&](Index i, Scalar offset) {
-          regions_[i].low[k] = offset;
-          return most_[k] - offset;
-        });
-      }
-      if (reach.high[k] < Reach::infinite && !std::exchange(opened_.high[k], true)) {
-        open_side(k, [&](Index i, Scalar offset) {
-          regions_[i].high[k] = offset;
-          return offset - least_[k];
-        });
-      }
-    }
-  }
-
-  /// Begins the paths of a side: `set` gives an element of the handle its bound, its offset, and returns its key. Keys
-  /// are paths from the extreme offsets, so that none is below 0.
-  template <class Set>
-  void open_side(int k, Set set) {
-    for (Index i = 0; i < handle_size_; ++i) {
-      Searched& one = searched_[i];
-      const Scalar key = set(i, offsets_.empty() ? Scalar{0} : offsets_[i][k]);
-      one.key = one.state == waits ? std::min(one.key, key) : key;
-      if (one.state != waits) {
-        one.state = waits;
-        frontier_.push_back(i);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      std::copy_n(offsets[i].at, Dimension, regions_[i].low);
+      std::copy_n(offsets[i].at, Dimension, regions_[i].high);
+      searched_[i].key = Reach::infinite;
+      for (int k = 0; k < Dimension; ++k) {
+        searched_[i].key = std::min({searched_[i].key, offsets[i][k] - least_[k], most_[k] - offsets[i][k]});
       }
     }
   }
 
   /// Returns the width of buckets in which few elements are visited again: a share of the mean length of the links of
-  /// some known elements, over the sides that are open.
+  /// some known elements.
   Scalar bucket_width(const State& body) const {
     double sum = 0;
     std::size_t count = 0;
@@ -232,10 +208,9 @@ class HandleRegions {
       body.for_each_neighbour(elements_[i], [&](ElementId, EntryId entry) {
         const Bounds& link = body.regions[entry];
         for (int k = 0; k < Dimension; ++k) {
-          sum -= opened_.low[k] ? double(link.low[k]) : 0;
-          sum += opened_.high[k] ? double(link.high[k]) : 0;
-          count += std::size_t(opened_.low[k]) + std::size_t(opened_.high[k]);
+          sum += double(link.high[k]) - double(link.low[k]);
         }
+        count += 2 * Dimension;
       });
     }
     const auto width = static_cast<Scalar>(width_in_links * sum / double(std::max<std::size_t>(1, count)));
@@ -344,9 +319,6 @@ class HandleRegions {
     }
   }
 
-  struct Sides {
-    bool low[Dimension], high[Dimension];
-  };
   static constexpr std::size_t sampled_elements = 256;
   static constexpr double width_in_links = 0.05;  // measured by bench_passes
 
@@ -357,9 +329,7 @@ class HandleRegions {
   std::vector<Index> frontier_;  // elements that wait until they move, and some that no longer wait
   std::vector<Pin> pins_;        // may contain duplicates
   Index handle_size_ = 0;
-  std::vector<Offset> offsets_;                    // of the handle's elements; empty for one element
   Scalar least_[Dimension]{}, most_[Dimension]{};  // offsets of the handle's elements, 0 for one element
-  Sides opened_{};                                 // the sides whose bounds are searched
   Schedule schedule_;
   std::uint64_t visits_ = 0;
 };
