@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/large_pages.h"
 #include "mesh/parts.h"
 #include "mesh/shapes.h"
 
@@ -243,7 +244,13 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
     mesh->neighbours = std::move(parts.neighbours);
   }
   number_links(*mesh, progress.part(0.5, 0.7));
-  number_shapes(*mesh, progress.part(0.7, 0.8));
+  number_shapes(*mesh, progress.part(0.7, 0.75));
+  mesh->row_kinds = find_row_kinds(*mesh, progress.part(0.75, 0.8));
+  if (!mesh->row_kinds.known()) {
+    move_to_large_pages(std::span<const EntryId>(mesh->first_entry));
+    move_to_large_pages(std::span<const ElementId>(mesh->neighbours));
+    move_to_large_pages(std::span<const std::uint16_t>(mesh->entry_shape));
+  }
   mesh->own_triangles = parts.triangles.size();
   mesh->triangles = std::move(parts.triangles);
   mesh->polygons = std::move(parts.polygons);

@@ -10,6 +10,7 @@
 
 #include "mesh/link_shares.h"
 #include "mesh/progress.h"
+#include "mesh/row_kinds.h"
 #include "mesh/texture.h"
 
 namespace chainmail {
@@ -81,6 +82,8 @@ struct Mesh {
   std::vector<double> shapes;
   std::vector<std::uint16_t> entry_shape;
   static constexpr std::size_t shape_limit = 4096;
+  /// The rows in short, if they are regular.
+  RowKinds row_kinds;
   /// The two elements of each link, the smaller id first.
   std::vector<std::array<ElementId, 2>> links;
 

@@ -11,6 +11,7 @@
 #include "elastic/material.h"
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
+#include "mesh/large_pages.h"
 #include "mesh/mesh.h"
 #include "solve/positions.h"
 #include "solve/region_frame.h"
@@ -147,7 +148,7 @@ class Body {
   struct Typed {
     using Scalar = Scalar_;
     static constexpr int Dimension = Dimension_;
-    std::vector<Position<Scalar, Dimension>> positions;
+    LargeVector<Position<Scalar, Dimension>> positions;
     RegionTable<Scalar, Dimension> regions;
   };
   using AnyTyped = std::variant<Typed<float, 1>, Typed<float, 2>, Typed<float, 3>, Typed<double, 1>, Typed<double, 2>,
@@ -178,7 +179,7 @@ class Body {
   std::shared_ptr<const Softness> softness_;
   ElasticOptions elastic_;
   AnyTyped typed_;
-  std::vector<std::uint32_t> updates_;  // the last pass in which an element counted as updated; pinned: always
+  LargeVector<std::uint32_t> updates_;  // the last pass in which an element counted as updated; pinned: always
   std::uint32_t pass_ = 1;
   bool stores_displacements_ = false;
   bool is_at_rest_ = true;

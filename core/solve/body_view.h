@@ -96,6 +96,19 @@ class BodyView {
     chainmail::for_each_neighbour(*mesh, cuts, element, visit);
   }
 
+  /// Calls visit(neighbour, region) for each neighbour whose link is not cut, in the file's order, with the id of the
+  /// region of the link. Reads no row where the mesh has kinds of rows.
+  template <class Visit>
+  [[gnu::always_inline]] void for_each_link(ElementId element, Visit visit) const {
+    const Row row = row_of(element);
+    const bool has_cuts = cuts.touches(element);
+    for (std::uint32_t i = 0; i < row.size; ++i) {
+      if (!has_cuts || !cuts.is_cut(mesh->entry_link[mesh->first_entry[element] + i])) {
+        visit(row.base + row.offset[i], row.shape != nullptr ? row.shape[i] : row.first + i);
+      }
+    }
+  }
+
   const Mesh* mesh;
   const Cuts& cuts;
   std::span<Position<Scalar, Dimension>> positions;
@@ -106,6 +119,28 @@ class BodyView {
   std::uint32_t pass;
 
  private:
+  using RegionId = typename RegionTable<Scalar, Dimension>::Id;
+
+  struct Row {
+    const std::uint32_t* offset;  // of the ids of neighbours, to be added to the base
+    std::uint32_t base, size;
+    const std::uint16_t* shape;  // the ids of the regions; without it they are consecutive
+    RegionId first;
+  };
+
+  [[gnu::always_inline]] Row row_of(ElementId element) const {
+    const RowKinds& kinds = mesh->row_kinds;
+    const bool by_shape = regions.by_shape();
+    if (kinds.known()) {
+      const std::uint32_t kind = kinds.of[element], at = kinds.first[kind];
+      return {kinds.offset.data() + at, element, kinds.first[kind + 1] - at,
+              by_shape ? kinds.shape.data() + at : nullptr, by_shape ? 0 : mesh->first_entry[element]};
+    }
+    const EntryId at = mesh->first_entry[element];
+    return {mesh->neighbours.data() + at, 0, mesh->first_entry[element + 1] - at,
+            by_shape ? mesh->entry_shape.data() + at : nullptr, at};
+  }
+
   Body* body_;
 };
 

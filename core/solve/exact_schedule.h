@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -14,71 +15,77 @@ namespace chainmail {
 /// Schedules define the order in which Exact ChainMail visits the elements whose regions about the handle became
 /// narrower. They do not change a bit of the result; they differ in how often an element is visited again.
 ///
-/// A key is the shortest path found since the element's last visit, at least 0. An element whose key shrinks while it
-/// waits is admitted again, and the caller drops outdated entries; unless `keeps_position()`, when it is not admitted
-/// again. A schedule that `adapts` receives statistics after each visit. `begin_drag()` is called for a new handle,
-/// `begin()` for each pass. Elements are numbered in the order in which they became known.
+/// A key is the shortest path found since the element's last visit, at least 0. An element whose key shrinks to that of
+/// another bucket while it waits is admitted again, and the caller drops the entries of elements that do not wait;
+/// unless `keeps_position()`, when it is not admitted again. A schedule that `adapts` says when it must. `begin_drag()`
+/// is called for a new handle, `begin()` for each pass. Elements are numbered in the order in which they became known.
 
-/// Smallest key first, in a radix heap. Since keys hardly ever fall below the last one taken, an element is visited at
-/// most once per side of each axis (label setting; Ahuja, Mehlhorn, Orlin and Tarjan 1990).
-///
-/// Keys are compared as the bits of non-negative numbers, which have the same order as the numbers.
+/// Smallest key first, up to a bucket width; first in, first out in a bucket (delta-stepping, Meyer and Sanders 2003).
+/// Buckets are numbered, and their numbers are in a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan 1990): an entry is
+/// moved a few times, and any number of buckets will do. With narrow buckets, hardly any element is visited more often
+/// than once per side of each axis.
 template <class Scalar>
-class RadixHeapSchedule {
+class BucketSchedule {
  public:
   static constexpr bool adapts = false;
-  struct Entry {
-    Scalar key;
-    std::uint32_t index;
-  };
+  using Number = std::uint32_t;
 
   bool keeps_position() const { return false; }
   bool empty() const { return size_ == 0; }
+  /// Sets the width of the buckets (mesh units, above 0). The schedule must be empty.
+  void set_width(Scalar width) { per_width_ = 1 / width; }
 
   void begin_drag() {}
   void begin() { last_ = 0; }
 
+  /// The bucket of a key.
+  Number number(Scalar key) const {
+    constexpr Scalar most = Scalar(std::numeric_limits<std::int32_t>::max()) / 2;
+    return static_cast<Number>(std::clamp(key * per_width_, Scalar{0}, most));
+  }
+
   void admit(std::uint32_t index, Scalar key) {
-    buckets_[bucket_of(bits_of(key))].push_back({key, index});
+    const Number to = number(key);
+    buckets_[place_of(to)].push_back({to, index});
     ++size_;
   }
 
-  Entry take() {
-    if (buckets_[0].empty()) {
+  std::uint32_t take() {
+    if (first_ == buckets_[0].size()) {
       redistribute();
     }
-    const Entry entry = buckets_[0].back();
-    buckets_[0].pop_back();
     --size_;
-    return entry;
+    return buckets_[0][first_++].index;
   }
 
  private:
-  using Bits = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
-  static constexpr int bucket_count = 8 * sizeof(Scalar) + 1;
+  struct Entry {
+    Number number;
+    std::uint32_t index;
+  };
+  static constexpr int place_count = 8 * sizeof(Number) + 1;
 
-  static Bits bits_of(Scalar key) { return std::bit_cast<Bits>(key + Scalar{0}); }  // -0 is 0
-  int bucket_of(Bits bits) const { return std::bit_width(static_cast<Bits>(bits ^ last_)); }
+  int place_of(Number number) const { return number <= last_ ? 0 : std::bit_width(number ^ last_); }
 
-  /// Distributes the first non-empty bucket over the buckets before it.
+  /// Distributes the first entries that are not in the lowest bucket over the places before theirs.
   void redistribute() {
-    int first = 1;
-    while (buckets_[first].empty()) {
-      ++first;
+    buckets_[0].clear();
+    first_ = 0;
+    int from = 1;
+    while (buckets_[from].empty()) {
+      ++from;
     }
-    auto& from = buckets_[first];
-    last_ = bits_of(from.front().key);
-    for (const Entry& entry : from) {
-      last_ = std::min(last_, bits_of(entry.key));
+    last_ = std::ranges::min_element(buckets_[from], {}, &Entry::number)->number;
+    for (const Entry& entry : buckets_[from]) {
+      buckets_[place_of(entry.number)].push_back(entry);
     }
-    for (const Entry& entry : from) {
-      buckets_[bucket_of(bits_of(entry.key))].push_back(entry);
-    }
-    from.clear();
+    buckets_[from].clear();
   }
 
-  std::array<std::vector<Entry>, bucket_count> buckets_;
-  Bits last_ = 0;  // bits of the smallest possible key
+  std::array<std::vector<Entry>, place_count> buckets_;
+  Scalar per_width_ = 1;
+  Number last_ = 0;        // the bucket from which entries are taken
+  std::size_t first_ = 0;  // in buckets_[0]
   std::size_t size_ = 0;
 };
 
@@ -86,47 +93,48 @@ class RadixHeapSchedule {
 ///
 /// With uniform softness the front moves outward once, and a queue that follows the links in space is fastest. With
 /// mixed softness it would visit an element tens of times. So once visits exceed the known elements by a quarter,
-/// waiting elements move to the heap, and for the rest of the drag an element is visited at most once per side of each
-/// axis.
+/// waiting elements move to buckets for the rest of the drag.
 template <class Scalar>
 class AdaptiveSchedule {
  public:
   static constexpr bool adapts = true;
-  using Entry = typename RadixHeapSchedule<Scalar>::Entry;
 
   bool keeps_position() const { return !sets_labels_; }
-  bool empty() const { return queue_.empty() && heap_.empty(); }
+  bool empty() const { return queue_.empty() && buckets_.empty(); }
 
   void begin_drag() { sets_labels_ = false; }
-  void begin() { heap_.begin(); }
+  void begin() { buckets_.begin(); }
 
   void admit(std::uint32_t index, Scalar key) {
     if (sets_labels_) {
-      heap_.admit(index, key);
+      buckets_.admit(index, key);
     } else {
       queue_.admit(index);
     }
   }
+  auto number(Scalar key) const { return buckets_.number(key); }
 
-  Entry take() { return sets_labels_ ? heap_.take() : Entry{0, queue_.take()}; }
+  std::uint32_t take() { return sets_labels_ ? buckets_.take() : queue_.take(); }
 
-  /// Receives, after a visit, the number of visits in the drag and of known elements.
+  /// True once elements are visited too often, after this number of visits in the drag.
+  bool must_adapt(std::uint64_t visits, std::size_t known) const {
+    return !sets_labels_ && visits > known + known / 4 + 64;
+  }
+  /// Goes on in the order of keys, in buckets of this width.
   template <class KeyOf>
-  void visited(std::uint64_t visits, std::size_t known, KeyOf key_of) {
-    if (sets_labels_ || visits <= known + known / 4 + 64) {
-      return;
-    }
+  void adapt(Scalar width, KeyOf key_of) {
     sets_labels_ = true;
-    heap_.begin();
+    buckets_.set_width(width);
+    buckets_.begin();
     while (!queue_.empty()) {
       const std::uint32_t index = queue_.take();
-      heap_.admit(index, key_of(index));
+      buckets_.admit(index, key_of(index));
     }
   }
 
  private:
   Ring<std::uint32_t> queue_;
-  RadixHeapSchedule<Scalar> heap_;
+  BucketSchedule<Scalar> buckets_;
   bool sets_labels_ = false;
 };
 

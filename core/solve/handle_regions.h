@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/large_pages.h"
 #include "solve/body_view.h"
 #include "solve/exact_schedule.h"
 #include "solve/trace.h"
@@ -140,16 +141,18 @@ class HandleRegions {
     schedule_.begin();
     admit_frontier(body, reach);
     while (!schedule_.empty()) {
-      const auto [key, index] = schedule_.take();
+      const Index index = schedule_.take();
       Searched& one = searched_[index];
-      if (one.state != queued || (one.key != key && !schedule_.keeps_position())) {
-        continue;  // visited already, or admitted again with a smaller key
+      if (one.state != queued) {
+        continue;  // visited already, from a lower bucket
       }
       one.state = done;
       ++visits_;
       visit(body, reach, index);
       if constexpr (Schedule::adapts) {
-        schedule_.visited(visits_, elements_.size(), [this](Index i) { return searched_[i].key; });
+        if (schedule_.must_adapt(visits_, elements_.size())) {
+          schedule_.adapt(bucket_width(body), [this](Index i) { return searched_[i].key; });
+        }
       }
     }
   }
@@ -193,6 +196,25 @@ class HandleRegions {
         searched_[i].key = std::min({searched_[i].key, offsets[i][k] - least_[k], most_[k] - offsets[i][k]});
       }
     }
+  }
+
+  /// Returns the width of buckets in which few elements are visited again: a share of the mean length of the links of
+  /// some known elements.
+  Scalar bucket_width(const State& body) const {
+    double sum = 0;
+    std::size_t count = 0;
+    const std::size_t step = elements_.size() / sampled_elements + 1;
+    for (std::size_t i = 0; i < elements_.size(); i += step) {
+      body.for_each_neighbour(elements_[i], [&](ElementId, EntryId entry) {
+        const Bounds& link = body.regions[entry];
+        for (int k = 0; k < Dimension; ++k) {
+          sum += double(link.high[k]) - double(link.low[k]);
+        }
+        count += 2 * Dimension;
+      });
+    }
+    const auto width = static_cast<Scalar>(width_in_links * sum / double(std::max<std::size_t>(1, count)));
+    return width > 0 ? width : Scalar{1};
   }
 
   bool in_handle(ElementId element) const { return index_[element] < handle_size_; }
@@ -243,11 +265,11 @@ class HandleRegions {
   void visit(const State& body, Reach& reach, Index index) {
     const Bounds from = regions_[index];
     const bool has_pins = body.pin_count > 0, has_inner_links = handle_size_ > 1 && index < handle_size_;
-    body.for_each_neighbour(elements_[index], [&](ElementId neighbour, EntryId entry) {
+    body.for_each_link(elements_[index], [&](ElementId neighbour, std::uint32_t id) {
       if (has_inner_links && in_handle(neighbour)) {
         return;
       }
-      const Bounds& link = body.regions[entry];
+      const Bounds& link = body.regions.at(id);
       Bounds through;
       for (int k = 0; k < Dimension; ++k) {
         through.low[k] = from.low[k] + link.low[k];
@@ -265,18 +287,17 @@ class HandleRegions {
   void narrow(const State& body, const Reach& reach, ElementId element, const Bounds& through) {
     const Index index = index_[element] == unknown ? add(element) : index_[element];
     Bounds& region = regions_[index];
+    // Without branches for each side: which of them become narrower cannot be predicted.
+    Bounds both;
     Scalar key = Reach::infinite;
     for (int k = 0; k < Dimension; ++k) {
-      if (through.low[k] > region.low[k]) {
-        region.low[k] = through.low[k];
-        key = std::min(key, most_[k] - through.low[k]);
-      }
-      if (through.high[k] < region.high[k]) {
-        region.high[k] = through.high[k];
-        key = std::min(key, through.high[k] - least_[k]);
-      }
+      both.low[k] = std::max(region.low[k], through.low[k]);
+      both.high[k] = std::min(region.high[k], through.high[k]);
+      key = std::min(key, through.low[k] > region.low[k] ? most_[k] - through.low[k] : Reach::infinite);
+      key = std::min(key, through.high[k] < region.high[k] ? through.high[k] - least_[k] : Reach::infinite);
     }
     if (key < Reach::infinite) {
+      region = both;
       await(body, reach, index, key);
     }
   }
@@ -284,10 +305,10 @@ class HandleRegions {
   /// Call this when an element's region became narrower. The regions of its neighbours may follow when it moves.
   void await(const State& body, const Reach& reach, Index index, Scalar key) {
     Searched& one = searched_[index];
-    const bool is_smaller = one.state == done || key < one.key;
-    one.key = is_smaller ? key : one.key;
+    const Scalar before = one.state == done ? Reach::infinite : one.key;
+    one.key = std::min(before, key);
     if (one.state == queued) {
-      if (is_smaller && !schedule_.keeps_position()) {
+      if (key < before && !schedule_.keeps_position() && schedule_.number(key) < schedule_.number(before)) {
         schedule_.admit(index, key);
       }
     } else if (moves(body, reach, index)) {
@@ -298,10 +319,13 @@ class HandleRegions {
     }
   }
 
-  std::vector<Index> index_;  // of each element; unknown if the drag has not come near it
-  std::vector<ElementId> elements_;
-  std::vector<Bounds> regions_;
-  std::vector<Searched> searched_;
+  static constexpr std::size_t sampled_elements = 256;
+  static constexpr double width_in_links = 0.05;  // measured by bench_passes
+
+  LargeVector<Index> index_;  // of each element; unknown if the drag has not come near it
+  LargeVector<ElementId> elements_;
+  LargeVector<Bounds> regions_;
+  LargeVector<Searched> searched_;
   std::vector<Index> frontier_;  // elements that wait until they move, and some that no longer wait
   std::vector<Pin> pins_;        // may contain duplicates
   Index handle_size_ = 0;

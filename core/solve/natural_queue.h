@@ -44,9 +44,9 @@ class NaturalQueuePass {
   /// Admits the neighbours that have not been admitted yet; returns the new end of the queue.
   static std::size_t admit(const View& body, ElementId sponsor, Step* queue, std::size_t tail) {
     const std::uint32_t pass = body.pass;
-    body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
+    body.for_each_link(sponsor, [&](ElementId neighbour, std::uint32_t region) {
       std::uint32_t& update = body.updates[neighbour];
-      queue[tail] = {neighbour, sponsor, body.regions.id(entry)};
+      queue[tail] = {neighbour, sponsor, region};
       tail += update < pass ? 1 : 0;
       update = std::max(update, pass);
     });

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "mesh/large_pages.h"
 #include "mesh/mesh.h"
 #include "solve/region.h"
 #include "solve/softness.h"
@@ -22,13 +21,15 @@ class RegionTable {
     const bool by_shape = !mesh.entry_shape.empty() && has_global_regions(softness);
     const std::size_t count = by_shape ? mesh.shapes.size() / Dimension : mesh.neighbours.size();
     if (count != regions_.size()) {
-      std::vector<One>(count).swap(regions_);  // if memory runs out, the old regions stay
+      LargeVector<One>(count).swap(regions_);  // if memory runs out, the old regions stay
     }
     shape_of_ = by_shape ? mesh.entry_shape.data() : nullptr;
     by_shape ? set_shapes(mesh, softness.global, about_rest_vector) : set_entries(mesh, softness, about_rest_vector);
   }
 
   Id id(EntryId entry) const { return shape_of_ != nullptr ? shape_of_[entry] : entry; }
+  /// True if the id of a region is the number of the rest vector of its link.
+  bool by_shape() const { return shape_of_ != nullptr; }
   const One& at(Id id) const { return regions_[id]; }
   const One* data() const { return regions_.data(); }
   const One& operator[](EntryId entry) const { return regions_[id(entry)]; }
@@ -51,7 +52,7 @@ class RegionTable {
     }
   }
 
-  std::vector<One> regions_;
+  LargeVector<One> regions_;
   const std::uint16_t* shape_of_ = nullptr;  // of the mesh, if there is one region per rest vector
 };
 

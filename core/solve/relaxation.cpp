@@ -31,6 +31,7 @@ class Relaxation::Slice {
 
  private:
   using Coordinates = std::array<Scalar, Dimension>;
+  using RegionId = typename RegionTable<Scalar, Dimension>::Id;
   using Vector = Eigen::Matrix<double, Dimension, 1>;
 
   /// The intersection of the valid regions about an element's neighbours.
@@ -55,13 +56,25 @@ class Relaxation::Slice {
 
   /// Returns a neighbour's position less the rest vector to it: the position that this link alone implies.
   Coordinates position_by(ElementId element, ElementId neighbour) const {
-    const double* rest = body_.mesh->rest.data();
     Coordinates position;
+    const double* rest = body_.mesh->rest.data();
     for (int k = 0; k < Dimension; ++k) {
       const double rest_vector =
           body_.from_rest ? 0
                           : rest[std::size_t{neighbour} * Dimension + k] - rest[std::size_t{element} * Dimension + k];
       position[k] = body_.positions[neighbour][k] - static_cast<Scalar>(rest_vector);
+    }
+    return position;
+  }
+  /// The same, with the rest vector from the table of distinct ones, if there is one.
+  Coordinates position_by(ElementId element, ElementId neighbour, RegionId region) const {
+    if (body_.from_rest || !body_.regions.by_shape()) {
+      return position_by(element, neighbour);
+    }
+    Coordinates position;
+    const double* rest_vector = body_.mesh->shapes.data() + std::size_t{region} * Dimension;
+    for (int k = 0; k < Dimension; ++k) {
+      position[k] = body_.positions[neighbour][k] - static_cast<Scalar>(rest_vector[k]);
     }
     return position;
   }
@@ -71,16 +84,19 @@ class Relaxation::Slice {
            (held_.size() < 2 ? !held_.empty() && held_[0] == element : std::ranges::binary_search(held_, element));
   }
 
-  void wake_next(ElementId element) { relaxation_.next_.insert(element, body_.positions.size()); }
+  void wake_next(ElementId element) { relaxation_.next_.insert(element); }
 
+  /// Moves an element toward the mean of the positions that its links imply, inside the regions about its neighbours.
   void visit(ElementId element) {
     if (stays(element)) {
       return;
     }
     Coordinates mean{};
+    Box box = everywhere();
     int count = 0;
-    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      const Coordinates position = position_by(element, neighbour);
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId region) {
+      const Coordinates position = position_by(element, neighbour, region);
+      limit(box, neighbour, region);
       for (int k = 0; k < Dimension; ++k) {
         mean[k] += position[k];
       }
@@ -92,14 +108,14 @@ class Relaxation::Slice {
     for (Scalar& x : mean) {
       x /= static_cast<Scalar>(count);
     }
-    if (go(element, mean, box_of(element), static_cast<Scalar>(step_), element) && step_ < 1) {
+    if (go(element, mean, box, static_cast<Scalar>(step_), element) && step_ < 1) {
       wake_next(element);
     }
   }
 
   /// Relaxes the links to neighbours of higher id: each link once per sweep, in the order of links.
   void visit_links(ElementId element) {
-    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId) {
       if (neighbour < element) {
         return;
       }
@@ -113,17 +129,26 @@ class Relaxation::Slice {
     });
   }
 
-  Box box_of(ElementId element) const {
+  static Box everywhere() {
     Box box;
     box.low.fill(-std::numeric_limits<Scalar>::infinity());
     box.high.fill(std::numeric_limits<Scalar>::infinity());
-    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
-      const Scalar* about = body_.positions[neighbour].at;
-      for (int k = 0; k < Dimension; ++k) {
-        box.low[k] = std::max(box.low[k], about[k] - body_.regions[entry].high[k]);
-        box.high[k] = std::min(box.high[k], about[k] - body_.regions[entry].low[k]);
-      }
-    });
+    return box;
+  }
+
+  /// Limits a box to the region about a neighbour.
+  void limit(Box& box, ElementId neighbour, RegionId id) const {
+    const Scalar* about = body_.positions[neighbour].at;
+    const auto& region = body_.regions.at(id);
+    for (int k = 0; k < Dimension; ++k) {
+      box.low[k] = std::max(box.low[k], about[k] - region.high[k]);
+      box.high[k] = std::min(box.high[k], about[k] - region.low[k]);
+    }
+  }
+
+  Box box_of(ElementId element) const {
+    Box box = everywhere();
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId region) { limit(box, neighbour, region); });
     return box;
   }
 
@@ -265,11 +290,11 @@ class Relaxation::Slice {
     }
     relaxation_.largest_step_ = std::max(relaxation_.largest_step_, taken);
     relaxation_.moved_.push_back(element);
-    body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId) {
-      (neighbour > visited ? relaxation_.current_ : relaxation_.next_).insert(neighbour, body_.positions.size());
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId) {
+      (neighbour > visited ? relaxation_.current_ : relaxation_.next_).insert(neighbour);
     });
     if (element > visited) {
-      relaxation_.current_.insert(element, body_.positions.size());
+      relaxation_.current_.insert(element);
     }
     return true;
   }
@@ -326,10 +351,11 @@ void Relaxation::follow_energy(const Body& body) {
 void Relaxation::wake(const Body& body, std::span<const ElementId> elements) {
   follow(body);
   ++wakes_;
+  next_.make_room(body.mesh().element_count());
   for (const ElementId element : elements) {
-    next_.insert(element, body.mesh().element_count());
+    next_.insert(element);
     for_each_neighbour(body.mesh(), body.cuts(), element,
-                       [&](ElementId neighbour, EntryId) { next_.insert(neighbour, body.mesh().element_count()); });
+                       [&](ElementId neighbour, EntryId) { next_.insert(neighbour); });
   }
 }
 
@@ -351,6 +377,8 @@ RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget
     std::swap(current_, next_);
     in_sweep_ = true;
   }
+  current_.make_room(body.mesh().element_count());
+  next_.make_room(body.mesh().element_count());
   moved_.clear();
   follow_energy(body);
   const RelaxationResult result = body.with_view([&]<class View>(const View& view) {

@@ -18,8 +18,10 @@ namespace chainmail {
 /// A set of elements, taken in ascending order. Costs nothing outside the range in use.
 class ActiveSet {
  public:
-  void insert(ElementId element, std::size_t element_count) {
-    words_.resize((element_count + 63) / 64);
+  /// Call this before elements are inserted.
+  void make_room(std::size_t element_count) { words_.resize((element_count + 63) / 64); }
+
+  void insert(ElementId element) {
     words_[element / 64] |= std::uint64_t{1} << (element % 64);
     first_ = std::min<std::size_t>(first_, element / 64);
     last_ = std::max<std::size_t>(last_, element / 64);

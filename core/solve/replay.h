@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "mesh/large_pages.h"
 #include "solve/body_view.h"
 #include "solve/trace.h"
 #include "solve/waiting_list.h"
@@ -67,7 +67,7 @@ class PassRecord {
   template <class View>
   bool begin(View& body, std::span<const ElementId> handle, bool goes_on = false) {
     if (!steps_) {
-      steps_ = std::make_unique_for_overwrite<Step[]>(body.positions.size() + 1);  // unused pages take no memory
+      steps_ = LargeArray<Step>(body.positions.size() + 1);
     }
     const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness};
     const bool is_known = conditions == conditions_ && std::ranges::equal(handle, handle_);
@@ -136,7 +136,7 @@ class PassRecord {
 
   static constexpr int most_failures = 8;  // at most 64 passes without a replay
 
-  std::unique_ptr<Step[]> steps_;
+  LargeArray<Step> steps_;
   std::size_t count_ = 0;
   std::size_t next_ = 0;
   std::size_t agreed_ = 0;

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
     std::optional<Scene> scene;
     for (const Drag drag : {Drag::whole_body, Drag::local, Drag::whole_body_mixed}) {
       std::vector<Contestant> contest;
-      for (const std::string& algorithm : {names::natural_queue, names::without_replay, names::exact}) {
+      for (const std::string& algorithm :
+           {names::natural_queue, names::without_replay, names::exact, names::exact_anew, std::string("generalized")}) {
         if (!unwanted(name(drag) + "/" + mesh + "/" + algorithm)) {
           scene = scene ? scene : Scene(mesh);
           contest.push_back(dragged(*scene, algorithm, drag));

@@ -1,6 +1,7 @@
 // Measures times of passes. Each figure is a ratio within one run (see README.md): bench_solvers RESULTS.
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "bench/contestants.h"
@@ -71,6 +72,34 @@ void exact_over(Results& results, const std::string& key, Drag drag, const std::
   results.add("/exact_over_nq/later/" + key, later);
 }
 
+/// Compares first passes on large meshes with those on small ones.
+void first_passes(Results& results) {
+  for (const auto& [small, large, key] : {std::array<std::string, 3>{"grid256", "grid1024", "plane"},
+                                          std::array<std::string, 3>{"block40", "block100", "space"}}) {
+    const Scene few(small), many(large);
+    const auto runs =
+        run({dragged(few, without_replay, Drag::whole_body), dragged(many, without_replay, Drag::whole_body),
+             dragged(few, names::exact_anew, Drag::whole_body), dragged(many, names::exact_anew, Drag::whole_body)});
+    results.add(runs);
+    for (const auto& [algorithm, name] :
+         {std::pair(without_replay, "natural_queue"), std::pair(names::exact_anew, "exact")}) {
+      const Run &little = of(runs, algorithm, small), &much = of(runs, algorithm, large);
+      const std::string place = std::string("/first_pass/") + name + "/";
+      results.add(place + small, little.ns_per_moved());
+      results.add(place + large, much.ns_per_moved());
+      results.add(place + key, over(much, little));
+    }
+  }
+}
+
+/// Measures sweeps over an object of which every element is active.
+void sweeps(Results& results) {
+  for (const std::string mesh : {"grid256", "tetra60"}) {
+    const Scene scene(mesh);
+    results.add("/sweep_ns/" + mesh, sweep_nanoseconds(scene));
+  }
+}
+
 /// Compares a scene in the plane with the same scene in 3D space.
 void plane(Results& results) {
   const Scene flat("grid1024"), in_space("grid1024_3d");
@@ -111,6 +140,8 @@ void measure(Results& results) {
   exact_over(results, "jittered", Drag::whole_body,
              {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60", "tetra60"});
   exact_over(results, "mixed", Drag::whole_body_mixed, {"grid1024", "jittered_tetra60"});
+  first_passes(results);
+  sweeps(results);
   plane(results);
   hand_like(results);
   others(results);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -155,6 +156,27 @@ Contestant streamed(const Scene& scene, const std::string& algorithm) {
     return elements - 1;
   };
   return {name(Drag::whole_body), scene.name, algorithm, elements, passes(Drag::whole_body, elements), pass};
+}
+
+double sweep_nanoseconds(const Scene& scene) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int measured_sweeps = 9;
+  const std::unique_ptr<Solver> solver = make(scene.mesh, names::natural_queue);
+  Softness soft;
+  soft.energy = EnergyKind::isotropic;
+  solver->body().set_softness(soft);
+  const Hand path = hand(Drag::whole_body, *scene.mesh);
+  for (std::size_t i = 0; i < warm_up(Drag::whole_body, path); ++i) {
+    solver->move(path.element, path.targets[i]);
+  }
+  std::vector<double> nanoseconds;
+  for (int i = 0; i < measured_sweeps; ++i) {
+    solver->wake_all();
+    const auto begin = Clock::now();
+    const std::uint64_t visited = solver->relax(1, std::numeric_limits<std::uint64_t>::max(), {}).visited;
+    nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / double(visited));
+  }
+  return median(nanoseconds);
 }
 
 HandLike hand_like_drags(const Scene& scene, const std::string& algorithm) {

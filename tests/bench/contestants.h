@@ -44,6 +44,10 @@ Contestant dragged_by_textbook(const Scene& scene);
 /// share of them as after a pass.
 Contestant streamed(const Scene& scene, const std::string& algorithm);
 
+/// Returns the median time of a visit in sweeps (scheme `mean`, isotropic energy) after a whole-body drag with default
+/// softness: each visit moves its element or finds it in its place (ns).
+double sweep_nanoseconds(const Scene& scene);
+
 /// Times of the passes of some hand-like drags (report/run/scripted_drags.h), with the default softness.
 struct HandLike {
   double ns_per_moved = 0;  // mean over all passes
