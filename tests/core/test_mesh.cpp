@@ -1,7 +1,9 @@
 #include <QtTest>
+#include <algorithm>
 
 #include "core/families.h"
 #include "mesh/error.h"
+#include "mesh/large_pages.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -25,6 +27,9 @@ class MeshTest : public QObject {
   void a_higher_space_dimension_adds_axes_in_order();
   void a_space_dimension_too_small_is_refused();
   void an_element_alone_is_an_object();
+  void kinds_of_rows_are_the_rows();
+  void an_irregular_mesh_has_no_kinds_of_rows();
+  void large_vectors_begin_a_large_page();
 };
 
 namespace {
@@ -39,6 +44,37 @@ MeshParts square() {
   parts.rest = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
   parts.links = {{0, 1}, {1, 2}, {3, 2}, {0, 3}};
   return parts;
+}
+
+/// True if the kinds say the same as the neighbour table and the shapes of its entries.
+bool kinds_agree(const Mesh& mesh) {
+  const RowKinds& kinds = mesh.row_kinds;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    const std::size_t first = kinds.first[kinds.of[e]], end = kinds.first[kinds.of[e] + std::size_t{1}];
+    if (end - first != mesh.neighbours_of(e).size()) {
+      return false;
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t entry = mesh.first_entry[e] + i - first;
+      if (e + kinds.offset[i] != mesh.neighbours[entry] ||
+          (!mesh.entry_shape.empty() && kinds.shape[i] != mesh.entry_shape[entry])) {
+        return false;
+      }
+    }
+  }
+  return kinds.of.size() == mesh.element_count();
+}
+
+/// Element 0 has a link to each other element, so that no two of these have rows of one kind.
+MeshPointer star(ElementId elements) {
+  MeshParts parts;
+  for (ElementId e = 0; e < elements; ++e) {
+    parts.rest.emplace_back(e, 0, 0);
+    if (e > 0) {
+      parts.links.push_back({0, e});
+    }
+  }
+  return build_mesh(std::move(parts));
 }
 
 }  // namespace
@@ -211,6 +247,38 @@ void MeshTest::an_element_alone_is_an_object() {
   const PassCount count = solver->move(0, Point(3, 0, 0));
   QCOMPARE(count.checked, std::uint64_t{0});
   QCOMPARE(solver->body().positions()(0, 0), 3.0);
+}
+
+void MeshTest::kinds_of_rows_are_the_rows() {
+  // A corner, an edge or the inside: three kinds per axis.
+  for (const auto& [mesh, kinds] : {std::pair(make_mesh(MeshKind::grid, {6, 5, 1}), 9u),
+                                    {make_mesh(MeshKind::block, {4, 5, 6}), 27u},
+                                    {make_mesh(MeshKind::line, {7, 1, 1}), 3u}}) {
+    QCOMPARE(mesh->row_kinds.first.size(), std::size_t{kinds} + 1);
+    QVERIFY(kinds_agree(*mesh));
+  }
+  for (const MeshKind kind : {MeshKind::cloth, MeshKind::tetra}) {
+    const auto mesh = make_mesh(kind, {5, 4, kind == MeshKind::tetra ? 3u : 1u});
+    QVERIFY(mesh->row_kinds.known() && kinds_agree(*mesh));
+  }
+}
+
+void MeshTest::an_irregular_mesh_has_no_kinds_of_rows() {
+  const auto few = star(RowKinds::limit), many = star(RowKinds::limit + 1);
+  QVERIFY(few->row_kinds.known() && kinds_agree(*few));
+  QVERIFY(!many->row_kinds.known());
+  QCOMPARE(many->row_kinds.first.size(), std::size_t{0});
+}
+
+void MeshTest::large_vectors_begin_a_large_page() {
+  LargeVector<int> numbers(2 * large_page / sizeof(int), 7);
+  QCOMPARE(reinterpret_cast<std::uintptr_t>(numbers.data()) % large_page, std::uintptr_t{0});
+  numbers.push_back(8);
+  QCOMPARE(reinterpret_cast<std::uintptr_t>(numbers.data()) % large_page, std::uintptr_t{0});
+  QVERIFY(numbers.front() == 7 && numbers[numbers.size() - 2] == 7 && numbers.back() == 8);
+  std::vector<int> moved(3 * large_page / sizeof(int), 9);
+  move_to_large_pages(std::span<const int>(moved));
+  QVERIFY(std::ranges::count(moved, 9) == std::ptrdiff_t(moved.size()));
 }
 
 QTEST_APPLESS_MAIN(MeshTest)
