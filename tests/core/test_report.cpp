@@ -30,6 +30,7 @@ class ReportTest : public QObject {
   void a_plot_has_every_contestant_on_it();
   void a_plot_is_well_formed();
   void marks_stand_where_their_values_are();
+  void a_long_legend_fits();
   void a_page_is_well_formed_and_needs_nothing_else();
   void a_page_says_where_it_comes_from();
   void the_main_table_takes_the_worst();
@@ -238,6 +239,28 @@ void ReportTest::marks_stand_where_their_values_are() {
   // The first mark is at the origin, the second at the far ends of both axes.
   QCOMPARE(positions[0], QPointF(0, 210));
   QCOMPARE(positions[1], QPointF(250, 0));
+}
+
+void ReportTest::a_long_legend_fits() {
+  Plot plot;
+  plot.panels.resize(1);
+  plot.legend_notes.resize(3, "a note");
+  for (int i = 0; i < 20; ++i) {
+    plot.series.push_back({"series " + std::to_string(i)});
+  }
+  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
+  double height = 0;
+  int below = 0;
+  for (; !reader.atEnd(); reader.readNext()) {
+    if (reader.isStartElement() && reader.name() == QLatin1String("svg")) {
+      height = reader.attributes().value("height").toDouble();
+    } else if (reader.isStartElement() && reader.name() == QLatin1String("text")) {
+      const double y = reader.attributes().value("y").toDouble();
+      QVERIFY2(y < height, qPrintable(QString::number(y)));
+      below += y > 300 ? 1 : 0;
+    }
+  }
+  QVERIFY(below > 3);  // the legend is longer than a panel is high
 }
 
 void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {

@@ -51,8 +51,8 @@ std::size_t width_of(const std::string& text) {
 }  // namespace
 
 void write_html(std::ostream& out, const FigureTable& table) {
-  out << "<div class=\"wide\"><table class=\"" << table.style << "\">\n<caption>" << escaped(table.caption)
-      << " <span class=\"faint\">" << escaped(table.about) << "</span></caption>\n";
+  out << "<div class=\"wide\"><table class=\"" << table.style << "\">\n<caption><div>" << escaped(table.caption)
+      << " <span class=\"faint\">" << escaped(table.about) << "</span></div></caption>\n";
   write_head(out, table);
   out << "<tbody>\n";
   const auto cells = aligned_cells(table);

@@ -21,6 +21,7 @@ p { max-width: 46rem; margin: .5rem 0; }
 table { border-collapse: collapse; width: 100%; font-size: .8rem; margin: 1.1rem 0 1.6rem;
   font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; font-size: .95rem; padding: .2rem 0 .4rem; }
+caption div { max-width: min(60rem, 90vw); }
 th, td { padding: .17rem .5rem; text-align: right; white-space: nowrap; }
 th { font-weight: 600; vertical-align: bottom; }
 thead tr:last-child th { border-bottom: 1.5px solid var(--ink); }

@@ -48,10 +48,14 @@ void write_html(std::ostream& out, const Suite& suite) {
   for (const std::string& sentence : suite_findings(suite)) {
     out << "<li>" << escaped(sentence) << "</li>\n";
   }
-  for (const std::string& name : missing_from(suite)) {
-    out << "<li>" << escaped(name) << ": not part of this report</li>\n";
-  }
   out << "</ul>\n";
+  std::string missing;
+  for (const std::string& name : missing_from(suite)) {
+    missing += (missing.empty() ? "" : ", ") + name;
+  }
+  if (!missing.empty()) {
+    out << "<p class=\"faint\">Not part of this report: " << escaped(missing) << "</p>\n";
+  }
   if (const FigureTable summary = suite_summary(suite); !summary.rows.empty()) {
     write_html(out, summary);
     write_figure(out, suite_plot(suite));

@@ -16,7 +16,7 @@ namespace {
 // Lengths in CSS pixels at the natural size of the drawing.
 constexpr double panel_width = 250, panel_height = 210;
 constexpr double left = 70, between = 34, top = 26, bottom = 46, right = 8;
-constexpr double legend_width = 235, legend_row = 19;
+constexpr double legend_width = 235, legend_row = 19, note_row = 16;
 constexpr double mark_size = 4.6;
 constexpr double note_width = 16, note_height = 9;
 constexpr int panels_per_row = 3;
@@ -52,7 +52,9 @@ class SvgDrawing {
 
  private:
   double width() const { return left + columns_ * (panel_width + between) + legend_width + right; }
-  double height() const { return rows_ * (top + panel_height + bottom); }
+  double height() const { return std::max(rows_ * (top + panel_height + bottom), legend_end()); }
+  double notes_begin() const { return top + 6 + double(plot_.series.size()) * legend_row + 6; }
+  double legend_end() const { return notes_begin() + double(plot_.legend_notes.size()) * note_row; }
   double at_x(double value) const { return axes_.x.position(value) * panel_width; }
   double at_y(double value) const { return (1 - axes_.y.position(value)) * panel_height; }
 
@@ -192,10 +194,10 @@ class SvgDrawing {
       draw_key(x, y, i);
       text(x + 13, y + 4, "start", plot_.series[i].label);
     }
-    y += 6;
+    y = notes_begin();
     for (const std::string& note : plot_.legend_notes) {
       text(x - 5, y + 4, "start", note, " font-size=\"10\" fill-opacity=\"0.75\"");
-      y += legend_row - 3;
+      y += note_row;
     }
   }
 
