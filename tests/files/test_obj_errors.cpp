@@ -64,8 +64,9 @@ void ObjErrorsTest::wrong_files() {
 void ObjErrorsTest::a_face_may_have_many_corners() {
   std::string vertices, face = "f";
   for (int i = 1; i <= 1000; ++i) {
-    vertices += "v " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
-    face += " " + std::to_string(i);
+    const std::string x = std::to_string(i), y = std::to_string(i * i);
+    vertices.append("v ").append(x).append(" ").append(y).append(" 0\n");
+    face.append(" ").append(x);
   }
   const auto mesh = obj(vertices + face + "\n");
   QCOMPARE(mesh->link_count(), 1000U);

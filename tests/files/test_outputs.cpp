@@ -142,7 +142,7 @@ void OutputsTest::endings_are_known_by_their_use() {
   for (const MeshFormat& format : mesh_formats()) {
     for (const FormatUse use : {FormatUse::read, FormatUse::write, FormatUse::write_positions}) {
       for (const QString& ending : QString::fromUtf8(format.endings.data(), format.endings.size()).split(' ')) {
-        const std::string name = "a" + ending.toUpper().toStdString();
+        const std::string name = std::string(1, 'a').append(ending.toUpper().toStdString());
         const auto error = error_of([&] { QVERIFY(&mesh_format(name, use) == &format); });
         QCOMPARE(error.isEmpty(), format.allows(use));
         QCOMPARE(QString::fromStdString(mesh_endings(use)).contains(ending), format.allows(use));
