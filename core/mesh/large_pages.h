@@ -23,7 +23,7 @@ inline constexpr std::size_t large_page = std::size_t{2} << 20;  // bytes
 /// Allocates large blocks in large pages where the system has them, and small ones as usual.
 template <class T>
 struct LargePageAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): a name of the standard library
 
   LargePageAllocator() = default;
   template <class Other>
