@@ -1,8 +1,7 @@
 #include "mesh/row_kinds.h"
 
-#include <algorithm>
 #include <map>
-#include <optional>
+#include <utility>
 
 #include "mesh/mesh.h"
 

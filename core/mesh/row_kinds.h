@@ -18,7 +18,7 @@ struct RowKinds {
 
   /// The kind of each element; empty if there are more than `limit`.
   std::vector<std::uint8_t> of;
-  /// Kind k has the entries first[k] .. first[k + 1]).
+  /// Kind k has the entries [first[k] .. first[k + 1]).
   std::vector<std::uint32_t> first;
   /// Of each entry: the id of the neighbour less that of the element, modulo 2³².
   std::vector<std::uint32_t> offset;

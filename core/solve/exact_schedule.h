@@ -33,7 +33,7 @@ class BucketSchedule {
   bool keeps_position() const { return false; }
   bool empty() const { return size_ == 0; }
   /// Sets the width of the buckets (mesh units, above 0). The schedule must be empty.
-  void set_width(Scalar width) { per_width_ = 1 / width; }
+  void set_width(Scalar width) { per_width_ = std::min(1 / width, std::numeric_limits<Scalar>::max()); }
 
   void begin_drag() {}
   void begin() { last_ = 0; }

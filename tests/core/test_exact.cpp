@@ -17,8 +17,6 @@ class ShuffledSchedule {
   static constexpr bool adapts = false;
   bool keeps_position() const { return false; }
   Scalar number(Scalar key) const { return key; }
-  std::size_t known() const { return 0; }
-  std::uint32_t peek(std::size_t /*ahead*/) const { return 0; }
   static inline std::uint64_t seed = 0;
 
   bool empty() const { return entries_.empty(); }
