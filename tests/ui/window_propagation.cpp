@@ -188,6 +188,19 @@ class WindowPropagation : public QObject {
     QTRY_COMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
   }
 
+  void aPassThatComesLateJoinsTheSteps() {
+    Workbench bench;
+    openAndDrag(bench);
+    bench.choose(1, "Exact ChainMail");
+    bench.document().grab(middle);
+    bench.document().drag(bench.document().mesh()->rest_position(middle) + Point(3, 2, 0));
+    bench.document().release();
+    bench.trigger("passFirst");  // panel B has no pass yet
+    QVERIFY(!slider(bench, 1).isEnabled());
+    QTRY_VERIFY(slider(bench, 1).isEnabled());
+    QCOMPARE(slider(bench, 1).value(), 0);
+  }
+
   void elementsAreColouredByOrderOfUpdate() {
     Workbench bench;
     openAndDrag(bench, Point(1.5, 1, 0));
