@@ -43,6 +43,17 @@ void Simulation::set_progress(const Progress& progress) {
   solver_->set_progress(progress);
 }
 
+void Simulation::set_threads(int threads) {
+  threads_ = threads;
+  solver_->set_threads(threads);
+}
+
+void Simulation::prepare(ElementId element) {
+  if (!grabbed_ && element < mesh_->element_count() && !body().is_pinned(element)) {
+    solver_->prepare(element);
+  }
+}
+
 void Simulation::apply(const Command& command) {
   measure_.reset();
   std::visit([this](const auto& one) { carry_out(one); }, command);
@@ -238,6 +249,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
   solver_ = std::move(solver);
   solver_->set_relaxation(relaxation_scheme_);
   solver_->set_progress(progress_);
+  solver_->set_threads(threads_);
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());

@@ -57,6 +57,10 @@ class Simulation {
   /// Sets the progress of long work, which throws Cancelled when it is cancelled. A cancelled pass of a method of
   /// elasticity moves nothing. Sweeps of relaxation end within some milliseconds and keep the positions reached.
   void set_progress(const Progress& progress);
+  /// Sets the number of threads that a pass may use: see Solver::set_threads.
+  void set_threads(int threads);
+  /// Prepares a drag of an element, in idle time: see Solver::prepare. Nothing happens while something is grabbed.
+  void prepare(ElementId element);
   /// Sets the trace that receives every candidate that a pass processes; null: none.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Runs sweeps or iterations of relaxation at once, with the scheme last set, even if relaxation is off: `count` of
@@ -174,6 +178,7 @@ class Simulation {
   Statistics statistics_;
   Trace* trace_ = nullptr;
   Progress progress_;
+  int threads_ = 1;
 };
 
 }  // namespace chainmail

@@ -7,6 +7,7 @@
 
 #include "mesh/error.h"
 #include "mesh/generate.h"
+#include "solve/thread_team.h"
 
 namespace chainmail {
 namespace {
@@ -18,6 +19,8 @@ constexpr auto frame_time = std::chrono::milliseconds(16);
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // While something is grabbed, slices of relaxation that take longer than that wait until no command came for this time.
 constexpr auto pause_of_handle = std::chrono::milliseconds(100);
+// A drag is prepared when the pointer has rested for this time.
+constexpr auto rest_of_pointer = std::chrono::milliseconds(80);
 // Interval between updates of the displayed figures.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
@@ -50,6 +53,7 @@ SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<
       frame_ready_(std::move(frame_ready)),
       became_idle_(std::move(became_idle)) {
   simulation_.set_progress(Progress(work_));
+  simulation_.set_threads(core_count());
   publish();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -79,10 +83,23 @@ void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
     overrulers_ += overrules(task) ? 1 : 0;
-    work_.cancelled = work_.cancelled || overrulers_ > 0;
+    work_.cancelled = work_.cancelled || overrulers_ > 0 || preparing_;
     tasks_.push_back(std::move(task));
     ++posted_;
     waiting_.fetch_add(1, std::memory_order_release);
+  }
+  changed_.notify_one();
+}
+
+void SolverThread::prepare(std::optional<ElementId> element) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (element == (preparing_ ? preparing_ : wished_)) {
+      return;
+    }
+    wished_ = element;
+    wished_at_ = Clock::now();
+    work_.cancelled = work_.cancelled || preparing_;
   }
   changed_.notify_one();
 }
@@ -170,8 +187,11 @@ void SolverThread::run(const std::stop_token& stop) {
       work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
       lock.unlock();
       relax();
+    } else if (wished_ && !unseen_ && !simulation_.statistics().relaxing) {
+      prepare_wished(lock, stop);
+      continue;
     } else if (!unseen_ && measured_ && !simulation_.statistics().relaxing) {
-      changed_.wait(lock, stop, [this] { return !tasks_.empty(); });
+      changed_.wait(lock, stop, [this] { return !tasks_.empty() || wished_; });
       continue;
     } else {
       lock.unlock();
@@ -219,14 +239,35 @@ void SolverThread::relax() {
   measured_ = false;
 }
 
+/// Waits until the pointer has rested for a while, and then prepares the drag, unless something else is to do.
+void SolverThread::prepare_wished(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto when = wished_at_ + rest_of_pointer;
+  const auto has_other = [this, at = wished_at_] { return !tasks_.empty() || wished_at_ != at; };
+  if (changed_.wait_until(lock, stop, when, has_other) || stop.stop_requested()) {
+    return;
+  }
+  preparing_ = std::exchange(wished_, {});
+  work_.cancelled = abandoned_.load();
+  lock.unlock();
+  try {
+    simulation_.prepare(*preparing_);
+    prepared_.fetch_add(1, std::memory_order_release);
+  } catch (const Cancelled&) {
+    // Another wish or a command came.
+  }
+  lock.lock();
+  preparing_.reset();
+}
+
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto has_command = [this] { return !tasks_.empty(); };
+  const auto has_wish = [this] { return !tasks_.empty() || wished_; };
   if (unseen_ || simulation_.statistics().relaxing) {
     const auto share = may_relax() ? relaxation_share : frame_time.zero();
     const bool only_waits = !unseen_ && !may_relax();
     changed_.wait_until(lock, stop, only_waits ? last_command_ + pause_of_handle : last_frame_ + frame_time - share,
                         has_command);
-  } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_command) && !stop.stop_requested()) {
+  } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_wish) && !stop.stop_requested()) {
     // No command came for a while, so the object does not move.
     lock.unlock();
     if (measure(stop)) {

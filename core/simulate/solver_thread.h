@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -39,6 +40,11 @@ class SolverThread {
   /// Ends the running pass or sweep as soon as possible, and drops posted ones. Remaining questions are answered for
   /// the object in that state. Call this when the window closes.
   void abandon();
+  /// Wishes that a drag of this element is prepared, once nothing else is to do and no other wish has come for a while;
+  /// none: no drag. A command ends the preparation at once.
+  void prepare(std::optional<ElementId> element);
+  /// Returns the number of wishes that were carried out.
+  int prepared() const { return prepared_.load(std::memory_order_acquire); }
   /// Calls `question` on the solver's thread, after everything posted before. It must not block. When the solver ends,
   /// it answers the remaining questions for the current object.
   void ask(Question question);
@@ -70,6 +76,7 @@ class SolverThread {
   void finish_task();
   void relax();
   bool may_relax() const;
+  void prepare_wished(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
@@ -89,15 +96,19 @@ class SolverThread {
   std::atomic<bool> unseen_ = false;         // something changed since the last frame
   bool measured_ = false;                    // the last frame shows the violation of the whole mesh
 
+  std::atomic<int> prepared_ = 0;
   std::atomic<bool> abandoned_ = false;
 
   std::mutex mutex_;  // guards the following members
   std::condition_variable_any changed_;
   std::deque<Task> tasks_;
-  std::size_t posted_ = 0;      // number of tasks so far
-  std::size_t sweeps_cut_ = 0;  // number of the first tasks whose sweeps are cancelled
-  int overrulers_ = 0;          // number of waiting tasks that cancel long work before them
-  bool sweeping_ = false;       // true if the running or the last task is sweeps of relaxation
+  std::size_t posted_ = 0;           // number of tasks so far
+  std::size_t sweeps_cut_ = 0;       // number of the first tasks whose sweeps are cancelled
+  int overrulers_ = 0;               // number of waiting tasks that cancel long work before them
+  bool sweeping_ = false;            // true if the running or the last task is sweeps of relaxation
+  std::optional<ElementId> wished_;  // whose drag is to be prepared
+  PassTimes::Clock::time_point wished_at_{};
+  std::optional<ElementId> preparing_;
   std::string error_;
 
   std::atomic<int> waiting_ = 0;  // number of tasks that are not done

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solve/handle_regions.h"
@@ -31,18 +32,34 @@ class ExactPropagation {
   /// the handle moves as far as they allow. A rotation ends where the handle would contradict itself, or pins, through
   /// links outside it. `move` gets the pose that was reached. `moved` receives the elements that moved, without the
   /// handle. `trace`, if given, receives the same elements, the largest move first, ties by id.
-  PassCount propagate(State& body, HandleMove& move, std::vector<ElementId>& moved, Trace* trace) {
+  /// The pass may use `threads`; their number does not change a bit of the answer, but the order in `moved`.
+  PassCount propagate(State& body, HandleMove& move, std::vector<ElementId>& moved, Trace* trace, int threads = 1) {
     remark_.clear();
     visits_ = 0;
-    begin(body, move.handle);
-    const Reach reach = move.handle.has_one() ? extend_one(body, move) : extend_many(body, move);
+    begin(body, move.handle, threads);
+    ThreadTeam team(threads);
+    const Reach reach = move.handle.has_one() ? extend_one(body, move, team) : extend_many(body, move, team);
     if (trace != nullptr) {
       write_trace(body, reach, *trace);
     }
-    this->move(body, reach, moved);
+    this->move(body, reach, moved, team);
     drop_idle_regions(moved.size());
     const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
     return {moved.size(), moved.size(), stopped || !remark_.empty(), visits_};
+  }
+
+  /// Prepares the first move of an element: computes the regions of all elements. They are used if that move, too,
+  /// would have computed them all, so no bit depends on them. Throws Cancelled.
+  void prepare(const State& body, const Handle& handle, int threads, const Progress& progress) {
+    if (is_made_for(body, handle, threads)) {
+      return;
+    }
+    begin(body, handle, threads);
+    made_for_ = {};  // until all is done
+    ThreadTeam team(threads);
+    regions_.extend_everywhere(body, team, progress);
+    made_for_ = conditions_of(body, handle);
+    is_prepared_ = true;
   }
 
   /// Reason why the last pass did not reach its rotation. Usually empty.
@@ -60,21 +77,29 @@ class ExactPropagation {
     bool operator==(const Conditions&) const = default;
   };
 
-  void begin(const State& body, const Handle& handle) {
+  static Conditions conditions_of(const State& body, const Handle& handle) {
     const Revisions& now = body.revisions();
-    const Conditions conditions{
+    return {
         now.cuts, now.pins, now.softness, handle.elements()[0], handle.grab(), handle.has_one() ? 0 : now.positions};
-    if (conditions == made_for_ && is_where_it_was(body, handle)) {
+  }
+  bool is_made_for(const State& body, const Handle& handle, int threads) const {
+    return conditions_of(body, handle) == made_for_ && threads == threads_ && is_where_it_was(body, handle);
+  }
+
+  void begin(const State& body, const Handle& handle, int threads) {
+    if (is_made_for(body, handle, threads)) {
       return;
     }
+    is_prepared_ = false;
     offsets_.clear();
     if (!handle.has_one()) {
       shape_.begin(body, handle);
       offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
       std::fill_n(at_.at, Dimension, Scalar{0});
     }
-    regions_.begin(body, handle.elements(), offsets_);
-    made_for_ = conditions;
+    threads_ = threads;
+    regions_.begin(body, handle.elements(), offsets_, threads);
+    made_for_ = conditions_of(body, handle);
   }
 
   /// True if nothing has moved an element of a handle of many since the last pass. Relaxation may, after a release.
@@ -89,16 +114,19 @@ class ExactPropagation {
     return true;
   }
 
-  void extend(const State& body, Reach& reach) {
+  void extend(const State& body, Reach& reach, ThreadTeam& team) {
     const std::uint64_t before = regions_.visits();
-    regions_.extend(body, reach);
+    regions_.extend(body, reach, team);
     visits_ += regions_.visits() - before;
   }
 
-  Reach extend_one(const State& body, HandleMove& move) {
+  Reach extend_one(const State& body, HandleMove& move, ThreadTeam& team) {
     const ElementId element = move.handle.elements()[0];
     Reach reach(body.positions[element], stored_target(body, element, move.pose.pivot).at);
-    extend(body, reach);
+    if (std::exchange(is_prepared_, false) && !regions_.moves_all(body, reach)) {
+      regions_.begin(body, move.handle.elements(), offsets_, threads_);
+    }
+    extend(body, reach, team);
     for (int k = 0; k < Dimension; ++k) {
       if (reach.stopped[k]) {
         move.pose.pivot[body.mesh->axes[std::size_t(k)]] = body.origin(element, k) + double(reach.to[k]);
@@ -107,12 +135,12 @@ class ExactPropagation {
     return reach;
   }
 
-  Reach extend_many(const State& body, HandleMove& move) {
+  Reach extend_many(const State& body, HandleMove& move, ThreadTeam& team) {
     const Pose target = move.pose;
     const Offset to = shape_.at(target);
     std::optional<Offset> turned;
     if (target.rotation != rotation_) {
-      turned = turn(body, move.handle, target.rotation, to);
+      turned = turn(body, move.handle, target.rotation, to, team);
     }
     Reach reach = turned ? Reach(*turned) : Reach(at_, to.at);
     if (turned) {
@@ -120,7 +148,7 @@ class ExactPropagation {
         reach.stopped[k] = (*turned)[k] != to[k];
       }
     } else {
-      extend(body, reach);
+      extend(body, reach, team);
     }
     std::copy_n(reach.to, Dimension, at_.at);
     if (at_ != to) {
@@ -132,9 +160,10 @@ class ExactPropagation {
 
   /// Finds regions for a rotation of the handle, or for the furthest possible one. Returns where the handle is then, as
   /// near to `to` as pins allow; nothing if it cannot rotate. The regions are those of rotation_ in either case.
-  std::optional<Offset> turn(const State& body, const Handle& handle, const Point& target, const Offset& to) {
+  std::optional<Offset> turn(const State& body, const Handle& handle, const Point& target, const Offset& to,
+                             ThreadTeam& team) {
     const Point from = rotation_;
-    auto reached = try_rotation(body, handle, target, to);
+    auto reached = try_rotation(body, handle, target, to, team);
     if (reached) {
       return reached;
     }
@@ -142,9 +171,10 @@ class ExactPropagation {
     const double angle = angle_between(from, target);
     while ((impossible - possible) * angle > finest_angle) {
       const double fraction = (possible + impossible) / 2;
-      (try_rotation(body, handle, rotation_between(from, target, fraction), to) ? possible : impossible) = fraction;
+      (try_rotation(body, handle, rotation_between(from, target, fraction), to, team) ? possible : impossible) =
+          fraction;
     }
-    reached = try_rotation(body, handle, rotation_between(from, target, possible), to);
+    reached = try_rotation(body, handle, rotation_between(from, target, possible), to, team);
     char text[96];
     std::snprintf(text, sizeof text, "stopped at %.3g degrees by links outside the handle, or by pins",
                   rotation_.norm() * (180 / std::numbers::pi));
@@ -153,14 +183,14 @@ class ExactPropagation {
   }
 
   std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation,
-                                     const Offset& target) {
+                                     const Offset& target, ThreadTeam& team) {
     Offset to = target;
     rotation_ = rotation;
     offsets_ = shape_.offsets(rotation);
-    regions_.begin(body, handle.elements(), offsets_);
+    regions_.begin(body, handle.elements(), offsets_, threads_);
     for (int i = 0; i < most_corrections; ++i) {
       Reach reach(to);
-      extend(body, reach);
+      extend(body, reach, team);
       if (!regions_.hold(body, to)) {
         break;
       }
@@ -181,7 +211,7 @@ class ExactPropagation {
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
   void drop_idle_regions(std::size_t moved) {
-    const std::size_t known = regions_.elements().size() - offsets_.size();
+    const std::size_t known = regions_.known() - offsets_.size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
     if (idle_passes_ == passes_of_a_search) {
       made_for_ = {};
@@ -191,30 +221,72 @@ class ExactPropagation {
 
   static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
 
-  void move(State& body, const Reach& reach, std::vector<ElementId>& moved) {
-    const auto elements = regions_.elements();
-    const auto regions = regions_.regions();
-    auto* positions = body.positions.data();
-    moved.resize(elements.size());
+  /// Elements of one share, clamped by one thread.
+  struct Stretch {
+    std::span<const ElementId> elements;
+    const Region<Scalar, Dimension>* regions;
+    ElementId* moved;       // where the elements that move are listed
+    std::size_t count = 0;  // of these
+  };
+
+  void move(State& body, const Reach& reach, std::vector<ElementId>& moved, ThreadTeam& team) {
+    moved.resize(regions_.known());
+    stretches_.clear();
+    ElementId* to = moved.data();
+    const auto shares = regions_.shares();
+    // Neighbours on a cache line belong to one share. A single share is cut in as few places as possible.
+    const std::size_t per_share = shares.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
+    for (const auto& share : shares) {
+      const std::size_t size = share.elements().size(), stretch = std::max(size / per_share + 1, fewest_for_thread);
+      for (std::size_t i = share.handle_size(), end = 0; i < size; i = end) {
+        end = std::min(size, i + stretch);
+        stretches_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
+        to += end - i;
+      }
+    }
+    if (stretches_.size() > 1 && moved.size() >= 2 * fewest_for_thread) {
+      team.call_helpers();
+    }
+    team.run(stretches_.size(), [&](std::size_t i) { clamp(body, reach, stretches_[i]); });
     std::size_t count = 0;
-    const std::size_t in_handle = std::max<std::size_t>(1, offsets_.size());
-    for (std::size_t i = in_handle; i < elements.size(); ++i) {
-      __builtin_prefetch(&positions[elements[std::min(i + fetched_ahead, elements.size() - 1)]], 1);
+    for (const Stretch& stretch : stretches_) {
+      if (stretch.moved != moved.data() + count) {
+        std::copy_n(stretch.moved, stretch.count, moved.data() + count);
+      }
+      count += stretch.count;
+    }
+    moved.resize(count);
+    const auto handle = regions_.handle();
+    std::copy_n(reach.to, Dimension, body.positions[handle[0]].at);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        body.positions[handle[i]][k] = reach.to[k] + offsets_[i][k];
+      }
+    }
+  }
+
+  static void clamp(const State& body, const Reach& reach, Stretch& stretch) {
+    const ElementId* const elements = stretch.elements.data();
+    const std::size_t size = stretch.elements.size();
+    const Region<Scalar, Dimension>* const regions = stretch.regions;
+    auto* const positions = body.positions.data();
+    ElementId* const moved = stretch.moved;
+    const Reach to = reach;  // so that no write seems to change it
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      __builtin_prefetch(&positions[elements[std::min(i + fetched_ahead, size - 1)]], 1);
       auto& position = positions[elements[i]];
-      const auto next = clamped(position, reach.low, reach.high, regions[i]);
+      const auto next = clamped(position, to.low, to.high, regions[i]);
       if (next != position) {
         position = next;
         moved[count++] = elements[i];
       }
     }
-    moved.resize(count);
-    std::copy_n(reach.to, Dimension, positions[elements[0]].at);
-    for (std::size_t i = 0; i < offsets_.size(); ++i) {
-      for (int k = 0; k < Dimension; ++k) {
-        positions[elements[i]][k] = reach.to[k] + offsets_[i][k];
-      }
-    }
+    stretch.count = count;
   }
+
+  // Elements that a thread must have to clamp before it pays.
+  static constexpr std::size_t fewest_for_thread = 16'384;
 
   struct Row {
     double way;
@@ -223,18 +295,9 @@ class ExactPropagation {
 
   void write_trace(const State& body, const Reach& reach, Trace& trace) const {
     std::vector<Row> rows;
-    for (std::size_t i = std::max<std::size_t>(1, offsets_.size()); i < regions_.elements().size(); ++i) {
-      const ElementId element = regions_.elements()[i];
-      const auto next = clamped(body.positions[element], reach.low, reach.high, regions_.regions()[i]);
-      double ways[Dimension];
-      for (int k = 0; k < Dimension; ++k) {
-        ways[k] = std::abs(double(next[k]) - double(body.positions[element][k]));
-      }
-      const double* furthest = std::max_element(ways, ways + Dimension);
-      if (*furthest > 0) {
-        const auto k = static_cast<int>(furthest - ways);
-        rows.push_back(
-            {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.positions[element][k]), true}});
+    for (const auto& share : regions_.shares()) {
+      for (std::size_t i = share.handle_size(); i < share.elements().size(); ++i) {
+        add_row(body, reach, share.elements()[i], share.regions()[i], rows);
       }
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
@@ -242,6 +305,21 @@ class ExactPropagation {
     });
     for (const Row& row : rows) {
       trace.push_back(row.row);
+    }
+  }
+
+  void add_row(const State& body, const Reach& reach, ElementId element, const Region<Scalar, Dimension>& region,
+               std::vector<Row>& rows) const {
+    const auto next = clamped(body.positions[element], reach.low, reach.high, region);
+    double ways[Dimension];
+    for (int k = 0; k < Dimension; ++k) {
+      ways[k] = std::abs(double(next[k]) - double(body.positions[element][k]));
+    }
+    const double* furthest = std::max_element(ways, ways + Dimension);
+    if (*furthest > 0) {
+      const auto k = static_cast<int>(furthest - ways);
+      rows.push_back(
+          {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.positions[element][k]), true}});
     }
   }
 
@@ -264,11 +342,14 @@ class ExactPropagation {
   Offset at_{};  // of a handle of many: its displacement after the last pass
   HandleRegions<Scalar, Dimension, Schedule> regions_;
   Conditions made_for_;
+  int threads_ = 1;                       // the regions were made with
+  std::vector<Stretch> stretches_;        // of this pass
   RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too
   std::vector<Offset> offsets_;           // for rotation_; empty for a handle of one
   Point rotation_ = Point::Zero();
   std::string remark_;
   std::uint64_t visits_ = 0;  // in this pass
+  bool is_prepared_ = false;  // the regions are of all elements, and no pass has used them
   int idle_passes_ = 0;       // passes in a row that moved few of the known elements
 };
 

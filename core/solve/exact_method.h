@@ -36,11 +36,16 @@ class ExactMethod final : public Method {
     made_for_ = conditions_of(body.revisions());
     handle_.assign(move.handle.elements().begin(), move.handle.elements().end());
     body.reach().since_rest = std::max(body.reach().since_rest, size);
-    PassCount count = propagation_.propagate(view, move, output.moved, output.trace);
+    PassCount count = propagation_.propagate(view, move, output.moved, output.trace, output.threads);
     if (!before.empty()) {
       add_repaired(view, before, move.handle, output.moved, count, output.trace);
     }
     return count;
+  }
+
+  void prepare(Body& body, ElementId element, int threads, const Progress& progress) override {
+    const State view = body.view<Scalar, Dimension>();
+    propagation_.prepare(view, Handle(body, {element}), threads, progress);
   }
 
   std::string remark() const override { return propagation_.remark(); }

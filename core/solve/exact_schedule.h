@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -19,6 +20,9 @@ namespace chainmail {
 /// another bucket while it waits is admitted again, and the caller drops the entries of elements that do not wait;
 /// unless `keeps_position()`, when it is not admitted again. A schedule that `adapts` says when it must. `begin_drag()`
 /// is called for a new handle, `begin()` for each pass. Elements are numbered in the order in which they became known.
+///
+/// A schedule that `has_rounds` can serve one of several threads. `begin_round()` chooses the entries that `in_round()`
+/// then lets pass: those that wait now, or those up to a bucket, the lowest of all threads.
 
 /// Smallest key first, up to a bucket width; first in, first out in a bucket (delta-stepping, Meyer and Sanders 2003).
 /// Buckets are numbered, and their numbers are in a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan 1990): an entry is
@@ -28,10 +32,12 @@ template <class Scalar>
 class BucketSchedule {
  public:
   static constexpr bool adapts = false;
+  static constexpr bool has_rounds = false;
   using Number = std::uint32_t;
 
   bool keeps_position() const { return false; }
   bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
   /// Sets the width of the buckets (mesh units, above 0). The schedule must be empty.
   void set_width(Scalar width) { per_width_ = std::min(1 / width, std::numeric_limits<Scalar>::max()); }
 
@@ -50,6 +56,18 @@ class BucketSchedule {
     ++size_;
   }
 
+  /// The lowest bucket, or the greatest number if the schedule is empty.
+  Number lowest() const {
+    if (first_ < buckets_[0].size()) {
+      return last_;
+    }
+    const auto place =
+        std::ranges::find_if(buckets_ | std::views::drop(1), [](const auto& one) { return !one.empty(); });
+    return place == buckets_.end() ? none : std::ranges::min_element(*place, {}, &Entry::number)->number;
+  }
+  void begin_round(Number lowest) { bound_ = lowest; }
+  bool in_round() const { return size_ > 0 && lowest() <= bound_; }
+
   std::uint32_t take() {
     if (first_ == buckets_[0].size()) {
       redistribute();
@@ -64,6 +82,7 @@ class BucketSchedule {
     std::uint32_t index;
   };
   static constexpr int place_count = 8 * sizeof(Number) + 1;
+  static constexpr Number none = std::numeric_limits<Number>::max();
 
   int place_of(Number number) const { return number <= last_ ? 0 : std::bit_width(number ^ last_); }
 
@@ -85,6 +104,7 @@ class BucketSchedule {
   std::array<std::vector<Entry>, place_count> buckets_;
   Scalar per_width_ = 1;
   Number last_ = 0;        // the bucket from which entries are taken
+  Number bound_ = none;    // of this round
   std::size_t first_ = 0;  // in buckets_[0]
   std::size_t size_ = 0;
 };
@@ -98,9 +118,21 @@ template <class Scalar>
 class AdaptiveSchedule {
  public:
   static constexpr bool adapts = true;
+  static constexpr bool has_rounds = true;
+  /// Elements of an object that threads share: in smaller ones a round is too short. Measured in tests/bench.
+  static constexpr std::size_t fewest_to_share = 100'000;
+  using Number = typename BucketSchedule<Scalar>::Number;
 
   bool keeps_position() const { return !sets_labels_; }
   bool empty() const { return queue_.empty() && buckets_.empty(); }
+  std::size_t size() const { return queue_.size() + buckets_.size(); }
+  Number lowest() const { return sets_labels_ ? buckets_.lowest() : 0; }
+
+  void begin_round(Number lowest) {
+    in_round_ = queue_.size();
+    buckets_.begin_round(lowest);
+  }
+  bool in_round() const { return sets_labels_ ? buckets_.in_round() : in_round_ > 0; }
 
   void begin_drag() { sets_labels_ = false; }
   void begin() { buckets_.begin(); }
@@ -114,7 +146,13 @@ class AdaptiveSchedule {
   }
   auto number(Scalar key) const { return buckets_.number(key); }
 
-  std::uint32_t take() { return sets_labels_ ? buckets_.take() : queue_.take(); }
+  std::uint32_t take() {
+    if (sets_labels_) {
+      return buckets_.take();
+    }
+    --in_round_;
+    return queue_.take();
+  }
 
   /// True once elements are visited too often, after this number of visits in the drag.
   bool must_adapt(std::uint64_t visits, std::size_t known) const {
@@ -136,6 +174,7 @@ class AdaptiveSchedule {
   Ring<std::uint32_t> queue_;
   BucketSchedule<Scalar> buckets_;
   bool sets_labels_ = false;
+  std::size_t in_round_ = 0;  // number of waiting elements that belong to this round
 };
 
 }  // namespace chainmail

@@ -114,11 +114,11 @@ class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}
   template <class Body>
-  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/) {
+  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/) {
     return false;
   }
   template <class Body>
-  void begin_anew(Body& /*body*/, std::span<const ElementId> /*handle*/) {}
+  void begin_anew(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/) {}
 
   template <class Body>
   bool update(Body& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {

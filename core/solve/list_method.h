@@ -27,9 +27,40 @@ class ListMethod final : public Method {
     return {steps.size(), output.moved.size()};
   }
 
+  void prepare(Body& body, ElementId element, int /*threads*/, const Progress& progress) override {
+    auto view = body.view<Scalar, Dimension>();
+    if (const std::span handle(&element, 1); !record_.knows(view, handle)) {
+      propagation_.assume(view, record_, handle, progress);
+    }
+  }
+
  private:
   Propagation propagation_;
   PassRecord record_;
+};
+
+/// Stands in for a record while it lists the steps of a pass in which every element moves.
+class AssumedPass {
+ public:
+  AssumedPass(PassRecord& record, const Progress& progress) : record_(record), progress_(progress) {}
+
+  template <class View>
+  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/) {
+    record_.assume(body, handle);
+    return false;
+  }
+  template <class View>
+  bool update(View& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
+    progress_.report(count_++, body.positions.size());
+    record_.note(body, candidate, true);
+    return true;
+  }
+  void end() { record_.end(); }
+
+ private:
+  PassRecord& record_;
+  const Progress& progress_;
+  std::size_t count_ = 0;
 };
 
 /// The common loop with a waiting list.
@@ -39,6 +70,18 @@ struct Propagation {
   void propagate(View& body, PassRecord& record, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
     chainmail::propagate(body, list, record, handle, moved);
   }
+
+  /// Lists the steps of a pass in which every element moves, unless their order depends on positions.
+  template <class View>
+  void assume(View& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
+    if constexpr (!requires { List::by_violation; }) {
+      AssumedPass assumed(record, progress);
+      std::vector<ElementId> none;
+      List own;  // a cancelled pass leaves candidates in it
+      chainmail::propagate(body, own, assumed, handle, none);
+    }
+  }
+
   List list;
 };
 

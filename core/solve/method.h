@@ -15,10 +15,11 @@ namespace chainmail {
 
 /// What a pass reports besides its numbers.
 struct PassOutput {
-  /// The elements that the pass moved, in order of update, without the handle. Between passes, nothing but the method
-  /// changes it.
+  /// The elements that the pass moved, in order of update if it has one, without the handle. Between passes, nothing
+  /// but the method changes it.
   std::vector<ElementId>& moved;
   Trace* trace = nullptr;  // if given, receives every processed candidate
+  int threads = 1;         // that the pass may use; their number changes no position
   Progress progress = {};  // of long preparations and solutions. When it throws Cancelled, nothing has moved
 };
 
@@ -31,6 +32,10 @@ class Method {
   /// Moves the handle to its target and answers: one pass. No element of the handle is pinned. Throws Error if a target
   /// is not a finite number of the body's precision, and if there is no answer; nothing has moved then.
   virtual PassCount move(Body& body, HandleMove& move, PassOutput output) = 0;
+
+  /// Prepares the first move of an element, in idle time, as if it moved the whole object: that move may then be as
+  /// fast as a later one. No position may depend on it. Throws Cancelled.
+  virtual void prepare(Body& /*body*/, ElementId /*element*/, int /*threads*/, const Progress& /*progress*/) {}
 
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   virtual std::string remark() const { return {}; }

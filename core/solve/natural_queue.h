@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "solve/replay.h"
 
 namespace chainmail {
@@ -22,18 +23,39 @@ class NaturalQueuePass {
   NaturalQueuePass(View& body, PassRecord& record, std::vector<ElementId>& moved)
       : body_(body), record_(record), queue_(record.queue()), moved_(moved) {}
 
+  /// Lists the steps of a pass in which every element moves.
+  void assume(std::span<const ElementId> handle, const Progress& progress) {
+    record_.assume(body_, handle);
+    mark(handle);
+    std::size_t tail = admit_neighbours_of(handle);
+    for (std::size_t head = 0; head < tail; ++head) {
+      progress.report(head, body_.positions.size());
+      queue_[head].note(true);
+      tail = admit(body_, queue_[head].element(), queue_, tail);
+    }
+    record_.end(tail);
+  }
+
   /// Runs what the record has not replayed.
   void run(std::span<const ElementId> handle) {
-    body_.begin_pass();
-    std::ranges::for_each(handle, [this](ElementId element) { body_.mark_updated(element); });
+    mark(handle);
     const std::size_t head = record_.agreed();
     const std::size_t tail = head > 0 ? take_up(head) : begin(handle);
     record_.end(run(head, tail));
   }
 
  private:
+  void mark(std::span<const ElementId> handle) {
+    body_.begin_pass();
+    std::ranges::for_each(handle, [this](ElementId element) { body_.mark_updated(element); });
+  }
+
   std::size_t begin(std::span<const ElementId> handle) {
     moved_.clear();
+    return admit_neighbours_of(handle);
+  }
+
+  std::size_t admit_neighbours_of(std::span<const ElementId> handle) {
     std::size_t tail = 0;
     for (const ElementId element : handle) {
       tail = admit(body_, element, queue_, tail);
@@ -103,9 +125,18 @@ struct NaturalQueue {
   template <class Scalar, int Dimension>
   void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) const {
-    if (!record.begin(body, handle, true)) {
+    if (!record.begin(body, handle, moved, true)) {
       NaturalQueuePass<Scalar, Dimension>(body, record, moved).run(handle);
     }
+  }
+
+  /// Lists the steps of a pass in which every element moves.
+  template <class Scalar, int Dimension>
+  void assume(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
+              const Progress& progress) const {
+    record.make_room(body);
+    std::vector<ElementId> none;
+    NaturalQueuePass<Scalar, Dimension>(body, record, none).assume(handle, progress);
   }
 };
 

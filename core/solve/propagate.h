@@ -36,8 +36,8 @@ void propagate(Body& body, List& list, Record& record, std::span<const ElementId
     });
   };
   if constexpr (requires { List::by_violation; }) {
-    record.begin_anew(body, handle);
-  } else if (record.begin(body, handle)) {
+    record.begin_anew(body, handle, moved);
+  } else if (record.begin(body, handle, moved)) {
     return;
   }
   if constexpr (requires { list.begin(*body.mesh); }) {

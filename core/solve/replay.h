@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/large_pages.h"
@@ -54,7 +55,8 @@ std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step
   return steps.size();
 }
 
-/// The processed candidates of the last pass, for the next pass of the same handle.
+/// The processed candidates of the last pass, for the next pass of the same handle. Or those of a pass that has not
+/// happened: one that moves every element, for the first pass of a handle.
 ///
 /// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural
 /// Queue), so that a replay never costs anything; or it runs its list again, and the record saves clamping up to there.
@@ -65,14 +67,15 @@ class PassRecord {
   /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
   /// step agreed(), and end() must be called. `goes_on`: the pass can run from there.
   template <class View>
-  bool begin(View& body, std::span<const ElementId> handle, bool goes_on = false) {
-    if (!steps_) {
-      steps_ = LargeArray<Step>(body.positions.size() + 1);
-    }
-    const Conditions conditions{body.revisions().cuts, body.revisions().pins, body.revisions().softness};
-    const bool is_known = conditions == conditions_ && std::ranges::equal(handle, handle_);
+  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved, bool goes_on = false) {
+    make_room(body);
+    const Conditions conditions = conditions_of(body);
+    const bool is_known = is_of(body, handle);
     const bool tries = is_known && unused_ == 0;
     agreed_ = tries ? replay(body, steps()) : 0;
+    if (std::exchange(is_assumed_, false) && agreed_ > 0) {
+      list_moved(moved);
+    }
     if (agreed_ > 0 && agreed_ == count_) {
       failures_ = 0;
       return true;
@@ -93,9 +96,26 @@ class PassRecord {
 
   /// Begins a pass of an algorithm whose order of candidates depends on positions: it is never replayed.
   template <class View>
-  void begin_anew(View& body, std::span<const ElementId> handle) {
+  void begin_anew(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
     handle_.clear();
-    begin(body, handle);
+    begin(body, handle, moved);
+  }
+
+  /// True if the steps are those of a pass of this handle on the body as it is.
+  template <class View>
+  bool knows(const View& body, std::span<const ElementId> handle) const {
+    return count_ > 0 && is_of(body, handle);
+  }
+
+  /// Begins the record of a pass that has not happened. Its steps follow, by note() or in queue(), then end().
+  template <class View>
+  void assume(View& body, std::span<const ElementId> handle) {
+    make_room(body);
+    conditions_ = conditions_of(body);
+    handle_.assign(handle.begin(), handle.end());
+    failures_ = unused_ = 0;
+    count_ = next_ = agreed_ = 0;
+    is_assumed_ = true;
   }
 
   /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
@@ -108,16 +128,31 @@ class PassRecord {
     const ElementId element = body.mesh->neighbours[candidate.entry];
     const bool has_moved =
         next_ < agreed_ ? steps_[next_].has_moved() : body.clamp(element, candidate.sponsor, candidate.entry);
-    body.mark_updated(element);
-    steps_[next_] = {element, candidate.sponsor, body.regions.id(candidate.entry)};
-    steps_[next_++].note(has_moved);
+    note(body, candidate, has_moved);
     if (has_moved) {
       moved.push_back(element);
     }
     return has_moved;
   }
 
+  /// Adds a step. The element counts as updated.
+  template <class View>
+  void note(View& body, Candidate candidate, bool has_moved) {
+    const ElementId element = body.mesh->neighbours[candidate.entry];
+    body.mark_updated(element);
+    steps_[next_] = {element, candidate.sponsor, body.regions.id(candidate.entry)};
+    steps_[next_++].note(has_moved);
+  }
+
   void end() { count_ = next_; }
+
+  /// Takes memory for the steps of this body, if that has not been done.
+  template <class View>
+  void make_room(const View& body) {
+    if (!steps_) {
+      steps_ = LargeArray<Step>(body.positions.size() + 1);
+    }
+  }
 
   /// The steps of the last pass.
   std::span<const Step> steps() const { return {steps_.get(), count_}; }
@@ -134,6 +169,24 @@ class PassRecord {
     bool operator==(const Conditions&) const = default;
   };
 
+  template <class View>
+  static Conditions conditions_of(const View& body) {
+    return {body.revisions().cuts, body.revisions().pins, body.revisions().softness};
+  }
+  template <class View>
+  bool is_of(const View& body, std::span<const ElementId> handle) const {
+    return conditions_of(body) == conditions_ && std::ranges::equal(handle, handle_);
+  }
+  /// Lists the elements that the replayed steps moved.
+  void list_moved(std::vector<ElementId>& moved) const {
+    moved.clear();
+    for (const Step& step : steps().first(agreed_)) {
+      if (step.has_moved()) {
+        moved.push_back(step.element());
+      }
+    }
+  }
+
   static constexpr int most_failures = 8;  // at most 64 passes without a replay
 
   LargeArray<Step> steps_;
@@ -142,6 +195,7 @@ class PassRecord {
   std::size_t agreed_ = 0;
   Conditions conditions_;
   std::vector<ElementId> handle_;  // of the last pass; empty before it
+  bool is_assumed_ = false;        // the steps are of a pass that has not happened
   int failures_ = 0;               // replays in a row that failed
   int unused_ = 0;                 // number of coming passes that are not replayed
 };

@@ -10,6 +10,7 @@ template <class T>
 class Ring {
  public:
   bool empty() const { return first_ == last_; }
+  std::size_t size() const { return last_ - first_; }
   void admit(const T& one) {
     if (last_ - first_ == ring_.size()) {
       grow();

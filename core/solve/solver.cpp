@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "solve/thread_team.h"
 
 namespace chainmail {
 
@@ -40,6 +41,7 @@ Method& Solver::method() {
 /// Runs a pass. If memory runs out in the middle of it, the next pass uses nothing of it.
 template <class Pass>
 PassCount Solver::run(Pass pass) {
+  const RunningPass running;
   try {
     const PassCount count = pass(method());
     body_.note_move();
@@ -58,7 +60,9 @@ PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
     return move_in_frame(handle, target, trace);
   }
   HandleMove move{handle, target};
-  const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
+  const PassCount count = run([&](Method& method) {
+    return method.move(body_, move, {moved_, trace, threads_, progress_});
+  });
   handle.set_pose(move.pose);
   return count;
 }
@@ -73,7 +77,9 @@ PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace
     to.pivot = point_of(*body_.stored_mesh(), body_.stored_positions(), first);
   }
   HandleMove move{turned, to};
-  const PassCount count = run([&](Method& method) { return method.move(body_, move, {moved_, trace, progress_}); });
+  const PassCount count = run([&](Method& method) {
+    return method.move(body_, move, {moved_, trace, threads_, progress_});
+  });
   handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(frame, move.pose));
   return count;
 }
@@ -83,6 +89,18 @@ PassCount Solver::move(ElementId element, const Point& target, Trace* trace) {
     single_.emplace(body_, std::vector<ElementId>{element});
   }
   return move(*single_, {target, Point::Zero()}, trace);
+}
+
+void Solver::prepare(ElementId element) {
+  if (body_.is_pinned(element)) {
+    return;
+  }
+  const RunningPass running;
+  try {
+    method().prepare(body_, element, threads_, progress_);
+  } catch (const std::bad_alloc&) {
+    method_.reset();  // the move will say so
+  }
 }
 
 std::span<const double> Solver::control_points() {
@@ -95,7 +113,7 @@ PassCount Solver::move_control_point(std::size_t point, const Point& target) {
                 "choose free-form deformation, and one of its points");
   }
   return run([&](Method& method) {
-    return method.move_control_point(body_, point, target, {moved_, nullptr, progress_});
+    return method.move_control_point(body_, point, target, {moved_, nullptr, threads_, progress_});
   });
 }
 

@@ -32,6 +32,9 @@ class Solver {
   void set_algorithm(Algorithm algorithm);
   /// Sets the progress of long preparations and solutions. A cancelled pass throws Cancelled, and nothing has moved.
   void set_progress(const Progress& progress) { progress_ = progress; }
+  /// Sets the number of threads that a pass may use, at least 1, which is the default. A pass gets fewer while other
+  /// passes run. No result depends on it.
+  void set_threads(int threads) { threads_ = threads; }
 
   /// Moves a handle to a target and propagates: one pass. The handle gets the pose that was reached. `trace`, if given,
   /// receives every processed candidate. Throws Error if an element of the handle is pinned, if the target is not a
@@ -39,6 +42,9 @@ class Solver {
   PassCount move(Handle& handle, const Pose& target, Trace* trace = nullptr);
   /// The same for a single element and its target (mesh units, on the axes that exist).
   PassCount move(ElementId element, const Point& target, Trace* trace = nullptr);
+  /// Prepares the first move of an element, for idle time: it will be as fast as a later one if it moves the whole
+  /// object. Changes no result. Throws Cancelled; a later call then starts again.
+  void prepare(ElementId element);
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   std::string remark() const { return method_ ? method_->remark() : std::string(); }
   /// The elements that the last pass moved, in order of update, without the handle.
@@ -91,6 +97,7 @@ class Solver {
   /// Revision of the positions when the object was last woken; none: the scheme `equilibrium` sleeps.
   std::optional<std::uint64_t> awake_at_;
   Progress progress_;
+  int threads_ = 1;
 };
 
 /// Throws Error if the algorithm does not work on the mesh.

@@ -15,6 +15,7 @@ template <class Scalar>
 class ShuffledSchedule {
  public:
   static constexpr bool adapts = false;
+  static constexpr bool has_rounds = false;
   bool keeps_position() const { return false; }
   Scalar number(Scalar key) const { return key; }
   static inline std::uint64_t seed = 0;

@@ -802,6 +802,12 @@ void Document::setHighlight(const Highlight& highlight) {
   }
 }
 
+void Document::prepareDrag(std::optional<ElementId> element) {
+  for (const auto& solver : solvers_) {
+    solver->prepare(element);
+  }
+}
+
 void Document::addToHighlight(std::span<const LinkId> links) {
   if (!links.empty()) {
     highlight_.links.insert(highlight_.links.end(), links.begin(), links.end());

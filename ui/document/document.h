@@ -193,6 +193,8 @@ class Document : public QObject {
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
+  /// Says which element the next press would grab, so that all panels prepare its drag in idle time; none: nothing.
+  void prepareDrag(std::optional<ElementId> element);
   /// Adds links to the highlighted ones. The time depends only on the number of added links.
   void addToHighlight(std::span<const LinkId> links);
   const Selection& selection() const { return selection_; }

@@ -59,8 +59,17 @@ void DragTool::hover(View& view, QPointF position) {
   if (!point && !onRing && brush_.radius() > 0) {
     hoverBrush(view, position);
   } else {
-    document_.setHighlight({point || onRing ? std::nullopt : view.elementAt(position), false, {}});
+    const auto element = point || onRing ? std::nullopt : view.elementAt(position);
+    document_.setHighlight({element, false, {}});
+    prepare(element);
   }
+}
+
+/// Prepares the drag that a press would begin: of one element. A selection is grabbed as a whole.
+void DragTool::prepare(std::optional<ElementId> element) {
+  const auto& selected = document_.selection().elements;
+  const bool ofSelection = element && selected.size() > 1 && std::ranges::binary_search(selected, *element);
+  document_.prepareDrag(ofSelection ? std::nullopt : element);
 }
 
 void DragTool::hoverBrush(View& view, QPointF position) {
@@ -99,6 +108,7 @@ void DragTool::leave(View& view) {
   }
   controlPoints_.mark({});
   setRingHovered(nullptr);
+  document_.prepareDrag({});
   if (!outline_.empty()) {
     outline_.clear();
     view.update();

@@ -60,6 +60,7 @@ class DragTool : public Tool {
   std::vector<ElementId> elementsToGrab(View& view, QPointF position) const;
   std::vector<ElementId> withinBrush(const View& view, QPointF position) const;
   void hoverBrush(View& view, QPointF position);
+  void prepare(std::optional<ElementId> element);
   void outline(View& view, QPointF position);
   void setRingHovered(View* view);
   void moveHandle(View& view, QPointF position, bool turns);

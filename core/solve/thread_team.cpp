@@ -1,0 +1,199 @@
+#include "solve/thread_team.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace chainmail {
+namespace {
+
+/// Number of threads that run a pass, or help in one.
+std::atomic<int> busy{0};
+
+/// Waits for an event that another thread brings about soon: a part takes some microseconds.
+class ShortWait {
+ public:
+  void again() {
+    if (++rounds_ > spins) {
+      std::this_thread::yield();
+      return;
+    }
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+
+ private:
+  static constexpr int spins = 1000;
+  int rounds_ = 0;
+};
+
+}  // namespace
+
+int core_count() {
+  static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return count;
+}
+
+RunningPass::RunningPass() { ++busy; }
+RunningPass::~RunningPass() { --busy; }
+
+struct ThreadTeam::Shared {
+  /// The state of the work in one number, so that a helper that comes late cannot take a part of other work: number of
+  /// the work (32 bits), its parts (16) and how many of them are taken (16).
+  std::atomic<std::uint64_t> ticket{0};
+  std::atomic<std::size_t> done{0};
+  std::atomic<int> helpers{0};
+  std::atomic<bool> ends{false};
+  Call call = nullptr;
+  void* context = nullptr;
+  std::mutex mutex;
+  std::exception_ptr error;  // the first; guarded by the mutex
+
+  static std::uint64_t parts(std::uint64_t of) { return of >> 16 & most_parts; }
+  static std::uint64_t taken(std::uint64_t of) { return of & most_parts; }
+
+  /// Does a part, if one is left.
+  bool take() {
+    std::uint64_t now = ticket.load(std::memory_order_acquire);
+    do {
+      if (taken(now) == parts(now)) {
+        return false;
+      }
+    } while (!ticket.compare_exchange_weak(now, now + 1, std::memory_order_acq_rel, std::memory_order_acquire));
+    try {
+      call(context, taken(now));
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      error = error ? error : std::current_exception();
+    }
+    done.fetch_add(1, std::memory_order_release);
+    return true;
+  }
+
+  /// Helps until the team ends or others need the core.
+  void help() {
+    ShortWait wait;
+    while (!ends.load(std::memory_order_acquire) && busy.load(std::memory_order_relaxed) <= core_count()) {
+      if (take()) {
+        wait = {};
+      } else {
+        wait.again();
+      }
+    }
+  }
+};
+
+namespace {
+
+/// The helpers of the process. They sleep while no team needs them.
+class Helpers {
+ public:
+  static Helpers& all() {
+    static Helpers helpers;
+    return helpers;
+  }
+
+  /// Sends helpers to a team: those that are free, but at most `most`.
+  void send(ThreadTeam::Shared& team, int most) {
+    const std::lock_guard lock(mutex_);
+    start();
+    for (Helper& helper : helpers_) {
+      if (most == 0 || busy.load() >= core_count()) {
+        break;
+      }
+      if (helper.team == nullptr) {
+        helper.team = &team;
+        ++team.helpers;
+        ++busy;
+        --most;
+      }
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  struct Helper {
+    ThreadTeam::Shared* team = nullptr;
+    std::jthread thread;
+  };
+
+  void start() {
+    if (helpers_.empty()) {
+      helpers_ = std::vector<Helper>(static_cast<std::size_t>(core_count() - 1));
+      for (Helper& helper : helpers_) {
+        helper.thread = std::jthread([this, &helper](const std::stop_token& stop) { serve(helper, stop); });
+      }
+    }
+  }
+
+  void serve(Helper& helper, const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (changed_.wait(lock, stop, [&] { return helper.team != nullptr; })) {
+      ThreadTeam::Shared& team = *helper.team;
+      lock.unlock();
+      team.help();
+      lock.lock();
+      helper.team = nullptr;
+      --busy;
+      team.helpers.fetch_sub(1, std::memory_order_release);  // the team may be gone now
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<Helper> helpers_;  // last: its threads end before the members that they use
+};
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(int most) : most_(most) {}
+
+void ThreadTeam::call_helpers() {
+  if (!has_called_ && std::min(most_, core_count()) > 1 && busy.load() < core_count()) {
+    shared_ = std::make_unique<Shared>();
+    Helpers::all().send(*shared_, most_ - 1);
+  }
+  has_called_ = true;
+}
+
+ThreadTeam::~ThreadTeam() {
+  if (shared_) {
+    shared_->ends.store(true, std::memory_order_release);
+    for (ShortWait wait; shared_->helpers.load(std::memory_order_acquire) > 0;) {
+      wait.again();
+    }
+  }
+}
+
+void ThreadTeam::run(std::size_t parts, Call call, void* context) {
+  if (!shared_ || parts < 2) {
+    for (std::size_t part = 0; part < parts; ++part) {
+      call(context, part);
+    }
+    return;
+  }
+  Shared& shared = *shared_;
+  shared.call = call;
+  shared.context = context;
+  shared.done.store(0, std::memory_order_relaxed);
+  const std::uint64_t number = (shared.ticket.load(std::memory_order_relaxed) >> 32) + 1;
+  shared.ticket.store(number << 32 | std::uint64_t{parts} << 16, std::memory_order_release);
+  while (shared.take()) {
+  }
+  for (ShortWait wait; shared.done.load(std::memory_order_acquire) < parts;) {
+    wait.again();
+  }
+  if (shared.error) {
+    std::rethrow_exception(std::exchange(shared.error, nullptr));
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace chainmail {
+
+/// Counts this thread as one that runs a pass, while it exists. Helpers of other passes give way to it.
+class RunningPass {
+ public:
+  RunningPass();
+  RunningPass(const RunningPass&) = delete;
+  RunningPass& operator=(const RunningPass&) = delete;
+  ~RunningPass();
+};
+
+/// Threads that share the work of one pass: the one that made the team, and helpers.
+///
+/// The process has one helper per core but one. A team gets those that are free when it calls them, as long as passes
+/// run on fewer threads than the machine has cores; a helper leaves its team when that is no longer so. So no work may
+/// depend on the number of threads that do it. A helper that waits for work in a team keeps its core busy.
+class ThreadTeam {
+ public:
+  /// A team of at most `most` threads, this one included. It has no helpers yet, and costs nothing.
+  explicit ThreadTeam(int most);
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  ~ThreadTeam();
+
+  /// Gets helpers, unless the team has called them already. It takes some 10 µs until they are there.
+  void call_helpers();
+
+  /// Calls work(part) once for each part below `parts`, of which there may be at most `most_parts`, and returns when
+  /// all are done. Parts run at the same time, in no order. Throws what a part threw, after all others have ended.
+  template <class Work>
+  void run(std::size_t parts, Work work) {
+    run(
+        parts, [](void* context, std::size_t part) { (*static_cast<Work*>(context))(part); }, &work);
+  }
+
+  static constexpr std::size_t most_parts = 0xFFFF;
+
+  struct Shared;  // what the threads of a team see
+
+ private:
+  using Call = void (*)(void* context, std::size_t part);
+  void run(std::size_t parts, Call call, void* context);
+
+  int most_;
+  bool has_called_ = false;
+  std::unique_ptr<Shared> shared_;  // null: no helper
+};
+
+/// Number of cores of this machine, at least 1.
+int core_count();
+
+}  // namespace chainmail

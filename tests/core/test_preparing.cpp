@@ -1,0 +1,134 @@
+#include <QtTest>
+
+#include "core/scenarios.h"
+#include "core/threads.h"
+#include "mesh/progress.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+
+namespace {
+
+constexpr LinkSoftness rigid{1, 1, 0};
+
+std::vector<ElementId> sorted(std::span<const ElementId> elements) {
+  std::vector<ElementId> result(elements.begin(), elements.end());
+  std::ranges::sort(result);
+  return result;
+}
+
+std::unique_ptr<Solver> solver_of(const MeshPointer& mesh, Algorithm algorithm, const Softness& softness) {
+  auto solver = make_solver(mesh, algorithm, Precision::single_precision);
+  solver->body().set_softness(softness);
+  return solver;
+}
+
+}  // namespace
+
+/// The first pass of a drag may be prepared, and no result shows it.
+class PreparingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void changes_no_bit();
+  void saves_the_search();
+  void pins_that_stop_the_handle_are_found();
+  void can_be_cancelled();
+  void a_thread_prepares_what_it_is_told();
+};
+
+void PreparingTest::changes_no_bit() {
+  const auto holds = [] {
+    const auto& mesh = draw_family().mesh;
+    const auto all = algorithms();
+    const Algorithm algorithm = all[*rc::gen::inRange<std::size_t>(0, all.size())].algorithm;
+    RC_PRE(fits(algorithm, *mesh));
+    const Softness softness = *rc::gen::arbitrary<bool>() ? draw_softness(*mesh) : Softness{rigid, {}};
+    const auto cuts = draw_links(*mesh);
+    const auto with = solver_of(mesh, algorithm, softness), without = solver_of(mesh, algorithm, softness);
+    const ElementId pin = *rc::gen::inRange<ElementId>(0, 2 * mesh->element_count());
+    for (const auto& solver : {with.get(), without.get()}) {
+      solver->body().cut(cuts);
+      if (pin < mesh->element_count()) {
+        solver->body().pin(std::vector{pin});
+      }
+    }
+    for (const Hand& hand : *any_hands(20)) {
+      const ElementId element = hand.of(*mesh);
+      with->prepare(element);
+      if (element == pin) {
+        continue;
+      }
+      // Two moves of each drag: the second one goes on from what the first one left.
+      for (int i = 0; i < 2; ++i) {
+        const PassCount one = move_by(*with, *mesh, element, hand.by());
+        const PassCount other = move_by(*without, *mesh, element, hand.by());
+        RC_ASSERT(one.checked == other.checked);
+        RC_ASSERT(one.moved == other.moved);
+        RC_ASSERT(sorted(with->moved()) == sorted(without->moved()));
+        RC_ASSERT(same_bits(positions_of(*with, *mesh), positions_of(*without, *mesh)));
+      }
+    }
+  };
+  QVERIFY(check_property("a prepared drag ends in the same bits", holds));
+}
+
+void PreparingTest::saves_the_search() {
+  const auto mesh = jittered_triangles(20, 20, 5);
+  const auto solver = solver_of(mesh, Algorithm::exact, {rigid, {}});
+  solver->prepare(210);
+  const PassCount prepared = move_by(*solver, *mesh, 210, Point(1, 2, 0));
+  QCOMPARE(prepared.moved, std::uint64_t{mesh->element_count() - 1});
+  QCOMPARE(prepared.visits, std::uint64_t{0});
+  QVERIFY(move_by(*solver, *mesh, 30, Point(1, 2, 0)).visits >= mesh->element_count());
+}
+
+void PreparingTest::pins_that_stop_the_handle_are_found() {
+  const auto mesh = make_mesh(MeshKind::line, {20, 1, 1});
+  const auto solver = solver_of(mesh, Algorithm::exact, {{0.5, 2, 0.5}, {}});
+  solver->body().pin(std::vector<ElementId>{19});
+  solver->prepare(0);
+  QVERIFY(move_by(*solver, *mesh, 0, Point(-30, 0, 0)).stopped);
+  QCOMPARE(position_of(*solver, *mesh, 0).x(), -19.0);  // 19 links of twice their length, from 19
+}
+
+void PreparingTest::can_be_cancelled() {
+  const auto mesh = make_mesh(MeshKind::grid, {100, 100, 1});
+  for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::generalized, Algorithm::exact}) {
+    const auto solver = solver_of(mesh, algorithm, {rigid, {}}), other = solver_of(mesh, algorithm, {rigid, {}});
+    JobState state;
+    solver->set_progress(Progress(state));
+    state.cancelled = true;
+    QVERIFY_THROWS_EXCEPTION(Cancelled, solver->prepare(5050));
+    state.cancelled = false;
+    for (const ElementId element : {5050U, 17U}) {
+      move_by(*solver, *mesh, element, Point(2, 3, 0));
+      move_by(*other, *mesh, element, Point(2, 3, 0));
+      QVERIFY(same_bits(positions_of(*solver, *mesh), positions_of(*other, *mesh)));
+    }
+  }
+}
+
+void PreparingTest::a_thread_prepares_what_it_is_told() {
+  const auto mesh = jittered_triangles(20, 20, 5);
+  SolverThread solver(mesh, Algorithm::exact, [] {});
+  solver.post(commands::SetSoftness{{rigid, {}}});
+  const auto visits_of_a_drag = [&](ElementId element, std::uint64_t passes) {
+    solver.post(commands::Grab{element});
+    solver.post(commands::Drag{mesh->rest_position(element) + Point(double(passes), 2, 0)});
+    solver.post(commands::Release{});
+    return wait_for_passes(solver, passes) ? solver.latest_frame().statistics.last_pass.visits : ~std::uint64_t{0};
+  };
+  solver.prepare(7);
+  solver.prepare(210);  // replaces the wish before
+  QVERIFY(wait_until([&] { return solver.prepared() == 1; }));
+  QCOMPARE(visits_of_a_drag(210, 1), std::uint64_t{0});
+  QVERIFY(visits_of_a_drag(7, 2) >= mesh->element_count());
+  solver.prepare(30);
+  solver.prepare(std::nullopt);
+  QVERIFY(visits_of_a_drag(30, 3) >= mesh->element_count());
+  QCOMPARE(solver.prepared(), 1);
+}
+
+QTEST_APPLESS_MAIN(PreparingTest)
+#include "test_preparing.moc"
