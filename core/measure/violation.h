@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -60,11 +61,16 @@ class WholeViolation {
 /// Measures the violation of the links of some elements, each link once.
 class TouchedViolation {
  public:
-  /// Takes time in proportion to the number of links of `elements`. Keeps one bit per element between calls.
+  /// Takes time in proportion to the number of links of `elements`, or of every n-th of them if they are more than
+  /// `most`. Keeps one bit per element between calls.
   Violation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                    std::initializer_list<std::span<const ElementId>> elements);
+                    std::initializer_list<std::span<const ElementId>> elements,
+                    std::size_t most = std::numeric_limits<std::size_t>::max());
 
  private:
+  template <class Use>
+  static void for_each_sampled(std::initializer_list<std::span<const ElementId>> elements, std::size_t nth, Use use);
+
   std::vector<bool> seen_;  // all false between two calls
 };
 

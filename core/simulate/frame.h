@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "simulate/simulation.h"
@@ -35,34 +36,42 @@ struct Frame {
   }
 };
 
-/// Passes frames from one writer to one reader without locks. Each side owns one of three frames, and they exchange the
-/// third.
-class TripleBuffer {
+/// Passes frames from one writer to one reader without locks, in two frames: the reader's, and the one that the writer
+/// fills. The reader takes the latter once it is filled; until then, the writer may fill it again with something newer.
+class FrameExchange {
  public:
-  static constexpr unsigned frame_count = 3;
+  static constexpr unsigned frame_count = 2;
 
-  /// Returns the writer's own frame. Fill it, then publish it.
-  Frame& back() { return frames_[back_]; }
-  /// Returns the index of the writer's own frame, below frame_count.
-  unsigned back_index() const { return back_; }
-  void publish() { back_ = middle_.exchange(back_ | fresh, std::memory_order_acq_rel) & index; }
+  /// Begins to fill a frame; publish() ends it. Meanwhile the reader keeps the one that it has.
+  Frame& begin() {
+    State before = State::empty;
+    while (!state_.compare_exchange_weak(before, State::being_filled, std::memory_order_acquire)) {
+      before = before == State::filled ? State::filled : State::empty;  // the reader is taking it: some instructions
+    }
+    return frames_[back_];
+  }
+  /// Returns the index of the frame that is being filled, below frame_count.
+  unsigned index() const { return back_; }
+  void publish() { state_.store(State::filled, std::memory_order_release); }
 
-  /// Returns the newest published frame. It does not change until the next call.
+  /// Returns the newest published frame, or the one before while the writer fills the next one. It does not change
+  /// until the next call.
   const Frame& latest() {
-    if ((middle_.load(std::memory_order_relaxed) & fresh) != 0) {
-      front_ = middle_.exchange(front_, std::memory_order_acq_rel) & index;
+    State before = State::filled;
+    if (state_.compare_exchange_strong(before, State::being_taken, std::memory_order_acquire)) {
+      std::swap(back_, front_);
+      state_.store(State::empty, std::memory_order_release);
     }
     return frames_[front_];
   }
 
  private:
-  static constexpr unsigned index = 3;
-  static constexpr unsigned fresh = 4;
+  enum class State : unsigned { empty, being_filled, filled, being_taken };
 
   std::array<Frame, frame_count> frames_;
-  unsigned back_ = 0;  // index of the writer's frame
-  std::atomic<unsigned> middle_ = 1;
-  unsigned front_ = 2;  // index of the reader's frame
+  std::atomic<State> state_ = State::empty;
+  unsigned back_ = 0;   // changed in the state being_taken, read in being_filled
+  unsigned front_ = 1;  // the reader's
 };
 
 }  // namespace chainmail

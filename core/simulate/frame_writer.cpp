@@ -17,7 +17,8 @@ std::span<std::uint64_t> blocks_of(std::vector<std::uint64_t>& stamps, ElementId
 void FrameWriter::publish(Simulation& simulation) {
   ++number_;
   note_changes(simulation);
-  fill(frames_.back(), pending_[frames_.back_index()], simulation);
+  Frame& frame = frames_.begin();
+  fill(frame, pending_[frames_.index()], simulation);
   frames_.publish();
 }
 

@@ -12,7 +12,7 @@ namespace chainmail {
 /// since it was last filled.
 class FrameWriter {
  public:
-  explicit FrameWriter(TripleBuffer& frames) : frames_(frames) {}
+  explicit FrameWriter(FrameExchange& frames) : frames_(frames) {}
 
   /// Publishes a frame of the current state. The simulation must be the same in every call.
   void publish(Simulation& simulation);
@@ -21,13 +21,13 @@ class FrameWriter {
   void note_changes(Simulation& simulation);
   void fill(Frame& frame, ElementBlocks& pending, Simulation& simulation);
 
-  TripleBuffer& frames_;
+  FrameExchange& frames_;
   std::uint64_t number_ = 0;
   // State of the newest frame:
   MeshPointer mesh_;
   std::vector<std::uint64_t> changed_;
   /// For each frame of the buffer, the blocks of this mesh that changed since it was last filled.
-  std::array<ElementBlocks, TripleBuffer::frame_count> pending_;
+  std::array<ElementBlocks, FrameExchange::frame_count> pending_;
 };
 
 }  // namespace chainmail

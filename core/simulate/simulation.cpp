@@ -23,6 +23,8 @@ constexpr double settled_below = 1e-4;
 // About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
+// Elements whose links are measured while something is dragged. It takes some milliseconds.
+constexpr std::size_t most_measured = 50'000;
 
 }  // namespace
 
@@ -219,9 +221,12 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   }
   statistics_.last_second = times_.summary(Clock::now());
   statistics_.violation_of_whole_mesh = false;
+  statistics_.violation_of_sample = false;
   if (last_handle_) {
-    statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
-                                             {last_handle_->elements(), solver_->moved()});
+    const auto handle = last_handle_->elements(), moved = solver_->moved();
+    statistics_.violation =
+        touched_.measure(*mesh_, softness(), body().cuts(), body().positions(), {handle, moved}, most_measured);
+    statistics_.violation_of_sample = handle.size() + moved.size() > most_measured;
   } else {
     statistics_.violation = {};
   }
@@ -237,6 +242,7 @@ bool Simulation::measure() {
   statistics_.last_second = times_.summary(Clock::now());
   statistics_.violation = measure_->result();
   statistics_.violation_of_whole_mesh = true;
+  statistics_.violation_of_sample = false;
   valid_ = statistics_.violation.fraction == 0;
   measure_.reset();
   return false;

@@ -25,6 +25,7 @@ struct Statistics {
   PassTimes::Summary last_second;
   Violation violation;
   bool violation_of_whole_mesh = false;  // false: of the links that the last pass touched
+  bool violation_of_sample = false;      // of some of these only: there were too many
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass; iterations with the scheme `equilibrium`
   /// After an iteration toward the equilibrium: the estimated distance from it, see EquilibriumCertificate.

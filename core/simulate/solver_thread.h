@@ -86,7 +86,7 @@ class SolverThread {
   JobState work_;  // state of a long pass
   Simulation simulation_;
   std::function<void()> frame_ready_, became_idle_;
-  TripleBuffer frames_;
+  FrameExchange frames_;
   FrameWriter writer_{frames_};
   PassRecorder recorder_;
   PassTimes::Clock::time_point last_frame_{};

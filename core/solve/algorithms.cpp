@@ -26,7 +26,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Li and Brodlie 2003; Dean 2004, 3.1",
        .summary = "candidates enter at the front of the list, all are admitted",
        .look = {"M-.9-.9H.9V.9H-.9Z", "#d55e00"},  // square
-       .make = make_list_method<FrontList>,
+       .make = make_generalized,
        .history = follow_list<FrontList>},
       {.algorithm = Algorithm::spiral,
        .name = "spiral",

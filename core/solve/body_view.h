@@ -36,6 +36,16 @@ double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x,
 /// made for a pass, not kept. All coordinates are those of the body's frame.
 template <class Scalar_, int Dimension_>
 class BodyView {
+ private:
+  using RegionId = typename RegionTable<Scalar_, Dimension_>::Id;
+
+  struct Row {
+    const std::uint32_t* offset;  // of the ids of neighbours, to be added to the base
+    std::uint32_t base, size;
+    const std::uint16_t* shape;  // the ids of the regions; without it they are consecutive
+    RegionId first;
+  };
+
  public:
   using Scalar = Scalar_;
   static constexpr int Dimension = Dimension_;
@@ -100,13 +110,39 @@ class BodyView {
   /// region of the link. Reads no row where the mesh has kinds of rows.
   template <class Visit>
   [[gnu::always_inline]] void for_each_link(ElementId element, Visit visit) const {
-    const Row row = row_of(element);
-    const bool has_cuts = cuts.touches(element);
-    for (std::uint32_t i = 0; i < row.size; ++i) {
-      if (!has_cuts || !cuts.is_cut(mesh->entry_link[mesh->first_entry[element] + i])) {
-        visit(row.base + row.offset[i], row.shape != nullptr ? row.shape[i] : row.first + i);
+    const Links links = this->links(element);
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+      if (!links.is_cut(i)) {
+        const auto [neighbour, region] = links[i];
+        visit(neighbour, region);
       }
     }
+  }
+
+  /// The links of an element in the file's order, with those that are cut.
+  class Links {
+   public:
+    struct Link {
+      ElementId neighbour;
+      std::uint32_t region;
+    };
+    std::uint32_t size() const { return row_.size; }
+    [[gnu::always_inline]] Link operator[](std::uint32_t i) const {
+      return {row_.base + row_.offset[i], row_.shape != nullptr ? row_.shape[i] : row_.first + i};
+    }
+    [[gnu::always_inline]] bool is_cut(std::uint32_t i) const { return ids_ != nullptr && cuts_->is_cut(ids_[i]); }
+
+   private:
+    friend class BodyView;
+    Links(const Row& row, const LinkId* ids, const Cuts& cuts) : row_(row), ids_(ids), cuts_(&cuts) {}
+
+    Row row_;
+    const LinkId* ids_;  // null if no link of the element is cut
+    const Cuts* cuts_;
+  };
+  [[gnu::always_inline]] Links links(ElementId element) const {
+    const LinkId* ids = cuts.touches(element) ? mesh->entry_link.data() + mesh->first_entry[element] : nullptr;
+    return {row_of(element), ids, cuts};
   }
 
   const Mesh* mesh;
@@ -119,15 +155,6 @@ class BodyView {
   std::uint32_t pass;
 
  private:
-  using RegionId = typename RegionTable<Scalar, Dimension>::Id;
-
-  struct Row {
-    const std::uint32_t* offset;  // of the ids of neighbours, to be added to the base
-    std::uint32_t base, size;
-    const std::uint16_t* shape;  // the ids of the regions; without it they are consecutive
-    RegionId first;
-  };
-
   [[gnu::always_inline]] Row row_of(ElementId element) const {
     const RowKinds& kinds = mesh->row_kinds;
     const bool by_shape = regions.by_shape();

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <vector>
 
+#include "solve/generalized.h"
 #include "solve/method.h"
 #include "solve/natural_queue.h"
 #include "solve/propagate.h"
@@ -94,6 +95,11 @@ struct ListMethodOf {
 /// Makes the method of an algorithm that differs from others in its waiting list only.
 template <class List>
 inline constexpr auto make_list_method = &make_method<ListMethodOf<List>::template Typed>;
+
+template <class Scalar, int Dimension>
+using GeneralizedMethod = ListMethod<Generalized, Scalar, Dimension>;
+
+inline constexpr auto make_generalized = &make_method<GeneralizedMethod>;
 
 template <class Scalar, int Dimension>
 using NaturalQueueMethod = ListMethod<NaturalQueue, Scalar, Dimension>;

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QEvent>
 #include <QSet>
+#include <algorithm>
 
 #include "bench/process.h"
 #include "panels/view.h"
@@ -24,25 +25,41 @@ class MeteredApplication : public QApplication {
       ++viewPaints;
       viewsPainted.insert(receiver);
     }
-    if (drawing_ || (type != QEvent::UpdateRequest && type != QEvent::Expose && type != QEvent::Paint)) {
+    if (drawing_) {
       return QApplication::notify(receiver, event);
+    }
+    if (type != QEvent::UpdateRequest && type != QEvent::Expose && type != QEvent::Paint) {
+      return note(receiver, event);
     }
     drawing_ = true;
     painted_ = false;
     const double before = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID);
     const bool handled = QApplication::notify(receiver, event);
-    drawingMilliseconds += cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    const double drew = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    drawingMilliseconds += drew;
+    longestDrawing = std::max(longestDrawing, drew);
     drawing_ = false;
     framesDrawn += painted_ ? 1 : 0;
     return handled;
   }
 
   double drawingMilliseconds = 0;  // processor time of this thread
+  double longestMilliseconds = 0;  // of an event without drawing, since it was set to 0
+  double longestDrawing = 0;       // ms, since it was set to 0
   int framesDrawn = 0;             // updates of the window that drew at least one view
   int viewPaints = 0;
   QSet<const QObject*> viewsPainted;
 
  private:
+  /// Delivers an event that draws nothing itself.
+  bool note(QObject* receiver, QEvent* event) {
+    const double before = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawn = drawingMilliseconds;
+    const bool handled = QApplication::notify(receiver, event);
+    const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before - (drawingMilliseconds - drawn);
+    longestMilliseconds = std::max(longestMilliseconds, own);
+    return handled;
+  }
+
   bool drawing_ = false;
   bool painted_ = false;
 };

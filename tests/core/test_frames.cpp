@@ -46,7 +46,7 @@ struct Scene {
   }
 
   Simulation simulation;
-  TripleBuffer frames;
+  FrameExchange frames;
   FrameWriter writer{frames};
 };
 

@@ -19,7 +19,7 @@ class MemoryTest : public QObject {
 namespace {
 
 /// Moves a handle back and forth, with all figures and a frame for each move.
-void drag_and_show(Simulation& simulation, FrameWriter& writer, TripleBuffer& frames) {
+void drag_and_show(Simulation& simulation, FrameWriter& writer, FrameExchange& frames) {
   for (int i = 0; i < 40; ++i) {
     simulation.apply(commands::Drag{Point(i % 2 == 0 ? -30 : 5, i % 3, 0)});
     simulation.refresh_statistics(false);
@@ -43,7 +43,7 @@ void MemoryTest::passes_and_frames_take_none_data() {
 void MemoryTest::passes_and_frames_take_none() {
   QFETCH(int, algorithm);
   Simulation simulation(make_mesh(MeshKind::grid, {40, 40, 1}), Algorithm(algorithm), Precision::single_precision);
-  TripleBuffer frames;
+  FrameExchange frames;
   FrameWriter writer(frames);
   simulation.apply(commands::Cut{{7, 100}});
   simulation.apply(commands::Grab{0});

@@ -39,8 +39,8 @@ class SolverThreadTest : public QObject {
   void abandoned_it_answers_for_the_object_as_it_is();
   void another_goes_on_from_where_one_stands();
   void another_ends_with_the_one_it_waits_for();
-  void a_triple_buffer_hands_over_the_newest_frame();
-  void a_triple_buffer_never_mixes_two_frames();
+  void a_frame_exchange_hands_over_the_newest_frame();
+  void a_frame_exchange_never_mixes_two_frames();
 };
 
 namespace {
@@ -336,10 +336,10 @@ void SolverThreadTest::another_ends_with_the_one_it_waits_for() {
   QVERIFY(wait_until([&] { return second.idle(); }));
 }
 
-void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {
-  TripleBuffer frames;
+void SolverThreadTest::a_frame_exchange_hands_over_the_newest_frame() {
+  FrameExchange frames;
   const auto publish = [&](std::uint64_t number) {
-    frames.back().number = number;
+    frames.begin().number = number;
     frames.publish();
   };
   QCOMPARE(frames.latest().number, std::uint64_t{0});
@@ -354,16 +354,20 @@ void SolverThreadTest::a_triple_buffer_hands_over_the_newest_frame() {
   publish(5);
   publish(6);
   QCOMPARE(held.number, std::uint64_t{4});  // valid until the reader asks for another one
-  QCOMPARE(frames.latest().number, std::uint64_t{6});
+  frames.begin().number = 7;
+  QCOMPARE(frames.latest().number, std::uint64_t{4});  // not one that is being filled
+  frames.publish();
+  QCOMPARE(frames.latest().number, std::uint64_t{7});
 }
 
-void SolverThreadTest::a_triple_buffer_never_mixes_two_frames() {
+void SolverThreadTest::a_frame_exchange_never_mixes_two_frames() {
   constexpr std::uint64_t count = 20'000;
-  TripleBuffer frames;
+  FrameExchange frames;
   std::jthread writer([&] {
     for (std::uint64_t number = 1; number <= count; ++number) {
-      frames.back().number = number;
-      frames.back().positions.assign(16, static_cast<float>(number));
+      Frame& frame = frames.begin();
+      frame.number = number;
+      frame.positions.assign(16, static_cast<float>(number));
       frames.publish();
     }
   });

@@ -10,6 +10,7 @@
 #include "common/icons.h"
 #include "common/text.h"
 #include "docks/gallery.h"
+#include "drawing/prepared_levels.h"
 #include "io/samples.h"
 
 namespace chainmail {
@@ -145,7 +146,8 @@ void MeshDock::build() {
   const QString name = recipeName(recipe());
   jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(name),
               [this, name, recipe = recipe()](const Progress& progress) -> Jobs::Finish {
-                const MeshPointer mesh = generate(recipe, progress);
+                const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
+                prepareLevels(mesh, progress.part(0.8, 1));
                 return [this, name, mesh] { document_.replaceMesh(mesh, name, QStringLiteral("build %1").arg(name)); };
               });
 }

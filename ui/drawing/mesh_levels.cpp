@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "drawing/prepared_levels.h"
+
 namespace chainmail {
 
 unsigned MeshLevels::after(unsigned step, const Mesh& mesh) {
@@ -13,7 +15,9 @@ MeshLevelPointer MeshLevels::at(const MeshPointer& mesh, unsigned step) {
   if (mesh != mesh_) {
     levels_.clear();
     mesh_ = mesh;
-    levels_[1] = next_ != nullptr && next_->mesh == mesh ? next_ : nullptr;
+    for (const MeshLevelPointer& level : takePreparedLevels(mesh)) {
+      levels_[level->step] = level;
+    }
   }
   auto& level = levels_[step];
   if (level == nullptr) {

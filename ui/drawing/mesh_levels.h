@@ -15,8 +15,7 @@ class MeshLevels {
  public:
   /// Returns the next coarser step. Steps are powers of two; a lattice has one more step between two powers.
   static unsigned after(unsigned step, const Mesh& mesh);
-  /// Sets the finest level of the next mesh, which a job has computed.
-  void await(MeshLevelPointer whole) { next_ = std::move(whole); }
+  /// Returns a level: a prepared one (see prepareLevels), or a new one, which is kept.
   MeshLevelPointer at(const MeshPointer& mesh, unsigned step);
 
   /// Returns the surface of the mesh's cells; waits if it is still being computed. A new surface has these cuts;
@@ -38,7 +37,6 @@ class MeshLevels {
   std::unique_ptr<Section> section_;
   CardTextures textures_;
   MeshPointer mesh_;
-  MeshLevelPointer next_;
   std::map<unsigned, MeshLevelPointer> levels_;
 };
 

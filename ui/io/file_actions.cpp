@@ -13,6 +13,7 @@
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "common/up_axis.h"
+#include "drawing/prepared_levels.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
@@ -229,8 +230,9 @@ void FileActions::read(const QString& path, bool first, bool ask) {
                 if (is_volume(asPath(path))) {
                   return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
                 }
-                const OpenedMesh opened = open_mesh(asPath(path), {}, progress.part(0, 0.9));
-                const Defects defects = find_defects(*opened.mesh, progress.part(0.9, 1));
+                const OpenedMesh opened = open_mesh(asPath(path), {}, progress.part(0, 0.8));
+                const Defects defects = find_defects(*opened.mesh, progress.part(0.8, 0.9));
+                prepareLevels(opened.mesh, progress.part(0.9, 1));
                 return [this, opened, defects, path, first] { show(opened, defects, path, first); };
               });
 }

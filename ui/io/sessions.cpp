@@ -7,6 +7,7 @@
 
 #include "common/as_path.h"
 #include "document/session_draft.h"
+#include "drawing/prepared_levels.h"
 #include "io/mesh_source.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
@@ -44,8 +45,9 @@ Sessions::~Sessions() = default;
 void Sessions::openPath(const QString& path, bool first) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
-                const auto session =
-                    std::make_shared<const Session>(read_session(asPath(path), progress, meshesNear(path)));
+                const auto session = std::make_shared<const Session>(
+                    read_session(asPath(path), progress.part(0, 0.9), meshesNear(path)));
+                prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path, first] { show(session, path, first); };
               });
 }
@@ -100,7 +102,8 @@ void Sessions::close() { autosave_.reset(); }
 void Sessions::restore(const QString& path) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Restoring unsaved work"),
               [this, path](const Progress& progress) -> Jobs::Finish {
-                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress));
+                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress.part(0, 0.9)));
+                prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path] {
                   showPanels(document_, *session);
                   document_.restore(session, ownFile(*session), QStringLiteral("restore unsaved work"));

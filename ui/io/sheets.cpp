@@ -6,6 +6,7 @@
 
 #include "common/ask_where.h"
 #include "common/panel_names.h"
+#include "drawing/prepared_levels.h"
 #include "files/mesh/warp.h"
 #include "io/picture_file.h"
 #include "io/sheet_bar.h"
@@ -70,7 +71,8 @@ void Sheets::open(const QString& path, int across, bool first) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
               [this, path, name, across, first](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer sheet = make_sheet(readPictureFile(path, progress.part(0, 0.7)),
-                                                     std::uint32_t(across), progress.part(0.7, 1));
+                                                     std::uint32_t(across), progress.part(0.7, 0.9));
+                prepareLevels(sheet, progress.part(0.9, 1));
                 return [this, path, name, first, sheet] {
                   document_.replaceMesh(sheet, name, QStringLiteral("open %1").arg(name));
                   if (first) {

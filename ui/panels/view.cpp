@@ -29,7 +29,7 @@ constexpr int hoverMilliseconds = 16;
 constexpr int stillMilliseconds = 50;
 constexpr double ringRadius = 24, ringWidth = 3;  // pixels
 constexpr double zoomPerNotch = 1.2;
-constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, the boxes of their clusters are the outline
+constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, some elements or boxes are the outline
 constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
 constexpr float pinSize = 13;                                        // pixels
 constexpr float cursorMarkSize = 13;                                 // pixels
@@ -39,6 +39,15 @@ constexpr double smallestSelected = 2;
 // Diameter of the mark of a handle's element, in link lengths. In space, the marks of hidden elements are also visible.
 constexpr double handleMarkShare = 0.5, spatialMarkShare = 0.2;
 constexpr double largestHandleMark = 10;  // pixels
+
+std::vector<QVector3D> cornersOf(const std::array<Point, 2>& box) {
+  std::vector<QVector3D> corners;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const auto side = [&](unsigned k) { return float(box[corner >> k & 1U][k]); };
+    corners.emplace_back(side(0), side(1), side(2));
+  }
+  return corners;
+}
 
 Error tooLarge(QSize picture, int most) {
   const auto what = QStringLiteral("%1 × %2 pixels are too many: the graphics card draws at most %3 on a side")
@@ -198,9 +207,12 @@ std::vector<QVector3D> View::outline(bool atRest) const {
   const Frame* frame = document_.frame(panel_);
   std::vector<QVector3D> points;
   if (atRest || frame == nullptr) {
-    points.reserve(mesh.element_count());
-    for (ElementId element = 0; element < mesh.element_count(); ++element) {
-      points.push_back(asVector(mesh.rest_position(element)));
+    if (mesh.lattice) {
+      return cornersOf(mesh.box);
+    }
+    const std::size_t step = mesh.element_count() / mostOutlinePoints + 1;
+    for (std::size_t element = 0; element < mesh.element_count(); element += step) {
+      points.push_back(asVector(mesh.rest_position(ElementId(element))));
     }
     return points;
   }

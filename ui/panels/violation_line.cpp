@@ -40,18 +40,20 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
     return QString::fromStdString(statistics.remark);
   }
   const Violation& violation = statistics.violation;
-  const bool whole = statistics.violation_of_whole_mesh;
+  const bool whole = statistics.violation_of_whole_mesh, sampled = statistics.violation_of_sample;
   if (std::isnan(violation.fraction)) {
     return QStringLiteral("Some links without a finite length");
   }
   if (violation.fraction == 0) {
     return !hasMoved ? QStringLiteral("Nothing has moved yet")
            : whole   ? QStringLiteral("No link is violated")
+           : sampled ? QStringLiteral("No touched link of a sample is violated")
                      : QStringLiteral("No touched link is violated");
   }
-  const QString share =
-      QStringLiteral("%1 of %2violated, ")
-          .arg(percentage(violation.fraction), whole ? QStringLiteral("links ") : QStringLiteral("touched links "));
+  const QString share = QStringLiteral("%1 of %2violated, ")
+                            .arg(percentage(violation.fraction), whole     ? QStringLiteral("links ")
+                                                                 : sampled ? QStringLiteral("some touched links ")
+                                                                           : QStringLiteral("touched links "));
   return share + (std::isfinite(violation.max) ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
                                                : QStringLiteral("some without a finite length"));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/prepared_levels.h"
 #include "elastic/limits.h"
 #include "files/mesh/fill.h"
 
@@ -139,7 +140,8 @@ void Filling::start() {
   jobs_.start(
       Jobs::Kind::load, QStringLiteral("Filling %1").arg(name),
       [this, name, surface = document_.mesh(), size = size_->value()](const Progress& progress) -> Jobs::Finish {
-        const MeshPointer filled = chainmail::fill(*surface, size, progress);
+        const MeshPointer filled = chainmail::fill(*surface, size, progress.part(0, 0.9));
+        prepareLevels(filled, progress.part(0.9, 1));
         return [this, name, filled] {
           document_.replaceMesh(filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
         };

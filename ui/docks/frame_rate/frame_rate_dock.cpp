@@ -167,6 +167,7 @@ RateSample FrameRateDock::read(int panel) {
     const Statistics& statistics = frame->statistics;
     sample.violationMax = statistics.violation.max;
     sample.violationRms = statistics.violation.rms;
+    sample.ofSample = statistics.violation_of_sample;
     sample.ofWholeMesh = statistics.violation_of_whole_mesh;
     if (statistics.last_second.passes != 0 && statistics.algorithm == sample.algorithm) {
       sample.ms = statistics.last_pass_ms;

@@ -112,6 +112,7 @@ void writeRow(std::ostream& out, std::size_t panel, const RateSample& one) {
       << digits(one.violationRms) << ','
       << (std::isnan(one.violationMax) ? ""
           : one.ofWholeMesh            ? "all"
+          : one.ofSample               ? "sample"
                                        : "touched")
       << '\n';
 }

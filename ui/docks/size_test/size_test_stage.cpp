@@ -3,6 +3,7 @@
 #include <QGridLayout>
 #include <algorithm>
 
+#include "drawing/prepared_levels.h"
 #include "mesh/generate.h"
 
 namespace chainmail {
@@ -74,9 +75,9 @@ void SizeTestStage::build() {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(sizeText(width)),
               [this, width](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer mesh = generate(gridOf(width), progress);
-                return [this, mesh, whole = wholeLevel(mesh)] {
+                prepareLevels(mesh, progress);
+                return [this, mesh] {
                   mesh_ = mesh;
-                  levels_->await(whole);
                   attempt();
                 };
               });
