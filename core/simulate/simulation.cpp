@@ -24,7 +24,7 @@ constexpr double settled_below = 1e-4;
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
 // Elements whose links are measured while something is dragged. It takes some milliseconds.
-constexpr std::size_t most_measured = 50'000;
+constexpr std::size_t most_measured = 20'000;
 
 }  // namespace
 

@@ -123,6 +123,7 @@ std::string SolverThread::take_error() {
 void SolverThread::refuse(const std::string& sentence) {
   const std::lock_guard lock(mutex_);
   error_ = sentence;
+  unseen_ = true;  // the next frame announces it
 }
 
 void SolverThread::carry_out(const Task& task) {
@@ -153,8 +154,10 @@ void SolverThread::carry_out(const Task& task) {
   if (command != nullptr) {
     recorder_.end(simulation_);
   }
-  unseen_ = true;
-  measured_ = false;
+  if (!is_one_of<Grab>(command)) {  // which shows nothing; its frame would delay that of the first move
+    unseen_ = true;
+    measured_ = false;
+  }
   last_command_ = Clock::now();
   finish_task();
 }

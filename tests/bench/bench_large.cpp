@@ -93,7 +93,7 @@ void work(Results& results, const std::string& place, const MeshRecipe& recipe) 
                     window.jobs().start(
                         Jobs::Kind::load, QStringLiteral("Building"), [&](const Progress& progress) -> Jobs::Finish {
                           const MeshPointer mesh = generate(recipe, progress);
-                                              prepareLevels(mesh, progress);
+                          prepareLevels(mesh, progress);
                           return [&, mesh] {
                             document.replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build"));
                           };

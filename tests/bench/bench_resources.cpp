@@ -131,6 +131,31 @@ double two_panels() {
   return std::min(median(together[0]) / median(alone[0]), median(together[1]) / median(alone[1]));
 }
 
+/// Returns the median time (ms) from the press on an element, after a hover, to the frame in which the whole object of
+/// a million elements has moved.
+double grab_to_frame(Algorithm algorithm) {
+  const Scene scene("grid1000");
+  const Hand round = hand(Drag::whole_body, *scene.mesh);
+  SolverThread panel(scene.mesh, algorithm, [] {});
+  panel.post(commands::SetSoftness{{stiff, {}}});
+  std::vector<double> ms;
+  for (int i = 0; i < 7; ++i) {
+    const ElementId element = i % 2 == 0 ? round.element : scene.mesh->element_count() - 1;
+    const int prepared = panel.prepared();
+    panel.prepare(element);
+    test::wait_until([&] { return panel.prepared() > prepared && panel.settled(); });
+    const std::uint64_t passes = panel.latest_frame().statistics.passes;
+    const auto begin = Clock::now();
+    panel.post(commands::Grab{element});
+    panel.post(commands::Drag{round.targets[std::size_t(i)] - round.targets[0], {}, true});
+    while (panel.latest_frame().statistics.passes == passes) {
+    }
+    ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    panel.post(commands::Release{});
+  }
+  return median(ms);
+}
+
 /// Returns the resident bytes of a mesh and a solver after its first passes.
 double scene_bytes(const char* mesh) {
   const double before = resident_bytes();
@@ -157,5 +182,8 @@ int main(int argc, char** argv) {
   results.add("/plane/bytes", plane / space);
   results.add("/allocations_per_pass", allocations_per_pass());
   results.add("/two_panels", two_panels());
+  for (const auto& info : chainmail::algorithms()) {
+    results.add("/grab_to_frame_ms/" + std::string(info.name), grab_to_frame(info.algorithm));
+  }
   results.write();
 }

@@ -92,6 +92,22 @@ void first_passes(Results& results) {
   }
 }
 
+/// Compares passes of Exact on two threads with those on one.
+void threads(Results& results) {
+  // Not grid1024: its rows are a power of two long, so that the rows that a front crosses share few places in the
+  // cache.
+  for (const std::string mesh : {"grid64", "grid1000", "block100", "jittered_tetra60"}) {
+    const Scene scene(mesh);
+    const auto runs =
+        run({dragged(scene, names::exact_anew, Drag::whole_body),
+             dragged(scene, names::exact_anew_threads, Drag::whole_body), dragged(scene, exact, Drag::whole_body),
+             dragged(scene, names::exact_threads, Drag::whole_body)});
+    results.add(runs);
+    results.add("/threads/first/" + mesh, over(of(runs, names::exact_anew), of(runs, names::exact_anew_threads)));
+    results.add("/threads/later/" + mesh, over(of(runs, exact), of(runs, names::exact_threads)));
+  }
+}
+
 /// Measures sweeps over an object of which every element is active.
 void sweeps(Results& results) {
   for (const std::string mesh : {"grid256", "tetra60"}) {
@@ -141,6 +157,7 @@ void measure(Results& results) {
              {"jittered_grid1024", "jittered_cloth512", "jittered_tetra60", "tetra60"});
   exact_over(results, "mixed", Drag::whole_body_mixed, {"grid1024", "jittered_tetra60"});
   first_passes(results);
+  threads(results);
   sweeps(results);
   plane(results);
   hand_like(results);

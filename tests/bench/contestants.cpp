@@ -30,14 +30,17 @@ struct Round {
 };
 
 bool is_without_memory(const std::string& algorithm) {
-  return algorithm == names::without_replay || algorithm == names::exact_anew;
+  return algorithm == names::without_replay || algorithm == names::exact_anew || algorithm == names::exact_anew_threads;
 }
 
 std::unique_ptr<Solver> make(const MeshPointer& mesh, const std::string& algorithm) {
-  const auto which = algorithm == names::without_replay ? Algorithm::natural_queue
-                     : algorithm == names::exact_anew   ? Algorithm::exact
-                                                        : find_algorithm(algorithm).value();
-  return make_solver(mesh, which, Precision::single_precision);
+  const bool is_shared = algorithm == names::exact_threads || algorithm == names::exact_anew_threads;
+  const auto which = algorithm == names::without_replay            ? Algorithm::natural_queue
+                     : algorithm == names::exact_anew || is_shared ? Algorithm::exact
+                                                                   : find_algorithm(algorithm).value();
+  auto solver = make_solver(mesh, which, Precision::single_precision);
+  solver->set_threads(is_shared ? 2 : 1);
+  return solver;
 }
 
 /// Returns the number of warm-up passes: two rounds of a local drag. A whole-body drag needs fewer, because its passes

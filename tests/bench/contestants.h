@@ -13,6 +13,9 @@ inline const std::string without_replay = "natural-queue-without-replay";
 inline const std::string exact = "exact";
 /// The first pass of a drag, which has to find the regions about the handle.
 inline const std::string exact_anew = "exact-first-pass";
+/// The same two on two threads.
+inline const std::string exact_threads = "exact-2-threads";
+inline const std::string exact_anew_threads = "exact-first-pass-2-threads";
 /// Touches all bytes that a later whole-body pass of the algorithm touches, each once.
 inline const std::string natural_queue_bytes = "natural-queue-bytes-once";
 inline const std::string exact_bytes = "exact-bytes-once";

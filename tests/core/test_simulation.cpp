@@ -28,6 +28,7 @@ class SimulationTest : public QObject {
   void sweeps_of_a_large_mesh_are_those_of_its_solver();
   void sweeps_are_given_up_in_the_middle_of_one();
   void statistics_say_what_happened();
+  void many_touched_links_are_measured_in_part();
   void idle_time_measures_in_slices();
   void valid_is_what_the_whole_mesh_says();
 };
@@ -278,6 +279,22 @@ void SimulationTest::statistics_say_what_happened() {
   QVERIFY(simulation.statistics().last_pass_ms >= 0);
   simulation.refresh_statistics(true);
   QCOMPARE(simulation.statistics().violation.links, std::uint64_t{simulation.mesh().link_count()});
+}
+
+void SimulationTest::many_touched_links_are_measured_in_part() {
+  Simulation simulation(make_mesh(MeshKind::line, {30'000, 1, 1}), Algorithm::natural_queue,
+                        Precision::single_precision);
+  drag_by(simulation, 0, Point(-1, 0, 0));
+  QVERIFY(!simulation.statistics().violation_of_sample);
+  carry_out(simulation, commands::SetSoftness{{{1, 1, 0}, {}}});
+  drag_by(simulation, 0, Point(-1, 0, 0));
+  QCOMPARE(simulation.statistics().last_pass.moved, std::uint64_t{29'999});
+  simulation.refresh_statistics(false);
+  QVERIFY(simulation.statistics().violation_of_sample);
+  const std::uint64_t links = simulation.statistics().violation.links;
+  QVERIFY(links >= 20'000 && links < 29'999);
+  simulation.refresh_statistics(true);
+  QVERIFY(!simulation.statistics().violation_of_sample);
 }
 
 void SimulationTest::idle_time_measures_in_slices() {

@@ -1,5 +1,6 @@
 #include <QtTest>
 #include <cmath>
+#include <numeric>
 
 #include "core/families.h"
 #include "measure/neighbour_regions.h"
@@ -20,6 +21,7 @@ class ViolationTest : public QObject {
   void over_the_whole_mesh();
   void cut_links_do_not_count();
   void over_some_elements();
+  void over_a_sample();
   void of_a_link_without_length();
   void counts_from_1e_4_on();
   void energy_by_hand();
@@ -117,6 +119,21 @@ void ViolationTest::over_some_elements() {
   solver->body().cut(std::span(&worst, 1));
   QCOMPARE(touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {others}).links,
            std::uint64_t{3});
+}
+
+void ViolationTest::over_a_sample() {
+  const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
+  const auto solver = at(mesh, {0, 1, 2, 3, 4, 5, 6, 7, 8.5});
+  std::vector<ElementId> all(9);
+  std::iota(all.begin(), all.end(), ElementId{0});
+  TouchedViolation touched;
+  const auto links = [&](std::size_t most) {
+    return touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {all}, most).links;
+  };
+  QCOMPARE(links(9), std::uint64_t{8});
+  QCOMPARE(links(3), std::uint64_t{5});  // of elements 0, 3 and 6
+  QCOMPARE(links(2), std::uint64_t{3});  // of elements 0 and 5
+  QCOMPARE(links(9), std::uint64_t{8});  // nothing is left of earlier measurements
 }
 
 void ViolationTest::of_a_link_without_length() {

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "drawing/coarse_level.h"
+#include "drawing/mesh_levels.h"
+#include "drawing/prepared_levels.h"
 #include "property.h"
 #include "scene.h"
 
@@ -93,6 +95,30 @@ class Picking : public QObject {
     QCOMPARE(all.size(), 27U);  // also the elements behind others
     const QPointF at = scene.place(13);
     QCOMPARE(scene.elementsIn(QRectF(at - QPointF(1, 1), at + QPointF(1, 1))), std::vector<ElementId>{13});
+  }
+
+  void preparedLevelsAreTheOnesThatAreUsed() {
+    const MeshPointer mesh = generate({MeshKind::grid, {400, 400, 1}, 1, {}});
+    const MeshPointer other = generate({MeshKind::grid, {400, 400, 1}, 1, {}});
+    prepareLevels(mesh, {});
+    const auto prepared = takePreparedLevels(mesh);
+    QVERIFY(!prepared.empty());
+    QVERIFY(takePreparedLevels(mesh).empty());  // they are handed over once
+    for (const auto& level : prepared) {
+      const auto own = level->step == 1 ? wholeLevel(mesh) : coarseLattice(mesh, level->step);
+      QCOMPARE(level->elements, own->elements);
+      QVERIFY(level->mesh == mesh);
+    }
+    prepareLevels(mesh, {});
+    QVERIFY(takePreparedLevels(other).empty());
+    prepareLevels(mesh, {});
+    MeshLevels levels;
+    const auto first = levels.at(mesh, 1);
+    QVERIFY(takePreparedLevels(mesh).empty());  // they have been taken
+    QVERIFY(levels.at(mesh, 1) == first);
+    JobState job;
+    job.cancelled = true;
+    QVERIFY_THROWS_EXCEPTION(Cancelled, prepareLevels(mesh, Progress(job)));
   }
 
   void theDistanceFromASegment() {

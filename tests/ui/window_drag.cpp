@@ -23,6 +23,22 @@ class WindowDrag : public QObject {
     QTRY_VERIFY(!bench.document().highlight().element);
   }
 
+  void aHoverPreparesTheDrag() {
+    Workbench bench;
+    Document& document = bench.document();
+    document.setAlgorithm(1, Algorithm::exact);
+    document.setSoftness({1, 1, 0}, QStringLiteral("rigid"));
+    bench.settle();
+    QCOMPARE(document.preparedDrags(), 0);
+    const QPoint from = bench.place(1, 31);
+    QTest::mouseMove(&bench.view(1), from + QPoint(2, 1));
+    QTRY_COMPARE(document.preparedDrags(), 1);
+    bench.stroke(1, {from, from + QPoint(60, -80)}, false);
+    bench.settle();
+    QCOMPARE(document.frame(1)->statistics.last_pass.moved, std::uint64_t{62});
+    QTest::mouseRelease(&bench.view(1), Qt::LeftButton, {}, from + QPoint(60, -80));
+  }
+
   void dragFollowsTheHandInBothPanels_data() {
     QTest::addColumn<int>("panel");
     QTest::newRow("left") << 0;

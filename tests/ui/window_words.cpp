@@ -55,6 +55,14 @@ class WindowWords : public QObject {
     QTest::newRow("none") << 0.0 << 1e-7 << true << QStringLiteral("No link is violated");
     QTest::newRow("at the start") << 0.0 << 0.0 << false << QStringLiteral("Nothing has moved yet");
   }
+  void someTouchedLinksAreSaidToBeSome() {
+    Statistics statistics = statisticsOf(0.304, 2.84, false);
+    statistics.violation_of_sample = true;
+    QCOMPARE(violationInWords(statistics, true),
+             QStringLiteral("30 % of some touched links violated, worst 2.8 × rest length"));
+    statistics.violation = {};
+    QCOMPARE(violationInWords(statistics, true), QStringLiteral("No link of a sample of the touched ones is violated"));
+  }
   void violationIsASentence() {
     QFETCH(double, fraction);
     QFETCH(double, largest);

@@ -6,6 +6,7 @@
 #include <exception>
 #include <iterator>
 #include <new>
+#include <ranges>
 
 #include "common/panel_names.h"
 #include "common/text.h"
@@ -806,6 +807,11 @@ void Document::prepareDrag(std::optional<ElementId> element) {
   for (const auto& solver : solvers_) {
     solver->prepare(element);
   }
+}
+
+int Document::preparedDrags() const {
+  const auto prepared = solvers_ | std::views::transform([](const auto& solver) { return solver->prepared(); });
+  return *std::ranges::min_element(prepared);
 }
 
 void Document::addToHighlight(std::span<const LinkId> links) {

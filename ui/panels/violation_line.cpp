@@ -47,7 +47,7 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   if (violation.fraction == 0) {
     return !hasMoved ? QStringLiteral("Nothing has moved yet")
            : whole   ? QStringLiteral("No link is violated")
-           : sampled ? QStringLiteral("No touched link of a sample is violated")
+           : sampled ? QStringLiteral("No link of a sample of the touched ones is violated")
                      : QStringLiteral("No touched link is violated");
   }
   const QString share = QStringLiteral("%1 of %2violated, ")
