@@ -90,6 +90,13 @@ void Deformer::set_method(std::string_view method) {
   guarded([&] { inside_->set_algorithm(algorithm); });
 }
 
+void Deformer::set_threads(int threads) {
+  if (threads < 1) {
+    throw Error("threads", "the number is below 1", "use a number from 1");
+  }
+  inside_->solver().set_threads(threads);
+}
+
 MoveResult Deformer::move(Handle& handle, const Pose& target) {
   auto& body = Access::inside(inside_->body);
   const inner::Mesh& mesh = body.body().mesh();

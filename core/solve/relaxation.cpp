@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "solve/body_view.h"
@@ -19,7 +21,9 @@ class Relaxation::Slice {
   static constexpr int Dimension = View::Dimension;
 
   Slice(Relaxation& relaxation, const View& body, EnergyKind energy, double step, std::span<const ElementId> held)
-      : relaxation_(relaxation), body_(body), energy_(energy), step_(step), held_(held) {}
+      : relaxation_(relaxation), body_(body), energy_(energy), step_(step), held_(held) {
+    fill_shapes();
+  }
 
   RelaxationResult run(std::uint64_t budget) {
     const bool by_link = relaxation_.scheme_ == RelaxationScheme::link;
@@ -33,6 +37,17 @@ class Relaxation::Slice {
   using Coordinates = std::array<Scalar, Dimension>;
   using RegionId = typename RegionTable<Scalar, Dimension>::Id;
   using Vector = Eigen::Matrix<double, Dimension, 1>;
+
+  static constexpr int lanes = Position<Scalar, Dimension>::lanes;
+  /// The coordinates of a position, which the processor computes at once.
+  typedef Scalar Lanes __attribute__((vector_size(lanes * sizeof(Scalar))));
+
+  /// A link by the number of its rest vector: that vector, and the bounds of the valid region.
+  struct Shape {
+    Lanes rest, low, high;
+  };
+  // Larger tables would take longer to fill than some slices last.
+  static constexpr std::size_t most_shapes = 64;
 
   /// The intersection of the valid regions about an element's neighbours.
   struct Box {
@@ -93,15 +108,7 @@ class Relaxation::Slice {
     }
     Coordinates mean{};
     Box box = everywhere();
-    int count = 0;
-    body_.for_each_link(element, [&](ElementId neighbour, RegionId region) {
-      const Coordinates position = position_by(element, neighbour, region);
-      limit(box, neighbour, region);
-      for (int k = 0; k < Dimension; ++k) {
-        mean[k] += position[k];
-      }
-      ++count;
-    });
+    const int count = shapes_.empty() ? add_links(element, mean, box) : add_shapes(element, mean, box);
     if (count == 0) {
       return;
     }
@@ -110,6 +117,59 @@ class Relaxation::Slice {
     }
     if (go(element, mean, box, static_cast<Scalar>(step_), element) && step_ < 1) {
       wake_next(element);
+    }
+  }
+
+  /// Adds the positions that an element's links imply, and limits a box to the regions about its neighbours. Returns
+  /// the number of links.
+  int add_links(ElementId element, Coordinates& sum, Box& box) const {
+    int count = 0;
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId region) {
+      const Coordinates position = position_by(element, neighbour, region);
+      limit(box, neighbour, region);
+      for (int k = 0; k < Dimension; ++k) {
+        sum[k] += position[k];
+      }
+      ++count;
+    });
+    return count;
+  }
+
+  /// The same, bit for bit, with the table of shapes.
+  int add_shapes(ElementId element, Coordinates& sum, Box& box) const {
+    Lanes all{}, low = all - std::numeric_limits<Scalar>::infinity(), high = -low;
+    int count = 0;
+    body_.for_each_link(element, [&](ElementId neighbour, RegionId region) {
+      Lanes at;
+      std::memcpy(&at, body_.positions[neighbour].at, sizeof at);
+      const Shape& shape = shapes_[region];
+      const Lanes lowest = at - shape.high, highest = at - shape.low;
+      all += at - shape.rest;
+      low = low < lowest ? lowest : low;
+      high = highest < high ? highest : high;
+      ++count;
+    });
+    for (int k = 0; k < Dimension; ++k) {
+      sum[k] = all[k];
+      box.low[k] = low[k];
+      box.high[k] = high[k];
+    }
+    return count;
+  }
+
+  void fill_shapes() {
+    const std::size_t count = body_.mesh->shapes.size() / Dimension;
+    if (Dimension != 3 || energy_ != EnergyKind::isotropic || !body_.regions.by_shape() || count > most_shapes) {
+      return;
+    }
+    shapes_.resize(count, Shape{});
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        const auto& region = body_.regions.at(RegionId(i));
+        shapes_[i].rest[k] = body_.from_rest ? 0 : static_cast<Scalar>(body_.mesh->shapes[i * Dimension + k]);
+        shapes_[i].low[k] = region.low[k];
+        shapes_[i].high[k] = region.high[k];
+      }
     }
   }
 
@@ -290,9 +350,17 @@ class Relaxation::Slice {
     }
     relaxation_.largest_step_ = std::max(relaxation_.largest_step_, taken);
     relaxation_.moved_.push_back(element);
+    std::uint64_t* const current = relaxation_.current_.words();
+    std::uint64_t* const next = relaxation_.next_.words();
+    ElementId least = element, most = element;
     body_.for_each_link(element, [&](ElementId neighbour, RegionId) {
-      (neighbour > visited ? relaxation_.current_ : relaxation_.next_).insert(neighbour);
+      ActiveSet::insert_in(neighbour > visited ? current : next, neighbour);
+      least = std::min(least, neighbour);
+      most = std::max(most, neighbour);
     });
+    // The bounds may be wider than what was inserted.
+    relaxation_.next_.note_inserted(least, std::min(most, visited));
+    relaxation_.current_.note_inserted(std::max(least, visited), most);
     if (element > visited) {
       relaxation_.current_.insert(element);
     }
@@ -324,6 +392,7 @@ class Relaxation::Slice {
   EnergyKind energy_;
   double step_;
   std::span<const ElementId> held_;
+  std::vector<Shape> shapes_;  // empty: not used
 };
 
 void Relaxation::follow(const Body& body) {

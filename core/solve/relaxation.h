@@ -27,6 +27,16 @@ class ActiveSet {
     last_ = std::max<std::size_t>(last_, element / 64);
   }
 
+  /// The same in two steps, for many elements: each of them, then bounds of their ids. The words are found once.
+  std::uint64_t* words() { return words_.data(); }
+  static void insert_in(std::uint64_t* words, ElementId element) {
+    words[element / 64] |= std::uint64_t{1} << (element % 64);
+  }
+  void note_inserted(ElementId least, ElementId most) {
+    first_ = std::min<std::size_t>(first_, least / 64);
+    last_ = std::max<std::size_t>(last_, most / 64);
+  }
+
   void insert_all(std::size_t element_count) {
     words_.assign((element_count + 63) / 64, ~std::uint64_t{0});
     if (element_count % 64 != 0) {

@@ -271,6 +271,7 @@ void ApiMovesTest::bad_moves_change_nothing() {
   refused([&] { deformer.move(handle, handle.after({{}, {{0, 0, 0}, 10}})); }, "no axis");
   refused([&] { deformer.move(handle, handle.after({{}, {{0, 0, 1}, no_number}})); }, "not a finite number");
   refused([&] { deformer.relax(-1); }, "below 0");
+  refused([&] { deformer.set_threads(0); }, "below 1");
   refused([&] { deformer.relax(1, {.step = 0}); }, "relax-step");
   refused([&] { deformer.relax(1, {.until = 2}); }, "relax-until");
   QVERIFY(handle.pose() == pinned.pose());

@@ -21,6 +21,7 @@ class RelaxationTest : public QObject {
   void a_cut_link_does_not_pull();
   void the_held_element_stays();
   void the_rest_shape_stays();
+  void one_region_per_rest_vector_or_per_link_is_the_same();
   void from_a_valid_state_every_link_stays_valid();
   void from_a_valid_state_the_energy_never_rises();
   void axial_energy_by_hand();
@@ -206,6 +207,45 @@ void RelaxationTest::the_rest_shape_stays() {
       QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});
     }
   }
+}
+
+void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {
+  // A link of another object, which nothing moves, has a softness of its own: then every link has its own region.
+  const auto beside = make_mesh(MeshKind::line, {2, 1, 1}, 3);
+  const std::vector<MeshPointer> objects{make_mesh(MeshKind::tetra, {4, 5, 4}), make_mesh(MeshKind::block, {5, 4, 4}),
+                                         make_mesh(MeshKind::cloth, {7, 6, 1}, 3),
+                                         make_mesh(MeshKind::line, {9, 1, 1}, 3)};
+  const auto holds = [&] {
+    const auto& object = objects[*rc::gen::inRange<std::size_t>(0, objects.size())];
+    const auto mesh = side_by_side(*object, *beside, Point(40, 0, 0));
+    const Precision precision = *any_precision();
+    const Algorithm algorithm = *rc::gen::element(Algorithm::natural_queue, Algorithm::exact);
+    Softness shared{*any_link_softness(), {}}, own = shared;
+    shared.energy = own.energy = EnergyKind::isotropic;
+    own.links.set(mesh->link_count() - 1, {0.123, 3.21, 0.77});
+    const auto cuts = draw_links(*object);
+    const auto hands = *any_hands(10);
+    const double step = *rc::gen::element(1.0, 0.6);
+    const auto relaxed = [&](const Softness& softness) {
+      const auto solver = make_solver(mesh, algorithm, precision);
+      solver->body().set_softness(softness);
+      solver->body().cut(cuts);
+      std::vector<double> positions;
+      for (const Hand& hand : hands) {
+        const ElementId held = hand.of(*object);
+        move_by(*solver, *mesh, held, hand.by());
+        solver->wake_all();
+        for (int sweep = 0; sweep < 3; ++sweep) {
+          solver->relax(step, no_limit, std::array{held});
+          const auto now = positions_of(*solver, *mesh);
+          positions.insert(positions.end(), now.begin(), now.end());
+        }
+      }
+      return positions;
+    };
+    RC_ASSERT(same_bits(relaxed(shared), relaxed(own)));
+  };
+  QVERIFY(check_property("regions per rest vector and per link give the same bits", holds));
 }
 
 void RelaxationTest::from_a_valid_state_every_link_stays_valid() {

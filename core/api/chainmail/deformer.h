@@ -77,6 +77,10 @@ class Deformer {
   /// does not work on the mesh.
   void set_method(std::string_view method);
 
+  /// Sets the number of threads that a move may use, at least 1, which is the default. Only Exact ChainMail uses more,
+  /// for large objects, and no result depends on it. Throws Error for a number below 1.
+  void set_threads(int threads);
+
   /// Grabs elements; the same as the constructor of Handle.
   Handle grab(const std::vector<ElementId>& elements) const { return Handle(body(), elements); }
   /// Moves a handle to a pose, and the method answers: one pass. The handle knows the pose that it reached. Throws
