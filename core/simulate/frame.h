@@ -46,7 +46,7 @@ class FrameExchange {
   Frame& begin() {
     State before = State::empty;
     while (!state_.compare_exchange_weak(before, State::being_filled, std::memory_order_acquire)) {
-      before = before == State::filled ? State::filled : State::empty;  // the reader is taking it: some instructions
+      before = before == State::filled ? State::filled : State::empty;  // while the reader takes it, which is short
     }
     return frames_[back_];
   }

@@ -22,7 +22,7 @@ void FrameWriter::publish(Simulation& simulation) {
   frames_.publish();
 }
 
-/// Records what changed since the last frame, for each frame of the buffer. For another mesh the simulation marks all
+/// Records what changed since the last frame, for each of the two frames. For another mesh the simulation marks all
 /// blocks as changed.
 void FrameWriter::note_changes(Simulation& simulation) {
   if (mesh_ != simulation.mesh_pointer()) {

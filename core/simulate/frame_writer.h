@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// Fills the frames of a buffer from a simulation and publishes them. Each frame copies only the blocks that changed
+/// Fills frames from a simulation and publishes them. Each frame copies only the blocks that changed
 /// since it was last filled.
 class FrameWriter {
  public:
@@ -26,7 +26,7 @@ class FrameWriter {
   // State of the newest frame:
   MeshPointer mesh_;
   std::vector<std::uint64_t> changed_;
-  /// For each frame of the buffer, the blocks of this mesh that changed since it was last filled.
+  /// For each of the two frames, the blocks of this mesh that changed since it was last filled.
   std::array<ElementBlocks, FrameExchange::frame_count> pending_;
 };
 

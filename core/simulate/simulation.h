@@ -34,7 +34,7 @@ struct Statistics {
   std::string remark;
 };
 
-/// Simulates one object: receives commands, and provides positions and statistics. Uses no threads. Read apply() in
+/// Simulates one object: receives commands, and provides positions and statistics. One thread uses it. Read apply() in
 /// simulation.cpp first.
 class Simulation {
  public:

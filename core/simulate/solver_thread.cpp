@@ -94,11 +94,12 @@ void SolverThread::add(Task task) {
 void SolverThread::prepare(std::optional<ElementId> element) {
   {
     const std::lock_guard lock(mutex_);
-    if (element == (preparing_ ? preparing_ : wished_)) {
+    if (element == next_grabbed_) {
       return;
     }
-    wished_ = element;
-    wished_at_ = Clock::now();
+    next_grabbed_ = element;
+    is_prepared_ = false;
+    pointed_at_ = Clock::now();
     work_.cancelled = work_.cancelled || preparing_;
   }
   changed_.notify_one();
@@ -154,7 +155,7 @@ void SolverThread::carry_out(const Task& task) {
   if (command != nullptr) {
     recorder_.end(simulation_);
   }
-  if (!is_one_of<Grab>(command)) {  // which shows nothing; its frame would delay that of the first move
+  if (!is_one_of<Grab>(command)) {  // a grab changes no picture, and a frame now would delay that of the first move
     unseen_ = true;
     measured_ = false;
   }
@@ -174,6 +175,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   tasks_.pop_front();
   overrulers_ -= overrules(task) ? 1 : 0;
   sweeping_ = is_one_of<Relax>(std::get_if<Command>(&task));
+  is_prepared_ = is_prepared_ && std::holds_alternative<Question>(task);
   const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
   work_.cancelled = stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut;
   return task;
@@ -182,6 +184,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
 void SolverThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
+    const bool is_still = !unseen_ && !simulation_.statistics().relaxing;
     if (!tasks_.empty()) {
       const Task task = take_task(stop);
       lock.unlock();
@@ -190,11 +193,11 @@ void SolverThread::run(const std::stop_token& stop) {
       work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
       lock.unlock();
       relax();
-    } else if (wished_ && !unseen_ && !simulation_.statistics().relaxing) {
-      prepare_wished(lock, stop);
+    } else if (is_still && must_prepare() && Clock::now() >= time_to_prepare()) {
+      prepare_next(lock);
       continue;
-    } else if (!unseen_ && measured_ && !simulation_.statistics().relaxing) {
-      changed_.wait(lock, stop, [this] { return !tasks_.empty() || wished_; });
+    } else if (is_still && measured_) {
+      wait_for_news(lock, stop);
       continue;
     } else {
       lock.unlock();
@@ -242,43 +245,67 @@ void SolverThread::relax() {
   measured_ = false;
 }
 
-/// Waits until the pointer has rested for a while, and then prepares the drag, unless something else is to do.
-void SolverThread::prepare_wished(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
-  const auto when = wished_at_ + rest_of_pointer;
-  const auto has_other = [this, at = wished_at_] { return !tasks_.empty() || wished_at_ != at; };
-  if (changed_.wait_until(lock, stop, when, has_other) || stop.stop_requested()) {
-    return;
+/// Waits for a task, for another element under the pointer, or until its drag must be prepared.
+void SolverThread::wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto has_news = [this, at = pointed_at_] { return !tasks_.empty() || pointed_at_ != at; };
+  if (must_prepare()) {
+    changed_.wait_until(lock, stop, time_to_prepare(), has_news);
+  } else {
+    changed_.wait(lock, stop, has_news);
   }
-  preparing_ = std::exchange(wished_, {});
+}
+
+PassTimes::Clock::time_point SolverThread::time_to_prepare() const {
+  return std::max(pointed_at_, last_command_) + rest_of_pointer;
+}
+
+/// Prepares the drag of the element under the pointer. The caller must hold the lock.
+void SolverThread::prepare_next(std::unique_lock<std::mutex>& lock) {
+  const ElementId element = *next_grabbed_;
+  preparing_ = is_prepared_ = true;
   work_.cancelled = abandoned_.load();
   lock.unlock();
+  bool is_cancelled = false;
   try {
-    simulation_.prepare(*preparing_);
+    simulation_.prepare(element);
     prepared_.fetch_add(1, std::memory_order_release);
   } catch (const Cancelled&) {
-    // Another wish or a command came.
+    is_cancelled = true;
   }
   lock.lock();
-  preparing_.reset();
+  preparing_ = false;
+  if (is_cancelled) {
+    is_prepared_ = false;
+    pointed_at_ = Clock::now();
+  }
 }
 
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto has_command = [this] { return !tasks_.empty(); };
-  const auto has_wish = [this] { return !tasks_.empty() || wished_; };
   if (unseen_ || simulation_.statistics().relaxing) {
     const auto share = may_relax() ? relaxation_share : frame_time.zero();
     const bool only_waits = !unseen_ && !may_relax();
     changed_.wait_until(lock, stop, only_waits ? last_command_ + pause_of_handle : last_frame_ + frame_time - share,
                         has_command);
-  } else if (!measured_ && !changed_.wait_for(lock, stop, violation_time, has_wish) && !stop.stop_requested()) {
-    // No command came for a while, so the object does not move.
-    lock.unlock();
-    if (measure(stop)) {
-      measured_ = true;
-      publish();
-    }
-    lock.lock();
+  } else if (!measured_) {
+    measure_later(lock, stop);
   }
+}
+
+/// Measures the whole mesh once no command has come for a while, so that the object does not move.
+void SolverThread::measure_later(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto when = std::max(last_command_, last_frame_) + violation_time;
+  const auto until = must_prepare() ? std::min(when, time_to_prepare()) : when;
+  const auto has_news = [this, at = pointed_at_] { return !tasks_.empty() || pointed_at_ != at; };
+  if (changed_.wait_until(lock, stop, until, has_news) || stop.stop_requested() || Clock::now() < when) {
+    return;
+  }
+  lock.unlock();
+  if (measure(stop)) {
+    measured_ = true;
+    publish();
+  }
+  lock.lock();
 }
 
 /// Measures the violation of the whole mesh, unless a command comes. Returns true if it was measured.

@@ -40,10 +40,11 @@ class SolverThread {
   /// Ends the running pass or sweep as soon as possible, and drops posted ones. Remaining questions are answered for
   /// the object in that state. Call this when the window closes.
   void abandon();
-  /// Wishes that a drag of this element is prepared, once nothing else is to do and no other wish has come for a while;
-  /// none: no drag. A command ends the preparation at once.
+  /// Says which element the next drag will probably grab; none: nobody knows. Its drag is prepared once nothing has
+  /// been to do for a while, and again after commands. A command, a question and another element end a preparation at
+  /// once.
   void prepare(std::optional<ElementId> element);
-  /// Returns the number of wishes that were carried out.
+  /// Returns the number of preparations that ended, also of those that had nothing to do.
   int prepared() const { return prepared_.load(std::memory_order_acquire); }
   /// Calls `question` on the solver's thread, after everything posted before. It must not block. When the solver ends,
   /// it answers the remaining questions for the current object.
@@ -76,7 +77,11 @@ class SolverThread {
   void finish_task();
   void relax();
   bool may_relax() const;
-  void prepare_wished(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  void wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  void measure_later(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  bool must_prepare() const { return next_grabbed_ && !is_prepared_; }
+  void prepare_next(std::unique_lock<std::mutex>& lock);
+  PassTimes::Clock::time_point time_to_prepare() const;
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
@@ -102,13 +107,14 @@ class SolverThread {
   std::mutex mutex_;  // guards the following members
   std::condition_variable_any changed_;
   std::deque<Task> tasks_;
-  std::size_t posted_ = 0;           // number of tasks so far
-  std::size_t sweeps_cut_ = 0;       // number of the first tasks whose sweeps are cancelled
-  int overrulers_ = 0;               // number of waiting tasks that cancel long work before them
-  bool sweeping_ = false;            // true if the running or the last task is sweeps of relaxation
-  std::optional<ElementId> wished_;  // whose drag is to be prepared
-  PassTimes::Clock::time_point wished_at_{};
-  std::optional<ElementId> preparing_;
+  std::size_t posted_ = 0;                     // number of tasks so far
+  std::size_t sweeps_cut_ = 0;                 // number of the first tasks whose sweeps are cancelled
+  int overrulers_ = 0;                         // number of waiting tasks that cancel long work before them
+  bool sweeping_ = false;                      // true if the running or the last task is sweeps of relaxation
+  std::optional<ElementId> next_grabbed_;      // see prepare()
+  PassTimes::Clock::time_point pointed_at_{};  // when it was named, or the last preparation was cancelled
+  bool is_prepared_ = false;                   // its drag
+  bool preparing_ = false;
   std::string error_;
 
   std::atomic<int> waiting_ = 0;  // number of tasks that are not done

@@ -36,9 +36,9 @@ class ExactPropagation {
   PassCount propagate(State& body, HandleMove& move, std::vector<ElementId>& moved, Trace* trace, int threads = 1) {
     remark_.clear();
     visits_ = 0;
-    begin(body, move.handle, threads);
     ThreadTeam team(threads);
-    const Reach reach = move.handle.has_one() ? extend_one(body, move, team) : extend_many(body, move, team);
+    const Reach reach =
+        move.handle.has_one() ? extend_one(body, move, threads, team) : extend_many(body, move, threads, team);
     if (trace != nullptr) {
       write_trace(body, reach, *trace);
     }
@@ -51,15 +51,15 @@ class ExactPropagation {
   /// Prepares the first move of an element: computes the regions of all elements. They are used if that move, too,
   /// would have computed them all, so no bit depends on them. Throws Cancelled.
   void prepare(const State& body, const Handle& handle, int threads, const Progress& progress) {
-    if (is_made_for(body, handle, threads)) {
+    const Prepared wanted{conditions_of(body, handle), threads};
+    if (prepared_for_ == wanted || is_made_for(body, handle, threads)) {
       return;
     }
-    begin(body, handle, threads);
-    made_for_ = {};  // until all is done
+    prepared_for_ = {};  // until all is done
+    prepared_.begin(body, handle.elements(), {}, threads);
     ThreadTeam team(threads);
-    regions_.extend_everywhere(body, team, progress);
-    made_for_ = conditions_of(body, handle);
-    is_prepared_ = true;
+    prepared_.extend_everywhere(body, team, progress);
+    prepared_for_ = wanted;
   }
 
   /// Reason why the last pass did not reach its rotation. Usually empty.
@@ -77,6 +77,13 @@ class ExactPropagation {
     bool operator==(const Conditions&) const = default;
   };
 
+  /// What the prepared regions are valid for.
+  struct Prepared {
+    Conditions conditions;
+    int threads = 0;
+    bool operator==(const Prepared&) const = default;
+  };
+
   static Conditions conditions_of(const State& body, const Handle& handle) {
     const Revisions& now = body.revisions();
     return {
@@ -86,17 +93,29 @@ class ExactPropagation {
     return conditions_of(body, handle) == made_for_ && threads == threads_ && is_where_it_was(body, handle);
   }
 
-  void begin(const State& body, const Handle& handle, int threads) {
+  void begin_one(const State& body, const Handle& handle, const Reach& reach, int threads) {
     if (is_made_for(body, handle, threads)) {
       return;
     }
-    is_prepared_ = false;
     offsets_.clear();
-    if (!handle.has_one()) {
-      shape_.begin(body, handle);
-      offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
-      std::fill_n(at_.at, Dimension, Scalar{0});
+    const Prepared wanted{conditions_of(body, handle), threads};
+    if (prepared_for_ == wanted && prepared_.moves_all(body, reach)) {
+      std::swap(regions_, prepared_);
+      prepared_for_ = {};
+    } else {
+      regions_.begin(body, handle.elements(), offsets_, threads);
     }
+    threads_ = threads;
+    made_for_ = wanted.conditions;
+  }
+
+  void begin_many(const State& body, const Handle& handle, int threads) {
+    if (is_made_for(body, handle, threads)) {
+      return;
+    }
+    shape_.begin(body, handle);
+    offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
+    std::fill_n(at_.at, Dimension, Scalar{0});
     threads_ = threads;
     regions_.begin(body, handle.elements(), offsets_, threads);
     made_for_ = conditions_of(body, handle);
@@ -120,12 +139,10 @@ class ExactPropagation {
     visits_ += regions_.visits() - before;
   }
 
-  Reach extend_one(const State& body, HandleMove& move, ThreadTeam& team) {
+  Reach extend_one(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
     const ElementId element = move.handle.elements()[0];
     Reach reach(body.positions[element], stored_target(body, element, move.pose.pivot).at);
-    if (std::exchange(is_prepared_, false) && !regions_.moves_all(body, reach)) {
-      regions_.begin(body, move.handle.elements(), offsets_, threads_);
-    }
+    begin_one(body, move.handle, reach, threads);
     extend(body, reach, team);
     for (int k = 0; k < Dimension; ++k) {
       if (reach.stopped[k]) {
@@ -135,7 +152,8 @@ class ExactPropagation {
     return reach;
   }
 
-  Reach extend_many(const State& body, HandleMove& move, ThreadTeam& team) {
+  Reach extend_many(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
+    begin_many(body, move.handle, threads);
     const Pose target = move.pose;
     const Offset to = shape_.at(target);
     std::optional<Offset> turned;
@@ -222,7 +240,7 @@ class ExactPropagation {
   static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
 
   /// Elements of one share, clamped by one thread.
-  struct Stretch {
+  struct Piece {
     std::span<const ElementId> elements;
     const Region<Scalar, Dimension>* regions;
     ElementId* moved;       // where the elements that move are listed
@@ -231,29 +249,29 @@ class ExactPropagation {
 
   void move(State& body, const Reach& reach, std::vector<ElementId>& moved, ThreadTeam& team) {
     moved.resize(regions_.known());
-    stretches_.clear();
+    pieces_.clear();
     ElementId* to = moved.data();
     const auto shares = regions_.shares();
     // Neighbours on a cache line belong to one share. A single share is cut in as few places as possible.
     const std::size_t per_share = shares.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
     for (const auto& share : shares) {
-      const std::size_t size = share.elements().size(), stretch = std::max(size / per_share + 1, fewest_for_thread);
+      const std::size_t size = share.elements().size(), piece = std::max(size / per_share + 1, fewest_for_thread);
       for (std::size_t i = share.handle_size(), end = 0; i < size; i = end) {
-        end = std::min(size, i + stretch);
-        stretches_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
+        end = std::min(size, i + piece);
+        pieces_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
         to += end - i;
       }
     }
-    if (stretches_.size() > 1 && moved.size() >= 2 * fewest_for_thread) {
+    if (pieces_.size() > 1 && moved.size() >= 2 * fewest_for_thread) {
       team.call_helpers();
     }
-    team.run(stretches_.size(), [&](std::size_t i) { clamp(body, reach, stretches_[i]); });
+    team.run(pieces_.size(), [&](std::size_t i) { clamp(body, reach, pieces_[i]); });
     std::size_t count = 0;
-    for (const Stretch& stretch : stretches_) {
-      if (stretch.moved != moved.data() + count) {
-        std::copy_n(stretch.moved, stretch.count, moved.data() + count);
+    for (const Piece& piece : pieces_) {
+      if (piece.moved != moved.data() + count) {
+        std::copy_n(piece.moved, piece.count, moved.data() + count);
       }
-      count += stretch.count;
+      count += piece.count;
     }
     moved.resize(count);
     const auto handle = regions_.handle();
@@ -265,12 +283,12 @@ class ExactPropagation {
     }
   }
 
-  static void clamp(const State& body, const Reach& reach, Stretch& stretch) {
-    const ElementId* const elements = stretch.elements.data();
-    const std::size_t size = stretch.elements.size();
-    const Region<Scalar, Dimension>* const regions = stretch.regions;
+  static void clamp(const State& body, const Reach& reach, Piece& piece) {
+    const ElementId* const elements = piece.elements.data();
+    const std::size_t size = piece.elements.size();
+    const Region<Scalar, Dimension>* const regions = piece.regions;
     auto* const positions = body.positions.data();
-    ElementId* const moved = stretch.moved;
+    ElementId* const moved = piece.moved;
     const Reach to = reach;  // so that no write seems to change it
     std::size_t count = 0;
     for (std::size_t i = 0; i < size; ++i) {
@@ -282,7 +300,7 @@ class ExactPropagation {
         moved[count++] = elements[i];
       }
     }
-    stretch.count = count;
+    piece.count = count;
   }
 
   // Elements that a thread must have to clamp before it pays.
@@ -341,15 +359,16 @@ class ExactPropagation {
 
   Offset at_{};  // of a handle of many: its displacement after the last pass
   HandleRegions<Scalar, Dimension, Schedule> regions_;
+  HandleRegions<Scalar, Dimension, Schedule> prepared_;  // of all elements, for the first move of an element
+  Prepared prepared_for_;
   Conditions made_for_;
   int threads_ = 1;                       // the regions were made with
-  std::vector<Stretch> stretches_;        // of this pass
+  std::vector<Piece> pieces_;             // of this pass
   RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too
   std::vector<Offset> offsets_;           // for rotation_; empty for a handle of one
   Point rotation_ = Point::Zero();
   std::string remark_;
   std::uint64_t visits_ = 0;  // in this pass
-  bool is_prepared_ = false;  // the regions are of all elements, and no pass has used them
   int idle_passes_ = 0;       // passes in a row that moved few of the known elements
 };
 

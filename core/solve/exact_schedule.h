@@ -22,7 +22,7 @@ namespace chainmail {
 /// is called for a new handle, `begin()` for each pass. Elements are numbered in the order in which they became known.
 ///
 /// A schedule that `has_rounds` can serve one of several threads. `begin_round()` chooses the entries that `in_round()`
-/// then lets pass: those that wait now, or those up to a bucket, the lowest of all threads.
+/// then admits: those that wait now, or those up to a bucket, the lowest of all threads.
 
 /// Smallest key first, up to a bucket width; first in, first out in a bucket (delta-stepping, Meyer and Sanders 2003).
 /// Buckets are numbered, and their numbers are in a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan 1990): an entry is
@@ -41,7 +41,12 @@ class BucketSchedule {
   /// Sets the width of the buckets (mesh units, above 0). The schedule must be empty.
   void set_width(Scalar width) { per_width_ = std::min(1 / width, std::numeric_limits<Scalar>::max()); }
 
-  void begin_drag() {}
+  /// Drops all entries: a search that was cancelled may have left some.
+  void begin_drag() {
+    std::ranges::for_each(buckets_, [](auto& bucket) { bucket.clear(); });
+    first_ = size_ = 0;
+    last_ = 0;
+  }
   void begin() { last_ = 0; }
 
   /// The bucket of a key.
@@ -134,7 +139,11 @@ class AdaptiveSchedule {
   }
   bool in_round() const { return sets_labels_ ? buckets_.in_round() : in_round_ > 0; }
 
-  void begin_drag() { sets_labels_ = false; }
+  void begin_drag() {
+    sets_labels_ = false;
+    queue_.clear();
+    buckets_.begin_drag();
+  }
   void begin() { buckets_.begin(); }
 
   void admit(std::uint32_t index, Scalar key) {
@@ -150,7 +159,7 @@ class AdaptiveSchedule {
     if (sets_labels_) {
       return buckets_.take();
     }
-    --in_round_;
+    in_round_ -= in_round_ > 0 ? 1 : 0;
     return queue_.take();
   }
 

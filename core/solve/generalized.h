@@ -121,7 +121,7 @@ class Generalized {
   template <class Scalar, int Dimension>
   void assume(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
               const Progress& progress) {
-    record.make_room(body);
+    record.make_room(body);  // the pass keeps a pointer to it
     GeneralizedPass<Scalar, Dimension>(body, record, list_).assume(handle, progress);
   }
 

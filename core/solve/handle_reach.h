@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "solve/positions.h"
 #include "solve/region.h"
 
 namespace chainmail {

@@ -11,7 +11,6 @@
 #include "solve/exact_schedule.h"
 #include "solve/region_share.h"
 #include "solve/thread_team.h"
-#include "solve/trace.h"
 
 namespace chainmail {
 
@@ -27,8 +26,8 @@ namespace chainmail {
 /// derivation is this project's own.
 ///
 /// So threads may search too. Each has a share of the elements; they work in rounds, in which no share reads what
-/// another one writes. If pins stop the handle while the search goes on, the order matters for which elements become
-/// known: then there is one share.
+/// another one writes. Pins that are found stop the handle while the search goes on, and then the order matters for
+/// which elements become known: an object with pins has one share.
 ///
 /// The body stores displacements from rest. One search handles all axes.
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
@@ -188,13 +187,13 @@ class HandleRegions {
       progress.report(0);
       std::size_t waiting = 0;
       auto lowest = std::numeric_limits<typename Schedule::Number>::max();
-      bool has_letters = false;
+      bool has_messages = false;
       for (Share& share : shares_) {
         waiting += share.schedule().size();
-        has_letters |= share.has_letters();
+        has_messages |= share.has_messages();
         lowest = std::min(lowest, share.schedule().lowest());
       }
-      if (waiting == 0 && !has_letters) {
+      if (waiting == 0 && !has_messages) {
         return;
       }
       for (Share& share : shares_) {
@@ -219,8 +218,8 @@ class HandleRegions {
     }
   }
 
-  /// Returns the width of buckets in which few elements are visited again: a share of the mean length of the links of
-  /// some known elements.
+  /// Returns the width of buckets in which few elements are visited again: a fraction of the mean length of the links
+  /// of some known elements.
   Scalar bucket_width(const State& body) const {
     double sum = 0;
     std::size_t count = 0;

@@ -31,7 +31,7 @@ struct RegionSearch {
 
 /// The part of the elements whose regions about the handle one thread computes: see HandleRegions.
 ///
-/// A share reads and writes only what belongs to its own elements. What it finds out about others goes into letters,
+/// A share reads and writes only what belongs to its own elements. What it finds out about others goes into messages,
 /// which their shares read in the next round.
 template <class Scalar, int Dimension, class Schedule>
 class alignas(64) RegionShare {
@@ -61,12 +61,17 @@ class alignas(64) RegionShare {
     handle_size_ = 0;
     visits_ = 0;
     schedule_.begin_drag();
+    for (auto& of_round : messages_) {
+      for (auto& messages : of_round) {
+        messages.clear();  // a search that was cancelled may have left some
+      }
+    }
   }
 
   void set_number(std::size_t number, std::size_t share_count) {
     number_ = number;
-    letters_[0].resize(share_count);
-    letters_[1].resize(share_count);
+    messages_[0].resize(share_count);
+    messages_[1].resize(share_count);
   }
 
   /// Adds an element of the handle. Call this before all others become known.
@@ -111,15 +116,15 @@ class alignas(64) RegionShare {
     }
   }
 
-  /// One round of one of several shares: reads the letters that the others wrote in the last round, then visits the
+  /// One round of one of several shares: reads the messages that the others wrote in the last round, then visits the
   /// elements of this one. There are no pins.
   void run_round(Search& search, const State& body, Reach& reach, std::span<RegionShare> shares, std::uint64_t round) {
     for (RegionShare& other : shares) {
-      auto& letters = other.letters_[(round + 1) % 2][number_];
-      for (const Letter& letter : letters) {
-        narrow(search, body, reach, letter.element, letter.through);
+      auto& messages = other.messages_[(round + 1) % 2][number_];
+      for (const Message& message : messages) {
+        narrow(search, body, reach, message.element, message.through);
       }
-      letters.clear();
+      messages.clear();
     }
     while (schedule_.in_round()) {
       visit_next<false>(search, body, reach, round % 2);
@@ -136,9 +141,9 @@ class alignas(64) RegionShare {
     return true;
   }
 
-  bool has_letters() const {
-    return std::ranges::any_of(letters_, [](const auto& of_round) {
-      return std::ranges::any_of(of_round, [](const auto& letters) { return !letters.empty(); });
+  bool has_messages() const {
+    return std::ranges::any_of(messages_, [](const auto& of_round) {
+      return std::ranges::any_of(of_round, [](const auto& messages) { return !messages.empty(); });
     });
   }
 
@@ -164,7 +169,7 @@ class alignas(64) RegionShare {
     SearchState state = done;
   };
   /// An element of another share may lie in this region at most.
-  struct Letter {
+  struct Message {
     ElementId element;
     Bounds through;
   };
@@ -198,19 +203,19 @@ class alignas(64) RegionShare {
 
   /// Visits the next element, unless it was visited already. Returns true if so.
   template <bool is_alone>
-  bool visit_next(Search& search, const State& body, Reach& reach, std::size_t letters) {
+  bool visit_next(Search& search, const State& body, Reach& reach, std::size_t messages) {
     const Index index = schedule_.take();
     if (searched_[index].state != queued) {
       return false;
     }
     searched_[index].state = done;
     ++visits_;
-    visit<is_alone>(search, body, reach, index, letters);
+    visit<is_alone>(search, body, reach, index, messages);
     return true;
   }
 
   template <bool is_alone>
-  void visit(Search& search, const State& body, Reach& reach, Index index, std::size_t letters) {
+  void visit(Search& search, const State& body, Reach& reach, Index index, std::size_t messages) {
     const Bounds from = regions_[index];
     const bool has_pins = body.pin_count > 0, has_inner_links = search.handle.size() > 1 && index < handle_size_;
     body.for_each_link(elements_[index], [&](ElementId neighbour, std::uint32_t id) {
@@ -231,12 +236,14 @@ class alignas(64) RegionShare {
       if (const std::size_t to = is_alone ? number_ : search.share_of(neighbour); to == number_) {
         narrow(search, body, reach, neighbour, through);
       } else {
-        write(letters_[letters][to], {neighbour, through});
+        write(messages_[messages][to], {neighbour, through});
       }
     });
   }
 
-  [[gnu::noinline]] static void write(std::vector<Letter>& letters, const Letter& letter) { letters.push_back(letter); }
+  [[gnu::noinline]] static void write(std::vector<Message>& messages, const Message& message) {
+    messages.push_back(message);
+  }
 
   [[gnu::always_inline]] void narrow(Search& search, const State& body, const Reach& reach, ElementId element,
                                      const Bounds& through) {
@@ -284,7 +291,7 @@ class alignas(64) RegionShare {
   std::size_t handle_size_ = 0;
   Schedule schedule_;
   std::uint64_t visits_ = 0;
-  std::vector<std::vector<Letter>> letters_[2];  // of the even rounds and of the odd ones, to each share
+  std::vector<std::vector<Message>> messages_[2];  // of the even rounds and of the odd ones, to each share
 };
 
 }  // namespace chainmail

@@ -108,7 +108,7 @@ class Relaxation::Slice {
     }
     Coordinates mean{};
     Box box = everywhere();
-    const int count = shapes_.empty() ? add_links(element, mean, box) : add_shapes(element, mean, box);
+    const int count = shape_count_ == 0 ? add_links(element, mean, box) : add_shapes(element, mean, box);
     if (count == 0) {
       return;
     }
@@ -159,10 +159,12 @@ class Relaxation::Slice {
 
   void fill_shapes() {
     const std::size_t count = body_.mesh->shapes.size() / Dimension;
-    if (Dimension != 3 || energy_ != EnergyKind::isotropic || !body_.regions.by_shape() || count > most_shapes) {
+    const bool visits_elements = relaxation_.scheme_ == RelaxationScheme::mean && energy_ == EnergyKind::isotropic;
+    if (Dimension != 3 || !visits_elements || !body_.regions.by_shape() || count > most_shapes) {
       return;
     }
-    shapes_.resize(count, Shape{});
+    shape_count_ = count;
+    std::fill_n(shapes_.begin(), count, Shape{});
     for (std::size_t i = 0; i < count; ++i) {
       for (int k = 0; k < Dimension; ++k) {
         const auto& region = body_.regions.at(RegionId(i));
@@ -392,7 +394,8 @@ class Relaxation::Slice {
   EnergyKind energy_;
   double step_;
   std::span<const ElementId> held_;
-  std::vector<Shape> shapes_;  // empty: not used
+  std::array<Shape, most_shapes> shapes_;
+  std::size_t shape_count_ = 0;  // 0: the table is not used
 };
 
 void Relaxation::follow(const Body& body) {

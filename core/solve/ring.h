@@ -17,6 +17,7 @@ class Ring {
     }
     ring_[last_++ & (ring_.size() - 1)] = one;
   }
+  void clear() { first_ = last_; }
   T take() { return ring_[first_++ & (ring_.size() - 1)]; }
 
  private:

@@ -140,6 +140,7 @@ void Solver::set_relaxation(RelaxationScheme scheme) {
 }
 
 RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
+  const RunningPass running;
   if (info(scheme_).sweeps) {
     return relaxation_.sweep(body_, step, budget, held);
   }
@@ -150,6 +151,7 @@ RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<cons
 }
 
 RelaxationResult Solver::settle(double until, int most, std::span<const ElementId> held, const Progress& progress) {
+  const RunningPass running;
   return equilibrate([&] { equilibrium_->solve(body_, held, until, most, progress); });
 }
 

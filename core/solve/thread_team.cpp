@@ -4,12 +4,13 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <stop_token>
+#include <system_error>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace chainmail {
 namespace {
@@ -93,7 +94,7 @@ struct ThreadTeam::Shared {
 
 namespace {
 
-/// The helpers of the process. They sleep while no team needs them.
+/// The helpers of the process. They are started when a team first needs them, and sleep while none does.
 class Helpers {
  public:
   static Helpers& all() {
@@ -103,53 +104,73 @@ class Helpers {
 
   /// Sends helpers to a team: those that are free, but at most `most`.
   void send(ThreadTeam::Shared& team, int most) {
-    const std::lock_guard lock(mutex_);
-    start();
-    for (Helper& helper : helpers_) {
-      if (most == 0 || busy.load() >= core_count()) {
-        break;
-      }
-      if (helper.team == nullptr) {
-        helper.team = &team;
-        ++team.helpers;
-        ++busy;
-        --most;
+    {
+      const std::lock_guard lock(mutex_);
+      for (std::size_t i = 0; most > 0 && busy.load() < core_count() && (i < helpers_.size() || start()); ++i) {
+        if (Helper& helper = helpers_[i]; helper.team == nullptr) {
+          helper.team = &team;
+          ++team.helpers;
+          ++busy;
+          --most;
+        }
       }
     }
     changed_.notify_all();
   }
 
+  /// Takes back the helpers of a team that have not woken up yet.
+  void take_back(ThreadTeam::Shared& team) {
+    const std::lock_guard lock(mutex_);
+    for (Helper& helper : helpers_) {
+      if (helper.team == &team && !helper.helps) {
+        leave(helper);
+      }
+    }
+  }
+
  private:
   struct Helper {
     ThreadTeam::Shared* team = nullptr;
+    bool helps = false;
     std::jthread thread;
   };
 
-  void start() {
-    if (helpers_.empty()) {
-      helpers_ = std::vector<Helper>(static_cast<std::size_t>(core_count() - 1));
-      for (Helper& helper : helpers_) {
-        helper.thread = std::jthread([this, &helper](const std::stop_token& stop) { serve(helper, stop); });
-      }
+  /// Starts one more helper. Returns false if there are enough, or if the system allows no more threads.
+  bool start() {
+    if (int(helpers_.size()) >= core_count() - 1) {
+      return false;
     }
+    Helper& helper = helpers_.emplace_back();
+    try {
+      helper.thread = std::jthread([this, &helper](const std::stop_token& stop) { serve(helper, stop); });
+    } catch (const std::system_error&) {
+      helpers_.pop_back();
+      return false;
+    }
+    return true;
   }
 
   void serve(Helper& helper, const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, stop, [&] { return helper.team != nullptr; })) {
+      helper.helps = true;
       ThreadTeam::Shared& team = *helper.team;
       lock.unlock();
       team.help();
       lock.lock();
-      helper.team = nullptr;
-      --busy;
-      team.helpers.fetch_sub(1, std::memory_order_release);  // the team may be gone now
+      helper.helps = false;
+      leave(helper);
     }
+  }
+
+  static void leave(Helper& helper) {
+    --busy;
+    std::exchange(helper.team, nullptr)->helpers.fetch_sub(1, std::memory_order_release);  // the team may be gone now
   }
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::vector<Helper> helpers_;  // last: its threads end before the members that they use
+  std::deque<Helper> helpers_;  // last: its threads end before the members that they use
 };
 
 }  // namespace
@@ -167,6 +188,7 @@ void ThreadTeam::call_helpers() {
 ThreadTeam::~ThreadTeam() {
   if (shared_) {
     shared_->ends.store(true, std::memory_order_release);
+    Helpers::all().take_back(*shared_);
     for (ShortWait wait; shared_->helpers.load(std::memory_order_acquire) > 0;) {
       wait.again();
     }

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Counts this thread as one that runs a pass, while it exists. Helpers of other passes give way to it.
+/// Counts this thread as one that runs a pass, or relaxes, while it exists. Helpers of other passes give way to it.
 class RunningPass {
  public:
   RunningPass();
@@ -16,9 +16,10 @@ class RunningPass {
 
 /// Threads that share the work of one pass: the one that made the team, and helpers.
 ///
-/// The process has one helper per core but one. A team gets those that are free when it calls them, as long as passes
-/// run on fewer threads than the machine has cores; a helper leaves its team when that is no longer so. So no work may
-/// depend on the number of threads that do it. A helper that waits for work in a team keeps its core busy.
+/// The process has at most one helper per core but one. A team gets those that are free when it calls them, as long as
+/// passes run on fewer threads than the machine has cores. A helper leaves its team when more threads run passes than
+/// there are cores. So no work may depend on the number of threads that do it. A helper that waits for work in a team
+/// keeps its core busy.
 class ThreadTeam {
  public:
   /// A team of at most `most` threads, this one included. It has no helpers yet, and costs nothing.
@@ -31,7 +32,7 @@ class ThreadTeam {
   void call_helpers();
 
   /// Calls work(part) once for each part below `parts`, of which there may be at most `most_parts`, and returns when
-  /// all are done. Parts run at the same time, in no order. Throws what a part threw, after all others have ended.
+  /// all are done. Parts run at the same time, in no order. Throws what a part threw, when no part runs any more.
   template <class Work>
   void run(std::size_t parts, Work work) {
     run(

@@ -92,8 +92,8 @@ void work(Results& results, const std::string& place, const MeshRecipe& recipe) 
                   [&] {
                     window.jobs().start(
                         Jobs::Kind::load, QStringLiteral("Building"), [&](const Progress& progress) -> Jobs::Finish {
-                          const MeshPointer mesh = generate(recipe, progress);
-                          prepareLevels(mesh, progress);
+                          const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
+                          prepareLevels(mesh, progress.part(0.8, 1));
                           return [&, mesh] {
                             document.replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build"));
                           };

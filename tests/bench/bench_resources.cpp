@@ -147,8 +147,11 @@ double grab_to_frame(Algorithm algorithm) {
     const std::uint64_t passes = panel.latest_frame().statistics.passes;
     const auto begin = Clock::now();
     panel.post(commands::Grab{element});
-    panel.post(commands::Drag{round.targets[std::size_t(i)] - round.targets[0], {}, true});
+    panel.post(commands::Drag{round.targets[std::size_t(i + 1)] - round.targets[0], {}, true});
     while (panel.latest_frame().statistics.passes == passes) {
+    }
+    if (panel.latest_frame().statistics.last_pass.moved < scene.mesh->element_count() * 9ULL / 10) {
+      throw std::logic_error("the whole object should have moved");
     }
     ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     panel.post(commands::Release{});

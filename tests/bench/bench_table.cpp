@@ -231,7 +231,7 @@ void print_bullet(const json& all, bool markdown) {
 
 void print_runs(const json& all, bool markdown) {
   std::vector<std::vector<std::string>> table{
-      {"drag, mesh, algorithm", "elements", "moved", "ms per pass", "quartiles", "ns per moved one"}};
+      {"drag, mesh, algorithm", "elements", "moved", "ms per pass", "quartiles", "ns per moved element"}};
   for (const json& run : all["runs"]) {
     table.push_back({run["name"].get<std::string>() + ", " + run["mesh"].get<std::string>() + ", " +
                          run["algorithm"].get<std::string>(),

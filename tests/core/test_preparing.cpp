@@ -33,6 +33,7 @@ class PreparingTest : public QObject {
   void changes_no_bit();
   void saves_the_search();
   void pins_that_stop_the_handle_are_found();
+  void can_be_cancelled_data();
   void can_be_cancelled();
   void a_thread_prepares_what_it_is_told();
 };
@@ -92,17 +93,53 @@ void PreparingTest::pins_that_stop_the_handle_are_found() {
   QCOMPARE(position_of(*solver, *mesh, 0).x(), -19.0);  // 19 links of twice their length, from 19
 }
 
+void PreparingTest::can_be_cancelled_data() {
+  QTest::addColumn<std::string>("algorithm");
+  QTest::addColumn<bool>("mixed");
+  QTest::addColumn<std::uint32_t>("side");
+  for (const char* algorithm : {"natural-queue", "generalized", "exact"}) {
+    QTest::addRow("%s", algorithm) << std::string(algorithm) << false << 120U;
+    QTest::addRow("%s, softness per link", algorithm) << std::string(algorithm) << true << 120U;
+  }
+  QTest::addRow("exact, on threads") << std::string("exact") << false << 330U;
+  QTest::addRow("exact, on threads, softness per link") << std::string("exact") << true << 330U;
+}
+
 void PreparingTest::can_be_cancelled() {
-  const auto mesh = make_mesh(MeshKind::grid, {100, 100, 1});
-  for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::generalized, Algorithm::exact}) {
-    const auto solver = solver_of(mesh, algorithm, {rigid, {}}), other = solver_of(mesh, algorithm, {rigid, {}});
+  QFETCH(std::string, algorithm);
+  QFETCH(bool, mixed);
+  QFETCH(std::uint32_t, side);
+  const auto mesh = jittered_triangles(side, side, 3);
+  Softness softness{{0.999, 1.001, 0.0005}, {}};  // every element still moves
+  for (LinkId link = 0; mixed && link < mesh->link_count(); link += 2) {
+    softness.links.set(link, {0.99, 1.01, 0.002});
+  }
+  const auto solver = solver_of(mesh, *find_algorithm(algorithm), softness);
+  const auto other = solver_of(mesh, *find_algorithm(algorithm), softness);
+  solver->set_threads(2);
+  // Cancelled before it begins, and after some time: somewhere in the middle, or not at all.
+  for (const auto after : {0us, 300us, 1000us, 3000us, 10'000us}) {
     JobState state;
     solver->set_progress(Progress(state));
-    state.cancelled = true;
-    QVERIFY_THROWS_EXCEPTION(Cancelled, solver->prepare(5050));
-    state.cancelled = false;
-    for (const ElementId element : {5050U, 17U}) {
-      move_by(*solver, *mesh, element, Point(2, 3, 0));
+    {
+      state.cancelled = after == 0us;
+      const std::jthread canceller([&] {
+        const auto end = std::chrono::steady_clock::now() + after;
+        while (std::chrono::steady_clock::now() < end) {
+        }
+        state.cancelled = true;
+      });
+      try {
+        solver->prepare(side * side / 2);
+      } catch (const Cancelled&) {
+      }
+    }
+    solver->set_progress({});
+    // Of another element: what the cancelled search left must not matter.
+    for (const ElementId element : {17U, side * side - 30}) {
+      solver->prepare(element);
+      const PassCount count = move_by(*solver, *mesh, element, Point(2, 3, 0));
+      QVERIFY(mixed || count.visits == 0);  // what was prepared is used
       move_by(*other, *mesh, element, Point(2, 3, 0));
       QVERIFY(same_bits(positions_of(*solver, *mesh), positions_of(*other, *mesh)));
     }
@@ -119,15 +156,19 @@ void PreparingTest::a_thread_prepares_what_it_is_told() {
     solver.post(commands::Release{});
     return wait_for_passes(solver, passes) ? solver.latest_frame().statistics.last_pass.visits : ~std::uint64_t{0};
   };
-  solver.prepare(7);
-  solver.prepare(210);  // replaces the wish before
+  solver.prepare(210);
   QVERIFY(wait_until([&] { return solver.prepared() == 1; }));
   QCOMPARE(visits_of_a_drag(210, 1), std::uint64_t{0});
-  QVERIFY(visits_of_a_drag(7, 2) >= mesh->element_count());
-  solver.prepare(30);
   solver.prepare(std::nullopt);
-  QVERIFY(visits_of_a_drag(30, 3) >= mesh->element_count());
-  QCOMPARE(solver.prepared(), 1);
+  QVERIFY(visits_of_a_drag(7, 2) >= mesh->element_count());
+  // A command in between, and a pointer that stays: it is prepared again, for the new softness.
+  solver.prepare(30);
+  int prepared = solver.prepared();
+  QVERIFY(wait_until([&] { return solver.prepared() > prepared; }));
+  prepared = solver.prepared();
+  solver.post(commands::SetSoftness{{{1, 1.001, 0}, {}}});
+  QVERIFY(wait_until([&] { return solver.prepared() > prepared; }));
+  QCOMPARE(visits_of_a_drag(30, 4), std::uint64_t{0});  // a new softness is a pass too
 }
 
 QTEST_APPLESS_MAIN(PreparingTest)

@@ -111,7 +111,6 @@ class Picking : public QObject {
     }
     prepareLevels(mesh, {});
     QVERIFY(takePreparedLevels(other).empty());
-    prepareLevels(mesh, {});
     MeshLevels levels;
     const auto first = levels.at(mesh, 1);
     QVERIFY(takePreparedLevels(mesh).empty());  // they have been taken
@@ -119,6 +118,18 @@ class Picking : public QObject {
     JobState job;
     job.cancelled = true;
     QVERIFY_THROWS_EXCEPTION(Cancelled, prepareLevels(mesh, Progress(job)));
+    QVERIFY(takePreparedLevels(mesh).empty());
+  }
+
+  void thereAreLevelsOfManyParts() {
+    MeshParts parts;
+    for (ElementId e = 0; e < 120'000; ++e) {
+      parts.rest.emplace_back(e % 400, e / 400, 0);
+    }
+    parts.links = {{0, 1}};
+    const MeshPointer mesh = build_mesh(std::move(parts));
+    prepareLevels(mesh, {});
+    QVERIFY(takePreparedLevels(mesh).size() <= 7);  // steps 1 to 64
   }
 
   void theDistanceFromASegment() {

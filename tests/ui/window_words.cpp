@@ -59,9 +59,10 @@ class WindowWords : public QObject {
     Statistics statistics = statisticsOf(0.304, 2.84, false);
     statistics.violation_of_sample = true;
     QCOMPARE(violationInWords(statistics, true),
-             QStringLiteral("30 % of some touched links violated, worst 2.8 × rest length"));
+             QStringLiteral("30 % of sampled touched links violated, worst 2.8 × rest length"));
     statistics.violation = {};
-    QCOMPARE(violationInWords(statistics, true), QStringLiteral("No link of a sample of the touched ones is violated"));
+    QCOMPARE(violationInWords(statistics, true),
+             QStringLiteral("No link in a sample of the touched links is violated"));
   }
   void violationIsASentence() {
     QFETCH(double, fraction);

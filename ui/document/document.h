@@ -195,7 +195,7 @@ class Document : public QObject {
   void setHighlight(const Highlight& highlight);
   /// Says which element the next press would grab, so that all panels prepare its drag in idle time; none: nothing.
   void prepareDrag(std::optional<ElementId> element);
-  /// Number of drags that all panels have prepared.
+  /// Number of preparations that every panel has ended.
   int preparedDrags() const;
   /// Adds links to the highlighted ones. The time depends only on the number of added links.
   void addToHighlight(std::span<const LinkId> links);

@@ -15,19 +15,7 @@ namespace {
 // allows.
 constexpr std::size_t fewestShapes = DetailBudget::fewestShapes;
 constexpr double fewestPixels = 3;  // per link
-constexpr unsigned coarsestStep = 64;
-
-/// Returns the approximate number of elements of a level.
-double elementsAt(const Mesh& mesh, unsigned step) {
-  if (!mesh.lattice) {
-    return mesh.element_count() / std::pow(step, mesh.object_dimension);
-  }
-  double count = 1;
-  for (const double size : mesh.lattice->size) {
-    count *= step == 1 || size == 1 ? size : std::floor((size - 2) / step) + 2;
-  }
-  return count;
-}
+constexpr unsigned coarsestStep = MeshLevels::coarsestStep;
 
 /// Returns the approximate number of links and faces per element of a level.
 double shapesPerElement(const Mesh& mesh, unsigned step) {
@@ -124,7 +112,7 @@ void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerU
   while (mesh_->lattice && !parts_.solid && step_ < coarsestStep && pixels * step_ < fewestPixels) {
     step_ = MeshLevels::after(step_, *mesh_);
   }
-  const auto shapes = [&] { return elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
+  const auto shapes = [&] { return MeshLevels::elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
   const auto most = double(scene.mostShapes);
   if (shapes() <= most) {
     return;

@@ -11,6 +11,17 @@ unsigned MeshLevels::after(unsigned step, const Mesh& mesh) {
   return mesh.lattice && step > 1 ? (power ? step * 3 / 2 : step * 4 / 3) : step * 2;
 }
 
+double MeshLevels::elementsAt(const Mesh& mesh, unsigned step) {
+  if (!mesh.lattice) {
+    return mesh.element_count() / std::pow(step, mesh.object_dimension);
+  }
+  double count = 1;
+  for (const double size : mesh.lattice->size) {
+    count *= step == 1 || size == 1 ? size : std::floor((size - 2) / step) + 2;
+  }
+  return count;
+}
+
 MeshLevelPointer MeshLevels::at(const MeshPointer& mesh, unsigned step) {
   if (mesh != mesh_) {
     levels_.clear();

@@ -13,8 +13,11 @@ namespace chainmail {
 /// All panels have the same cuts.
 class MeshLevels {
  public:
+  static constexpr unsigned coarsestStep = 64;
   /// Returns the next coarser step. Steps are powers of two; a lattice has one more step between two powers.
   static unsigned after(unsigned step, const Mesh& mesh);
+  /// Returns about how many elements a level has.
+  static double elementsAt(const Mesh& mesh, unsigned step);
   /// Returns a level: a prepared one (see prepareLevels), or a new one, which is kept.
   MeshLevelPointer at(const MeshPointer& mesh, unsigned step);
 

@@ -15,33 +15,33 @@ constexpr ElementId fewestElements = 100'000;
 std::mutex mutex;
 std::vector<MeshLevelPointer> prepared;  // guarded by the mutex
 
-bool isSmall(const MeshLevel& level) { return level.elements.size() < fewestElements; }
-
 }  // namespace
 
 void prepareLevels(const MeshPointer& mesh, const Progress& progress) {
-  std::vector<MeshLevelPointer> levels;
-  if (mesh->element_count() >= fewestElements) {
-    progress.report(0);
-    levels.push_back(wholeLevel(mesh));
-    // Which one is drawn first depends on the size of the view. The finest are drawn only after a zoom.
-    for (unsigned step = 2; !isSmall(*levels.back()); step = MeshLevels::after(step, *mesh)) {
-      progress.report(0.5);
-      if (!mesh->lattice) {
-        levels.push_back(coarser(*levels.back()));
-      } else if (mesh->element_count() / (step * step) < 10 * fewestElements) {
-        levels.push_back(coarseLattice(mesh, step));
-      }
+  if (mesh->element_count() < fewestElements) {
+    return;
+  }
+  progress.report(0);
+  std::vector<MeshLevelPointer> levels{wholeLevel(mesh)};
+  // Which one is drawn first depends on the size of the view. The finest are drawn only after a zoom.
+  for (unsigned step = 2; step <= MeshLevels::coarsestStep && levels.back()->elements.size() >= fewestElements;
+       step = MeshLevels::after(step, *mesh)) {
+    progress.report(double(step) / MeshLevels::coarsestStep);
+    if (!mesh->lattice) {
+      levels.push_back(coarser(*levels.back()));
+    } else if (MeshLevels::elementsAt(*mesh, step) < 10 * fewestElements) {
+      levels.push_back(coarseLattice(mesh, step));
     }
   }
+  progress.report(1);  // nothing is kept of a job that was cancelled
   const std::lock_guard lock(mutex);
   prepared = std::move(levels);
 }
 
 std::vector<MeshLevelPointer> takePreparedLevels(const MeshPointer& mesh) {
   const std::lock_guard lock(mutex);
-  auto levels = std::exchange(prepared, {});
-  return !levels.empty() && levels.front()->mesh == mesh ? levels : std::vector<MeshLevelPointer>();
+  const bool isOfMesh = !prepared.empty() && prepared.front()->mesh == mesh;
+  return isOfMesh ? std::exchange(prepared, {}) : std::vector<MeshLevelPointer>();
 }
 
 }  // namespace chainmail

@@ -164,7 +164,7 @@ QString Panel::describeViolation(const Statistics& statistics, bool briefly) {
   const Violation& violation = statistics.violation;
   const QString of = briefly                              ? QString()
                      : statistics.violation_of_whole_mesh ? QStringLiteral(" of all links:")
-                     : statistics.violation_of_sample     ? QStringLiteral(" of some touched links:")
+                     : statistics.violation_of_sample     ? QStringLiteral(" of sampled touched links:")
                                                           : QStringLiteral(" of touched links:");
   return QStringLiteral("violation%1 max <b>%2</b> · RMS <b>%3</b> · <b>%4</b> %")
       .arg(of, locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),

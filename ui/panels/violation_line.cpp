@@ -47,12 +47,12 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   if (violation.fraction == 0) {
     return !hasMoved ? QStringLiteral("Nothing has moved yet")
            : whole   ? QStringLiteral("No link is violated")
-           : sampled ? QStringLiteral("No link of a sample of the touched ones is violated")
+           : sampled ? QStringLiteral("No link in a sample of the touched links is violated")
                      : QStringLiteral("No touched link is violated");
   }
   const QString share = QStringLiteral("%1 of %2violated, ")
                             .arg(percentage(violation.fraction), whole     ? QStringLiteral("links ")
-                                                                 : sampled ? QStringLiteral("some touched links ")
+                                                                 : sampled ? QStringLiteral("sampled touched links ")
                                                                            : QStringLiteral("touched links "));
   return share + (std::isfinite(violation.max) ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
                                                : QStringLiteral("some without a finite length"));

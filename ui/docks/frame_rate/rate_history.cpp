@@ -20,10 +20,10 @@ constexpr std::array quantities{
                  [](const RateSample& one) { return one.painted; }},
     RateQuantity{
         "violation-max", "Violation, max", "rest lengths",
-        "Distance of the worst link from its valid region; while dragging, of the links that the last pass touched",
+        "Distance of the worst link from its valid region; while dragging, of links that the last pass touched",
         [](const RateSample& one) { return one.violationMax; }},
     RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
-                 "Root mean square over the links; while dragging, over those that the last pass touched",
+                 "Root mean square over the links; while dragging, over links that the last pass touched",
                  [](const RateSample& one) { return one.violationRms; }}};
 
 // A longer gap (s) between samples ends a line. The time of the next pass does not count.

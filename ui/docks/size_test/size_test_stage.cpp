@@ -74,8 +74,8 @@ void SizeTestStage::build() {
   emit progressed(race_.share(), QStringLiteral("%1, building").arg(sizeText(width)));
   jobs_.start(Jobs::Kind::load, QStringLiteral("Building %1").arg(sizeText(width)),
               [this, width](const Progress& progress) -> Jobs::Finish {
-                const MeshPointer mesh = generate(gridOf(width), progress);
-                prepareLevels(mesh, progress);
+                const MeshPointer mesh = generate(gridOf(width), progress.part(0, 0.8));
+                prepareLevels(mesh, progress.part(0.8, 1));
                 return [this, mesh] {
                   mesh_ = mesh;
                   attempt();
