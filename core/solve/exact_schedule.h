@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <ranges>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -67,7 +66,7 @@ class BucketSchedule {
       return last_;
     }
     const auto place =
-        std::ranges::find_if(buckets_ | std::views::drop(1), [](const auto& one) { return !one.empty(); });
+        std::find_if(buckets_.begin() + 1, buckets_.end(), [](const auto& bucket) { return !bucket.empty(); });
     return place == buckets_.end() ? none : std::ranges::min_element(*place, {}, &Entry::number)->number;
   }
   void begin_round(Number lowest) { bound_ = lowest; }

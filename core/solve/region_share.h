@@ -202,7 +202,7 @@ class alignas(64) RegionShare {
   }
 
   /// Visits the next element, unless it was visited already. Returns true if so.
-  template <bool is_alone>
+  template <bool IsAlone>
   bool visit_next(Search& search, const State& body, Reach& reach, std::size_t messages) {
     const Index index = schedule_.take();
     if (searched_[index].state != queued) {
@@ -210,11 +210,11 @@ class alignas(64) RegionShare {
     }
     searched_[index].state = done;
     ++visits_;
-    visit<is_alone>(search, body, reach, index, messages);
+    visit<IsAlone>(search, body, reach, index, messages);
     return true;
   }
 
-  template <bool is_alone>
+  template <bool IsAlone>
   void visit(Search& search, const State& body, Reach& reach, Index index, std::size_t messages) {
     const Bounds from = regions_[index];
     const bool has_pins = body.pin_count > 0, has_inner_links = search.handle.size() > 1 && index < handle_size_;
@@ -233,7 +233,7 @@ class alignas(64) RegionShare {
         reach.hold(body.positions[neighbour], through);
         return;
       }
-      if (const std::size_t to = is_alone ? number_ : search.share_of(neighbour); to == number_) {
+      if (const std::size_t to = IsAlone ? number_ : search.share_of(neighbour); to == number_) {
         narrow(search, body, reach, neighbour, through);
       } else {
         write(messages_[messages][to], {neighbour, through});

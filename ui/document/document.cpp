@@ -6,7 +6,6 @@
 #include <exception>
 #include <iterator>
 #include <new>
-#include <ranges>
 
 #include "common/panel_names.h"
 #include "common/text.h"
@@ -810,8 +809,8 @@ void Document::prepareDrag(std::optional<ElementId> element) {
 }
 
 int Document::preparedDrags() const {
-  const auto prepared = solvers_ | std::views::transform([](const auto& solver) { return solver->prepared(); });
-  return *std::ranges::min_element(prepared);
+  const auto of = [](const auto& solver) { return solver->prepared(); };
+  return of(*std::ranges::min_element(solvers_, {}, of));
 }
 
 void Document::addToHighlight(std::span<const LinkId> links) {
