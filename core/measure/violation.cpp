@@ -133,6 +133,7 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
     count += some.size();
   }
   const std::size_t nth = count / most + (count % most == 0 ? 0 : 1);
+  sampled_ = nth > 1;
   ViolationSum sum;
   seen_.resize(mesh.element_count());
   for_each_sampled(elements, nth, [&](ElementId element) {

@@ -66,12 +66,15 @@ class TouchedViolation {
   Violation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
                     std::initializer_list<std::span<const ElementId>> elements,
                     std::size_t most = std::numeric_limits<std::size_t>::max());
+  /// True if the last measurement left some of the elements out.
+  bool sampled() const { return sampled_; }
 
  private:
   template <class Use>
   static void for_each_sampled(std::initializer_list<std::span<const ElementId>> elements, std::size_t nth, Use use);
 
   std::vector<bool> seen_;  // all false between two calls
+  bool sampled_ = false;
 };
 
 /// Returns the elastic energy over the uncut links, of the kind that the softness names (see solve/link_energy.h), in

@@ -223,10 +223,9 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   statistics_.violation_of_whole_mesh = false;
   statistics_.violation_of_sample = false;
   if (last_handle_) {
-    const auto handle = last_handle_->elements(), moved = solver_->moved();
-    statistics_.violation =
-        touched_.measure(*mesh_, softness(), body().cuts(), body().positions(), {handle, moved}, most_measured);
-    statistics_.violation_of_sample = handle.size() + moved.size() > most_measured;
+    statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
+                                             {last_handle_->elements(), solver_->moved()}, most_measured);
+    statistics_.violation_of_sample = touched_.sampled();
   } else {
     statistics_.violation = {};
   }

@@ -310,6 +310,7 @@ void SolverThread::measure_later(std::unique_lock<std::mutex>& lock, const std::
 
 /// Measures the violation of the whole mesh, unless a command comes. Returns true if it was measured.
 bool SolverThread::measure(const std::stop_token& stop) {
+  const RunningPass running;
   while (idle() && !stop.stop_requested()) {
     if (!simulation_.measure()) {
       return true;

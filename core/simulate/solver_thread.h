@@ -40,9 +40,9 @@ class SolverThread {
   /// Ends the running pass or sweep as soon as possible, and drops posted ones. Remaining questions are answered for
   /// the object in that state. Call this when the window closes.
   void abandon();
-  /// Says which element the next drag will probably grab; none: nobody knows. Its drag is prepared once nothing has
-  /// been to do for a while, and again after commands. A command, a question and another element end a preparation at
-  /// once.
+  /// Names the element that the next drag will probably grab, if any. Its drag is prepared when the solver has had
+  /// nothing to do for a while, and again after commands. A command, a question or another element ends a preparation
+  /// at once.
   void prepare(std::optional<ElementId> element);
   /// Returns the number of preparations that ended, also of those that had nothing to do.
   int prepared() const { return prepared_.load(std::memory_order_acquire); }

@@ -5,7 +5,8 @@
 
 namespace chainmail {
 
-/// Counts this thread as one that runs a pass, or relaxes, while it exists. Helpers of other passes give way to it.
+/// Counts this thread as one that runs a pass, relaxes or measures, while it exists. Helpers of other passes give way
+/// to it.
 class RunningPass {
  public:
   RunningPass();

@@ -1,202 +1,180 @@
 // Measures the real window with ten million elements, in a plane and in space: bench_large RESULTS. It needs a display
-// and 6 GiB of memory.
+// and 6 GB of memory.
 
 #include <QElapsedTimer>
-#include <QEventLoop>
-#include <QMouseEvent>
-#include <QSettings>
-#include <QTemporaryDir>
-#include <QTimer>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 
-#include "bench/metered_application.h"
 #include "bench/process.h"
-#include "bench/results.h"
 #include "bench/scenes.h"
+#include "bench/window_program.h"
 #include "drawing/prepared_levels.h"
 #include "io/sessions.h"
 #include "mesh/generate.h"
 #include "panels/panel.h"
 #include "window/main_window.h"
-#include "window/startup.h"
 
 namespace chainmail::bench {
 namespace {
 
 constexpr int patienceMilliseconds = 300'000;
+constexpr int restMilliseconds = 3000;  // after this time, the figures at rest are measured
 
-MeteredApplication& application() { return *static_cast<MeteredApplication*>(qApp); }
+/// A window in which one object is opened and used. Each step prints what it cost.
+class LargeScene {
+ public:
+  LargeScene() : window_(generate({MeshKind::grid, {8, 8, 1}, 1, {}}), QStringLiteral("grid")) {
+    window_.resize(1280, 720);
+    window_.show();
+    run(1000);
+    before_ = resident_bytes();
+    mouse_.setTimerType(Qt::PreciseTimer);
+  }
 
-void run(int milliseconds) {
-  QEventLoop loop;
-  QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
-  loop.exec();
-}
+  /// Builds the object as the Mesh dock does. Returns the time until both panels show it (ms).
+  double open(const MeshRecipe& recipe) {
+    const auto elements = ElementId(recipe.size[0]) * recipe.size[1] * recipe.size[2];
+    const int painted = application().viewPaints;
+    const auto build = [this, recipe](const Progress& progress) -> Jobs::Finish {
+      const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
+      prepareLevels(mesh, progress.part(0.8, 1));
+      return [this, mesh] { document().replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build")); };
+    };
+    const auto isShown = [&] {
+      return document().mesh()->element_count() == elements && document().frame(0) != nullptr &&
+             document().frame(1) != nullptr && application().viewPaints >= painted + 2 && document().settled();
+    };
+    const double ms = step(
+        "open", [&] { window_.jobs().start(Jobs::Kind::load, QStringLiteral("Building"), build); }, isShown);
+    run(restMilliseconds);
+    return ms;
+  }
 
-/// What a step of the work in the window cost.
-struct Cost {
-  double ms = 0;       // until it was done
-  double longest = 0;  // the longest event in the GUI thread without drawing (ms)
+  /// Drags what is in the middle of the view on a circle (radius in pixels). Returns the time of the last pass of
+  /// Natural Queue (ms).
+  double drag(const char* what, double radius, int moves, int interval) {
+    int count = 0;
+    const auto move = [&] {
+      const double angle = 2 * std::numbers::pi * ++count / 32;
+      send(view(), QEvent::MouseMove, centre() + radius * QPointF(std::cos(angle), std::sin(angle)));
+    };
+    const auto moving = QObject::connect(&mouse_, &QTimer::timeout, &window_, move);
+    const auto press = [&] {
+      send(view(), QEvent::MouseButtonPress, centre());
+      mouse_.start(interval);
+    };
+    step(what, press, [&] { return count >= moves; });
+    mouse_.stop();
+    QObject::disconnect(moving);
+    const Statistics &left = document().statistics(0), &right = document().statistics(1);
+    std::printf("  passes: %s %.3f ms, %s %.3f ms, %llu moved\n", info(left.algorithm).name.data(), left.last_pass_ms,
+                info(right.algorithm).name.data(), right.last_pass_ms,
+                static_cast<unsigned long long>(right.last_pass.moved));
+    step(
+        "release", [&] { send(view(), QEvent::MouseButtonRelease, centre()); }, settled());
+    return right.last_pass_ms;
+  }
+
+  void cutAndUndo() {
+    const Mesh& mesh = *document().mesh();
+    const ElementId middle = mesh.element_count() / 2;
+    const std::vector<LinkId> links(mesh.entry_link.begin() + mesh.first_entry[middle],
+                                    mesh.entry_link.begin() + mesh.first_entry[middle + 1]);
+    step(
+        "cut", [&] { document().cut(links); }, settled());
+    undo("undo the cut");
+  }
+  void undo(const char* what) {
+    step(
+        what, [&] { document().undo(); }, settled());
+  }
+
+  void makeStiff() {
+    document().setAlgorithm(0, Algorithm::exact);
+    step(
+        "stiff", [&] { document().setSoftness(stiff, QStringLiteral("stiff")); }, settled());
+    run(restMilliseconds);
+  }
+
+  double save() {
+    const QTemporaryDir folder;
+    auto& sessions = *window_.findChild<Sessions*>();
+    bool saved = false;
+    const auto listening = QObject::connect(&sessions, &Sessions::saved, &window_, [&] { saved = true; });
+    const QString path = folder.filePath(QStringLiteral("large.chainmail"));
+    const double ms = step(
+        "save", [&] { sessions.savePath(path); }, [&] { return saved; });
+    QObject::disconnect(listening);
+    return ms;
+  }
+
+  double bytesPerElement() { return (resident_bytes() - before_) / document().mesh()->element_count(); }
+  /// The longest event of all steps in the GUI thread, without drawing (ms).
+  double longestMilliseconds() const { return longest_; }
+
+ private:
+  using Condition = std::function<bool()>;
+
+  Document& document() { return window_.document(); }
+  View& view() { return window_.panel(0).view(); }
+  QPointF centre() { return QRectF(view().rect()).center(); }
+  Condition settled() {
+    return [this] { return document().settled(); };
+  }
+
+  /// Does a step, and runs the event loop until it is done. Returns the time (ms).
+  double step(const char* what, const std::function<void()>& act, const Condition& done) {
+    QElapsedTimer clock;
+    clock.start();
+    application().longestMilliseconds = application().longestDrawing = 0;
+    act();
+    while (!done()) {
+      if (clock.elapsed() > patienceMilliseconds) {
+        throw std::runtime_error(std::string("it took too long: ") + what);
+      }
+      run(1);
+    }
+    const double ms = double(clock.nsecsElapsed()) * 1e-6, longest = application().longestMilliseconds;
+    longest_ = std::max(longest_, longest);
+    std::printf("  %-28s %8.0f ms, longest event %.1f ms, longest drawing %.1f ms\n", what, ms, longest,
+                application().longestDrawing);
+    std::fflush(stdout);
+    return ms;
+  }
+
+  MainWindow window_;
+  QTimer mouse_;
+  double before_ = 0;  // resident bytes
+  double longest_ = 0;
 };
 
-/// Does a step, and runs the event loop until it is done.
-Cost cost(const char* what, const std::function<void()>& step, const std::function<bool()>& done) {
-  QElapsedTimer clock;
-  clock.start();
-  application().longestMilliseconds = application().longestDrawing = 0;
-  step();
-  while (!done()) {
-    if (clock.elapsed() > patienceMilliseconds) {
-      throw std::runtime_error(std::string("it took too long: ") + what);
-    }
-    run(1);
-  }
-  const Cost cost{double(clock.nsecsElapsed()) * 1e-6, application().longestMilliseconds};
-  std::printf("  %-28s %8.0f ms, longest event %.1f ms, longest drawing %.1f ms, resident %.2f GB\n", what, cost.ms,
-              cost.longest, application().longestDrawing, resident_bytes() * 1e-9);
-  std::fflush(stdout);
-  return cost;
+void measure(Results& results, const std::string& place, const MeshRecipe& recipe) {
+  LargeScene scene;
+  results.add(place + "/open_ms", scene.open(recipe));
+  results.add(place + "/local_pass_ms", scene.drag("local drag, 120 moves", 1, 120, 16));
+  scene.cutAndUndo();
+  scene.undo("undo the drag");
+  scene.makeStiff();
+  results.add(place + "/whole_pass_ms", scene.drag("whole-body drag, 40 moves", 100, 40, 100));
+  results.add(place + "/bytes_per_element", scene.bytesPerElement());
+  scene.undo("undo the drag");
+  results.add(place + "/save_ms", scene.save());
+  results.add(place + "/gui_longest_ms", scene.longestMilliseconds());
 }
 
-void send(View& view, QEvent::Type type, QPointF at) {
-  const bool moves = type == QEvent::MouseMove;
-  QMouseEvent event(type, at, view.mapToGlobal(at), moves ? Qt::NoButton : Qt::LeftButton,
-                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&view, &event);
-}
-
-/// Opens an object and works with it. Adds the figures below `place`.
-void work(Results& results, const std::string& place, const MeshRecipe& recipe) {
-  const double before = resident_bytes();
-  MainWindow window(generate({MeshKind::grid, {8, 8, 1}, 1, {}}), QStringLiteral("grid"));
-  window.resize(1280, 720);
-  window.show();
-  run(1000);
-  Document& document = window.document();
-  View& view = window.panel(0).view();
-  double longest = 0;
-  const auto take = [&](const Cost& one) {
-    longest = std::max(longest, one.longest);
-    return one.ms;
-  };
-  const auto settled = [&] { return document.settled(); };
-  const auto elements = ElementId(recipe.size[0]) * recipe.size[1] * recipe.size[2];
-  const int painted = application().viewPaints;
-  results.add(place + "/open_ms",
-              take(cost(
-                  "open",
-                  [&] {
-                    window.jobs().start(
-                        Jobs::Kind::load, QStringLiteral("Building"), [&](const Progress& progress) -> Jobs::Finish {
-                          const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
-                          prepareLevels(mesh, progress.part(0.8, 1));
-                          return [&, mesh] {
-                            document.replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build"));
-                          };
-                        });
-                  },
-                  [&] {
-                    return document.mesh()->element_count() == elements && document.frame(0) && document.frame(1) &&
-                           application().viewPaints >= painted + 2 && document.settled();
-                  })));
-  run(3000);  // the figures at rest
-  const QPointF centre = QRectF(view.rect()).center();
-  QTimer mouse;
-  int step = 0;
-  const auto circle = [&](double radius) {
-    mouse.disconnect();
-    mouse.callOnTimeout([&, radius] {
-      const double angle = 2 * std::numbers::pi * ++step / 32;
-      send(view, QEvent::MouseMove, centre + radius * QPointF(std::cos(angle), std::sin(angle)));
-    });
-  };
-  mouse.setTimerType(Qt::PreciseTimer);
-  circle(1);
-  take(cost(
-      "local drag, 120 moves",
-      [&] {
-        send(view, QEvent::MouseButtonPress, centre);
-        mouse.start(16);
-      },
-      [&] { return step >= 120; }));
-  mouse.stop();
-  results.add(place + "/local_pass_ms", document.statistics(1).last_pass_ms);
-  std::printf("  local passes: %.3f and %.3f ms, %llu moved\n", document.statistics(0).last_pass_ms,
-              document.statistics(1).last_pass_ms,
-              static_cast<unsigned long long>(document.statistics(1).last_pass.moved));
-  take(cost(
-      "release", [&] { send(view, QEvent::MouseButtonRelease, centre); }, settled));
-  const ElementId middle = elements / 2;
-  const Mesh& mesh = *document.mesh();
-  std::vector<LinkId> links(mesh.entry_link.begin() + mesh.first_entry[middle],
-                            mesh.entry_link.begin() + mesh.first_entry[middle + 1]);
-  take(cost(
-      "cut", [&] { document.cut(links); }, settled));
-  take(cost(
-      "undo the cut", [&] { document.undo(); }, settled));
-  take(cost(
-      "undo the drag", [&] { document.undo(); }, settled));
-  document.setAlgorithm(0, Algorithm::exact);
-  take(cost(
-      "stiff", [&] { document.setSoftness(stiff, QStringLiteral("stiff")); }, settled));
-  run(3000);
-  step = 0;
-  circle(100);
-  take(cost(
-      "whole-body drag, 40 moves",
-      [&] {
-        send(view, QEvent::MouseButtonPress, centre);
-        mouse.start(100);
-      },
-      [&] { return step >= 40; }));
-  mouse.stop();
-  std::printf("  whole-body passes: Exact %.1f ms, Natural Queue %.1f ms, %llu moved\n",
-              document.statistics(0).last_pass_ms, document.statistics(1).last_pass_ms,
-              static_cast<unsigned long long>(document.statistics(1).last_pass.moved));
-  results.add(place + "/whole_pass_ms", document.statistics(1).last_pass_ms);
-  take(cost(
-      "release", [&] { send(view, QEvent::MouseButtonRelease, centre); }, settled));
-  results.add(place + "/bytes_per_element", (resident_bytes() - before) / elements);
-  take(cost(
-      "undo the drag", [&] { document.undo(); }, settled));
-  const QTemporaryDir folder;
-  auto& sessions = *window.findChild<Sessions*>();
-  bool saved = false;
-  const auto listening = QObject::connect(&sessions, &Sessions::saved, &window, [&] { saved = true; });
-  results.add(place + "/save_ms",
-              take(cost(
-                  "save", [&] { sessions.savePath(folder.filePath(QStringLiteral("large.chainmail"))); },
-                  [&] { return saved; })));
-  QObject::disconnect(listening);
-  results.add(place + "/gui_longest_ms", longest);
+void measure(Results& results) {
+  std::printf("grid 3162²\n");
+  measure(results, "/ten_million/plane", {MeshKind::grid, {3162, 3162, 1}, 1, {}});
+  std::printf("block 215³\n");
+  measure(results, "/ten_million/space", {MeshKind::block, {215, 215, 215}, 1, {}});
 }
 
 }  // namespace
 }  // namespace chainmail::bench
 
 int main(int argc, char** argv) {
-  using namespace chainmail;
-  if (argc < 2) {
-    std::fprintf(stderr, "bench_large: name the file of results, as in: bench_large build/bench.json\n");
-    return 2;
-  }
-  prepareApplication();
-  const QTemporaryDir settings;
-  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  bench::MeteredApplication application(argc, argv);
-  styleApplication();
-  if (const QString why = whyNoWindow(); !why.isEmpty()) {
-    std::fprintf(stderr, "bench_large: %s\n", qPrintable(why));
-    return 2;
-  }
-  bench::Results results(argv[1]);
-  std::printf("grid 3162²\n");
-  bench::work(results, "/ten_million/plane", {MeshKind::grid, {3162, 3162, 1}, 1, {}});
-  std::printf("block 215³\n");
-  bench::work(results, "/ten_million/space", {MeshKind::block, {215, 215, 215}, 1, {}});
-  results.write();
+  using namespace chainmail::bench;
+  return measureInWindow(argc, argv, "bench_large", measure);
 }

@@ -2,10 +2,7 @@
 
 #include <QDir>
 #include <QElapsedTimer>
-#include <QEventLoop>
-#include <QMouseEvent>
 #include <QProcess>
-#include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
@@ -17,15 +14,13 @@
 #include <vector>
 
 #include "bench/contest.h"
-#include "bench/metered_application.h"
 #include "bench/process.h"
-#include "bench/results.h"
+#include "bench/window_program.h"
 #include "docks/mesh_dock.h"
 #include "io/file_actions.h"
 #include "mesh/generate.h"
 #include "panels/panel.h"
 #include "window/main_window.h"
-#include "window/startup.h"
 
 namespace chainmail::bench {
 namespace {
@@ -35,14 +30,6 @@ constexpr int dragMilliseconds = 5000;
 constexpr int idleMilliseconds = 5000;
 constexpr int patienceMilliseconds = 120'000;
 constexpr int restMilliseconds = 300;  // after this time, work in the background has ended
-
-MeteredApplication& application() { return *static_cast<MeteredApplication*>(qApp); }
-
-void run(int milliseconds) {
-  QEventLoop loop;
-  QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
-  loop.exec();
-}
 
 /// Runs the event loop until `done` returns true; returns the time on `clock` (ms).
 double until(const QElapsedTimer& clock, const char* what, const std::function<bool()>& done) {
@@ -65,13 +52,6 @@ double untilShown(MainWindow& window, const QElapsedTimer& clock, ElementId elem
   window.panel(0).view().update();
   window.panel(1).view().update();
   return until(clock, "drawing", [&] { return application().viewPaints >= before + Document::fewestPanels; });
-}
-
-void send(View& view, QEvent::Type type, QPointF at) {
-  const bool moves = type == QEvent::MouseMove;
-  QMouseEvent event(type, at, view.mapToGlobal(at), moves ? Qt::NoButton : Qt::LeftButton,
-                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(&view, &event);
 }
 
 struct FrameMilliseconds {
@@ -337,24 +317,9 @@ void measure(Results& results) {
 }  // namespace chainmail::bench
 
 int main(int argc, char** argv) {
-  using namespace chainmail;
-  if (argc < 2) {
-    std::fprintf(stderr, "bench_window: name the file of results, as in: bench_window build/bench.json\n");
-    return 2;
-  }
-  prepareApplication();
-  const QTemporaryDir settings;
-  QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  bench::MeteredApplication application(argc, argv);
-  styleApplication();
-  if (const QString why = whyNoWindow(); !why.isEmpty()) {
-    std::fprintf(stderr, "bench_window: %s\n", qPrintable(why));
-    return 2;
-  }
-  if (argc == 3 && std::string_view(argv[1]) == "--first-frame") {
-    return bench::showFirstFrame(argv[2]);
-  }
-  bench::Results results(argv[1]);
-  bench::measure(results);
-  results.write();
+  using namespace chainmail::bench;
+  return measureInWindow(argc, argv, "bench_window", measure, [](int count, char** arguments) -> std::optional<int> {
+    const bool isFirstFrame = count == 3 && std::string_view(arguments[1]) == "--first-frame";
+    return isFirstFrame ? std::optional(showFirstFrame(arguments[2])) : std::nullopt;
+  });
 }

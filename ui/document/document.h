@@ -193,7 +193,7 @@ class Document : public QObject {
 
   const Highlight& highlight() const { return highlight_; }
   void setHighlight(const Highlight& highlight);
-  /// Says which element the next press would grab, so that all panels prepare its drag in idle time; none: nothing.
+  /// Names the element that the next press would grab, if any, so that all panels prepare its drag in idle time.
   void prepareDrag(std::optional<ElementId> element);
   /// Number of preparations that every panel has ended.
   int preparedDrags() const;

@@ -32,6 +32,16 @@ double eyeDistance(double height) { return height / 2 / std::tan(fieldOfView / 2
 
 }  // namespace
 
+std::array<QVector3D, 8> cornersOf(const std::array<Point, 2>& box) {
+  std::array<QVector3D, 8> corners;
+  for (unsigned corner = 0; corner < corners.size(); ++corner) {
+    for (unsigned k = 0; k < 3; ++k) {
+      corners[corner][int(k)] = float(box[corner >> k & 1U][k]);
+    }
+  }
+  return corners;
+}
+
 void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view) {
   const auto carries = [axes](int k) { return std::find(axes.begin(), axes.end(), k) != axes.end(); };
   spatial_ = axes.size() == 3;
@@ -39,13 +49,7 @@ void Camera::fit(const std::array<Point, 2>& box, std::span<const int> axes, QSi
   const bool fromAbove = !spatial_ && carries(2) && carries(0), fromSide = !spatial_ && carries(2) && !carries(0);
   yaw_ = spatial_ ? -30 : fromSide ? -90 : 0;
   pitch_ = spatial_ ? 25 : fromAbove ? 90 : 0;
-  std::array<QVector3D, 8> corners;
-  for (unsigned corner = 0; corner < corners.size(); ++corner) {
-    for (unsigned k = 0; k < 3; ++k) {
-      corners[corner][int(k)] = float(box[corner >> k & 1U][k]);
-    }
-  }
-  frame(corners, view);
+  frame(cornersOf(box), view);
 }
 
 void Camera::frame(std::span<const QVector3D> points, QSizeF view) {

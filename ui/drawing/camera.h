@@ -4,6 +4,7 @@
 #include <QPointF>
 #include <QSizeF>
 #include <QVector3D>
+#include <array>
 #include <span>
 
 #include "mesh/mesh.h"
@@ -11,6 +12,9 @@
 namespace chainmail {
 
 inline QVector3D asVector(const Point& point) { return {float(point.x()), float(point.y()), float(point.z())}; }
+
+/// Returns the eight corners of a box.
+std::array<QVector3D, 8> cornersOf(const std::array<Point, 2>& box);
 
 /// The camera of a view. In 1D and 2D, it looks straight at the plane. In 3D, it orbits a centre, with perspective or
 /// parallel projection. Lengths are in mesh units. Positions in the view are in logical pixels from its top left

@@ -5,6 +5,13 @@
 #include "mesh/cells.h"
 
 namespace chainmail {
+/// A position in the view, with a depth that grows with the distance from the eye and is linear along straight lines in
+/// the view.
+struct Spot {
+  QPointF at;
+  double depth = 0;
+};
+
 namespace {
 
 // Rounding error of depths, which are between -1 and 1. With it, a point on a face does not count as behind the face.
@@ -13,13 +20,6 @@ constexpr double depthRounding = 1e-6;
 // layer. Links that are further behind it than this belong to the next layer. In a grid, every position has an element
 // within 0.71.
 constexpr double layerThickness = 0.75;
-
-/// A position in the view, with a depth that grows with the distance from the eye and is linear along straight lines in
-/// the view.
-struct Spot {
-  QPointF at;
-  double depth = 0;
-};
 
 Projection::Place project(const Frame& frame, const Projection& projection, ElementId element) {
   return projection(frame.positions.data() + std::size_t{element} * frame.mesh->space_dimension);

@@ -40,13 +40,18 @@ constexpr double smallestSelected = 2;
 constexpr double handleMarkShare = 0.5, spatialMarkShare = 0.2;
 constexpr double largestHandleMark = 10;  // pixels
 
-std::vector<QVector3D> cornersOf(const std::array<Point, 2>& box) {
-  std::vector<QVector3D> corners;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const auto side = [&](unsigned k) { return float(box[corner >> k & 1U][k]); };
-    corners.emplace_back(side(0), side(1), side(2));
+/// Returns points of an object at rest that tell where it is: its corners, or many of its elements.
+std::vector<QVector3D> restOutline(const Mesh& mesh) {
+  if (mesh.lattice) {
+    const auto corners = cornersOf(mesh.box);
+    return {corners.begin(), corners.end()};
   }
-  return corners;
+  std::vector<QVector3D> points;
+  const std::size_t step = mesh.element_count() / mostOutlinePoints + 1;
+  for (std::size_t element = 0; element < mesh.element_count(); element += step) {
+    points.push_back(asVector(mesh.rest_position(ElementId(element))));
+  }
+  return points;
 }
 
 Error tooLarge(QSize picture, int most) {
@@ -205,17 +210,10 @@ void View::fitRest() {
 std::vector<QVector3D> View::outline(bool atRest) const {
   const Mesh& mesh = *document_.mesh();
   const Frame* frame = document_.frame(panel_);
-  std::vector<QVector3D> points;
   if (atRest || frame == nullptr) {
-    if (mesh.lattice) {
-      return cornersOf(mesh.box);
-    }
-    const std::size_t step = mesh.element_count() / mostOutlinePoints + 1;
-    for (std::size_t element = 0; element < mesh.element_count(); element += step) {
-      points.push_back(asVector(mesh.rest_position(ElementId(element))));
-    }
-    return points;
+    return restOutline(mesh);
   }
+  std::vector<QVector3D> points;
   const QMatrix4x4 inSpace = placement(mesh);
   const auto add = [&](const float* carried) {
     QVector3D at;

@@ -58,6 +58,7 @@ void DragTool::hover(View& view, QPointF position) {
   outline_.clear();
   if (!point && !onRing && brush_.radius() > 0) {
     hoverBrush(view, position);
+    prepare(std::nullopt);
   } else {
     const auto element = point || onRing ? std::nullopt : view.elementAt(position);
     document_.setHighlight({element, false, {}});
@@ -65,7 +66,7 @@ void DragTool::hover(View& view, QPointF position) {
   }
 }
 
-/// Prepares the drag that a press would begin: of one element. A selection is grabbed as a whole.
+/// Prepares the drag that a press would begin, if it would grab one element: a selection is grabbed as a whole.
 void DragTool::prepare(std::optional<ElementId> element) {
   const auto& selected = document_.selection().elements;
   const bool ofSelection = element && selected.size() > 1 && std::ranges::binary_search(selected, *element);
