@@ -21,7 +21,7 @@ class Relaxation::Slice {
   static constexpr int Dimension = View::Dimension;
 
   Slice(Relaxation& relaxation, const View& body, EnergyKind energy, double step, std::span<const ElementId> held)
-      : relaxation_(relaxation), body_(body), energy_(energy), step_(step), held_(held) {
+      : relaxation_(relaxation), step_(step), held_(held), body_(body), energy_(energy) {
     fill_shapes();
   }
 
@@ -389,13 +389,13 @@ class Relaxation::Slice {
     return std::sqrt(square);
   }
 
-  Relaxation& relaxation_;
-  const View body_;
-  EnergyKind energy_;
-  double step_;
-  std::span<const ElementId> held_;
   std::array<Shape, most_shapes> shapes_;
   std::size_t shape_count_ = 0;  // 0: the table is not used
+  Relaxation& relaxation_;
+  double step_;
+  std::span<const ElementId> held_;
+  const View body_;
+  EnergyKind energy_;
 };
 
 void Relaxation::follow(const Body& body) {

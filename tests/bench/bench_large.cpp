@@ -20,6 +20,7 @@ namespace chainmail::bench {
 namespace {
 
 constexpr int patienceMilliseconds = 300'000;
+constexpr int hoverMilliseconds = 500;
 constexpr int restMilliseconds = 3000;  // after this time, the figures at rest are measured
 
 /// A window in which one object is opened and used. Each step prints what it cost.
@@ -60,6 +61,9 @@ class LargeScene {
       const double angle = 2 * std::numbers::pi * ++count / 32;
       send(view(), QEvent::MouseMove, centre() + radius * QPointF(std::cos(angle), std::sin(angle)));
     };
+    step(
+        "hover", [&] { hover(view(), centre()); }, settled());
+    run(hoverMilliseconds);
     const auto moving = QObject::connect(&mouse_, &QTimer::timeout, &window_, move);
     const auto press = [&] {
       send(view(), QEvent::MouseButtonPress, centre());

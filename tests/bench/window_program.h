@@ -34,6 +34,12 @@ inline void send(View& view, QEvent::Type type, QPointF at) {
   QApplication::sendEvent(&view, &event);
 }
 
+/// Moves the pointer in a view, without a button.
+inline void hover(View& view, QPointF at) {
+  QMouseEvent event(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(&view, &event);
+}
+
 /// The main function of such a program. `shows` may do something else instead of measuring, and returns the exit status
 /// then.
 inline int measureInWindow(int argc, char** argv, const char* program, void (*measure)(Results&),

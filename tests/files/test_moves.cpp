@@ -293,6 +293,8 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "stiffness": 0})", "0: stiffness: ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": "elastic"})",
       "0: there is no such kind of energy; use isotropic, axial or corotated");
+  row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "object"}, "shaer": 1})",
+      "0: 'shaer' is not a known key; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "own"}})",
       "0: the kind of 'frame' is not known; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "given"}})",

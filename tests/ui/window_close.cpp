@@ -12,7 +12,7 @@
 #include "docks/replay/replay_dock.h"
 #include "docks/report/report_thread.h"
 #include "files/mesh/mesh_file.h"
-#include "io/autosave.h"
+#include "io/unsaved_work.h"
 #include "io/file_actions.h"
 #include "io/film.h"
 #include "io/sessions.h"
@@ -228,10 +228,10 @@ class WindowClose : public QObject {
     QVERIFY(bench->window.close());
     bench.reset();
     QVERIFY2(timer.elapsed() < promised, qPrintable(QStringLiteral("it took %1 ms").arg(timer.elapsed())));
-    const QDir kept(Autosave::folder());
+    const QDir kept(unsaved_work::folder());
     const QStringList files = kept.entryList({QStringLiteral("*.chainmail")}, QDir::Files);
     QCOMPARE(files.size(), 1);
-    QVERIFY(Autosave::isClosed(files.first()));
+    QVERIFY(unsaved_work::isClosed(files.first()));
     const Session session = read_session(kept.filePath(files.first()).toStdString());
     QCOMPARE(session.mesh->element_count(), 22'500U);
     QVERIFY(!session.panels.front().placement.is_at_rest());  // the drag is stored
@@ -249,7 +249,7 @@ class WindowClose : public QObject {
     }
     QVERIFY(bench->window.close());
     bench.reset();
-    const QDir kept(Autosave::folder());
+    const QDir kept(unsaved_work::folder());
     const QStringList files = kept.entryList({QStringLiteral("*.chainmail")}, QDir::Files);
     QCOMPARE(files.size(), 1);
     const Session session = read_session(kept.filePath(files.first()).toStdString());

@@ -1,5 +1,7 @@
 // Tests the work that a crash or a closed window leaves, and its recovery.
 
+#include <sys/stat.h>
+
 #include <QAction>
 #include <QComboBox>
 #include <QDateTime>
@@ -12,9 +14,9 @@
 #include <csignal>
 #include <sstream>
 
-#include "io/autosave.h"
 #include "io/recovery_bar.h"
 #include "io/sessions.h"
+#include "io/unsaved_work.h"
 #include "mesh/error.h"
 #include "session_bench.h"
 #include "window/message_bar.h"
@@ -23,16 +25,27 @@ using namespace chainmail;
 
 namespace {
 
-QStringList autosaved() { return QDir(Autosave::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
+QStringList autosaved() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
 
-QString inFolder(const char* name) { return QDir(Autosave::folder()).filePath(QLatin1String(name)); }
+/// Returns the files of objects. A file that is written again gets another number of the file system.
+std::vector<std::pair<QString, ino_t>> objects() {
+  std::vector<std::pair<QString, ino_t>> found;
+  for (const QFileInfo& file :
+       QDir(unsaved_work::folder()).entryInfoList({QStringLiteral("*.object-*")}, QDir::Files)) {
+    struct stat facts {};
+    ::stat(qPrintable(file.filePath()), &facts);
+    found.emplace_back(file.fileName(), facts.st_ino);
+  }
+  return found;
+}
+
+QString inFolder(const char* name) { return QDir(unsaved_work::folder()).filePath(QLatin1String(name)); }
 
 /// Returns the work on the disk as the next start would find it; empty unless there is exactly one file.
 std::optional<Session> workOnDisk() {
   const QStringList files = autosaved();
   try {
-    return files.size() == 1 ? std::optional(read_session(inFolder(qPrintable(files.first())).toStdString()))
-                             : std::nullopt;
+    return files.size() == 1 ? std::optional(unsaved_work::read(inFolder(qPrintable(files.first())))) : std::nullopt;
   } catch (const Error&) {
     return std::nullopt;  // removed at this moment
   }
@@ -111,7 +124,7 @@ class WindowRecovery : public QObject {
  private slots:
   void init() {
     failOnWarnings();
-    QVERIFY(QDir(Autosave::folder()).removeRecursively());
+    QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
   }
 
   void whatACrashLeftIsOffered() {
@@ -147,8 +160,8 @@ class WindowRecovery : public QObject {
     }
     QCOMPARE(autosaved().size(), 1);
     bench.window.close();  // without saving
-    QTRY_VERIFY(autosaved().size() == 1 && Autosave::isClosed(autosaved().first()));
-    const QString kept = QDir(Autosave::folder()).filePath(autosaved().first());
+    QTRY_VERIFY(autosaved().size() == 1 && unsaved_work::isClosed(autosaved().first()));
+    const QString kept = QDir(unsaved_work::folder()).filePath(autosaved().first());
     QVERIFY(QFile::remove(kept));
   }
 
@@ -172,7 +185,7 @@ class WindowRecovery : public QObject {
 
   void whatIsDiscardedIsGone() {
     for (const char* name : {"one.chainmail", "two.chainmail"}) {
-      QFile file(QDir(Autosave::folder()).filePath(QLatin1String(name)));
+      QFile file(QDir(unsaved_work::folder()).filePath(QLatin1String(name)));
       QVERIFY(file.open(QIODevice::WriteOnly) && file.write("{") > 0);
     }
     Workbench bench;
@@ -287,6 +300,37 @@ class WindowRecovery : public QObject {
       bench.save();
       QVERIFY2(bench.isSafe(), name);
     }
+  }
+
+  void theObjectIsWrittenOnlyWhenItChanges() {
+    SafeBench bench;
+    bench.document().setPinned({3}, true);
+    bench.save();
+    const auto first = objects();
+    QCOMPARE(first.size(), std::size_t{1});
+    bench.document().setPinned({4}, true);
+    bench.save();
+    QCOMPARE(objects(), first);
+    bench.document().replaceMesh(generate({MeshKind::grid, {5, 5, 1}, 1, {}}), QStringLiteral("grid"),
+                                 QStringLiteral("build"));
+    bench.save();
+    QCOMPARE(objects().size(), std::size_t{1});
+    QVERIFY(objects() != first);
+    bench.window.sessions().savePath(folder_.filePath(QStringLiteral("saved.chainmail")));
+    bench.settle();
+    bench.timer->start(0);
+    QTRY_VERIFY(autosaved().isEmpty() && objects().empty());
+  }
+
+  void anObjectWithoutWorkIsRemoved() {
+    put("crashed.object-1", "{}", 60);
+    put("another.object-2", "{}", 60);
+    put("another.closed.chainmail", "{}", 60);
+    SafeBench bench;
+    QCOMPARE(objects().size(), std::size_t{1});
+    QCOMPARE(objects().front().first, QStringLiteral("another.object-2"));
+    bench.find<QPushButton>("discardWork")->click();
+    QVERIFY(objects().empty());
   }
 
   void theWaitForMoreIsShortEnoughForWhatIsPromised() {

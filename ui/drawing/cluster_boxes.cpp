@@ -26,29 +26,46 @@ ClusterBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame)
 }  // namespace
 
 void ClusterBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
-  if (level != level_) {
+  if (level != level_ || frame.series != series_) {
     level_ = level;
-    seen_ = 0;
-    boxes_.assign(level->clusterCount(), {});
-  }
-  if (frame.series != series_) {
     series_ = frame.series;
-    seen_ = 0;
+    boxes_.resize(level->clusterCount());
+    seen_.assign(level->clusterCount(), 0);
+    prepared_.reset();
   }
-  if (frame.number == seen_) {
-    return;
-  }
-  for (std::size_t cluster = 0; cluster < boxes_.size(); ++cluster) {
-    if (seen_ == 0 || isOutdated(cluster, frame)) {
-      boxes_[cluster] = boxOf(level_->clusters[cluster], frame);
-    }
-  }
-  seen_ = frame.number;
+  frame_ = &frame;
 }
 
-bool ClusterBoxes::isOutdated(std::size_t cluster, const Frame& frame) const {
+bool ClusterBoxes::prepare(const MeshLevelPointer& level, const Frame& frame, std::chrono::milliseconds time) {
+  constexpr std::size_t betweenLooks = 64;  // at the clock
+  follow(level, frame);
+  if (prepared_ == frame.number) {
+    return true;
+  }
+  const auto end = std::chrono::steady_clock::now() + time;
+  for (std::size_t cluster = 0; cluster < boxes_.size(); ++cluster) {
+    (*this)[cluster];
+    if (cluster % betweenLooks == 0 && std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+  }
+  prepared_ = frame.number;
+  return true;
+}
+
+const ClusterBoxes::Box& ClusterBoxes::operator[](std::size_t cluster) const {
+  if (prepared_ != frame_->number && isOutdated(cluster)) {
+    boxes_[cluster] = boxOf(level_->clusters[cluster], *frame_);
+    seen_[cluster] = frame_->number;
+  }
+  return boxes_[cluster];
+}
+
+bool ClusterBoxes::isOutdated(std::size_t cluster) const {
   const auto blocks = level_->clusterBlocks[cluster];
-  return std::any_of(blocks.begin(), blocks.end(), [&](auto block) { return frame.changed[block] > seen_; });
+  return seen_[cluster] == 0 || std::any_of(blocks.begin(), blocks.end(), [&](auto block) {
+           return frame_->changed[block] > seen_[cluster];
+         });
 }
 
 }  // namespace chainmail

@@ -2,14 +2,13 @@
 
 #include <QDir>
 #include <QFile>
-#include <QStandardPaths>
-#include <QUuid>
 #include <algorithm>
 #include <atomic>
 
 #include "common/as_path.h"
 #include "document/session_draft.h"
 #include "files/session/session.h"
+#include "io/unsaved_work.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -20,34 +19,12 @@ using std::chrono::milliseconds;
 // Longest time from a change to the written file: the wait and, at worst, two writes.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
 
-constexpr QLatin1String closedEnding(".closed.chainmail");
-constexpr int mostClosed = 5;  // files of closed windows; older ones are removed
-
-/// Removes the oldest files of closed windows.
-void dropOldest() {
-  const auto closed =
-      QDir(Autosave::folder()).entryInfoList({QLatin1Char('*') + closedEnding}, QDir::Files, QDir::Time);
-  for (const QFileInfo& file : closed.mid(mostClosed)) {
-    QFile::remove(file.filePath());
-  }
-}
-
-QString newPath() {
-  return QDir(Autosave::folder())
-      .filePath(QUuid::createUuid().toString(QUuid::Id128).left(12) + QStringLiteral(".chainmail"));
-}
-
 }  // namespace
-
-QString Autosave::folder() {
-  QString path = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/autosave");
-  QDir().mkpath(path);
-  return path;
-}
 
 struct Autosave::Writing {
   JobState job;
-  // The thread writes it before it sets `done`; the window reads it after that.
+  // The thread writes them before it sets `done`; the window reads them after that.
+  Object object;
   std::string error;
   std::atomic<bool> done = false;
 };
@@ -56,8 +33,8 @@ Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
     : QObject(parent),
       document_(document),
       look_(std::move(look)),
-      path_(newPath()),
-      lock_(lockOf(path_)),
+      path_(unsaved_work::newPath()),
+      lock_(unsaved_work::lockOf(path_)),
       timer_(this) {
   lock_.setStaleLockTime(0);  // valid as long as the program runs
   lock_.tryLock();
@@ -68,11 +45,16 @@ Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
   listen();
 }
 
-bool Autosave::isClosed(const QString& path) { return path.endsWith(closedEnding); }
-
 Autosave::~Autosave() {
   endWriting();
   remove();
+}
+
+void Autosave::discardAll(std::vector<Adopted>& adopted) {
+  for (const Adopted& work : adopted) {
+    unsaved_work::discard(work.path);
+  }
+  adopted.clear();
 }
 
 void Autosave::endWriting() {
@@ -91,15 +73,18 @@ void Autosave::keep() {
     return;
   }
   endWriting();
-  thread_ = std::jthread([path = path_, draft = SessionDraft(document_, look_.read())] {
+  thread_ = std::jthread([path = path_, adopted = std::move(adopted_),
+                          draft = SessionDraft(document_, look_.read())]() mutable {
     try {
       save_session(asPath(path), draft.finished({}), {});
+      unsaved_work::discardObjects(path);
+      discardAll(adopted);
     } catch (const std::exception&) {
-      // The window is gone, so nothing can be reported. The previous file stays.
+      // The window is gone, so nothing can be reported. The previous files stay.
     }
     if (QFile::exists(path)) {
-      QFile::rename(path, path.chopped(qsizetype(session_ending.size())) + closedEnding);
-      dropOldest();
+      QFile::rename(path, unsaved_work::closedPath(path));
+      unsaved_work::discardOldest();
     }
   });
 }
@@ -108,11 +93,11 @@ bool Autosave::setAside() {
   if (closed_ || !document_.isModified()) {
     return false;
   }
-  const QString path = newPath().chopped(qsizetype(session_ending.size())) + closedEnding;
+  const QString path = unsaved_work::closedPath(unsaved_work::newPath());
   aside_ = std::jthread([path, draft = SessionDraft(document_, look_.read())] {
     try {
       save_session(asPath(path), draft.finished({}), {});
-      dropOldest();
+      unsaved_work::discardOldest();
     } catch (const std::exception&) {
       // The work can still be undone; automatic saving reports a full disk.
     }
@@ -128,6 +113,22 @@ void Autosave::listen() {
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
   connect(&document_, &Document::frameReady, this, &Autosave::noticeChange);
   look_.follow(*this, [this] { noticeChange(); });
+}
+
+/// Writes the object into a file of its own, unless that file has it already.
+Autosave::Object Autosave::withObject(const QString& path, const Session& session, Object object,
+                                      const Progress& progress) {
+  const MeshPointer mesh = written_mesh(session);
+  if (object.mesh.lock() != mesh) {
+    object = {mesh, object.number + 1};
+    Session alone;
+    alone.name = session.name;
+    alone.mesh = mesh;
+    alone.panels.emplace_back();
+    save_session(asPath(QDir(unsaved_work::folder()).filePath(unsaved_work::objectName(path, object.number))), alone,
+                 progress);
+  }
+  return object;
 }
 
 /// Runs for every frame, so it must be cheap.
@@ -163,10 +164,16 @@ void Autosave::save() {
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
   writing_ = std::make_shared<Writing>();
-  thread_ = std::jthread([this, writing = writing_, path = path_, draft = SessionDraft(document_, saved_.look)] {
+  thread_ = std::jthread([this, writing = writing_, path = path_, object = object_,
+                          draft = SessionDraft(document_, saved_.look)] {
     try {
       const Progress progress(writing->job);
-      save_session(asPath(path), draft.finished(progress), progress);
+      Session session = draft.finished(progress);
+      writing->object = withObject(path, session, object, progress.part(0, 0.5));
+      const QString name = unsaved_work::objectName(path, writing->object.number);
+      session.mesh_file = name.toStdString();
+      save_session(asPath(path), session, progress.part(0.5, 1));
+      unsaved_work::discardObjects(path, name);
     } catch (const std::exception& problem) {
       writing->error = problem.what();
     }
@@ -185,6 +192,8 @@ void Autosave::receive() {
     emit failed(QStringLiteral("Automatic saving has stopped: %1").arg(QString::fromStdString(written->error)));
     return;
   }
+  object_ = written->object;
+  discardAll(adopted_);
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
   timer_.setInterval(std::clamp(mostBehind - 2 * took, shortestWait, longestWait));
   if (changed_) {
@@ -192,17 +201,15 @@ void Autosave::receive() {
   }
 }
 
-void Autosave::adopt(const QString& path) {
-  if (QFile::exists(path_)) {
-    QFile::remove(path);
-  } else {
-    QFile::rename(path, path_);
-  }
+void Autosave::adopt(const QString& path, std::unique_ptr<QLockFile> lock) {
+  adopted_.push_back({path, std::move(lock)});
 }
 
 void Autosave::remove() {
-  QFile::remove(path_);
+  unsaved_work::discard(path_);
   saved_ = {};
+  object_ = {};
+  discardAll(adopted_);
 }
 
 }  // namespace chainmail

@@ -23,22 +23,16 @@ struct LookAccess {
   std::function<void(QObject& context, const std::function<void()>& changed)> follow;
 };
 
-/// Saves unsaved work in the background, at most 4.5 s after a change. The file is written completely or not at all. A
-/// lock next to it shows whether the program still runs or has crashed. The file is removed once the user has saved the
-/// work. The window's look is part of the file, but a change of the look alone is not saved.
+/// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file of
+/// its own, which stays until another object is open. Each file is written completely or not at all. A lock shows whether
+/// the program still runs or has crashed. The files are removed once the user has saved the work. The window's look is
+/// part of the work, but a change of the look alone is not saved.
 class Autosave : public QObject {
   Q_OBJECT
 
  public:
-  /// Returns the folder for the files of all running programs of a user. Creates it if it does not exist.
-  static QString folder();
-  /// Returns the path of a file's lock.
-  static QString lockOf(const QString& path) { return path + QStringLiteral(".lock"); }
-  /// True for a file from a window that was closed, false for one from a crash.
-  static bool isClosed(const QString& path);
-
   Autosave(Document& document, LookAccess look, QObject* parent);
-  /// Removes the file, unless keep() was called.
+  /// Removes the files, unless keep() was called.
   ~Autosave() override;
 
   /// Keeps unsaved work for the next start. Call it when the window closes; later changes are not saved. Writing runs
@@ -49,8 +43,8 @@ class Autosave : public QObject {
   /// background. Returns false if there is none.
   bool setAside();
 
-  /// Takes over the file of another program as the work of this window.
-  void adopt(const QString& path);
+  /// Takes over work that this window has restored. Its files are removed when this window has saved it again.
+  void adopt(const QString& path, std::unique_ptr<QLockFile> lock);
 
  signals:
   /// Emitted when saving fails; `sentence` says why.
@@ -58,6 +52,15 @@ class Autosave : public QObject {
 
  private:
   struct Writing;
+  /// The object that a file has.
+  struct Object {
+    std::weak_ptr<const Mesh> mesh;
+    int number = 0;  // of the file
+  };
+  struct Adopted {
+    QString path;
+    std::unique_ptr<QLockFile> lock;
+  };
   /// Identifies a state of the work.
   struct Mark {
     std::uint64_t steps = 0;             // number of edits, undos and redos
@@ -67,6 +70,8 @@ class Autosave : public QObject {
     bool operator==(const Mark&) const = default;
   };
 
+  static Object withObject(const QString& path, const Session& session, Object object, const Progress& progress);
+  static void discardAll(std::vector<Adopted>& adopted);
   void listen();
   void noticeChange();
   void save();
@@ -82,6 +87,8 @@ class Autosave : public QObject {
   QTimer timer_;
   std::uint64_t steps_ = 0;
   Mark saved_;
+  Object object_;
+  std::vector<Adopted> adopted_;
   bool changed_ = false;  // true if the work changed during writing
   bool broken_ = false;
   bool closed_ = false;  // the window is closed: later changes are not saved

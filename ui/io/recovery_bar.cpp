@@ -7,7 +7,7 @@
 #include <QPushButton>
 
 #include "common/colours.h"
-#include "io/autosave.h"
+#include "io/unsaved_work.h"
 
 namespace chainmail {
 namespace {
@@ -17,24 +17,6 @@ QPushButton* makeButton(const QString& text, const char* name, const QString& he
   button->setObjectName(QLatin1String(name));
   button->setToolTip(help);
   return button;
-}
-
-/// Removes unfinished files and locks from crashes. A running program finishes a file within seconds.
-void removeLeftovers(const QDir& folder) {
-  const QDateTime old = QDateTime::currentDateTime().addSecs(-600);
-  for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.tmp")}, QDir::Files | QDir::Hidden)) {
-    if (file.lastModified() < old) {
-      QFile::remove(file.filePath());
-    }
-  }
-  const QString ending = Autosave::lockOf({});
-  for (const QFileInfo& file : folder.entryInfoList({QLatin1Char('*') + ending}, QDir::Files)) {
-    QLockFile lock(file.filePath());
-    lock.setStaleLockTime(0);
-    if (!QFile::exists(file.filePath().chopped(ending.size()))) {
-      lock.tryLock();  // the destructor of the lock removes it, unless a running program holds it
-    }
-  }
 }
 
 }  // namespace
@@ -65,11 +47,11 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
 }
 
 void RecoveryBar::offer() {
-  const QDir folder(Autosave::folder());
-  removeLeftovers(folder);
+  const QDir folder(unsaved_work::folder());
+  unsaved_work::discardLeftovers();
   for (const QFileInfo& file :
        folder.entryInfoList({QStringLiteral("*.chainmail")}, QDir::Files, QDir::Time | QDir::Reversed)) {
-    auto lock = std::make_unique<QLockFile>(Autosave::lockOf(file.filePath()));
+    auto lock = std::make_unique<QLockFile>(unsaved_work::lockOf(file.filePath()));
     lock->setStaleLockTime(0);  // locks of running programs never become stale
     if (lock->tryLock()) {
       found_.push_back({file.filePath(), std::move(lock)});
@@ -85,22 +67,25 @@ void RecoveryBar::show() {
   }
   const QString time = QLocale().toString(QFileInfo(found_.back().path).lastModified(), QLocale::ShortFormat);
   const QString others = found_.size() > 1 ? QStringLiteral(" (1 of %1)").arg(found_.size()) : QString();
-  const bool closed = Autosave::isClosed(found_.back().path);
+  const bool closed = unsaved_work::isClosed(found_.back().path);
   text_->setText((closed ? QStringLiteral("Unsaved work from %1: the window was closed without saving%2")
                          : QStringLiteral("Unsaved work from %1: the workbench ended without saving%2"))
                      .arg(time, others));
 }
 
 void RecoveryBar::discard() {
-  QFile::remove(found_.back().path);
-  taken();
+  unsaved_work::discard(found_.back().path);
+  take();
 }
 
-void RecoveryBar::taken() {
+std::unique_ptr<QLockFile> RecoveryBar::take() {
+  std::unique_ptr<QLockFile> lock;
   if (!found_.empty()) {
+    lock = std::move(found_.back().lock);
     found_.pop_back();
   }
   show();
+  return lock;
 }
 
 }  // namespace chainmail

@@ -19,8 +19,8 @@ class RecoveryBar : public QFrame {
 
   /// Finds files that no running program has locked, and offers them.
   void offer();
-  /// Call this when the offered file is restored: it belongs to another owner now.
-  void taken();
+  /// Offers the next file. Returns the lock of this one, which belongs to another owner now.
+  std::unique_ptr<QLockFile> take();
 
  signals:
   void restoreRequested(const QString& path);

@@ -33,14 +33,10 @@ constexpr std::array lessonTable{
     LessonFile{"face.chainmail", "Warp a face"},
 };
 
-/// Returns the first of two folders that contains a file, or an empty string.
-QString folderWith(const char* file, const QString& installed, const QString& source) {
-  for (const QString& folder : {QCoreApplication::applicationDirPath() + QLatin1Char('/') + installed, source}) {
-    if (QFileInfo::exists(QDir(folder).filePath(QLatin1String(file)))) {
-      return QDir::cleanPath(folder);
-    }
-  }
-  return {};
+/// Returns a folder beside the programs, in the build as after an installation; an empty string without this file in it.
+QString folderWith(const char* file, const QString& folder) {
+  const QString path = QDir::cleanPath(QCoreApplication::applicationDirPath() + QLatin1Char('/') + folder);
+  return QFileInfo::exists(QDir(path).filePath(QLatin1String(file))) ? path : QString();
 }
 
 bool isIn(const QString& folder, const QString& path) {
@@ -51,15 +47,11 @@ bool isIn(const QString& folder, const QString& path) {
 
 std::span<const Sample> samples() { return table; }
 
-QString samplesFolder() {
-  return folderWith(table.front().file, QStringLiteral(SAMPLES_INSTALLED), QStringLiteral(SAMPLES_SOURCE));
-}
+QString samplesFolder() { return folderWith(table.front().file, QStringLiteral(DATA_FOLDER "/meshes")); }
 
 std::span<const LessonFile> lessonFiles() { return lessonTable; }
 
-QString lessonsFolder() {
-  return folderWith(lessonTable.front().file, QStringLiteral(LESSONS_INSTALLED), QStringLiteral(LESSONS_SOURCE));
-}
+QString lessonsFolder() { return folderWith(lessonTable.front().file, QStringLiteral(DATA_FOLDER "/lessons")); }
 
 bool isSample(const QString& path) { return isIn(samplesFolder(), path) || isIn(lessonsFolder(), path); }
 

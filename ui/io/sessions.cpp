@@ -11,6 +11,7 @@
 #include "io/mesh_source.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
+#include "io/unsaved_work.h"
 
 namespace chainmail {
 namespace {
@@ -98,20 +99,20 @@ void Sessions::keep() {
 
 void Sessions::close() { autosave_.reset(); }
 
-/// Restores unsaved work. Its file becomes the automatic save of this window.
+/// Restores unsaved work. From now on, this window saves it.
 void Sessions::restore(const QString& path) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Restoring unsaved work"),
               [this, path](const Progress& progress) -> Jobs::Finish {
-                const auto session = std::make_shared<const Session>(read_session(asPath(path), progress.part(0, 0.9)));
+                const auto session = std::make_shared<const Session>(unsaved_work::read(path, progress.part(0, 0.9)));
                 prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path] {
                   showPanels(document_, *session);
                   document_.restore(session, ownFile(*session), QStringLiteral("restore unsaved work"));
                   look_.set(session->ui);
+                  auto lock = recovery_->take();
                   if (autosave_) {
-                    autosave_->adopt(path);
+                    autosave_->adopt(path, std::move(lock));
                   }
-                  recovery_->taken();
                 };
               });
 }

@@ -11,6 +11,7 @@
 #include <QVector4D>
 #include <QWheelEvent>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "document/panel_colour.h"
@@ -26,6 +27,7 @@ namespace {
 
 constexpr double elementReach = 14;  // pixels, largest distance from the cursor at which an element is found
 constexpr int hoverMilliseconds = 16;
+constexpr std::chrono::milliseconds boxMilliseconds(4);
 constexpr int stillMilliseconds = 50;
 constexpr double ringRadius = 24, ringWidth = 3;  // pixels
 constexpr double zoomPerNotch = 1.2;
@@ -82,12 +84,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
   still_.setInterval(stillMilliseconds);
   connect(&still_, &QTimer::timeout, this, qOverload<>(&View::update));
   hover_.setSingleShot(true);
-  hover_.setInterval(hoverMilliseconds);
-  connect(&hover_, &QTimer::timeout, this, [this] {
-    if (tool_ != nullptr) {
-      tool_->hover(*this, cursor_);
-    }
-  });
+  connect(&hover_, &QTimer::timeout, this, &View::searchUnderCursor);
   listen();
 }
 
@@ -124,7 +121,7 @@ void View::listen() {
 /// Highlights the element under the cursor again after an edit has cleared the highlight.
 void View::updateHover() {
   if (underMouse() && tool_ != nullptr && !tool_->busy()) {
-    tool_->hover(*this, cursor_);
+    hover_.start(0);
   }
 }
 
@@ -296,6 +293,17 @@ const ClusterBoxes& View::boxes(const Frame& frame) const {
   return boxes_;
 }
 
+/// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the window
+/// stays responsive.
+void View::searchUnderCursor() {
+  if (const Frame* frame = document_.frame(panel_);
+      frame != nullptr && !boxes_.prepare(levels_->at(frame->mesh, 1), *frame, boxMilliseconds)) {
+    hover_.start(0);
+  } else if (tool_ != nullptr) {
+    tool_->hover(*this, cursor_);
+  }
+}
+
 Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
 
 std::function<bool(ElementId)> View::shown() const {
@@ -449,7 +457,7 @@ void View::mouseMoveEvent(QMouseEvent* event) {
   }
   if (event->buttons() == Qt::NoButton) {
     if (!hover_.isActive()) {
-      hover_.start();
+      hover_.start(hoverMilliseconds);
     }
   } else if ((event->buttons() & Qt::LeftButton) != 0) {
     if (tool_ != nullptr && !cubePressed_) {

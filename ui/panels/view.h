@@ -153,6 +153,7 @@ class View : public QOpenGLWidget {
 
   void listen();
   void updateHover();
+  void searchUnderCursor();
   void announceCamera();
 
   DetailBudget::Detail chooseDetail();

@@ -14,10 +14,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
-constexpr std::array<std::string_view, 22> command_keys{
-    "do",      "element", "target",  "by",        "rotate",   "links",           "elements", "compression",
-    "stretch", "shear",   "lateral", "stiffness", "exponent", "energy",          "sweeps",   "step",
-    "scheme",  "until",   "removed", "triangles", "polygons", "removed_polygons"};
+constexpr std::array<std::string_view, 23> command_keys{
+    "do",       "element",          "target",      "by",      "rotate",
+    "links",    "elements",         "compression", "stretch", "shear",
+    "lateral",  "stiffness",        "exponent",    "energy",  "sweeps",
+    "step",     "scheme",           "until",       "removed", "triangles",
+    "polygons", "removed_polygons", "frame"};
 // The long lists, which are kept without a tree.
 constexpr std::array<std::string_view, 6> list_keys{"links",     "elements", "removed",
                                                     "triangles", "polygons", "removed_polygons"};

@@ -30,6 +30,8 @@ struct Session {
 
   std::string name;  // name of the object, as in titles
   MeshPointer mesh;
+  /// If not empty, a file that has the mesh: the session is then written with this name in place of the mesh.
+  std::string mesh_file;
   std::vector<LinkId> cuts;     // ascending
   std::vector<ElementId> pins;  // ascending
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
@@ -47,6 +49,8 @@ struct Session {
 
 /// Returns the mesh with which the moves of a session begin: the one before all splits.
 MeshPointer first_mesh(const Session& session);
+/// Returns the mesh that is written: the first one, or the present one if the moves are left out.
+MeshPointer written_mesh(const Session& session);
 
 inline constexpr std::size_t session_panels = 16;
 /// Largest number of moves in a session, with the links and elements that they name: some hours of dragging. A session

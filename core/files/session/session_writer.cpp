@@ -270,7 +270,11 @@ void SessionWriter::write(const Progress& progress) {
   const std::string name = OrderedJson(session_.name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
        << ", \"name\": " << name << ",\n";
-  write_mesh(has_moves_ ? *first_mesh(session_) : mesh_, progress.part(0, 0.5));
+  if (session_.mesh_file.empty()) {
+    write_mesh(*written_mesh(session_), progress.part(0, 0.5));
+  } else {
+    out_ << "\"mesh\": " << OrderedJson{{"file", session_.mesh_file}}.dump();
+  }
   write_state();
   out_ << ",\n\"panels\": [";
   const auto share = 0.45 / double(session_.panels.size());
@@ -291,6 +295,10 @@ void SessionWriter::write(const Progress& progress) {
 MeshPointer first_mesh(const Session& session) {
   const MeshPointer first = first_mesh(session.moves);
   return first ? first : session.mesh;
+}
+
+MeshPointer written_mesh(const Session& session) {
+  return moves_fit(session.moves) ? first_mesh(session) : session.mesh;
 }
 
 bool is_session(const std::filesystem::path& path) { return lower_case(path.extension().string()) == session_ending; }
