@@ -34,14 +34,15 @@ void OutputsCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --json a.json").code, 0);
   const QByteArray text = program_->read("a.json");
   qsizetype last = -1;
-  for (const char* key : {"algorithm", "elements", "links", "passes", "element", "target", "checked", "moved",
-                          "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement", "shape"}) {
+  for (const char* key :
+       {"kind", "schema_version", "algorithm", "elements", "links", "passes", "element", "target", "checked", "moved",
+        "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement", "shape"}) {
     const auto at = text.indexOf('"' + QByteArray(key) + '"');
     QVERIFY2(at > last, key);
     last = at;
   }
   const auto json = program_->json("a.json");
-  QCOMPARE(json.keys().size(), 8);
+  QCOMPARE(json.keys().size(), 10);
   QCOMPARE(json["shape"].toObject().keys(), (QStringList{"inverted_cells", "largest_stretch", "volume_change"}));
   QCOMPARE(json["passes"][0].toObject().keys().size(), 5);
   QCOMPARE(json["violation"].toObject().keys(), (QStringList{"fraction", "max", "rms"}));

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "files/results/json_kind.h"
+
 namespace chainmail {
 namespace {
 
@@ -309,7 +311,7 @@ Json to_json(const TestedDrags& tested) {
 void write_json(std::ostream& out, const report::Comparison& comparison, const report::Origin& origin) {
   const Json json{
       {"origin", to_json(origin)}, {"options", to_json(comparison.options)}, {"objects", all_of(comparison.cases)}};
-  write_report(out, json);
+  write_report(out, of_kind(json_kinds::compare, json));
 }
 
 void write_json(std::ostream& out, const report::PhysicsReport& report, const report::Origin& origin) {
@@ -319,10 +321,11 @@ void write_json(std::ostream& out, const report::PhysicsReport& report, const re
   options["lattice"] = report.elastic.lattice;
   options["iterations"] = report.elastic.iterations;
   options["growth_seconds"] = report.options.growth_seconds;
-  write_report(out, {{"origin", to_json(origin)},
-                     {"options", std::move(options)},
-                     {"objects", all_of(report.objects)},
-                     {"growths", all_of(report.growths)}});
+  const Json json{{"origin", to_json(origin)},
+                  {"options", std::move(options)},
+                  {"objects", all_of(report.objects)},
+                  {"growths", all_of(report.growths)}};
+  write_report(out, of_kind(json_kinds::physics, json));
 }
 
 void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machine& machine) {
@@ -343,7 +346,7 @@ void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machi
                   {"stopped", ramp.stopped},
                   {"algorithms", all_of(ramp.verdicts)},
                   {"sizes", all_of(ramp.rows)}};
-  write_report(out, json);
+  write_report(out, of_kind(json_kinds::ramp, json));
 }
 
 void write_json(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result) {
@@ -359,7 +362,7 @@ void write_json(std::ostream& out, const CalibrationOptions& options, const Cali
             {"held_out", to_json(result.held_out)}};
   json.update(to_json(result.softness));
   json.update(to_json(result.fitted));
-  out << json.dump(2) << '\n';
+  out << of_kind(json_kinds::calibrate, json).dump(2) << '\n';
 }
 
 }  // namespace chainmail

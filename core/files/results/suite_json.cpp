@@ -1,5 +1,6 @@
 #include "files/results/suite_json.h"
 
+#include "files/results/json_kind.h"
 #include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -9,8 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Read = nlohmann::json;
-
-constexpr const char* suite_kind = "chainmail suite";
 
 // These add a value under a key, if there is one.
 void add_text(Json& to, const char* key, const std::string& text) {
@@ -118,13 +117,14 @@ class SuiteReader {
   explicit SuiteReader(const std::filesystem::path& path) : fields_(shown(path)) {}
 
   report::Suite suite(const Read& json) {
-    if (!json.is_object() || !json.contains("kind") || json["kind"] != suite_kind) {
+    if (!json.is_object() || !json.contains("kind") || json["kind"] != json_kinds::suite.kind()) {
       fields_.fail("it is not a report of compare --suite", "give the report.json of a suite");
     }
-    if (const auto version = whole(json, "schema_version"); version != suite_schema_version) {
-      fields_.fail("its format has version " + std::to_string(version) + ", this program reads version " +
-                       std::to_string(suite_schema_version),
-                   "run the suite again with this program");
+    constexpr int known = json_kinds::suite.schema_version;
+    if (const auto version = whole(json, "schema_version"); version != known) {
+      fields_.fail(
+          "its format has version " + std::to_string(version) + ", this program reads version " + std::to_string(known),
+          "run the suite again with this program");
     }
     report::Suite suite;
     suite.runs = list<report::SuiteRun>(json, "runs", &SuiteReader::run);
@@ -238,11 +238,8 @@ class SuiteReader {
 }  // namespace
 
 void write_json(std::ostream& out, const report::Suite& suite) {
-  const Json json{{"kind", suite_kind},
-                  {"schema_version", suite_schema_version},
-                  {"runs", list_of(suite.runs, run_json)},
-                  {"experiments", list_of(suite.results, result_json)}};
-  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  const Json json{{"runs", list_of(suite.runs, run_json)}, {"experiments", list_of(suite.results, result_json)}};
+  out << of_kind(json_kinds::suite, json).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 report::Suite read_suite(const std::filesystem::path& path) {

@@ -7,9 +7,6 @@
 
 namespace chainmail {
 
-/// Version of the format. resources/schemas/suite.schema.json describes it.
-inline constexpr int suite_schema_version = 1;
-
 /// Writes the results of a suite as JSON. A figure that does not exist is missing.
 void write_json(std::ostream& out, const report::Suite& suite);
 

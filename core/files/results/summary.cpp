@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/results/json_kind.h"
+
 namespace chainmail {
 namespace {
 
@@ -64,12 +66,12 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
                   {"left_out", {{"unused", flaws.unused}, {"collapsed", flaws.collapsed}, {"doubled", flaws.doubled}}},
                   {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
                   {"defects", to_json(summary.defects)}};
-  out << json.dump(2) << '\n';
+  out << of_kind(json_kinds::info, json).dump(2) << '\n';
 }
 
 void write_json(std::ostream& out, const RepairSummary& summary) {
   const Json json{{"before", counts_of(summary.before)}, {"after", counts_of(summary.after)}};
-  out << json.dump(2) << '\n';
+  out << of_kind(json_kinds::repair, json).dump(2) << '\n';
 }
 
 void write_json(std::ostream& out, const DeformSummary& summary) {
@@ -112,7 +114,7 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
                            {"regions_bind", found->binds},
                            {"iterations", found->iterations}};
   }
-  out << json.dump(2) << '\n';
+  out << of_kind(json_kinds::deform, json).dump(2) << '\n';
 }
 
 }  // namespace chainmail
