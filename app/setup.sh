@@ -7,13 +7,15 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev nlohmann-json3-dev libcli11-dev
-  libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libnlopt-dev libbullet-dev libseccomp-dev
+  libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libpng-dev libnlopt-dev libbullet-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
-test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen parallel python3 python3-jsonschema)
+test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen parallel python3 python3-jsonschema zsh fish)
 check_packages=(clang-tidy mold python3)
+# For packages: made by tests/package/check, and checked.
+package_packages=(help2man dpkg-dev lintian desktop-file-utils appstream libxml2-utils debootstrap)
 mutant_packages=(python3)
 bench_packages=(libbenchmark-dev)
 fuzz_packages=(clang libclang-rt-14-dev)

@@ -1,11 +1,11 @@
-#include "command_line/version.h"
+#include "version.h"
 
 #include "commit.h"
 
-namespace chainmail::command_line {
+namespace chainmail {
 
-std::string version_in_words() {
-  return "chainmail " CHAINMAIL_VERSION " (" CHAINMAIL_COMMIT ", " CHAINMAIL_BUILD_TYPE ")";
+std::string version_in_words(const std::string& program) {
+  return program + " " CHAINMAIL_VERSION " (" CHAINMAIL_COMMIT ", " CHAINMAIL_BUILD_TYPE ")";
 }
 
-}  // namespace chainmail::command_line
+}  // namespace chainmail

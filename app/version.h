@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace chainmail::command_line {
+namespace chainmail {
 
-/// Returns the name and version of the program, its commit and its build type.
-std::string version_in_words();
+/// Returns the name of a program with the version, the commit and the build type.
+std::string version_in_words(const std::string& program);
 
-}  // namespace chainmail::command_line
+}  // namespace chainmail

@@ -13,9 +13,9 @@ install(EXPORT chainmail NAMESPACE chainmail:: FILE chainmail-targets.cmake
   DESTINATION ${config_folder} COMPONENT core)
 configure_package_config_file(chainmail-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config.cmake
   INSTALL_DESTINATION ${config_folder})
-# Below version 1, a new minor version may change the interface.
+# By semantic versioning, a new minor version adds to the interface, and a new major version may change it.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/chainmail-config-version.cmake
-  VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
+  VERSION ${PROJECT_VERSION} COMPATIBILITY SameMajorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/chainmail-config-version.cmake

@@ -5,9 +5,9 @@
 #include "command_line/folder.h"
 #include "command_line/progress_line.h"
 #include "command_line/report_origin.h"
+#include "command_line/samples.h"
 #include "files/results/suite_json.h"
 #include "files/text/outputs.h"
-#include "files/text/program_folder.h"
 #include "files/text/text.h"
 #include "report/page/suite_csv.h"
 #include "report/page/suite_html.h"
@@ -67,13 +67,9 @@ std::vector<std::string> experiments_of(const CompareArguments& arguments) {
 
 /// Returns the organ of the samples; null if its file is missing.
 MeshPointer organ() {
-  for (const auto& folder : {program_folder() / SAMPLES_INSTALLED, std::filesystem::path(SAMPLES_SOURCE)}) {
-    std::error_code none;
-    if (std::filesystem::is_regular_file(folder / "organ.msh", none)) {
-      return chainmail::open_mesh(folder / "organ.msh").mesh;
-    }
-  }
-  return nullptr;
+  const auto file = samples_folder() / "organ.msh";
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) ? chainmail::open_mesh(file).mesh : nullptr;
 }
 
 bool needs_organ(const std::vector<std::string>& names) {

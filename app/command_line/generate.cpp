@@ -14,6 +14,14 @@ struct GenerateArguments {
 
 std::string size_form(int sizes) { return sizes == 1 ? "N" : sizes == 2 ? "WxH" : "WxHxD"; }
 
+std::string kind_names() {
+  std::string names;
+  for (const MeshKindInfo& info : mesh_kinds()) {
+    names += (names.empty() ? "" : "|") + std::string(info.name);
+  }
+  return names;
+}
+
 std::string kinds_help() {
   std::string text = "kind of mesh:";
   for (const MeshKindInfo& info : mesh_kinds()) {
@@ -64,7 +72,7 @@ void generate_to_file(const GenerateArguments& options) {
 Command add_generate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("generate", "Generate a regular mesh");
   GenerateArguments options{};
-  options.kind = add_value(*app, "KIND", "", kinds_help())->required();
+  options.kind = add_value(*app, "KIND", kind_names(), kinds_help())->required();
   options.size = add_value(*app, "SIZE", "", "number of elements along each axis")->required();
   options.spacing = add_parameter(*app, parameters::spacing);
   options.space =

@@ -2,9 +2,10 @@
 #include <vector>
 
 #include "command_line/common.h"
-#include "command_line/version.h"
+#include "command_line/completion.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
+#include "version.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -15,6 +16,11 @@ constexpr const char* run_footer =
     "Example:\n"
     "  chainmail generate grid 9x7 -o grid.dat\n"
     "  chainmail deform grid.dat --algorithm natural-queue --by 31:3,2 --positions moved.csv";
+
+constexpr const char* licence =
+    "\nMIT licence. Linked libraries: Bullet (zlib), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), libpng, zlib, CLI11 "
+    "(BSD)\n"
+    "and nlohmann/json (MIT). It starts chainmail-import, which is under the GPL, as a separate program.";
 
 std::string help_hint(const CLI::App& app) {
   return "see chainmail" + (app.get_parent() == nullptr ? "" : " " + app.get_name()) + " --help";
@@ -89,7 +95,7 @@ std::string as_typed(int argc, char** argv) {
 
 void run(int argc, char** argv) {
   CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");
-  root.set_version_flag("--version", version_in_words(), "Print the version and exit");
+  root.set_version_flag("--version", version_in_words("chainmail") + licence, "Print version and licence, and exit");
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{add_generate(root),
@@ -100,7 +106,9 @@ void run(int argc, char** argv) {
                                       add_deform(root),
                                       add_compare(root, as_typed(argc, argv)),
                                       add_calibrate(root),
-                                      add_ramp(root)};
+                                      add_ramp(root),
+                                      add_thumbnail(root),
+                                      add_completion(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
@@ -123,7 +131,8 @@ void run(int argc, char** argv) {
     }
   }
   throw Error("command", "no command was given",
-              "use generate, convert, fill, repair, info, deform, compare, calibrate or ramp; see chainmail --help");
+              "use generate, convert, fill, repair, info, deform, compare, calibrate, ramp or thumbnail; see chainmail "
+              "--help");
 }
 
 }  // namespace chainmail::command_line

@@ -52,7 +52,9 @@ void UsageTest::help_shows_an_example() {
 void UsageTest::version() {
   const auto outcome = program_->run("--version");
   QCOMPARE(outcome.code, 0);
-  QVERIFY(QRegularExpression("^chainmail \\d+\\.\\d+\\.\\d+ \\([^()]+, [A-Za-z]+\\)\n$").match(outcome.out).hasMatch());
+  QVERIFY(QRegularExpression("^chainmail \\d+\\.\\d+\\.\\d+ \\([^()]+, [A-Za-z]+\\)\nMIT licence[.] ")
+              .match(outcome.out)
+              .hasMatch());
 }
 
 void UsageTest::wrong_arguments_data() {

@@ -31,8 +31,9 @@ constexpr int tableSpace = 8;
 constexpr int lineHeight = 125;  // percent
 constexpr int rowSpacing = 3;    // of the list
 
-constexpr std::array files{"index.md", "tour.md",         "algorithms.md", "hard-cases.md", "speed.md",  "physics.md",
-                           "suite.md", "command-line.md", "formats.md",    "sessions.md",   "library.md"};
+constexpr std::array files{"index.md",   "tour.md",   "algorithms.md",     "hard-cases.md", "speed.md",
+                           "physics.md", "suite.md",  "command-line.md",   "formats.md",    "sessions.md",
+                           "library.md", "python.md", "exact-chainmail.md"};
 
 QUrl urlOf(const QString& page) { return QStringLiteral("qrc:/manual/") + page; }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <new>
+#include <string_view>
 
 #include "files/import/channels.h"
 #include "files/import/program/tasks.h"
@@ -17,6 +18,18 @@
 
 namespace chainmail::import {
 namespace {
+
+constexpr const char* help =
+    "Reads meshes with CGAL, Gmsh and teem, in a sandbox, for chainmail and workbench.\n"
+    "Usage: chainmail-import BYTES SECONDS TASK PATH [ARGUMENT...]\n\n"
+    "Only these programs start it: they pass open files and receive the mesh.\n\n"
+    "Options:\n"
+    "  --help     print this help and exit\n"
+    "  --version  print version and licence, and exit";
+constexpr const char* version = "chainmail-import " CHAINMAIL_VERSION
+                                "\nGPL-3 or later, because it links CGAL (GPL-3 or later) and Gmsh (GPL-2 or later). "
+                                "It also links teem (LGPL-2.1 or\n"
+                                "later) and libseccomp (LGPL-2.1). Its own source is under the MIT licence.";
 
 void limit(int resource, rlim_t to, rlim_t until_killed = 0) {
   const rlimit both{to, to + until_killed};
@@ -109,6 +122,10 @@ bool hand_over(const std::vector<std::byte>& bytes) {
 
 int main(int count, char** words) {
   using namespace chainmail::import;
+  if (const std::string_view asked = count == 2 ? words[1] : ""; asked == "--help" || asked == "--version") {
+    std::puts(asked == "--help" ? help : version);
+    return 0;
+  }
   if (count < 5) {
     std::fputs("chainmail-import: only chainmail and workbench start this program, to read meshes\n", stderr);
     return 2;

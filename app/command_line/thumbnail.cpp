@@ -1,0 +1,169 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "command_line/common.h"
+#include "command_line/raster.h"
+#include "command_line/samples.h"
+#include "files/session/session.h"
+#include "files/text/outputs.h"
+#include "mesh/error.h"
+#include "mesh/surface.h"
+#include "solve/body.h"
+
+namespace chainmail::command_line {
+namespace {
+
+constexpr std::uint32_t smallest = 16, largest = 1024, standard = 256;  // pixels
+constexpr Raster::Colour face_colour{86, 156, 214}, link_colour{38, 92, 140};
+constexpr double margin = 0.06;     // of the picture
+constexpr double line_lift = 1e-3;  // of the object: links on faces are in front of them
+
+/// What a file shows: an object in a state.
+struct Shown {
+  MeshPointer mesh;
+  Cuts cuts;
+  std::vector<double> positions;
+};
+
+Shown at_rest(const MeshPointer& mesh) { return {mesh, Cuts(mesh), mesh->rest}; }
+
+Shown session_of(const std::filesystem::path& path) {
+  const auto open = [&](const std::string& name, std::uint32_t, const Progress& progress) {
+    const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
+    return chainmail::open_mesh(!exists(beside) && exists(sample) ? sample : beside, {}, progress).mesh;
+  };
+  const Session session = read_session(path, {}, open);
+  Body body(session.mesh, Precision::double_precision);
+  ElementBlocks all(session.mesh->element_count());
+  all.insert_all();
+  body.restore(session.panels.front().placement, all);
+  Shown shown = at_rest(session.mesh);
+  body.copy_positions(shown.positions);
+  for (const LinkId link : session.cuts) {
+    shown.cuts.cut(link);
+  }
+  return shown;
+}
+
+/// Looks at an object so that it fills the picture: from the front in a plane, else from the front, the right and
+/// above.
+class Look {
+ public:
+  explicit Look(const Shown& shown) : shown_(shown) {
+    const bool is_spatial = shown.mesh->space_dimension == 3;
+    const double yaw = is_spatial ? std::numbers::pi / 6 : 0, pitch = is_spatial ? std::numbers::pi / 7 : 0;
+    right_ = {std::cos(yaw), 0, -std::sin(yaw)};
+    up_ = {-std::sin(pitch) * std::sin(yaw), std::cos(pitch), -std::sin(pitch) * std::cos(yaw)};
+    toward_ = right_.cross(up_);
+    for (ElementId e = 0; e < shown.mesh->element_count(); ++e) {
+      const Point at = seen(e);
+      low_ = low_.cwiseMin(at);
+      high_ = high_.cwiseMax(at);
+    }
+    const double extent = (high_ - low_).head<2>().maxCoeff();
+    scale_ = extent > 0 ? (1 - 2 * margin) / extent : 1;
+  }
+
+  Raster::Place place(ElementId element, double lift = 0) const {
+    const Point at = scale_ * (seen(element) - (low_ + high_) / 2);
+    return {0.5 + at.x(), 0.5 - at.y(), -at.z() - lift};
+  }
+  /// The colour of a face in a light that comes from the eye.
+  Raster::Colour lit(const std::array<ElementId, 3>& corners) const {
+    const Point a = seen(corners[0]), b = seen(corners[1]), c = seen(corners[2]);
+    const Point normal = (b - a).cross(c - a);
+    const double length = normal.norm(), light = length > 0 ? 0.4 + 0.6 * std::abs(normal.z()) / length : 1;
+    Raster::Colour colour{};
+    std::ranges::transform(face_colour, colour.begin(), [&](auto one) { return std::uint8_t(light * one); });
+    return colour;
+  }
+
+ private:
+  /// The position of an element along the axes of the picture; z points to the eye.
+  Point seen(ElementId element) const {
+    Point at = shown_.mesh->origin;
+    for (int k = 0; k < shown_.mesh->space_dimension; ++k) {
+      at[shown_.mesh->axes[std::size_t(k)]] =
+          shown_.positions[std::size_t{element} * std::size_t(shown_.mesh->space_dimension) + std::size_t(k)];
+    }
+    if (shown_.mesh->space_dimension < 3) {
+      at = in_plane(at);
+    }
+    return {right_.dot(at), up_.dot(at), toward_.dot(at)};
+  }
+  /// Puts the axes of a plane object into the plane of the picture.
+  Point in_plane(const Point& at) const {
+    const auto& axes = shown_.mesh->axes;
+    return {at[axes[0]], shown_.mesh->space_dimension > 1 ? at[axes[1]] : 0, 0};
+  }
+
+  const Shown& shown_;
+  Point right_, up_, toward_;
+  Point low_ = Point::Constant(std::numeric_limits<double>::infinity());
+  Point high_ = Point::Constant(-std::numeric_limits<double>::infinity());
+  double scale_ = 1;
+};
+
+/// Returns the faces of the object and of its cells.
+std::vector<std::array<ElementId, 3>> faces_of(const Shown& shown) {
+  std::vector<std::array<ElementId, 3>> faces;
+  for (const auto& [a, b, c] : shown.mesh->triangles) {
+    if (!is_cut_between(*shown.mesh, shown.cuts, a, b) && !is_cut_between(*shown.mesh, shown.cuts, b, c) &&
+        !is_cut_between(*shown.mesh, shown.cuts, c, a)) {
+      faces.push_back({a, b, c});
+    }
+  }
+  const Surface surface(std::make_shared<const CellTable>(shown.mesh), shown.cuts);
+  const std::vector<ElementId> corners = surface.triangles();
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
+  return faces;
+}
+
+Raster draw(const Shown& shown, std::uint32_t size) {
+  Raster picture(size);
+  const Look look(shown);
+  const auto faces = faces_of(shown);
+  for (const auto& face : faces) {
+    picture.draw_triangle({look.place(face[0]), look.place(face[1]), look.place(face[2])}, look.lit(face));
+  }
+  // Links inside a volume are hidden anyway, and so many on a large surface that they would hide it.
+  constexpr std::size_t most_links = 3000;
+  const bool shows_links = faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= most_links);
+  for (LinkId link = 0; shows_links && link < shown.mesh->links.size(); ++link) {
+    const auto& [a, b] = shown.mesh->links[link];
+    if (!shown.cuts.is_cut(link)) {
+      picture.draw_line(look.place(a, line_lift), look.place(b, line_lift), link_colour);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+Command add_thumbnail(CLI::App& root) {
+  CLI::App& app = *root.add_subcommand("thumbnail", "Draw a mesh or a session as a small picture");
+  CLI::Option* file = add_value(app, "FILE", "", "a session (.chainmail) or a mesh file")->required();
+  CLI::Option* output = add_value(app, "-o", "PNG", "output file")->required();
+  CLI::Option* size = add_value(app, "--size", "PIXELS", "width and height of the picture: 16 to 1024 [256]");
+  app.footer("File managers use it. It needs no display.\n\nExample:\n  chainmail thumbnail organ.msh -o organ.png");
+  return {&app, [file, output, size] {
+            const std::filesystem::path path = *value_of(file);
+            const std::uint32_t pixels = whole_number_of(size, smallest, standard);
+            if (pixels > largest) {
+              throw Error("--size", std::to_string(pixels) + " pixels are too many", "use at most 1024");
+            }
+            const Shown shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
+            const Raster picture = draw(shown, pixels);
+            Outputs outputs;
+            outputs.keep(path);
+            outputs.add(*value_of(output), [&](std::ostream& out) { picture.write_png(out); });
+            outputs.commit();
+          }};
+}
+
+}  // namespace chainmail::command_line
