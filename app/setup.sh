@@ -14,6 +14,11 @@ build_packages=(
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen parallel python3 python3-jsonschema zsh fish)
 check_packages=(clang-tidy mold python3)
+# The Python module, its tests and its pages.
+python_packages=(pybind11-dev python3-dev python3-numpy)
+python_test_packages=(python3-pytest python3-distributed mypy python3-sphinx)
+# The technical report as HTML and PDF.
+report_packages=(pandoc texlive-latex-recommended lmodern librsvg2-bin)
 # For packages: made by tests/package/check, and checked.
 package_packages=(help2man dpkg-dev lintian desktop-file-utils appstream libxml2-utils debootstrap)
 mutant_packages=(python3)

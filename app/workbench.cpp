@@ -9,7 +9,7 @@
 
 #include "docks/mesh_dock.h"
 #include "io/sessions.h"
-#include "version.h"
+#include "version/version.h"
 #include "window/main_window.h"
 #include "window/startup.h"
 

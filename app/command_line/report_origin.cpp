@@ -1,6 +1,6 @@
 #include "command_line/report_origin.h"
 
-#include "version.h"
+#include "version/version.h"
 
 namespace chainmail::command_line {
 

@@ -5,7 +5,7 @@
 #include "command_line/completion.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
-#include "version.h"
+#include "version/version.h"
 
 namespace chainmail::command_line {
 namespace {

@@ -58,7 +58,9 @@ const QList<Room> rooms{
     {"ui/io", {"ui/panels"}},
     {"ui/docks", {"ui/tools", "ui/io"}},
     {"ui/window", {"ui/docks"}},
-    {"app/command_line", {"core/bullet", "core/files/session", "core/files/results"}},
+    {"app/version", {}},
+    {"app/command_line", {"app/version", "core/bullet", "core/files/session", "core/files/results"}},
+    {"app/python", {"core/api"}},
     {"app", {"app/command_line", "ui/window"}},
 };
 
@@ -81,6 +83,8 @@ const QList<Wrapped> libraries{
     {QRegularExpression("^nlopt"), {"core/calibrate"}, "optimization belongs in core/calibrate"},
     {QRegularExpression("^(Bullet|LinearMath/|btBullet)"), {"core/bullet"}, "Bullet belongs in core/bullet"},
     {QRegularExpression("^CLI/|^CLI\\."), {"app"}, "arguments belong in app"},
+    {QRegularExpression("^png"), {"app/command_line/raster.cpp"}, "app/command_line/raster.cpp writes pictures"},
+    {QRegularExpression("^(pybind11/|Python)"), {"app/python"}, "Python belongs in app/python"},
     {QRegularExpression("^Eigen/"),
      {"core/mesh", "core/elastic", "core/solve", "core/measure", "core/simulate", "core/report", "core/files",
       "core/calibrate", "core/api/access.h", "ui", "app"},

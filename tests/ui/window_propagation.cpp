@@ -92,7 +92,7 @@ class WindowPropagation : public QObject {
     bench.settle();
     QVERIFY(!bench.find<QAction>("passBack")->isEnabled());
     QVERIFY(positions(bench, 1) == after);
-    QVERIFY(bench.window.panel(1).legend().title() != updates());
+    QTRY_VERIFY(bench.window.panel(1).legend().title() != updates());
     QTest::keyClick(&bench.window, Qt::Key_O);
     bench.settle();
     QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());

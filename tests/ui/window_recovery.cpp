@@ -313,6 +313,7 @@ class WindowRecovery : public QObject {
     QCOMPARE(objects(), first);
     bench.document().replaceMesh(generate({MeshKind::grid, {5, 5, 1}, 1, {}}), QStringLiteral("grid"),
                                  QStringLiteral("build"));
+    bench.settle();
     bench.save();
     QCOMPARE(objects().size(), std::size_t{1});
     QVERIFY(objects() != first);

@@ -63,9 +63,8 @@ const ClusterBoxes::Box& ClusterBoxes::operator[](std::size_t cluster) const {
 
 bool ClusterBoxes::isOutdated(std::size_t cluster) const {
   const auto blocks = level_->clusterBlocks[cluster];
-  return seen_[cluster] == 0 || std::any_of(blocks.begin(), blocks.end(), [&](auto block) {
-           return frame_->changed[block] > seen_[cluster];
-         });
+  return seen_[cluster] == 0 ||
+         std::any_of(blocks.begin(), blocks.end(), [&](auto block) { return frame_->changed[block] > seen_[cluster]; });
 }
 
 }  // namespace chainmail

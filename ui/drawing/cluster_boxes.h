@@ -11,8 +11,8 @@
 
 namespace chainmail {
 
-/// Bounding boxes of a level's clusters in the newest frame. A box is computed when it is asked for, and again only after
-/// its cluster changed.
+/// Bounding boxes of a level's clusters in the newest frame. A box is computed when it is asked for, and again only
+/// after its cluster changed.
 class ClusterBoxes {
  public:
   /// Lowest and highest coordinates on the axes of the mesh.

@@ -73,20 +73,20 @@ void Autosave::keep() {
     return;
   }
   endWriting();
-  thread_ = std::jthread([path = path_, adopted = std::move(adopted_),
-                          draft = SessionDraft(document_, look_.read())]() mutable {
-    try {
-      save_session(asPath(path), draft.finished({}), {});
-      unsaved_work::discardObjects(path);
-      discardAll(adopted);
-    } catch (const std::exception&) {
-      // The window is gone, so nothing can be reported. The previous files stay.
-    }
-    if (QFile::exists(path)) {
-      QFile::rename(path, unsaved_work::closedPath(path));
-      unsaved_work::discardOldest();
-    }
-  });
+  thread_ = std::jthread(
+      [path = path_, adopted = std::move(adopted_), draft = SessionDraft(document_, look_.read())]() mutable {
+        try {
+          save_session(asPath(path), draft.finished({}), {});
+          unsaved_work::discardObjects(path);
+          discardAll(adopted);
+        } catch (const std::exception&) {
+          // The window is gone, so nothing can be reported. The previous files stay.
+        }
+        if (QFile::exists(path)) {
+          QFile::rename(path, unsaved_work::closedPath(path));
+          unsaved_work::discardOldest();
+        }
+      });
 }
 
 bool Autosave::setAside() {
@@ -164,22 +164,22 @@ void Autosave::save() {
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
   writing_ = std::make_shared<Writing>();
-  thread_ = std::jthread([this, writing = writing_, path = path_, object = object_,
-                          draft = SessionDraft(document_, saved_.look)] {
-    try {
-      const Progress progress(writing->job);
-      Session session = draft.finished(progress);
-      writing->object = withObject(path, session, object, progress.part(0, 0.5));
-      const QString name = unsaved_work::objectName(path, writing->object.number);
-      session.mesh_file = name.toStdString();
-      save_session(asPath(path), session, progress.part(0.5, 1));
-      unsaved_work::discardObjects(path, name);
-    } catch (const std::exception& problem) {
-      writing->error = problem.what();
-    }
-    writing->done = true;
-    QMetaObject::invokeMethod(this, &Autosave::receive, Qt::QueuedConnection);
-  });
+  thread_ = std::jthread(
+      [this, writing = writing_, path = path_, object = object_, draft = SessionDraft(document_, saved_.look)] {
+        try {
+          const Progress progress(writing->job);
+          Session session = draft.finished(progress);
+          writing->object = withObject(path, session, object, progress.part(0, 0.5));
+          const QString name = unsaved_work::objectName(path, writing->object.number);
+          session.mesh_file = name.toStdString();
+          save_session(asPath(path), session, progress.part(0.5, 1));
+          unsaved_work::discardObjects(path, name);
+        } catch (const std::exception& problem) {
+          writing->error = problem.what();
+        }
+        writing->done = true;
+        QMetaObject::invokeMethod(this, &Autosave::receive, Qt::QueuedConnection);
+      });
 }
 
 void Autosave::receive() {

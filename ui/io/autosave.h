@@ -23,10 +23,10 @@ struct LookAccess {
   std::function<void(QObject& context, const std::function<void()>& changed)> follow;
 };
 
-/// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file of
-/// its own, which stays until another object is open. Each file is written completely or not at all. A lock shows whether
-/// the program still runs or has crashed. The files are removed once the user has saved the work. The window's look is
-/// part of the work, but a change of the look alone is not saved.
+/// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file
+/// of its own, which stays until another object is open. Each file is written completely or not at all. A lock shows
+/// whether the program still runs or has crashed. The files are removed once the user has saved the work. The window's
+/// look is part of the work, but a change of the look alone is not saved.
 class Autosave : public QObject {
   Q_OBJECT
 

@@ -33,7 +33,8 @@ constexpr std::array lessonTable{
     LessonFile{"face.chainmail", "Warp a face"},
 };
 
-/// Returns a folder beside the programs, in the build as after an installation; an empty string without this file in it.
+/// Returns a folder beside the programs, in the build as after an installation; an empty string without this file in
+/// it.
 QString folderWith(const char* file, const QString& folder) {
   const QString path = QDir::cleanPath(QCoreApplication::applicationDirPath() + QLatin1Char('/') + folder);
   return QFileInfo::exists(QDir(path).filePath(QLatin1String(file))) ? path : QString();

@@ -121,7 +121,7 @@ void View::listen() {
 /// Highlights the element under the cursor again after an edit has cleared the highlight.
 void View::updateHover() {
   if (underMouse() && tool_ != nullptr && !tool_->busy()) {
-    hover_.start(0);
+    hoverSoon();
   }
 }
 
@@ -293,8 +293,8 @@ const ClusterBoxes& View::boxes(const Frame& frame) const {
   return boxes_;
 }
 
-/// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the window
-/// stays responsive.
+/// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the
+/// window stays responsive.
 void View::searchUnderCursor() {
   if (const Frame* frame = document_.frame(panel_);
       frame != nullptr && !boxes_.prepare(levels_->at(frame->mesh, 1), *frame, boxMilliseconds)) {
@@ -494,6 +494,7 @@ void View::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton && std::exchange(cubePressed_, false)) {
     return;
   }
+  cursor_ = event->position();
   if (event->button() == Qt::LeftButton && tool_ != nullptr) {
     tool_->release(*this, event->position());
   }

@@ -89,6 +89,8 @@ class View : public QOpenGLWidget {
   /// Returns the element at a position in the view, if there is one: the nearest that can be seen, otherwise the
   /// nearest corner of the face that is seen there.
   std::optional<ElementId> elementAt(QPointF position) const;
+  /// Lets the tool hover at the cursor, when there is time: after a large move, the search may take some.
+  void hoverSoon() { hover_.start(0); }
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
   /// Returns the crossed links of the front layer; in a plane, all crossed links.
   std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;

@@ -267,10 +267,10 @@ std::optional<double> DragTool::angleAt(const View& view, QPointF position) cons
   return std::atan2(-arm.y(), arm.x()) * 180 / M_PI;
 }
 
-void DragTool::release(View& view, QPointF position) {
+void DragTool::release(View& view, QPointF /*position*/) {
   if (busy()) {
     cancel();
-    hover(view, position);
+    view.hoverSoon();
   }
 }
 
