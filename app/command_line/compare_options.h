@@ -7,6 +7,9 @@
 
 namespace chainmail::command_line {
 
+/// The colour of axes and words in plots: readable on light and dark backgrounds.
+inline constexpr const char* plot_ink = "#808080";
+
 /// The options of `compare`, for both references.
 struct CompareArguments {
   CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;

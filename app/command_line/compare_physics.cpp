@@ -18,7 +18,6 @@ namespace chainmail::command_line {
 namespace {
 
 // Colour of lines and text. Single plots must be readable on light and dark backgrounds.
-constexpr const char* ink = "#808080";
 
 report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
@@ -81,7 +80,7 @@ std::vector<report::Case> with_materials(const std::vector<report::Case>& cases,
 
 void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
   const auto add = [&](const std::string& name, const report::Plot& plot) {
-    outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, ink); });
+    outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, plot_ink); });
   };
   if (report.objects.size() > 1) {
     add("overview", physics_overview(report));

@@ -21,7 +21,6 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr const char* ink = "#808080";  // readable on light and dark backgrounds
 constexpr int most_shards = 1000;
 
 /// Throws Error for an option that the given mode does not take.
@@ -84,7 +83,7 @@ void write(const report::Suite& suite, OutputFolder& folder, const std::vector<s
   outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, suite); });
   outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, suite); });
   if (const report::Plot plot = suite_plot(suite); !plot.panels.empty()) {
-    outputs.add(folder.path() / "overview.svg", [&](std::ostream& out) { write_svg(out, plot, ink); });
+    outputs.add(folder.path() / "overview.svg", [&](std::ostream& out) { write_svg(out, plot, plot_ink); });
   }
   outputs.add("-", [&](std::ostream& out) { write_text(out, suite); });
   outputs.commit();

@@ -84,14 +84,14 @@ std::vector<CommandWords> words_of_all(const CLI::App& root) {
   return all;
 }
 
-std::string joined(const std::vector<std::string>& words) { return CLI::detail::join(words, " "); }
+std::string spaced(const std::vector<std::string>& words) { return CLI::detail::join(words, " "); }
 
-std::string names_of(const std::vector<Word>& words) {
+std::string option_names(const std::vector<Word>& words) {
   std::vector<std::string> names;
   for (const Word& word : words) {
     names.insert(names.end(), word.names.begin(), word.names.end());
   }
-  return joined(names);
+  return spaced(names);
 }
 
 /// Returns a text in single quotes. A quote inside becomes a typographic one, which means nothing to a shell.
@@ -110,10 +110,10 @@ void write_bash_values(std::ostream& out, const CommandWords& command, const Wor
     return;
   }
   for (const std::string& name : word.names) {
-    out << "    '" << command.name << ' ' << name << "') words='" << joined(word.choices) << "' ;;\n";
+    out << "    '" << command.name << ' ' << name << "') words='" << spaced(word.choices) << "' ;;\n";
   }
   if (word.names.empty() && first_positional) {
-    out << "    '" << command.name << ' ' << command.name << "') words='" << joined(word.choices) << "' ;;\n";
+    out << "    '" << command.name << ' ' << command.name << "') words='" << spaced(word.choices) << "' ;;\n";
   }
 }
 
@@ -136,10 +136,10 @@ void write_bash(std::ostream& out, const CLI::App& root, const std::vector<Comma
   for (const CommandWords& command : commands) {
     out << command.name << ' ';
   }
-  out << names_of(words_of(root).options)
+  out << option_names(words_of(root).options)
       << "'\n  elif [[ -z $words && $word == -* ]]; then\n    case ${COMP_WORDS[1]} in\n";
   for (const CommandWords& command : commands) {
-    out << "      " << command.name << ") words='" << names_of(command.options) << "' ;;\n";
+    out << "      " << command.name << ") words='" << option_names(command.options) << "' ;;\n";
   }
   out << "    esac\n"
          "  fi\n"
@@ -161,7 +161,7 @@ std::string for_zsh(const std::string& help) {
 }
 
 std::string zsh_action(const Word& word) {
-  return word.is_file ? "_files" : word.choices.empty() ? " " : "(" + joined(word.choices) + ")";
+  return word.is_file ? "_files" : word.choices.empty() ? " " : "(" + spaced(word.choices) + ")";
 }
 
 std::string zsh_option(const Word& word) {
@@ -181,7 +181,7 @@ void write_zsh(std::ostream& out, const CLI::App& root, const std::vector<Comman
   for (const CommandWords& command : commands) {
     out << "\n      " << quoted(command.name + ":" + command.help);
   }
-  out << ")\n    _describe command commands\n    compadd -- " << names_of(words_of(root).options)
+  out << ")\n    _describe command commands\n    compadd -- " << option_names(words_of(root).options)
       << "\n    return\n  fi\n"
          "  local command=$words[2]\n"
          "  shift words\n"
@@ -216,7 +216,7 @@ std::string fish_value(const Word& word) {
   if (word.value.empty()) {
     return "";
   }
-  return word.is_file ? " -r -F" : word.choices.empty() ? " -x" : " -x -a " + quoted(joined(word.choices));
+  return word.is_file ? " -r -F" : word.choices.empty() ? " -x" : " -x -a " + quoted(spaced(word.choices));
 }
 
 void write_fish(std::ostream& out, const CLI::App& root, const std::vector<CommandWords>& commands) {
@@ -235,7 +235,7 @@ void write_fish(std::ostream& out, const CLI::App& root, const std::vector<Comma
     }
     for (const Word& word : command.positionals) {
       if (!word.choices.empty()) {
-        out << when << " -f -a " << quoted(joined(word.choices)) << '\n';
+        out << when << " -f -a " << quoted(spaced(word.choices)) << '\n';
       }
     }
   }

@@ -1,0 +1,216 @@
+#include "python/arrays.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "chainmail/error.h"
+
+namespace chainmail::python {
+namespace {
+
+using api::Error;
+
+constexpr std::int64_t most_ids = std::numeric_limits<std::uint32_t>::max();
+
+std::string shape_in_words(const py::array& array) {
+  std::string words = "(";
+  for (py::ssize_t k = 0; k < array.ndim(); ++k) {
+    words += (k == 0 ? "" : ", ") + std::to_string(array.shape(k));
+  }
+  return words + (array.ndim() == 1 ? ",)" : ")");
+}
+
+/// Returns numbers as an array. Lists whose rows differ in length become arrays of objects.
+py::array array_from(py::handle values, const std::string& name) {
+  py::array array = py::array::ensure(values);
+  if (!array) {
+    PyErr_Clear();
+    throw Error(name, "it is not an array of numbers", "give a NumPy array or nested lists of equal length");
+  }
+  return array;
+}
+
+std::string type_in_words(const py::array& array) { return py::str(py::object(array.dtype())); }
+
+bool is_whole(const py::array& array) { return array.dtype().kind() == 'i' || array.dtype().kind() == 'u'; }
+bool is_number(const py::array& array) { return array.dtype().kind() == 'f' || is_whole(array); }
+
+py::array_t<std::int64_t> whole_numbers(const py::array& array, const std::string& name) {
+  if (array.size() > 0 && !is_whole(array)) {
+    throw Error(name, "the numbers are of type " + type_in_words(array), "give whole numbers, such as dtype uint32");
+  }
+  return py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+}
+
+py::array_t<double> real_numbers(const py::array& array, const std::string& name) {
+  if (array.size() > 0 && !is_number(array)) {
+    throw Error(name, "the numbers are of type " + type_in_words(array), "give real numbers, such as dtype float64");
+  }
+  return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+}
+
+std::uint32_t checked_id(std::int64_t id, const char* what) {
+  if (id < 0 || id >= most_ids) {
+    throw Error(std::string(what) + " " + std::to_string(id), std::string("there is no such ") + what,
+                "use a number from 0");
+  }
+  return static_cast<std::uint32_t>(id);
+}
+
+std::vector<std::uint32_t> checked_ids(const py::array_t<std::int64_t>& numbers, const char* what) {
+  std::vector<std::uint32_t> ids(std::size_t(numbers.size()));
+  std::transform(numbers.data(), numbers.data() + numbers.size(), ids.begin(),
+                 [what](std::int64_t id) { return checked_id(id, what); });
+  return ids;
+}
+
+/// Returns x, y and z for each row. Fewer than three columns are `axes`, and the other coordinates are `origin`.
+std::vector<double> spread_out(const py::array_t<double>& numbers, const std::array<int, 3>& axes,
+                               const std::array<double, 3>& origin) {
+  const auto rows = std::size_t(numbers.shape(0));
+  const auto columns = std::size_t(numbers.shape(1));
+  std::vector<double> positions(3 * rows);
+  const double* in = numbers.data();
+  for (std::size_t row = 0; row < rows; ++row) {
+    double* at = positions.data() + 3 * row;
+    std::copy(origin.begin(), origin.end(), at);
+    for (std::size_t k = 0; k < columns; ++k) {
+      at[columns == 3 ? k : std::size_t(axes[k])] = *in++;
+    }
+  }
+  return positions;
+}
+
+double number_of(PyObject* value) {
+  const double number = PyFloat_CheckExact(value) ? PyFloat_AS_DOUBLE(value) : PyFloat_AsDouble(value);
+  if (number == -1 && PyErr_Occurred() != nullptr) {
+    throw py::error_already_set();
+  }
+  return number;
+}
+
+[[noreturn]] void refuse_length(const char* where, py::ssize_t length) {
+  throw Error(where, "it has " + std::to_string(length) + " numbers", "give x, y and z; those left out are 0");
+}
+
+}  // namespace
+
+std::uint32_t id_of(py::handle value, const char* what) {
+  int overflow = 0;
+  const py::object index = PyLong_CheckExact(value.ptr())
+                               ? py::reinterpret_borrow<py::object>(value)
+                               : py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!index) {
+    throw py::error_already_set();
+  }
+  const long long id = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+  if (overflow != 0) {
+    throw Error(std::string(what) + " " + std::string(py::str(index)).substr(0, 60),
+                std::string("there is no such ") + what, "use a number from 0");
+  }
+  return checked_id(id, what);
+}
+
+std::vector<std::uint32_t> ids_of(py::handle values, const char* what) {
+  if (PyLong_Check(values.ptr())) {
+    return {id_of(values, what)};
+  }
+  const std::string name = std::string(what) + "s";
+  const py::array array = array_from(values, name);
+  if (array.ndim() > 1) {
+    throw Error(name, "the array has the shape " + shape_in_words(array), "give one dimension");
+  }
+  return checked_ids(whole_numbers(array, name), what);
+}
+
+std::vector<std::uint32_t> rows_of(py::handle values, const std::string& name, std::size_t columns) {
+  if (values.is_none()) {
+    return {};
+  }
+  const py::array array = array_from(values, name);
+  if (array.size() == 0) {
+    return {};
+  }
+  if (array.ndim() != 2 || std::size_t(array.shape(1)) != columns) {
+    throw Error(name, "the array has the shape " + shape_in_words(array),
+                "give the shape (n, " + std::to_string(columns) + ")");
+  }
+  return checked_ids(whole_numbers(array, name), "element");
+}
+
+api::Vector3 vector_of(py::handle value, const char* where) {
+  std::array<double, 3> at{};
+  const py::object items = py::reinterpret_steal<py::object>(
+      PySequence_Fast(value.ptr(), (std::string(where) + " must be a sequence of numbers: x, y, z").c_str()));
+  if (!items) {
+    throw py::error_already_set();
+  }
+  const py::ssize_t length = PySequence_Fast_GET_SIZE(items.ptr());
+  if (length < 1 || length > 3) {
+    refuse_length(where, length);
+  }
+  for (py::ssize_t k = 0; k < length; ++k) {
+    at[std::size_t(k)] = number_of(PySequence_Fast_GET_ITEM(items.ptr(), k));
+  }
+  return {at[0], at[1], at[2]};
+}
+
+std::vector<double> positions_of(py::handle values) {
+  const py::array array = array_from(values, "positions");
+  if (array.ndim() != 2 || array.shape(1) < 1 || array.shape(1) > 3) {
+    throw Error("positions", "the array has the shape " + shape_in_words(array),
+                "give the shape (n, 3): x, y and z for each of n elements; or (n, 2) or (n, 1)");
+  }
+  return spread_out(real_numbers(array, "positions"), {0, 1, 2}, {0, 0, 0});
+}
+
+std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values) {
+  const py::array array = array_from(values, "positions");
+  const std::string count = std::to_string(mesh.element_count());
+  const bool fits = array.ndim() == 2 && array.shape(0) == py::ssize_t(mesh.element_count()) &&
+                    (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension);
+  if (!fits) {
+    const std::string flat = "(" + count + ", " + std::to_string(mesh.space_dimension) + ")";
+    throw Error("positions", "the array has the shape " + shape_in_words(array),
+                "give the shape (" + count + ", 3)" + (mesh.space_dimension == 3 ? "" : " or " + flat));
+  }
+  return spread_out(real_numbers(array, "positions"), mesh.axes, {mesh.origin.x(), mesh.origin.y(), mesh.origin.z()});
+}
+
+std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count) {
+  const py::array array = array_from(value, name);
+  const py::array_t<double> numbers = real_numbers(array, name);
+  if (array.ndim() == 0) {
+    return std::vector<double>(count, *numbers.data());
+  }
+  if (array.ndim() != 1 || std::size_t(array.shape(0)) != count) {
+    throw Error(name, "the array has the shape " + shape_in_words(array),
+                "give one number, or the shape (" + std::to_string(count) + ",)");
+  }
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words) {
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) {
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + std::string(words[i]);
+    }
+    throw Error(name + " '" + std::string(word.substr(0, 60)) + "'", "there is no such value", "use " + list);
+  }
+  return std::size_t(found - words.begin());
+}
+
+py::tuple tuple_of(const api::Vector3& vector) { return py::make_tuple(vector.x, vector.y, vector.z); }
+
+py::array_t<std::uint32_t> array_of(std::span<const std::uint32_t> ids) {
+  return py::array_t<std::uint32_t>(py::ssize_t(ids.size()), ids.data());
+}
+
+py::array_t<double> array_of(std::span<const double> numbers, std::size_t columns) {
+  return py::array_t<double>({py::ssize_t(numbers.size() / columns), py::ssize_t(columns)}, numbers.data());
+}
+
+}  // namespace chainmail::python

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <utility>
+
+#include "chainmail/job.h"
+
+namespace chainmail::python {
+
+/// Waits for work in another thread, without the lock of Python. Calls `progress`, unless it is None, with the share
+/// that is done. Ctrl-C and an exception of `progress` cancel the job; the exception is thrown when the work has ended.
+void wait_for_work(const api::Job& job, const pybind11::object& progress,
+                   const std::function<bool(std::chrono::milliseconds)>& is_done_within);
+
+/// Runs work that may take long in a thread of its own, while this thread looks for Ctrl-C: Python handles signals only
+/// between its own instructions. The work must not touch Python.
+template <class Work>
+auto run_long(const api::Job& job, const pybind11::object& progress, Work work) {
+  auto result = std::async(std::launch::async, std::move(work));
+  wait_for_work(job, progress,
+                [&](std::chrono::milliseconds time) { return result.wait_for(time) == std::future_status::ready; });
+  return result.get();
+}
+
+}  // namespace chainmail::python

@@ -1,0 +1,21 @@
+#include "python/module.h"
+
+#include "python/errors.h"
+
+PYBIND11_MODULE(_core, module) {
+  using namespace chainmail::python;  // NOLINT(google-build-using-namespace)
+  module.doc() = "The compiled part of the package chainmail.";
+  module.attr("__version__") = CHAINMAIL_VERSION;
+  translate_errors();
+  add_types(module);  // first: others use them as defaults
+  add_mesh(module);
+  add_method(module);
+  add_body(module);
+  add_handle(module);
+  add_deformer(module);
+  add_mesh_file(module);
+  add_measure(module);
+  add_compare(module);
+  add_calibrate(module);
+  add_ramp(module);
+}

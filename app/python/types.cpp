@@ -1,0 +1,181 @@
+// Small values: vectors, rotations, poses, softness, options.
+#include <pybind11/operators.h>
+#include <pybind11/stl.h>
+
+#include <sstream>
+
+#include "chainmail/chainmail.h"
+#include "python/arrays.h"
+#include "python/module.h"
+
+namespace chainmail::python {
+namespace {
+
+std::string text_of(const api::Vector3& vector) { return py::repr(tuple_of(vector)); }
+std::string text_of(double number) { return py::repr(py::float_(number)); }
+
+std::string text_of(const api::Rotation& rotation) {
+  return "Rotation(axis=" + text_of(rotation.axis) + ", degrees=" + text_of(rotation.degrees) + ")";
+}
+
+py::dict numbers_of(const api::LinkSoftness& softness) {
+  py::dict numbers;
+  numbers["compression"] = softness.compression;
+  numbers["stretch"] = softness.stretch;
+  numbers["shear"] = softness.shear;
+  numbers["lateral"] = softness.lateral;
+  numbers["stiffness"] = softness.stiffness;
+  numbers["exponent"] = softness.exponent;
+  return numbers;
+}
+
+std::string text_of(const api::LinkSoftness& softness) {
+  std::string text = "LinkSoftness(";
+  for (const auto& [name, value] : numbers_of(softness)) {
+    text += (text.back() == '(' ? "" : ", ") + std::string(py::str(name)) + "=" + std::string(py::repr(value));
+  }
+  return text + ")";
+}
+
+py::tuple values_of(const api::LinkSoftness& softness) {
+  return py::tuple(py::list(numbers_of(softness).attr("values")()));
+}
+
+api::LinkSoftness softness_from(const py::tuple& values) {
+  return {values[0].cast<double>(), values[1].cast<double>(), values[2].cast<double>(),
+          values[3].cast<double>(), values[4].cast<double>(), values[5].cast<double>()};
+}
+
+void add_rotation(py::module_& module) {
+  py::class_<api::Rotation>(module, "Rotation",
+                            "A rotation about an axis. In a plane only the axis across it is possible, on a line none.")
+      .def(py::init([](const py::object& axis, double degrees) {
+             return api::Rotation{vector_of(axis, "axis"), degrees};
+           }),
+           py::arg("axis"), py::arg("degrees"))
+      .def_property_readonly(
+          "axis", [](const api::Rotation& one) { return tuple_of(one.axis); },
+          "The axis (x, y, z), of any length above 0.")
+      .def_readonly("degrees", &api::Rotation::degrees,
+                    "The angle in degrees, counterclockwise as seen from the tip of the axis.")
+      .def(py::self == py::self)
+      .def("__repr__", [](const api::Rotation& one) { return text_of(one); })
+      .def(py::pickle([](const api::Rotation& one) { return py::make_tuple(tuple_of(one.axis), one.degrees); },
+                      [](const py::tuple& state) {
+                        return api::Rotation{vector_of(state[0], "axis"), state[1].cast<double>()};
+                      }))
+      .attr("__hash__") = py::none();
+}
+
+void add_pose(py::module_& module) {
+  py::class_<api::Pose>(module, "Pose", "Where a handle is: its pivot and its rotation since it was grabbed.")
+      .def(py::init([](const py::object& pivot, const api::Rotation& rotation) {
+             return api::Pose{vector_of(pivot, "pivot"), rotation};
+           }),
+           py::arg("pivot"), py::arg("rotation") = api::Rotation())
+      .def_property_readonly(
+          "pivot", [](const api::Pose& one) { return tuple_of(one.pivot); },
+          "Position (x, y, z) of the pivot (mesh units).")
+      .def_readonly("rotation", &api::Pose::rotation, "Rotation about the pivot since the handle was grabbed.")
+      .def(py::self == py::self)
+      .def("__repr__",
+           [](const api::Pose& one) {
+             return "Pose(pivot=" + text_of(one.pivot) +
+                    (one.rotation.degrees == 0 ? "" : ", rotation=" + text_of(one.rotation)) + ")";
+           })
+      .attr("__hash__") = py::none();
+}
+
+void add_link_softness(py::module_& module) {
+  const api::LinkSoftness standard;
+  py::class_<api::LinkSoftness>(
+      module, "LinkSoftness",
+      "How far a link may shorten, lengthen and lean, relative to its rest vector, and how strongly relaxation\n"
+      "returns it to its rest vector. A value object: it does not change.")
+      .def(py::init(
+               [](double compression, double stretch, double shear, double lateral, double stiffness, double exponent) {
+                 return api::LinkSoftness{compression, stretch, shear, lateral, stiffness, exponent};
+               }),
+           py::kw_only(), py::arg("compression") = standard.compression, py::arg("stretch") = standard.stretch,
+           py::arg("shear") = standard.shear, py::arg("lateral") = standard.lateral,
+           py::arg("stiffness") = standard.stiffness, py::arg("exponent") = standard.exponent)
+      .def_readonly("compression", &api::LinkSoftness::compression,
+                    "Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).")
+      .def_readonly("stretch", &api::LinkSoftness::stretch,
+                    "Greatest length along each axis, of rest length: 1 (rigid) or more.")
+      .def_readonly("shear", &api::LinkSoftness::shear,
+                    "How far it may lean, per length along the other axes: 0 or more.")
+      .def_readonly("lateral", &api::LinkSoftness::lateral,
+                    "Stiffness against sideways motion, per stiffness along the link: 0 or more.")
+      .def_readonly("stiffness", &api::LinkSoftness::stiffness,
+                    "Stiffness along the link, relative to other links: above 0.")
+      .def_readonly("exponent", &api::LinkSoftness::exponent,
+                    "Power of its rest length by which its stiffness is multiplied: -4 to 4.")
+      .def("as_dict", &numbers_of, "Returns the six numbers by name.")
+      .def(py::self == py::self)
+      .def("__hash__", [](const api::LinkSoftness& one) { return py::hash(values_of(one)); })
+      .def("__repr__", [](const api::LinkSoftness& one) { return text_of(one); })
+      .def(py::pickle(&values_of, &softness_from));
+}
+
+void add_elasticity(py::module_& module) {
+  const api::Elasticity standard;
+  py::class_<api::Elasticity>(module, "Elasticity",
+                              "Settings of the methods of elasticity and of free-form deformation. The ChainMail\n"
+                              "family ignores them. A value object: it does not change.")
+      .def(py::init([](double young, double poisson, const std::array<std::uint32_t, 3>& control_points,
+                       std::uint32_t iterations) {
+             return api::Elasticity{young, poisson, control_points, iterations};
+           }),
+           py::kw_only(), py::arg("young") = standard.young, py::arg("poisson") = standard.poisson,
+           py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = standard.iterations)
+      .def_readonly("young", &api::Elasticity::young,
+                    "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.")
+      .def_readonly("poisson", &api::Elasticity::poisson, "Poisson's ratio: 0 to below 0.5.")
+      .def_property_readonly(
+          "control_points",
+          [](const api::Elasticity& one) {
+            return py::make_tuple(one.control_points[0], one.control_points[1], one.control_points[2]);
+          },
+          "Number of control points of free-form deformation along x, y and z, 2 to 8.")
+      .def_readonly("iterations", &api::Elasticity::iterations,
+                    "Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000.")
+      .def(py::self == py::self)
+      .def("__repr__",
+           [](const api::Elasticity& one) {
+             std::ostringstream text;
+             text << "Elasticity(young=" << text_of(one.young) << ", poisson=" << text_of(one.poisson)
+                  << ", control_points=(" << one.control_points[0] << ", " << one.control_points[1] << ", "
+                  << one.control_points[2] << "), iterations=" << one.iterations << ")";
+             return text.str();
+           })
+      .attr("__hash__") = py::none();
+}
+
+void add_job(py::module_& module) {
+  py::class_<api::Job>(
+      module, "Job",
+      "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to\n"
+      "use from any thread.")
+      .def(py::init<>())
+      .def_property_readonly("share", &api::Job::share, "The share of the work that is done, from 0 to 1.")
+      .def("cancel", &api::Job::cancel,
+           "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
+      .def_property_readonly("is_cancelled", &api::Job::is_cancelled, "True if cancel() was called.")
+      .def("__repr__", [](const api::Job& job) {
+        return "<Job: " + std::to_string(int(100 * job.share())) + " % done" +
+               (job.is_cancelled() ? ", cancelled>" : ">");
+      });
+}
+
+}  // namespace
+
+void add_types(py::module_& module) {
+  add_rotation(module);
+  add_pose(module);
+  add_link_softness(module);
+  add_elasticity(module);
+  add_job(module);
+}
+
+}  // namespace chainmail::python

@@ -1,0 +1,188 @@
+"""Figures, and the tables of compare, calibrate and ramp."""
+
+import csv
+import json
+import math
+import subprocess
+
+import chainmail
+import numpy as np
+import pytest
+
+COMPARE = [
+    "drag", "method", "label", "sweeps", "equilibrium", "refusal", "ms_per_move", "ms_lower_quartile",
+    "ms_upper_quartile", "prepare_ms", "violation_max", "violation_rms", "violation_fraction", "exact_distance_max",
+    "exact_distance_rms", "energy_over_exact", "float_double_max", "float_double_rms", "relative_error",
+    "physical_error_rms", "physical_error_max",
+]  # fmt: skip
+
+
+def beam():
+    body = chainmail.Body(chainmail.make_tetra(5, 3, 3))
+    body.pin(body.mesh.side("left"))
+    return body
+
+
+def is_table(table):
+    return len({len(column) for column in table.values()}) == 1 and all(type(c) is list for c in table.values())
+
+
+def test_violation_by_hand():
+    """A link of rest length 1 may be 1.2 long; at length 2 it is violated by 0.8."""
+    body = chainmail.Body(chainmail.make_line(3))
+    body.set_positions([[0], [2], [3]])
+    found = chainmail.violation(body)
+    assert found["max"] == pytest.approx(0.8) and found["rms"] == pytest.approx(0.8 / math.sqrt(2))
+    assert (found["fraction"], found["links"]) == (0.5, 2)
+    assert chainmail.violation(body, 0) == pytest.approx(0.8) and chainmail.violation(body, 1) == 0
+    assert chainmail.displacement(body) == {"max": 1, "rms": pytest.approx(math.sqrt(2 / 3))}
+
+
+def test_distance_by_hand():
+    body = chainmail.Body(chainmail.make_line(2, spacing=2))
+    other = body.copy()
+    other.set_positions([[0], [5]])
+    expected = {"max": 1.5, "rms": pytest.approx(1.5 / math.sqrt(2))}
+    assert chainmail.distance(body, other) == expected
+    assert chainmail.distance(body, other.positions()) == expected
+    assert chainmail.distance(body, [[0], [5]]) == expected
+    assert chainmail.distance(body, body) == {"max": 0, "rms": 0}
+    for bad in ([[0, 0, 0]], [[0], [np.nan]], chainmail.Body(chainmail.make_line(3))):
+        with pytest.raises(chainmail.Error):
+            chainmail.distance(body, bad)
+
+
+def test_energy_by_hand():
+    body = chainmail.Body(chainmail.make_line(2))
+    body.set_energy("isotropic")
+    body.set_positions([[0], [1.5]])
+    assert chainmail.elastic_energy(body) == pytest.approx(0.125)
+
+
+def test_errors_against_the_reference_solution():
+    body = beam()
+    tip = 44
+    deformer = chainmail.Deformer(body, "neo-hookean")
+    deformer.move(tip, tuple(np.add(body.mesh.rest_position(tip), (0, 1, 0))))
+    reference = chainmail.reference_solution(body, tip)
+    assert reference.handle_displacement == pytest.approx(1)
+    assert chainmail.physical_error(body, reference)["relative"] < 1e-3
+    rest = chainmail.physical_error_of_rest(reference)
+    assert set(rest) == {"relative", "rms", "max"} and 0.5 < rest["relative"] < 1.5
+    with pytest.raises(chainmail.Error, match="rest"):
+        body.reset()
+        chainmail.reference_solution(body, tip)
+    with pytest.raises(chainmail.Error, match="another mesh"):
+        chainmail.physical_error(beam(), reference)
+
+
+def test_compare_is_a_table(tmp_path):
+    drag = chainmail.Drag("corner", [0], [(-step, -step, 0) for step in range(1, 4)])
+    table = chainmail.compare(
+        chainmail.Body(chainmail.make_cloth(9, 9)), [drag], methods=["natural-queue", "exact"], sweeps=[0, 2],
+        repetitions=1, folder=tmp_path / "report",
+    )
+    assert list(table) == COMPARE and is_table(table)
+    assert table["drag"] == ["corner"] * 4
+    assert sorted(zip(table["method"], table["sweeps"])) == [
+        ("exact", 0), ("exact", 2), ("natural-queue", 0), ("natural-queue", 2)
+    ]  # fmt: skip
+    exact = table["method"].index("exact")
+    assert table["violation_max"][exact] < 1e-4 and table["relative_error"] == [None] * 4
+    written = list(csv.DictReader(open(tmp_path / "report" / "report.csv", newline="")))
+    assert [float(row["violation_max"]) for row in written] == table["violation_max"]
+    assert (tmp_path / "report" / "report.html").exists()
+
+
+def test_compare_with_physics():
+    table = chainmail.compare(beam(), against="physics", methods=["natural-queue", "fem"], repetitions=1)
+    assert is_table(table)
+    rows = list(zip(table["method"], table["relative_error"]))
+    assert all(error > 0 for method, error in rows if error is not None) and {"natural-queue", "fem", "nothing"} <= {
+        method for method, _ in rows
+    }
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        dict(methods=["magic"]), dict(methods=["exact", "exact"]), dict(sweeps=[-1]), dict(seconds=-1),
+        dict(relax_step=2), dict(against="nothing"), dict(precision="half"), dict(repetitions=0),
+        dict(drags=[chainmail.Drag("d", [99], [(1, 0, 0)])]), dict(drags=[chainmail.Drag("d", [9], [])]),
+        dict(drags=[chainmail.Drag("d", [9], [(np.nan, 0, 0)])]), dict(drags=[chainmail.Drag("d", [0], [(1, 0, 0)])]),
+    ],
+)  # fmt: skip
+def test_bad_comparisons(bad):
+    with pytest.raises(chainmail.Error):
+        chainmail.compare(beam(), **bad)
+
+
+@pytest.mark.parametrize("path", [[5], [(1, 2, 3, 4)], ["ab"], [None]])
+def test_bad_paths(path):
+    with pytest.raises((chainmail.Error, TypeError)):
+        chainmail.Drag("d", [0], path)
+
+
+def test_calibrate_is_a_dictionary_with_a_table():
+    options = dict(drags=1, held_out=1, evaluations=5, most_sweeps=3)
+    found = chainmail.calibrate(beam(), **options)
+    assert list(found) == ["softness", "sweeps", "evaluations", "errors", "json"]
+    assert isinstance(found["softness"], chainmail.LinkSoftness) and found["evaluations"] >= 1
+    assert is_table(found["errors"]) and list(found["errors"]) == ["drags", "state", "relative", "rms", "max"]
+    assert found["errors"]["drags"] == ["fitted"] * 3 + ["held_out"] * 3
+    assert found["errors"]["state"] == ["nothing", "before", "after"] * 2
+    assert json.loads(found["json"])["compression"] == found["softness"].compression
+    assert chainmail.calibrate(beam(), **options) == found
+
+
+@pytest.mark.parametrize(
+    "bad", [dict(drags=0), dict(held_out=0), dict(evaluations=0), dict(most_sweeps=-1), dict(method="fem")]
+)
+def test_bad_calibrations(bad):
+    with pytest.raises(chainmail.Error):
+        chainmail.calibrate(beam(), **bad)
+
+
+def test_calibrate_needs_pins():
+    with pytest.raises(chainmail.Error, match="pin"):
+        chainmail.calibrate(chainmail.Body(chainmail.make_tetra(3, 3, 3)))
+
+
+def test_ramp_is_two_tables():
+    found = chainmail.ramp(["natural-queue", "exact"], largest=64, drags=1, moves=3)
+    assert list(found) == ["sizes", "methods", "seconds"]
+    assert list(found["sizes"]) == [
+        "width", "elements", "links", "method", "passes", "median_ms", "p99_ms", "mean_moved", "repeated", "real_time",
+    ]  # fmt: skip
+    assert list(found["methods"]) == ["method", "largest_width", "lost", "growth_exponent"]
+    assert is_table(found["sizes"]) and is_table(found["methods"])
+    assert found["sizes"]["width"][0] == 4 and found["sizes"]["elements"][-1] <= 64
+    assert found["methods"]["method"] == ["natural-queue", "exact"]
+
+
+@pytest.mark.parametrize(
+    "bad", [dict(methods=["magic"]), dict(methods=["fem"]), dict(budget=0), dict(budget=math.nan), dict(largest=15),
+            dict(drags=0), dict(moves=0), dict(precision="half"), dict(softness=chainmail.LinkSoftness(shear=-1))]
+)  # fmt: skip
+def test_bad_ramps(bad):
+    with pytest.raises(chainmail.Error):
+        chainmail.ramp(**bad)
+
+
+def test_a_preset_for_the_command_line(program, tmp_path):
+    preset, mesh = tmp_path / "soft.json", tmp_path / "cloth.obj"
+    chainmail.write_preset(preset, "soft", chainmail.LinkSoftness(stretch=1.5))
+    chainmail.write_mesh(mesh, chainmail.make_cloth(5, 5))
+    subprocess.run(
+        [program, "compare", mesh, "--preset", preset, "--repetitions", "1", "-o", tmp_path / "out"], check=True,
+        capture_output=True,
+    )
+    with pytest.raises(chainmail.Error, match="preset"):
+        chainmail.write_preset(preset, "", chainmail.LinkSoftness())
+
+
+def test_drags():
+    drag = chainmail.Drag("turn", range(3), [(1, 0, 0), ((2, 0, 0), chainmail.Rotation((0, 0, 1), 5))])
+    assert repr(drag) == "<Drag: 'turn', 3 elements, 2 moves>"
+    assert drag.elements.tolist() == [0, 1, 2]
+    assert drag.path == [(1, 0, 0), ((2, 0, 0), chainmail.Rotation((0, 0, 1), 5))]
