@@ -17,8 +17,6 @@
 namespace chainmail::command_line {
 namespace {
 
-// Colour of lines and text. Single plots must be readable on light and dark backgrounds.
-
 report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   report::PhysicsOptions options;
   const double seconds_per_drag = options.contest.seconds;

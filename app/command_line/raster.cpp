@@ -30,7 +30,7 @@ void Raster::put(std::int64_t x, std::int64_t y, double depth, Colour colour) {
 }
 
 void Raster::draw_triangle(const std::array<Place, 3>& corners, Colour colour) {
-  const auto& [a, b, c] = corners;
+  const Place &a = corners[0], &b = corners[1], &c = corners[2];
   const double whole = area(a, b, c);
   if (whole == 0) {
     return;
