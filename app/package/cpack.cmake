@@ -3,7 +3,8 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME chainmail)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "The ChainMail workbench authors <authors@chainmail.invalid>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "workbench for the ChainMail family of deformable models")
+# The first line of all descriptions.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "deformable models of the ChainMail family")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
@@ -28,24 +29,26 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME chainmail)
 # A window needs a driver for OpenGL and a font, which the libraries of Qt do not name.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libgl1-mesa-dri, fonts-dejavu-core | fonts-freefont-ttf")
-set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "workbench for the ChainMail family of deformable models
-Drag soft objects, and measure how fast and how wrong each algorithm is: a
+set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "Drag soft objects, and measure how fast and how wrong each algorithm is: a
 window with algorithms side by side, and a command line. With samples, lessons
 and the manual.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libchainmail-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "chainmail (= ${PROJECT_VERSION}), libnlopt-dev, zlib1g-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "solvers of the ChainMail family as a C++ library
-Headers, the static library and a configuration for CMake.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "The solvers as a C++ library: headers, the static library and a
+configuration for CMake.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-chainmail)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "chainmail (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+# They compile the Python files, and remove what Python has compiled.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  ${CMAKE_CURRENT_LIST_DIR}/python/postinst ${CMAKE_CURRENT_LIST_DIR}/python/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-distributed, python3-pandas")
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "solvers of the ChainMail family for Python
-Meshes from files and arrays, drags, comparisons and parameter studies.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The solvers for Python: meshes from files and arrays, drags, comparisons and
+parameter studies.")
 
 include(CPack)
 cpack_add_component_group(programs)
