@@ -147,6 +147,8 @@ constexpr Figure figures[] = {
     {"window: painting per frame in the same drag (ms)", "/window/painting_ms", Limit::none, 0},
     {"window: idle, share of a core", "/window/idle_cpu", Limit::at_most, 0.01},
     {"window: start to first frame (ms)", "/window/first_frame_ms", Limit::none, 0},
+    {"Python: a move within the regions of 1,000 elements (µs)", "/python/move_us", Limit::at_most, 5},
+    {"Python: copy of a million positions (ms)", "/python/million_positions_ms", Limit::at_most, 10},
     {"window: open 1024² elements (ms)", "/window/open_ms", Limit::none, 0},
     {"window: save 1024² elements (ms)", "/window/save_ms", Limit::none, 0},
     {"window: open 100,000 triangles to the complete picture (ms)", "/window/surface_complete_ms", Limit::none, 0},
