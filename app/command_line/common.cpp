@@ -11,8 +11,6 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr std::uint32_t highest_whole_number = 1'000'000'000;
-
 std::string digits(double number) {
   std::string text;
   append_number(text, number);
@@ -77,15 +75,16 @@ double value_of(const CLI::Option* option, const Parameter& parameter) {
   return number;
 }
 
-std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard) {
+std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard,
+                              std::uint32_t highest) {
   const auto text = value_of(option);
   if (!text) {
     return standard;
   }
   const auto number = parse_count(*text);
-  if (!number || *number < lowest || *number > highest_whole_number) {
+  if (!number || *number < lowest || *number > highest) {
     throw Error(option->get_name(), in_quotes(*text) + " is not a whole number in range",
-                "use " + std::to_string(lowest) + " to " + std::to_string(highest_whole_number));
+                "use " + std::to_string(lowest) + " to " + std::to_string(highest));
   }
   return *number;
 }

@@ -153,10 +153,7 @@ Command add_thumbnail(CLI::App& root) {
   app.footer("File managers use it. It needs no display.\n\nExample:\n  chainmail thumbnail organ.msh -o organ.png");
   return {&app, [file, output, size] {
             const std::filesystem::path path = *value_of(file);
-            const std::uint32_t pixels = whole_number_of(size, smallest, standard);
-            if (pixels > largest) {
-              throw Error("--size", std::to_string(pixels) + " pixels are too many", "use at most 1024");
-            }
+            const std::uint32_t pixels = whole_number_of(size, smallest, standard, largest);
             const Shown shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
             const Raster picture = draw(shown, pixels);
             Outputs outputs;

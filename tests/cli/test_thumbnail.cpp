@@ -111,7 +111,8 @@ void ThumbnailCommandTest::refused_data() {
   QTest::newRow("thumbnail a.obj") << "-o: it is missing";
   QTest::newRow("thumbnail none.obj -o a.png") << "none.obj: ";
   QTest::newRow("thumbnail a.obj -o a.obj") << "a.obj: ";
-  QTest::newRow("thumbnail a.obj -o b.png --size 4000") << "--size: ";
+  QTest::newRow("thumbnail a.obj -o b.png --size 4000")
+      << "--size: '4000' is not a whole number in range; use 16 to 1024";
   QTest::newRow("thumbnail a.obj -o b.png --size 3") << "--size: ";
   QTest::newRow("thumbnail broken.chainmail -o b.png") << "broken.chainmail";
 }
