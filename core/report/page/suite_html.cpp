@@ -20,7 +20,8 @@ elements on refined cells.</p>
 preparation that it repeats. Times are medians. <b>Bytes</b> is the memory of a solver after its first drag, without the
 mesh. A contestant that does not converge has no figures. <b>Calibrated</b> contestants have the softness that is closest
 to the reference on drags of other elements. The <b>time to an error</b> is the shortest with which a contestant comes
-below it, over all numbers of iterations or sweeps per move.</p>
+below it, over all numbers of iterations or sweeps per move. Do not conclude from the times which method is faster: they
+stop by different rules, and not all prepare within the measured time.</p>
 )";
 
 void write_runs(std::ostream& out, const Suite& suite) {
@@ -44,7 +45,7 @@ void write_runs(std::ostream& out, const Suite& suite) {
 
 void write_html(std::ostream& out, const Suite& suite) {
   begin_page(out, "ChainMail and the methods of today", suite.runs.front().origin);
-  out << "<h2>Who wins where</h2>\n<ul>\n";
+  out << "<h2>Who is closest</h2>\n<ul>\n";
   for (const std::string& sentence : suite_findings(suite)) {
     out << "<li>" << escaped(sentence) << "</li>\n";
   }

@@ -82,18 +82,6 @@ const SuiteMean* closest(const std::vector<SuiteMean>& means) {
   return best;
 }
 
-/// Returns the fastest contestant below an error.
-const SuiteMean* fastest(const std::vector<SuiteMean>& means, double below) {
-  const SuiteMean* best = nullptr;
-  for (const SuiteMean& mean : means) {
-    if (may_win(mean) && *mean.relative <= below && mean.later_ms &&
-        (best == nullptr || *mean.later_ms < *best->later_ms)) {
-      best = &mean;
-    }
-  }
-  return best;
-}
-
 std::string summary_cell(const SuiteMean& mean, const SuiteMean* best) {
   if (!mean.relative) {
     return "-";
@@ -105,36 +93,6 @@ std::string summary_cell(const SuiteMean& mean, const SuiteMean* best) {
 }
 
 std::string error_of(const SuiteMean& mean) { return mean.contestant + " (" + figure(*mean.relative) + ")"; }
-
-const SuiteTime* find_time(const SuiteResult& result, std::string_view begin, std::string_view end) {
-  const auto found = std::ranges::find_if(result.times, [&](const SuiteTime& one) {
-    return one.contestant.starts_with(begin) && one.contestant.ends_with(end);
-  });
-  return found == result.times.end() ? nullptr : &*found;
-}
-
-/// Compares two times to an error: "0.1 ms and XPBD 0.7 ms, 7 times as long".
-std::string ratio_in_words(const std::optional<double>& mine, const SuiteTime& theirs,
-                           const std::optional<double>& its) {
-  if (!mine) {
-    return "does not come there";
-  }
-  return "takes " + figure(*mine) + " ms, " + theirs.contestant + " " +
-         (its ? figure(*its) + " ms, " + figure(*its / *mine) + " times as long" : "does not come there");
-}
-
-/// Says how much faster Exact at equilibrium, calibrated, is than another method at the error 0.3.
-void add_ratio(std::vector<std::string>& sentences, const SuiteResult& result, std::string_view other) {
-  constexpr std::size_t at = 1;  // suite_errors[1] is 0.3
-  const SuiteTime* ours = find_time(result, "Exact + equilibrium", "calibrated");
-  const SuiteTime* theirs = find_time(result, other, "");
-  if (ours != nullptr && theirs != nullptr) {
-    sentences.push_back(result.name + ": to a relative error of " + figure(suite_errors[at]) + ", " + ours->contestant +
-                        " " + ratio_in_words(ours->ms_per_move[at], *theirs, theirs->ms_per_move[at]) +
-                        " per later move; from a fresh grab, it " +
-                        ratio_in_words(ours->fresh_ms[at], *theirs, theirs->fresh_ms[at]));
-  }
-}
 
 std::string about(const SuiteResult& result) {
   std::string text = result.description + "; " + thousands(result.elements) + " elements, " + thousands(result.links) +
@@ -267,15 +225,8 @@ std::vector<std::string> suite_findings(const Suite& suite) {
   for (const SuiteResult& result : suite.results) {
     const auto means = means_of(result);
     if (const SuiteMean* best = closest(means)) {
-      std::string text = result.name + ": " + error_of(*best) + " is closest";
-      if (const SuiteMean* fast = fastest(means, suite_errors[1])) {
-        text += "; " + error_of(*fast) + " is the fastest below " + figure(suite_errors[1]) + ", with " +
-                figure(*fast->later_ms) + " ms per later move";
-      }
-      sentences.push_back(text);
+      sentences.push_back(result.name + ": " + error_of(*best) + " is closest");
     }
-    add_ratio(sentences, result, "XPBD");
-    add_ratio(sentences, result, "Bullet");
   }
   return sentences;
 }

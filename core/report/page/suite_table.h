@@ -27,7 +27,8 @@ FigureTable order_table(const SuiteResult& result);
 /// All figures of one experiment with drags.
 FigureTable suite_table(const SuiteResult& result);
 
-/// Returns sentences that say who is closest and who is fastest in each experiment.
+/// Returns sentences that say who is closest in each experiment. Times are not compared: the methods stop by different
+/// rules.
 std::vector<std::string> suite_findings(const Suite& suite);
 
 /// Writes findings, the summary, times and orders as text.
