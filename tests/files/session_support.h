@@ -52,7 +52,7 @@ inline Session session_on(const MeshPointer& mesh) {
   session.moves = {commands::Cut{{0, 3}}, commands::Pin{{1, 8}}, commands::Grab{2}, commands::Drag{{0.1, 1.0 / 3, 0}},
                    commands::Release{}};
   session.moves_done = 4;
-  session.ui = R"({"cameras":[{"yaw":0.1}],"layout":"AAE="})";
+  session.ui = R"({"cameras":[{"yaw":0.1}]})";
   return session;
 }
 

@@ -42,6 +42,7 @@ Hints::Hints() {
     });
     grid->addWidget(sign, row, 0);
     auto* words = new QLabel(QLatin1String(hints[std::size_t(row)].words));
+    words->setTextFormat(Qt::RichText);
     words->setWordWrap(true);  // otherwise the hints would widen a small window
     grid->addWidget(words, row, 1);
   }

@@ -7,6 +7,7 @@
 
 #include "document/propagation.h"
 #include "panels/panel_area.h"
+#include "window/dock_layout.h"
 
 namespace chainmail {
 
@@ -26,6 +27,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
   action_->setShortcut(Qt::Key_F11);
   action_->setStatusTip(
       QStringLiteral("Shows only the panels, on the whole screen, with large texts and a ring at the cursor"));
+  tool_->setTextFormat(Qt::RichText);
   tool_->setObjectName(QStringLiteral("lectureTool"));
   tool_->hide();
   window.statusBar()->addPermanentWidget(tool_);
@@ -35,6 +37,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
 
 void LectureMode::enter() {
   layout_ = window_.saveState(layoutVersion_);
+  places_ = dockLayout(window_);
   geometry_ = window_.saveGeometry();
   propagation_.setHeld(propagation_.isShown());
   for (auto* dock : window_.findChildren<QDockWidget*>()) {
@@ -69,7 +72,7 @@ void LectureMode::nameTool() {
   const QAction* tool = tools_.checkedAction();
   tool_->setText(QStringLiteral("Tool: <b>%1</b>  ·  %2 ends the lecture mode")
                      .arg(tool != nullptr ? tool->text().remove(QLatin1Char('&')) : QString(),
-                          action_->shortcut().toString(QKeySequence::NativeText)));
+                          action_->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped()));
 }
 
 }  // namespace chainmail

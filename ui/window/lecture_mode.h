@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QActionGroup>
+#include <QJsonArray>
 #include <QLabel>
 #include <QMainWindow>
 #include <vector>
@@ -26,6 +27,8 @@ class LectureMode : public QObject {
   void leave() { action_->setChecked(false); }
   /// The layout to restore afterwards (QMainWindow::saveState).
   const QByteArray& layoutBefore() const { return layout_; }
+  /// The places of the docks to restore afterwards (dockLayout()).
+  const QJsonArray& placesBefore() const { return places_; }
 
  private:
   void enter();
@@ -42,6 +45,7 @@ class LectureMode : public QObject {
   int layoutVersion_;
   QAction* action_;
   QByteArray layout_, geometry_;
+  QJsonArray places_;
 };
 
 }  // namespace chainmail

@@ -34,6 +34,7 @@
 #include "tools/pin_bar.h"
 #include "tools/pin_layers.h"
 #include "window/camera_actions.h"
+#include "window/dock_layout.h"
 #include "window/docks.h"
 #include "window/help_menu.h"
 #include "window/job_bar.h"
@@ -419,17 +420,17 @@ void MainWindow::makeDocks() {
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
-QByteArray MainWindow::savedLayout() const {
-  return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
+QJsonArray MainWindow::dockPlaces() const { return lecture_->isOn() ? lecture_->placesBefore() : dockLayout(*this); }
+
+void MainWindow::takeDockPlaces(const QJsonArray& places) {
+  if (!places.isEmpty()) {
+    lecture_->leave();
+    applyDockLayout(*this, places);
+  }
 }
 
-void MainWindow::takeLayout(const QByteArray& layout) {
-  lecture_->leave();
-  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
-  this->layout()->setEnabled(false);
-  restoreState(layout, layoutVersion);
-  this->layout()->setEnabled(true);
-  this->layout()->activate();
+QByteArray MainWindow::layoutForSettings() const {
+  return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
 }
 
 void MainWindow::restoreLayout() {
@@ -437,7 +438,12 @@ void MainWindow::restoreLayout() {
   docks_->resize();
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
-  takeLayout(settings.value(QStringLiteral("layout")).toByteArray());
+  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
+  // It trusts its bytes, so it only gets those of the user's own settings.
+  layout()->setEnabled(false);
+  restoreState(settings.value(QStringLiteral("layout")).toByteArray(), layoutVersion);
+  layout()->setEnabled(true);
+  layout()->activate();
   // Widgets that were never shown ask for more room than they need, which widens the window beyond a small screen.
   QTimer::singleShot(0, this, [this] { resize(size().boundedTo(screen()->availableSize())); });
 }
@@ -466,7 +472,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   sessions_->keep();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("layout"), savedLayout());
+  settings.setValue(QStringLiteral("layout"), layoutForSettings());
   QMainWindow::closeEvent(event);
 }
 

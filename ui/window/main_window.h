@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QJsonArray>
 #include <QMainWindow>
 #include <memory>
 
@@ -56,10 +57,10 @@ class MainWindow : public QMainWindow {
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
   Lessons& lessons() { return *lessons_; }
-  /// Returns the positions, sizes and visibility of the docks.
-  QByteArray savedLayout() const;
-  /// Restores a saved layout. Ignores layouts of another version.
-  void takeLayout(const QByteArray& layout);
+  /// Returns the places, sizes and visibility of the docks; in the lecture mode, as they were before it.
+  QJsonArray dockPlaces() const;
+  /// Restores what dockPlaces() returned, see applyDockLayout().
+  void takeDockPlaces(const QJsonArray& places);
   /// Opens a session, mesh, volume or picture in the background: as one undo step, or as the first object of the
   /// window. If the file has an error, shows a message and changes nothing.
   void openFile(const QString& path, bool first = false);
@@ -94,6 +95,7 @@ class MainWindow : public QMainWindow {
   /// Shows a sentence in the status bar for 4 s.
   void showStatus(const QString& sentence);
   void showTitle();
+  QByteArray layoutForSettings() const;
   void restoreLayout();
 
   Document document_;

@@ -28,16 +28,19 @@ QJsonObject toJson(const Camera::Pose& pose) {
 }
 
 /// Returns the pose in the JSON. Missing values stay as in `present`, and so do coordinates of the centre that are
-/// infinite as float. JSON has no NaN.
+/// infinite as float. JSON has no NaN. An angle counts modulo a whole turn: the sine of a huge one is noise.
 Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
   const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
+  const QString up = json[QStringLiteral("up")].toString();
   Camera::Pose pose{present.centre,
                     number("height", present.height),
-                    number("yaw", present.yaw),
-                    number("pitch", present.pitch),
+                    std::remainder(number("yaw", present.yaw), 360),
+                    std::clamp(number("pitch", present.pitch), -90.0, 90.0),
                     json[QStringLiteral("parallel")].toBool(present.parallel),
                     json[QStringLiteral("framed")].toBool(),
-                    json[QStringLiteral("up")].toString() == QLatin1String("z") ? Camera::Up::z : Camera::Up::y};
+                    up == QLatin1String("z")   ? Camera::Up::z
+                    : up == QLatin1String("y") ? Camera::Up::y
+                                               : present.up};
   const QJsonArray centre = json[QStringLiteral("centre")].toArray();
   for (int k = 0; k < 3 && centre.size() == 3; ++k) {
     const auto at = float(centre[k].toDouble(pose.centre[k]));
@@ -76,22 +79,19 @@ std::string lookOf(MainWindow& window) {
   for (int panel = 0; panel < window.document().panels(); ++panel) {
     cameras << toJson(window.panel(panel).view().camera()->pose());
   }
-  const QString layout = QString::fromLatin1(window.savedLayout().toBase64());
   const QJsonObject look{{QStringLiteral("cameras"), cameras},
                          {QStringLiteral("linked"), window.area().links().cameras()},
                          {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
                          {QStringLiteral("show"), window.showMenu().chosen()},
                          {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
-                         {QStringLiteral("layout"), layout},
+                         {QStringLiteral("docks"), window.dockPlaces()},
                          {QStringLiteral("file"), window.document().sessionFile()}};
   return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
 }
 
 void takeLook(MainWindow& window, const std::string& json) {
   const QJsonObject look = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
-  if (const QString layout = look[QStringLiteral("layout")].toString(); !layout.isEmpty()) {
-    window.takeLayout(QByteArray::fromBase64(layout.toLatin1()));
-  }
+  window.takeDockPlaces(look[QStringLiteral("docks")].toArray());
   window.showMenu().choose(look[QStringLiteral("show")].toString());
   window.docks().get<SectionDock>().take(look[QStringLiteral("section")].toObject());
   takeColours(window, look[QStringLiteral("colour")].toString());
