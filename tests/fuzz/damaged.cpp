@@ -9,12 +9,12 @@
 #include <iostream>
 #include <iterator>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
+#include "fuzz/damage.h"
 #include "mesh/error.h"
 
 namespace fs = std::filesystem;
@@ -75,67 +75,6 @@ std::vector<Sample> samples_in(const fs::path& folder) {
   return samples;
 }
 
-class Damage {
- public:
-  explicit Damage(unsigned seed) : random_(seed) {}
-
-  std::size_t below(std::size_t end) { return end == 0 ? 0 : random_() % end; }
-
-  void apply(std::string& bytes) {
-    for (std::size_t times = 1 + below(2); times > 0; --times) {
-      apply_one(bytes);
-    }
-  }
-
- private:
-  void apply_one(std::string& bytes) {
-    static const std::vector<std::string> numbers{
-        "4294967295", "-1",   "2147483648",           "1e999",           "nan", "1e-320",
-        "0",          "1e99", "18446744073709551616", "\xff\xff\xff\xff"};
-    const std::size_t place = below(bytes.size());
-    const std::size_t length = below(std::min<std::size_t>(bytes.size() - place, 200) + 1);
-    switch (below(6)) {
-      case 0:
-        return bytes.resize(place);
-      case 1:
-        for (std::size_t i = 0; i < 1 + length / 10 && !bytes.empty(); ++i) {
-          bytes[below(bytes.size())] = any_byte();
-        }
-        return;
-      case 2:
-        for (std::size_t i = 0; i < length; ++i) {
-          bytes.insert(bytes.begin() + std::ptrdiff_t(place), any_byte());
-        }
-        return;
-      case 3:
-        bytes.erase(place, length);
-        return;
-      case 4:
-        bytes.insert(place, bytes.substr(below(bytes.size()), length));
-        return;
-      default:
-        replace_number(bytes, below(2) == 0 ? place : below(std::min<std::size_t>(bytes.size(), 300)),
-                       numbers[below(numbers.size())]);
-    }
-  }
-
-  /// Returns a random character. It is often one that occurs in texts, so that texts stay texts.
-  char any_byte() {
-    static constexpr std::string_view of_texts = "0123456789 -.e\n";
-    return below(3) > 0 ? of_texts[below(of_texts.size())] : static_cast<char>(random_());
-  }
-
-  /// Replaces the first number after `place` by another one.
-  static void replace_number(std::string& bytes, std::size_t place, const std::string& number) {
-    const std::size_t first = bytes.find_first_of("0123456789", place);
-    if (first != std::string::npos) {
-      bytes.replace(first, std::min(bytes.find_first_not_of("0123456789.", first), bytes.size()) - first, number);
-    }
-  }
-
-  std::mt19937 random_;
-};
-
 struct Outcome {
   bool opened = false;
   std::string fault;  // fault of our program
@@ -166,7 +105,7 @@ struct Tally {
 
 /// Returns true if there was no fault.
 bool run(double seconds, unsigned seed, const fs::path& kept, const std::vector<Sample>& samples) {
-  Damage damage(seed);
+  fuzz::Damage damage(seed);
   std::map<std::string, Tally> tallies;
   bool well = true;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);

@@ -2,7 +2,6 @@
 
 #include <QHelpEvent>
 #include <QMouseEvent>
-#include <QTextDocument>
 #include <QToolTip>
 #include <cmath>
 
@@ -32,11 +31,6 @@ std::optional<std::array<double, 2>> nearestPoint(const report::PlotPanel& panel
 
 QString valueWithUnit(double value, const report::PlotAxis& axis) {
   return (text(report::figure(value)) + QLatin1Char(' ') + text(axis.unit)).trimmed();
-}
-
-/// Shows the reading as rich text, because tool tips wrap only rich text.
-void showReading(const QPoint& position, const QString& reading, QWidget* widget) {
-  QToolTip::showText(position, Qt::convertFromPlainText(reading, Qt::WhiteSpaceNormal), widget);
 }
 
 }  // namespace
@@ -118,7 +112,7 @@ void PlotWidget::mouseMoveEvent(QMouseEvent* event) {
     return;
   }
   shownReading_ = reading;
-  reading.isEmpty() ? QToolTip::hideText() : showReading(event->globalPosition().toPoint(), reading, this);
+  reading.isEmpty() ? QToolTip::hideText() : QToolTip::showText(event->globalPosition().toPoint(), reading, this);
 }
 
 /// Shows the reading as tool tip. If there is none, the widget's own tool tip is shown.
@@ -126,7 +120,7 @@ bool PlotWidget::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = dynamic_cast<QHelpEvent*>(event);
     if (const QString reading = readingAt(help->pos()); !reading.isEmpty()) {
-      showReading(help->globalPos(), reading, this);
+      QToolTip::showText(help->globalPos(), reading, this);
       return true;
     }
   }

@@ -1,5 +1,6 @@
 #include "common/workbench_style.h"
 
+#include <QLabel>
 #include <QPainter>
 #include <QStyleOption>
 
@@ -15,6 +16,15 @@ constexpr int extensionWidth = 24;  // pixels, of the button that opens the rest
 }  // namespace
 
 WorkbenchStyle::WorkbenchStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
+
+/// Qt shows a text as rich text if it looks like it, and rich text may name files, which Qt then reads. Labels get
+/// texts from files: names, captions, errors. Tool tips and questions are shown by labels, too.
+void WorkbenchStyle::polish(QWidget* widget) {
+  QProxyStyle::polish(widget);
+  if (auto* label = qobject_cast<QLabel*>(widget); label != nullptr && label->textFormat() == Qt::AutoText) {
+    label->setTextFormat(Qt::PlainText);
+  }
+}
 
 void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                                    const QWidget* widget) const {

@@ -4,8 +4,8 @@
 
 namespace chainmail {
 
-/// The Fusion style with three changes: checked tool buttons look different from unchecked ones, combo boxes open
-/// lists, and the button that opens the rest of a tool bar is large enough to see.
+/// The Fusion style with four changes: checked tool buttons look different from unchecked ones, combo boxes open lists,
+/// the button that opens the rest of a tool bar is large enough to see, and labels show plain text.
 ///
 /// A style sheet would do the same, but Qt 6.4 visits all widgets to change one, and crashes if a widget is deleted
 /// meanwhile.
@@ -14,6 +14,10 @@ class WorkbenchStyle : public QProxyStyle {
 
  public:
   WorkbenchStyle();
+  /// Makes labels, tool tips and questions show their text as it is. A label with rich text sets Qt::RichText when it is
+  /// made, and escapes what is not its own (QString::toHtmlEscaped).
+  void polish(QWidget* widget) override;
+  using QProxyStyle::polish;
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
   /// Draws the button that opens the rest of a tool bar like our other icons; Fusion's arrow is small and dark.

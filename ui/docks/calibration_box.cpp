@@ -48,6 +48,7 @@ void CalibrationBox::arrange() {
   start_->setObjectName(QStringLiteral("calibrate"));
   keep_->setObjectName(QStringLiteral("calibrationKeep"));
   keep_->setToolTip(QStringLiteral("Saves the present softness under a name"));
+  result_->setTextFormat(Qt::RichText);
   result_->setObjectName(QStringLiteral("calibrationResult"));
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);

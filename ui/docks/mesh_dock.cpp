@@ -59,6 +59,7 @@ MeshDock::MeshDock(Document& document, Jobs& jobs)
   kind_->setToolTip(QStringLiteral("Kind of the mesh: chain, surface or volume, with or without diagonal links"));
   build_->setToolTip(QStringLiteral("Replaces the object with this mesh, as one undo step"));
   build_->setObjectName(QStringLiteral("buildMesh"));
+  description_->setTextFormat(Qt::RichText);
   description_->setObjectName(QStringLiteral("meshDescription"));
   description_->setWordWrap(true);
   arrange();

@@ -78,6 +78,7 @@ QLayout* PhysicsDock::makeLattice() {
 }
 
 QLayout* PhysicsDock::makePins(PinLayers& layers) {
+  pins_->setTextFormat(Qt::RichText);
   pins_->setObjectName(QStringLiteral("physicsPins"));
   pins_->setWordWrap(true);
   auto* pin = new QToolButton;

@@ -34,6 +34,7 @@ SelectedLinks::SelectedLinks(Document& document)
 }
 
 void SelectedLinks::arrange() {
+  description_->setTextFormat(Qt::RichText);
   description_->setObjectName(QStringLiteral("selectedDescription"));
   description_->setWordWrap(true);
   set_->setObjectName(QStringLiteral("setSelected"));

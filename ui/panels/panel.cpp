@@ -46,6 +46,7 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
   violation_->setObjectName(QStringLiteral("violation%1").arg(panel));
+  statistics_->setTextFormat(Qt::RichText);
   statistics_->setObjectName(QStringLiteral("statistics%1").arg(panel));
   statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   statistics_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -129,13 +130,13 @@ void Panel::enlargeTexts(double factor) {
 void Panel::update(const Statistics& statistics) {
   violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0, view_->isInMidPass());
   const QString help = QStringLiteral(
-      "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is "
-      "the share of links above 1e-4 rest lengths.\nDuring a drag it covers the links that the pass touched, at "
-      "rest all links. While the Propagation dock shows a candidate, it is the violation after the whole pass.");
+      "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is\n"
+      "the share of links above 1e-4 rest lengths.\n"
+      "During a drag it covers the links that the pass touched, at rest all links. While the\n"
+      "Propagation dock shows a candidate, it is the violation after the whole pass.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
-  violation_->setToolTip(QStringLiteral("<p>%1</p><p>%2</p><p>%3</p>")
-                             .arg(violation_->sentence().toHtmlEscaped(), statistics_->text(), help.toHtmlEscaped()));
+  violation_->setToolTip(QStringLiteral("%1\n\n%2\n\n%3").arg(violation_->sentence(), inWords(statistics), help));
   if (statistics_->sizeHint().width() > statistics_->width()) {
     statistics_->setText(describe(statistics, true));
   }
@@ -145,6 +146,13 @@ void Panel::update(const Statistics& statistics) {
 QString Panel::describe(const Statistics& statistics, bool briefly) const {
   return describePass(statistics, briefly) + QStringLiteral("<br>") +
          (statistics.remark.empty() ? describeViolation(statistics, briefly) : describeRemark(statistics));
+}
+
+/// Returns the figures as plain text.
+QString Panel::inWords(const Statistics& statistics) {
+  QString figures = describePass(statistics, false) + QLatin1Char('\n') + describeViolation(statistics, false);
+  figures.remove(QStringLiteral("<b>")).remove(QStringLiteral("</b>"));
+  return statistics.remark.empty() ? figures : figures + QLatin1Char('\n') + QString::fromStdString(statistics.remark);
 }
 
 QString Panel::describePass(const Statistics& statistics, bool briefly) {

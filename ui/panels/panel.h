@@ -41,6 +41,7 @@ class Panel : public QFrame {
   void showStatistics();
   void update(const Statistics& statistics);
   QString describe(const Statistics& statistics, bool briefly) const;
+  static QString inWords(const Statistics& statistics);
   static QString describePass(const Statistics& statistics, bool briefly);
   static QString describeViolation(const Statistics& statistics, bool briefly);
   QString describeRemark(const Statistics& statistics) const;

@@ -24,6 +24,7 @@ QString softnessInWords(const SoftnessRange& softness) {
 ElementReadout::ElementReadout(const Document& document, const Measurement& measurement, std::function<int()> hovered)
     : document_(document), measurement_(measurement), hovered_(std::move(hovered)), refresh_(this) {
   setObjectName(QStringLiteral("readout"));
+  setTextFormat(Qt::RichText);
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   refresh_.setSingleShot(true);
   refresh_.setInterval(refreshMilliseconds);

@@ -27,6 +27,7 @@ PropagationColumn::PropagationColumn(Document& document, Propagation& propagatio
       slider_(new QSlider(Qt::Horizontal)),
       state_(new QLabel),
       list_(new QTreeView) {
+  title_->setTextFormat(Qt::RichText);
   title_->setObjectName(QStringLiteral("propagationPanel%1").arg(panel));
   choice_->setObjectName(QStringLiteral("propagationChoice%1").arg(panel));
   choice_->setAccessibleName(QStringLiteral("Step panel %1").arg(panelName(panel)));
@@ -35,6 +36,7 @@ PropagationColumn::PropagationColumn(Document& document, Propagation& propagatio
   slider_->setObjectName(QStringLiteral("propagationStep%1").arg(panel));
   slider_->setAccessibleName(QStringLiteral("Candidate of the pass in panel %1").arg(panelName(panel)));
   slider_->setToolTip(QStringLiteral("Number of candidates processed so far in this pass"));
+  state_->setTextFormat(Qt::RichText);
   state_->setObjectName(QStringLiteral("propagationState%1").arg(panel));
   state_->setWordWrap(true);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // must not widen the dock

@@ -28,6 +28,7 @@ SizeTestResults::SizeTestResults()
     : verdicts_(new QLabel),
       plot_(new PlotWidget(QStringLiteral("Time of a pass at each size"))),
       table_(new QTableWidget) {
+  verdicts_->setTextFormat(Qt::RichText);
   verdicts_->setObjectName(QStringLiteral("sizeTestVerdicts"));
   verdicts_->setAccessibleName(QStringLiteral("Largest size in real time, for each panel"));
   verdicts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
