@@ -12,8 +12,10 @@
 #include <QRegularExpression>
 #include <QToolBar>
 #include <QToolButton>
+#include <QXmlStreamReader>
 #include <cmath>
 
+#include "common/plot_painting.h"
 #include "io/sessions.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -223,6 +225,26 @@ class WindowForeign : public QObject {
       QVERIFY(label->textFormat() == Qt::PlainText);
     }
     QCOMPARE(labels, 2);
+  }
+
+  /// The titles of plots contain names of objects and algorithms.
+  void aPlotEscapesItsTexts() {
+    const QString path = folder_.filePath(QStringLiteral("plot.svg"));
+    report::Plot plot;
+    plot.title = markup.toStdString();
+    plot.panels.emplace_back().title = markup.toStdString();
+    savePlot(plot, path);
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QXmlStreamReader xml(&file);
+    bool named = false;
+    while (!xml.atEnd()) {
+      xml.readNext();
+      QVERIFY(!xml.isStartElement() || (xml.name() != QLatin1String("img") && xml.name() != QLatin1String("b")));
+      named = named || (xml.isCharacters() && xml.text().contains(QStringLiteral("<img")));
+    }
+    QVERIFY2(!xml.hasError(), qPrintable(xml.errorString()));
+    QVERIFY(named);
   }
 
   /// Rich text is asked for by name, in these files. They show numbers and our own words, and escape the rest.

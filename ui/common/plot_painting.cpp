@@ -347,10 +347,17 @@ bool writePdf(QIODevice& file, const report::Plot& plot) {
   return painter.end();
 }
 
+/// Returns a title without the characters of markup: Qt 6.4 does not escape the title of an SVG, later versions may.
+QString titleForSvg(const report::Plot& plot) {
+  QString title = text(plot.title);
+  title.removeIf([](QChar letter) { return letter == u'<' || letter == u'>' || letter == u'&'; });
+  return title;
+}
+
 bool writeSvg(QIODevice& file, const report::Plot& plot) {
   QSvgGenerator writer;
   writer.setOutputDevice(&file);
-  writer.setTitle(text(plot.title));
+  writer.setTitle(titleForSvg(plot));
   writer.setSize(savedSize.toSize());
   writer.setViewBox(QRectF({}, savedSize));
   QPainter painter;
