@@ -1,7 +1,8 @@
 // Tests a real window with damaged files: sessions with all that they say of the window, lessons, moves, presets,
 // pictures, volumes and meshes, one after another in the same window, as a user would open them. A run has a fixed
-// number of files. The environment variables CHAINMAIL_DAMAGED_FILES and CHAINMAIL_DAMAGED_SEED set their number and
-// the seed; CHAINMAIL_DAMAGED_KEEP names a folder for the file that was open when a test fails.
+// number of files. With the environment variable CHAINMAIL_DAMAGED_SECONDS, it takes that time instead.
+// CHAINMAIL_DAMAGED_SEED sets the seed, and CHAINMAIL_DAMAGED_KEEP names a folder for the file that was open when the
+// test fails.
 
 #include <QDir>
 #include <QDirIterator>
@@ -23,7 +24,7 @@ using namespace chainmail;
 
 namespace {
 
-constexpr int usualFiles = 60;
+constexpr int fewFiles = 60;
 constexpr int betweenUndos = 10;
 constexpr qint64 longestOpening = 20'000;  // milliseconds for a small file, with sanitizers on a busy machine
 
@@ -77,18 +78,21 @@ class WindowDamaged : public QObject {
   }
 
   void oneAfterAnother() {
-    const int files = asked("CHAINMAIL_DAMAGED_FILES", usualFiles);
+    const int seconds = asked("CHAINMAIL_DAMAGED_SECONDS", 0);
     const auto seed = unsigned(asked("CHAINMAIL_DAMAGED_SEED", int(std::random_device()() % 1'000'000)));
-    qInfo("%d files with the seed %u", files, seed);
+    qInfo("the seed is %u", seed);
     fuzz::Damage damage(seed);
     Workbench bench;
-    for (int number = 1; number <= files && !QTest::currentTestFailed(); ++number) {
-      openOne(bench, damage, number);
+    QElapsedTimer clock;
+    clock.start();
+    int files = 0;
+    while (!QTest::currentTestFailed() && (seconds > 0 ? clock.elapsed() < 1000 * seconds : files < fewFiles)) {
+      openOne(bench, damage, ++files);
     }
     if (QTest::currentTestFailed()) {
       keep();
     } else {
-      qInfo("%d opened, %d refused", opened_, files - opened_);
+      qInfo("%d executions, nothing found; %d opened, %d refused", files, opened_, files - opened_);
       QVERIFY(opened_ > 0 && opened_ < files);
     }
   }
