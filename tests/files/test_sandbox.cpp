@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <pthread.h>
 #include <seccomp.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -7,18 +8,20 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <QtTest>
 #include <cstdlib>
-#include <thread>
+#include <optional>
 
 #include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
 using namespace chainmail::test;
+using chainmail::import::SandboxFiles;
 
 namespace {
 
@@ -45,6 +48,36 @@ bool becomes_a_program() { return execl("/bin/true", "true", nullptr) == 0; }
 
 bool opens_a_socket(int domain) { return worked(socket(domain, SOCK_STREAM, 0)); }
 
+constexpr const char* given = "../given";  // a file that is open when the sandbox is entered
+constexpr const char* given_again = "/proc/self/fd/50";
+constexpr int given_number = 50;
+
+bool opens(const std::string& path) { return worked(open(path.c_str(), O_RDONLY)); }
+bool writes_to_given() { return write(given_number, "more", 4) == 4; }
+
+bool starts_a_thread() {
+  pthread_t thread{};
+  return pthread_create(
+             &thread, nullptr, [](void* none) { return none; }, nullptr) == 0;
+}
+
+/// Reads a variable of the test, which has the same address as in this child process.
+bool reads_memory_of_the_parent() {
+  static int there = 0;
+  int here = 0;
+  const iovec to{&here, sizeof here}, from{&there, sizeof there};
+  return process_vm_readv(getppid(), &to, 1, &from, 1, 0) == sizeof here;
+}
+
+/// Acts like a kernel without Landlock.
+bool opens_without_landlock() {
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  if (seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), 444, 0) != 0 || seccomp_load(filter) != 0) {
+    return false;
+  }
+  return !chainmail::import::sandbox_hides_files() && chainmail::open_mesh("a.off").mesh->element_count() == 3;
+}
+
 /// Acts like a kernel without seccomp: the import program gets no filter.
 bool opens_without_seccomp() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
@@ -69,33 +102,48 @@ class SandboxTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void initTestCase();
   void init();
   void it_forbids_data();
   void it_forbids();
+  void it_hides_files_data();
+  void it_hides_files();
   void it_allows_data();
   void it_allows();
+  void without_files_nothing_can_be_opened();
+  void a_file_grows_to_the_given_size_only();
+  void where_there_is_no_landlock_files_open();
   void where_it_cannot_be_entered_nothing_is_read();
 
  private:
   enum Result { succeeded, failed, no_sandbox, died };
 
-  /// Runs an attempt in a separate process, and returns its result.
-  Result result_of(Attempt attempt, bool in_sandbox) const;
+  /// Runs an attempt in a separate process, and returns its result. It starts in the folder `inside`.
+  Result result_of(Attempt attempt, const std::optional<SandboxFiles>& sandbox) const;
+  Result result_inside(Attempt attempt) const { return result_of(attempt, SandboxFiles{".", {given_number}}); }
+  Result result_outside(Attempt attempt) const { return result_of(attempt, std::nullopt); }
 
   std::unique_ptr<QTemporaryDir> folder_;
 };
 
+/// Some systems forbid a process to trace its parent. Here it may, so that only the sandbox forbids it.
+void SandboxTest::initTestCase() { prctl(PR_SET_PTRACER, PR_SET_PTRACER_ANY); }
+
 void SandboxTest::init() {
   folder_ = std::make_unique<QTemporaryDir>();
   const std::filesystem::path path = folder_->path().toStdString();
-  put_file(path / "old", "text");
-  std::filesystem::create_directory(path / "folder");
+  std::filesystem::create_directories(path / "inside" / "folder");
+  put_file(path / "inside" / "old", "text");
+  put_file(path / "secret", "text");
+  put_file(path / "given", "text");
 }
 
-SandboxTest::Result SandboxTest::result_of(Attempt attempt, bool in_sandbox) const {
+SandboxTest::Result SandboxTest::result_of(Attempt attempt, const std::optional<SandboxFiles>& sandbox) const {
   const pid_t process = fork();
   if (process == 0) {
-    if (chdir(qPrintable(folder_->path())) != 0 || (in_sandbox && !chainmail::import::enter_sandbox())) {
+    const bool prepared =
+        chdir(qPrintable(folder_->filePath("inside"))) == 0 && dup2(open(given, O_RDWR), given_number) == given_number;
+    if (!prepared || (sandbox && !chainmail::import::enter_sandbox(*sandbox))) {
       _exit(no_sandbox);
     }
     try {
@@ -137,12 +185,37 @@ void SandboxTest::it_forbids_data() {
   row("a socket of the machine", [] { return opens_a_socket(AF_UNIX); });
   row("signals to others", [] { return worked(kill(getppid(), 0)); });
   row("being traced", [] { return worked(ptrace(PTRACE_TRACEME, 0, nullptr, nullptr)); });
+  row("tracing others", [] { return worked(ptrace(PTRACE_SEIZE, getppid(), nullptr, nullptr)); });
+  row("memory of others", reads_memory_of_the_parent);
+  row("a descriptor of another process", [] { return worked(syscall(SYS_pidfd_open, getppid(), 0)); });
+  row("a thread", starts_a_thread);
 }
 
 void SandboxTest::it_forbids() {
   QFETCH(Attempt, forbidden);
-  QCOMPARE(result_of(forbidden, true), failed);
-  QCOMPARE(result_of(forbidden, false), succeeded);
+  QCOMPARE(result_inside(forbidden), failed);
+  QCOMPARE(result_outside(forbidden), succeeded);
+}
+
+void SandboxTest::it_hides_files_data() {
+  QTest::addColumn<Attempt>("hidden");
+  const auto row = [](const char* name, Attempt hidden) { QTest::newRow(name) << hidden; };
+  row("a file of the user", [] { return opens("../secret"); });
+  row("a folder of the user", [] { return opens(".."); });
+  row("a file of the system", [] { return opens("/etc/passwd"); });
+  row("the memory of the program that started it", [] { return opens("/proc/" + std::to_string(getppid()) + "/mem"); });
+  row("the environment of that program", [] { return opens("/proc/" + std::to_string(getppid()) + "/environ"); });
+  row("its own memory", [] { return opens("/proc/self/mem"); });
+  row("a device", [] { return opens("/dev/zero"); });
+}
+
+void SandboxTest::it_hides_files() {
+  if (!chainmail::import::sandbox_hides_files()) {
+    QSKIP("this kernel has no Landlock, so the sandbox cannot hide files");
+  }
+  QFETCH(Attempt, hidden);
+  QCOMPARE(result_inside(hidden), failed);
+  QCOMPARE(result_outside(hidden), succeeded);
 }
 
 void SandboxTest::it_allows_data() {
@@ -151,11 +224,7 @@ void SandboxTest::it_allows_data() {
   row("reading a file", [] { return file_text("old") == "text"; });
   row("listing a folder", [] { return files_in(".") == 2; });
   row("much memory", [] { return std::vector<char>(std::size_t{64} << 20, 'x').back() == 'x'; });
-  row("a thread", [] {
-    bool ran = false;
-    std::jthread([&ran] { ran = true; }).join();
-    return ran;
-  });
+  row("opening a given file again", [] { return file_text(given_again) == "text"; });
   row("a pipe", [] {
     int ends[2];
     char letter = 0;
@@ -165,13 +234,35 @@ void SandboxTest::it_allows_data() {
 
 void SandboxTest::it_allows() {
   QFETCH(Attempt, allowed);
-  QCOMPARE(result_of(allowed, true), succeeded);
+  QCOMPARE(result_inside(allowed), succeeded);
+}
+
+/// This holds on kernels without Landlock, too.
+void SandboxTest::without_files_nothing_can_be_opened() {
+  for (const Attempt opening : {Attempt([] { return opens("old"); }), Attempt([] { return opens("/dev/null"); }),
+                                Attempt([] { return opens(given_again); })}) {
+    QCOMPARE(result_of(opening, SandboxFiles{}), failed);
+    QCOMPARE(result_outside(opening), succeeded);
+  }
+  QCOMPARE(result_of([] { return worked(lseek(given_number, 0, SEEK_END)); }, SandboxFiles{}), succeeded);
+}
+
+void SandboxTest::a_file_grows_to_the_given_size_only() {
+  constexpr std::uint64_t written = 4;
+  QCOMPARE(result_inside(writes_to_given), died);  // by a signal
+  QCOMPARE(result_of(writes_to_given, SandboxFiles{{}, {}, written}), succeeded);
+  QCOMPARE(result_of([] { return writes_to_given() && writes_to_given(); }, SandboxFiles{{}, {}, written}), died);
+}
+
+void SandboxTest::where_there_is_no_landlock_files_open() {
+  put_file(folder_->filePath("inside/a.off").toStdString(), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  QCOMPARE(result_outside(opens_without_landlock), succeeded);
 }
 
 void SandboxTest::where_it_cannot_be_entered_nothing_is_read() {
-  put_file(folder_->filePath("a.off").toStdString(), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  QCOMPARE(result_of([] { return chainmail::open_mesh("a.off").mesh->element_count() == 3; }, false), succeeded);
-  QCOMPARE(result_of(opens_without_seccomp, false), failed);
+  put_file(folder_->filePath("inside/a.off").toStdString(), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  QCOMPARE(result_outside([] { return chainmail::open_mesh("a.off").mesh->element_count() == 3; }), succeeded);
+  QCOMPARE(result_outside(opens_without_seccomp), failed);
 }
 
 QTEST_APPLESS_MAIN(SandboxTest)

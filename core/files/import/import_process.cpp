@@ -134,6 +134,7 @@ class SpawnActions {
   ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
 
   void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
+  void close(int number) { posix_spawn_file_actions_addclose(&actions_, number); }
   const posix_spawn_file_actions_t* get() const { return &actions_; }
 
  private:
@@ -152,6 +153,9 @@ class Child {
     for (const RegularFile& file : input.linked()) {
       files.emplace_back(file.descriptor());
       actions.give(files.back().number(), as++);
+    }
+    while (as <= import::last_input) {
+      actions.close(as++);  // an open file of ours with this number is no input
     }
     auto environment = environment_in(input.folder().string());
     const int error = posix_spawn(&process_, words[0].c_str(), actions.get(), nullptr, pointers_to(words).data(),

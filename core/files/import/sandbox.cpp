@@ -1,7 +1,6 @@
 #include "files/import/sandbox.h"
 
 #include <fcntl.h>
-#include <linux/sched.h>
 #include <seccomp.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,11 +13,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "files/import/landlock.h"
+
 namespace chainmail::import {
 namespace {
 
 // The filter lists the allowed calls, so unknown calls are denied. A denied call returns ENOSYS, as in an old kernel:
-// the C library then uses an older call, such as clone for clone3, which is checked here.
+// the C library then uses an older call, or reports an error. New threads are denied, too: no library needs them, and a
+// damaged file could start tens of thousands.
 
 /// Calls that are safe with any arguments.
 constexpr std::array harmless{
@@ -30,7 +32,7 @@ constexpr std::array harmless{
     "pipe", "pipe2", "poll", "ppoll", "pselect6", "select", "write", "writev",
     // memory
     "brk", "madvise", "mincore", "mmap", "mprotect", "mremap", "munmap",
-    // threads and signals within this process
+    // threads that run already, and signals within this process
     "exit", "exit_group", "futex", "get_robust_list", "getpid", "gettid", "restart_syscall", "rseq", "rt_sigaction",
     "rt_sigpending", "rt_sigprocmask", "rt_sigreturn", "sched_getaffinity", "sched_getparam", "sched_getscheduler",
     "sched_yield", "set_robust_list", "set_tid_address", "sigaltstack",
@@ -68,32 +70,39 @@ class Filter {
   bool good_ = true;
 };
 
-void allow_reading(Filter& filter) {
+void allow_opening(Filter& filter) {
   constexpr int changes = (O_ACCMODE | O_CREAT | O_TRUNC | O_TMPFILE) & ~O_DIRECTORY;  // O_TMPFILE holds this bit too
   filter.allow("open", {bits(1, changes, O_RDONLY)});
   filter.allow("openat", {bits(2, changes, O_RDONLY)});
+}
+
+void allow_own_affairs(Filter& filter) {
   for (const int command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}) {
     filter.allow("fcntl", {equal(1, scmp_datum_t(command))});
   }
-}
-
-void allow_threads(Filter& filter) {
-  constexpr scmp_datum_t thread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
-  filter.allow("clone", {bits(0, thread | CLONE_VFORK, thread)});
   filter.allow("tgkill", {equal(0, scmp_datum_t(getpid()))});  // used by abort
   filter.allow("prctl", {equal(0, PR_SET_NAME)});
   filter.allow("prlimit64", {equal(0, 0), equal(2, 0)});  // reads its own limits
 }
 
+bool limit_written_files(std::uint64_t size) {
+  const rlimit both{size, size};
+  return setrlimit(RLIMIT_FSIZE, &both) == 0;
+}
+
 }  // namespace
 
-bool enter_sandbox() {
-  const rlimit none{0, 0};
+bool enter_sandbox(const SandboxFiles& files) {
   Filter filter;
   std::for_each(harmless.begin(), harmless.end(), [&](const char* call) { filter.allow(call); });
-  allow_reading(filter);
-  allow_threads(filter);
-  return setrlimit(RLIMIT_FSIZE, &none) == 0 && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && filter.load();
+  if (!files.folder.empty() || !files.inputs.empty()) {
+    allow_opening(filter);
+  }
+  allow_own_affairs(filter);
+  return limit_written_files(files.written_size) && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         (!sandbox_hides_files() || give_up_files(files.folder, files.inputs)) && filter.load();
 }
+
+bool sandbox_hides_files() { return landlock_version() > 0; }
 
 }  // namespace chainmail::import

@@ -1,12 +1,30 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
 namespace chainmail::import {
 
-/// Puts this process into a sandbox that it cannot leave. It can then compute, start threads, read files and write to
-/// open descriptors. It cannot start a program or a process, open a file for writing, change or remove a file, open a
-/// socket, or affect another process: these calls fail.
+/// What a program may still do with files in the sandbox, in addition to reading its open files. By default, nothing.
+struct SandboxFiles {
+  std::filesystem::path folder;    // it may read what is in this folder
+  std::vector<int> inputs;         // open files that it may open again, for reading, for example by /proc/self/fd
+  std::uint64_t written_size = 0;  // largest size of a file that it writes to through an open descriptor (bytes)
+};
+
+/// Puts this process into a sandbox that it cannot leave. It can then compute, read these files, and write to open
+/// pipes. It cannot start a thread, a process or a program, open a file for writing, change or remove a file, open a
+/// socket, or affect another process: these calls fail. Threads that run already go on, in the sandbox.
 ///
-/// Returns false if the kernel does not support this. Then no library may read a foreign file.
-[[nodiscard]] bool enter_sandbox();
+/// Files other than the given ones are hidden by Landlock. Where the kernel does not have it (see sandbox_hides_files),
+/// a process with a folder or inputs can read all files of the user; one without them can open no file at all.
+///
+/// Call this on the only thread of a process: Landlock does not restrict other threads. Returns false if the kernel
+/// does not support the sandbox. Then no library may read a foreign file.
+[[nodiscard]] bool enter_sandbox(const SandboxFiles& files = {});
+
+/// True if the kernel has Landlock: files other than those that enter_sandbox names cannot be read.
+bool sandbox_hides_files();
 
 }  // namespace chainmail::import

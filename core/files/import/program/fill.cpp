@@ -1,15 +1,15 @@
 #include "files/mesh/fill.h"
 
 #include <gmsh.h>
-#include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <string_view>
-#include <thread>
+#include <utility>
 
 #include "files/import/program/closed_surface.h"
 #include "files/import/program/given_surface.h"
@@ -21,47 +21,57 @@
 namespace chainmail::import {
 namespace {
 
-/// Reads the output of Gmsh, which contains its progress.
+/// Reads the output of Gmsh, which contains its progress: takes the place of standard output. A pipe would need a
+/// thread that reads it, and the sandbox has none.
 class Narration {
  public:
   /// `expected` is the approximate number of points at the end.
   Narration(double expected, const Report& report) : expected_(expected), report_(report) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) == 0) {
-      dup2(ends[1], STDOUT_FILENO);
-      close(ends[1]);
+    stream_ = fopencookie(this, "w", {nullptr, &Narration::write, nullptr, nullptr});
+    if (stream_ != nullptr) {
+      setvbuf(stream_, nullptr, _IOLBF, BUFSIZ);
+      std::swap(stdout, stream_);
       gmsh::option::setNumber("General.Terminal", 1);
-      listener_ = std::thread([this, in = ends[0]] { listen(in); });
     }
   }
   Narration(const Narration&) = delete;
   Narration& operator=(const Narration&) = delete;
   ~Narration() {
-    std::fflush(stdout);
-    close(STDOUT_FILENO);
-    if (listener_.joinable()) {
-      listener_.join();
+    if (stream_ != nullptr) {
+      gmsh::option::setNumber("General.Terminal", 0);
+      std::swap(stdout, stream_);
+      std::fclose(stream_);
     }
   }
 
  private:
-  void listen(int in) {
-    FILE* stream = fdopen(in, "r");
-    std::array<char, 512> line;
-    while (std::fgets(line.data(), line.size(), stream) != nullptr) {
-      static constexpr std::string_view before = "mesh.nvert: ";
-      const std::string_view said = line.data();
-      if (const std::size_t at = said.find(before); at != std::string_view::npos) {
-        const double created = std::strtod(line.data() + at + before.size(), nullptr);
-        report_(0.1 + 0.6 * std::min(1.0, created / expected_));
+  static ssize_t write(void* narration, const char* letters, std::size_t count) {
+    static_cast<Narration*>(narration)->take({letters, count});
+    return ssize_t(count);
+  }
+  void take(std::string_view said) {
+    static constexpr std::size_t longest_line = 512;
+    for (const char letter : said) {
+      if (letter != '\n' && line_.size() < longest_line) {
+        line_ += letter;
+      } else {
+        take_line();
+        line_.clear();
       }
     }
-    std::fclose(stream);
+  }
+  void take_line() const {
+    static constexpr std::string_view before = "mesh.nvert: ";
+    if (const std::size_t at = line_.find(before); at != std::string::npos) {
+      const double created = std::strtod(line_.c_str() + at + before.size(), nullptr);
+      report_(0.1 + 0.6 * std::min(1.0, created / expected_));
+    }
   }
 
   double expected_;
   const Report& report_;
-  std::thread listener_;
+  std::string line_;
+  FILE* stream_ = nullptr;  // then the standard output of before
 };
 
 void give_surface(const MeshParts& parts, const std::vector<Triangle>& triangles) {

@@ -1,5 +1,6 @@
 // chainmail-import BYTES SECONDS TASK PATH [ARGUMENT…]: run_import (files/import/import_process.h) starts this program.
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -26,10 +27,16 @@ constexpr const char* help =
     "Options:\n"
     "  --help     print this help and exit\n"
     "  --version  print version and licence, and exit";
-constexpr const char* version = "chainmail-import " CHAINMAIL_VERSION
-                                "\nGPL-3 or later, because it links CGAL (GPL-3 or later) and Gmsh (GPL-2 or later). "
-                                "It also links teem (LGPL-2.1 or\n"
-                                "later) and libseccomp (LGPL-2.1). Its own source is under the MIT licence.";
+constexpr const char* version_text =
+    "chainmail-import " CHAINMAIL_VERSION
+    "\nGPL-3 or later, because it links CGAL (GPL-3 or later) and Gmsh (GPL-2 or later). "
+    "It also links teem (LGPL-2.1 or\n"
+    "later) and libseccomp (LGPL-2.1). Its own source is under the MIT licence.";
+constexpr const char* sandboxed = "Sandbox: Landlock and seccomp. The libraries can read only the file that is opened.";
+constexpr const char* sandboxed_without_landlock =
+    "Sandbox: seccomp only. The libraries can read your other files, because this system has no Landlock (Linux 5.13 "
+    "or\n"
+    "later, if it is turned on).";
 
 void limit(int resource, rlim_t to, rlim_t until_killed = 0) {
   const rlimit both{to, to + until_killed};
@@ -92,10 +99,21 @@ const std::map<std::string, Task>& tasks() {
   return all;
 }
 
+/// Returns the descriptors of the files that the caller passed.
+std::vector<int> inputs() {
+  std::vector<int> open;
+  for (int input = first_input; input <= last_input; ++input) {
+    if (fcntl(input, F_GETFD) >= 0) {
+      open.push_back(input);
+    }
+  }
+  return open;
+}
+
 /// Enters the sandbox before a library reads the file.
 Imported carry_out(const std::string& task, const std::filesystem::path& path,
                    const std::vector<std::string>& arguments) {
-  if (!enter_sandbox()) {
+  if (!enter_sandbox({path.parent_path(), inputs()})) {
     return Refusal{"this system cannot sandbox the program that reads this format (seccomp is missing)",
                    "use a kernel with seccomp, or another format"};
   }
@@ -123,7 +141,10 @@ bool hand_over(const std::vector<std::byte>& bytes) {
 int main(int count, char** words) {
   using namespace chainmail::import;
   if (const std::string_view asked = count == 2 ? words[1] : ""; asked == "--help" || asked == "--version") {
-    std::puts(asked == "--help" ? help : version);
+    std::puts(asked == "--help" ? help : version_text);
+    if (asked == "--version") {
+      std::puts(sandbox_hides_files() ? sandboxed : sandboxed_without_landlock);
+    }
     return 0;
   }
   if (count < 5) {
