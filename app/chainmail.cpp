@@ -1,7 +1,10 @@
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
+#include <system_error>
 
 #include "command_line/common.h"
 #include "files/text/outputs.h"
@@ -32,6 +35,15 @@ int main(int argc, char** argv) {
     return complain(error.what(), bad_usage);
   } catch (const std::bad_alloc&) {
     return complain("memory: not enough memory; use a smaller mesh", failed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(
+        chainmail::shown(error.path1()) + ": " + error.code().message() + "; check the path and its permissions",
+        failed);
+  } catch (const std::system_error& error) {  // no thread can be started, for example
+    return complain("system: " + error.code().message() +
+                        "; close other programs, or raise the limits of this user "
+                        "(ulimit)",
+                    failed);
   } catch (const std::exception& error) {
     return complain(std::string("internal: ") + error.what() + "; please report it", failed);
   }

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -53,7 +54,11 @@ struct Watch::Line {
 
 Watch::Watch(std::string text) {
   if (isatty(STDERR_FILENO) != 0) {
-    line_ = std::make_unique<Line>(std::move(text), job_);
+    try {
+      line_ = std::make_unique<Line>(std::move(text), job_);
+    } catch (const std::system_error&) {
+      return;  // no thread can be started: the job runs without a line
+    }
   }
 }
 

@@ -16,6 +16,8 @@ class HostileFilesTest : public QObject {
   void what_is_no_file_is_refused_at_once_data();
   void what_is_no_file_is_refused_at_once();
   void data_outside_need_to_be_allowed();
+  void a_temporary_folder_that_is_none_gets_a_sentence_data();
+  void a_temporary_folder_that_is_none_gets_a_sentence();
   void a_limit_of_file_size_is_as_a_full_disk_data();
   void a_limit_of_file_size_is_as_a_full_disk();
 
@@ -124,6 +126,32 @@ void HostileFilesTest::data_outside_need_to_be_allowed() {
     QVERIFY(info(ending, "beneath/data.raw", "").out.startsWith("elements          8\n"));
     QVERIFY(info(ending, "./beneath/../beneath/data.raw", "").out.startsWith("elements          8\n"));
   }
+}
+
+void HostileFilesTest::a_temporary_folder_that_is_none_gets_a_sentence_data() {
+  QTest::addColumn<QString>("folder");
+  QTest::addColumn<QString>("sentence");
+  QTest::newRow("a file") << "file"
+                          << ": it cannot take temporary files (Not a directory); set TMPDIR to a folder";
+  QTest::newRow("missing") << "missing"
+                           << ": it cannot take temporary files (No such file or directory); set TMPDIR to a folder";
+  QTest::newRow("nothing can be created there") << "/proc"
+                                                << ": the folder cannot be created (";
+}
+
+void HostileFilesTest::a_temporary_folder_that_is_none_gets_a_sentence() {
+  QFETCH(QString, folder);
+  QFETCH(QString, sentence);
+  program_->write("file", "");
+  program_->write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  qputenv("TMPDIR", folder.toUtf8());
+  const auto outcome = program_->run("info a.off");
+  qunsetenv("TMPDIR");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(outcome.error.startsWith("chainmail: " + folder.toUtf8()) && outcome.error.contains(sentence.toUtf8()),
+           outcome.error);
+  QCOMPARE(program_->files(), (QStringList{"a.off", "file"}));
 }
 
 void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk_data() {

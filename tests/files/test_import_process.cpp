@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <QtTest>
@@ -7,7 +8,9 @@
 #include <future>
 #include <set>
 
+#include "files/import/channels.h"
 #include "files/import/import_process.h"
+#include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
 
@@ -76,6 +79,10 @@ class ImportProcessTest : public QObject {
   void the_file_that_was_opened_is_read();
   void it_says_how_much_it_has_read();
   void no_temporary_folder_stays();
+  void other_files_are_hidden();
+  void a_program_of_another_kind_gets_a_sentence_data();
+  void a_program_of_another_kind_gets_a_sentence();
+  void when_no_file_can_be_opened_it_says_so();
 };
 
 void ImportProcessTest::it_may_take_so_much_time_data() {
@@ -122,7 +129,8 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   const fs::path open_file = fs::path(folder.path().toStdString()) / "open";
   put_file(open_file, "text");
   const int open_here = open(open_file.c_str(), O_RDWR);  // some shells leave open descriptors to their programs
-  QVERIFY(open_here >= 0);
+  const int as_an_input = fcntl(open_here, F_DUPFD, import::last_input);
+  QVERIFY(open_here >= 0 && as_an_input == import::last_input);
   JobState job;
   const Patience patience(job);
   auto running = std::async(std::launch::async, [&job] {
@@ -138,13 +146,16 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
     confined = found == processes.end() ? fs::path() : *found;
   }
   const std::string privileges = confined.empty() ? "" : status_of(confined, "NoNewPrivs");
+  const std::string threads = confined.empty() ? "" : status_of(confined, "Threads");
   const QStringList descriptors = descriptors_of(confined);
   const std::string environment = file_text(confined / "environ");
   job.cancelled = true;
   QVERIFY_THROWS_EXCEPTION(Cancelled, running.get());
   close(open_here);
+  close(as_an_input);
   QVERIFY2(!confined.empty(), "no process of this one was in a sandbox");
   QCOMPARE(privileges, std::string("1"));
+  QCOMPARE(threads, std::string("1"));
   QVERIFY(!descriptors.isEmpty() && !descriptors.contains(QString::fromStdString(open_file.string())));
   QVERIFY(environment.find("HOME=") != std::string::npos);
   QVERIFY(environment.find("CHAINMAIL_TEST_SECRET") == std::string::npos);
@@ -202,6 +213,70 @@ void ImportProcessTest::no_temporary_folder_stays() {
   QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(elsewhere.filePath("good.off").toStdString(), {}, Progress(job)));
   QCOMPARE(files_in(path), 0);
   qunsetenv("TMPDIR");
+}
+
+/// A header in the private folder names data elsewhere. No reader of ours writes such a header: this acts like a
+/// library that a damaged file has taken over.
+void ImportProcessTest::other_files_are_hidden() {
+  if (!import::sandbox_hides_files()) {
+    QSKIP("this kernel has no Landlock, so the sandbox cannot hide files");
+  }
+  const QTemporaryDir folder;
+  const std::string secret = folder.filePath("secret").toStdString();
+  put_file(secret, "1234");
+  ImportInput input("a.nhdr");
+  input.write("volume.nhdr",
+              "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 1\nencoding: raw\ndata file: " + secret + "\n");
+  const QString error = error_of([&] { run_import("nrrd", input, {}, limits_for(0), {}); });
+  QVERIFY2(error.startsWith("a.nhdr: teem cannot read it (") && error.contains("couldn't open"), qPrintable(error));
+}
+
+void ImportProcessTest::a_program_of_another_kind_gets_a_sentence_data() {
+  QTest::addColumn<QByteArray>("script");
+  QTest::addColumn<QString>("sentence");
+  const QString begin = "chainmail-import: ", again = "install it and the libraries that it needs again";
+  QTest::newRow("an answer of another kind")
+      << QByteArray("#!/bin/sh\nexec /bin/cat \"$0\".answer >/proc/self/fd/30\n")
+      << "a.off: the answer of the import program is damaged; open it again, or convert it to another format";
+  QTest::newRow("an end at once") << QByteArray("#!/bin/sh\nexit 127\n")
+                                  << begin + "it ended as soon as it started (exit status 127); " + again;
+  QTest::newRow("no answer") << QByteArray("#!/bin/sh\nexit 0\n")
+                             << begin + "it ended as soon as it started (exit status 0); " + again;
+  QTest::newRow("no program") << QByteArray("text")
+                              << begin + "PROGRAM cannot be started (Exec format error); install it again";
+}
+
+void ImportProcessTest::a_program_of_another_kind_gets_a_sentence() {
+  QFETCH(QByteArray, script);
+  QFETCH(QString, sentence);
+  const QTemporaryDir folder;
+  const QString program = folder.filePath("program");
+  const fs::path path = program.toStdString();
+  put_file(path, script.toStdString());
+  fs::permissions(path, fs::perms::owner_all);
+  Volume volume;
+  volume.densities.assign(volume.voxel_count(), 0);
+  const auto answer = encode_imported(volume);
+  put_file(path.string() + ".answer", {reinterpret_cast<const char*>(answer.data()), answer.size()});
+  const ImportInput input("a.off");
+  const QString error = error_of([&] { run_import_of<ImportedMesh>("off", input, {}, limits_for(0), {}, path); });
+  QCOMPARE(error, sentence.replace("PROGRAM", program));
+}
+
+void ImportProcessTest::when_no_file_can_be_opened_it_says_so() {
+  const ImportInput input("a.off");
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  for (const rlim_t limit : {rlim_t{20}, rlim_t{3}}) {
+    const rlimit few{limit, before.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &few);
+    const QString error = error_of([&] { run_import("off", input, {}, limits_for(0), {}); });
+    setrlimit(RLIMIT_NOFILE, &before);
+    QVERIFY2(
+        error.startsWith("chainmail-import: ") &&
+            error.endsWith(" (Too many open files); close other programs, or raise the limits of this user (ulimit)"),
+        qPrintable(error));
+  }
 }
 
 QTEST_APPLESS_MAIN(ImportProcessTest)

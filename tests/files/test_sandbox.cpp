@@ -48,6 +48,7 @@ bool becomes_a_program() { return execl("/bin/true", "true", nullptr) == 0; }
 
 bool opens_a_socket(int domain) { return worked(socket(domain, SOCK_STREAM, 0)); }
 
+constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 constexpr const char* given = "../given";  // a file that is open when the sandbox is entered
 constexpr const char* given_again = "/proc/self/fd/50";
 constexpr int given_number = 50;
@@ -76,6 +77,32 @@ bool opens_without_landlock() {
     return false;
   }
   return !chainmail::import::sandbox_hides_files() && chainmail::open_mesh("a.off").mesh->element_count() == 3;
+}
+
+/// Makes a system call fail with an error, and returns the sentence that opening a mesh then gives.
+QString sentence_without(std::initializer_list<const char*> calls, std::uint16_t error) {
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  for (const char* call : calls) {
+    seccomp_rule_add(filter, SCMP_ACT_ERRNO(error), seccomp_syscall_resolve_name(call), 0);
+  }
+  // The C library then starts processes by clone.
+  seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
+  return seccomp_load(filter) == 0 ? error_of([] { chainmail::open_mesh("a.off"); }) : QString();
+}
+
+bool says_that_no_file_can_be_created() {
+  return sentence_without({"symlink", "symlinkat"}, ENOSPC)
+      .endsWith(
+          "/mesh.off: a link cannot be created (No space left on device); free some space, or set TMPDIR to "
+          "another folder");
+}
+
+bool says_that_no_process_can_be_started(std::uint16_t error, const char* reason) {
+  const QString sentence = sentence_without({"clone", "vfork", "fork"}, error);
+  return sentence.startsWith("chainmail-import: ") &&
+         sentence.endsWith(QString(" cannot be started (%1); close other programs, or raise the limits of this user "
+                                   "(ulimit)")
+                               .arg(reason));
 }
 
 /// Acts like a kernel without seccomp: the import program gets no filter.
@@ -114,6 +141,7 @@ class SandboxTest : public QObject {
   void a_file_grows_to_the_given_size_only();
   void where_there_is_no_landlock_files_open();
   void where_it_cannot_be_entered_nothing_is_read();
+  void what_the_system_is_short_of_gets_a_sentence();
 
  private:
   enum Result { succeeded, failed, no_sandbox, died };
@@ -185,6 +213,10 @@ void SandboxTest::it_forbids_data() {
   row("a socket of the machine", [] { return opens_a_socket(AF_UNIX); });
   row("signals to others", [] { return worked(kill(getppid(), 0)); });
   row("being traced", [] { return worked(ptrace(PTRACE_TRACEME, 0, nullptr, nullptr)); });
+  row("targets of links", [] {
+    char target[64];
+    return worked(readlink("/proc/self/exe", target, sizeof target));
+  });
   row("tracing others", [] { return worked(ptrace(PTRACE_SEIZE, getppid(), nullptr, nullptr)); });
   row("memory of others", reads_memory_of_the_parent);
   row("a descriptor of another process", [] { return worked(syscall(SYS_pidfd_open, getppid(), 0)); });
@@ -255,14 +287,24 @@ void SandboxTest::a_file_grows_to_the_given_size_only() {
 }
 
 void SandboxTest::where_there_is_no_landlock_files_open() {
-  put_file(folder_->filePath("inside/a.off").toStdString(), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
   QCOMPARE(result_outside(opens_without_landlock), succeeded);
 }
 
 void SandboxTest::where_it_cannot_be_entered_nothing_is_read() {
-  put_file(folder_->filePath("inside/a.off").toStdString(), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
   QCOMPARE(result_outside([] { return chainmail::open_mesh("a.off").mesh->element_count() == 3; }), succeeded);
   QCOMPARE(result_outside(opens_without_seccomp), failed);
+}
+
+void SandboxTest::what_the_system_is_short_of_gets_a_sentence() {
+  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
+  QCOMPARE(result_outside(says_that_no_file_can_be_created), succeeded);
+  QCOMPARE(
+      result_outside([] { return says_that_no_process_can_be_started(EAGAIN, "Resource temporarily unavailable"); }),
+      succeeded);
+  QCOMPARE(result_outside([] { return says_that_no_process_can_be_started(ENOMEM, "Cannot allocate memory"); }),
+           succeeded);
 }
 
 QTEST_APPLESS_MAIN(SandboxTest)

@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "files/text/text.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -93,9 +92,7 @@ class Decoder {
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
     throw Error(shown(path_), problem, remedy);
   }
-  [[noreturn]] void damaged() const {
-    fail("the answer of the import program is damaged", "open it again, or convert it to another format");
-  }
+  [[noreturn]] void damaged() const { throw damaged_answer(path_); }
 
   template <class Value>
   Value take() {
@@ -229,6 +226,10 @@ std::vector<std::byte> encode_imported(const Imported& imported) {
   Encoder encoder(imported.index());
   std::visit(encoder, imported);
   return encoder.take();
+}
+
+Error damaged_answer(const std::filesystem::path& path) {
+  return {shown(path), "the answer of the import program is damaged", "open it again, or convert it to another format"};
 }
 
 Imported decode_imported(std::span<const std::byte> bytes, const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 
 #include "files/formats/imported.h"
 #include "files/formats/volume.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 
@@ -24,6 +25,9 @@ using Imported = std::variant<ImportedMesh, Volume, Refusal>;
 /// Returns the bytes of a result: a mark, the kind, counts, then numbers in the machine's own layout, because both
 /// programs run on the same machine.
 std::vector<std::byte> encode_imported(const Imported& imported);
+
+/// Returns the error for an answer that the import program never gives, unless a damaged file made it do so.
+Error damaged_answer(const std::filesystem::path& path);
 
 /// Reads these bytes. It checks every count against the number of bytes before it allocates memory, and every id
 /// against the number of elements. Throws Error about `path`, the file that was read, if the bytes are damaged, if a

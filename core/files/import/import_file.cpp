@@ -1,7 +1,6 @@
 #include "files/import/import_file.h"
 
 #include <utility>
-#include <variant>
 
 #include "files/formats/data_file.h"
 #include "files/formats/nrrd_head.h"
@@ -15,7 +14,7 @@ ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& p
                          const Progress& progress, const std::filesystem::path& program) {
   ImportInput input(path, passes);
   input.link("mesh." + task, RegularFile(path));
-  return std::get<ImportedMesh>(run_import(task, input, {}, limits_for(input.linked_size()), progress, program));
+  return run_import_of<ImportedMesh>(task, input, {}, limits_for(input.linked_size()), progress, program);
 }
 
 /// If the data are in a file of their own, teem gets a header that names a link to it.
@@ -32,7 +31,7 @@ Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progre
     input.write("volume.nhdr", head.text);
     input.link("data", RegularFile(data_file(path, head.data_file, outside)));
   }
-  return std::get<Volume>(run_import("nrrd", input, {}, limits_for(input.linked_size()), progress, program));
+  return run_import_of<Volume>("nrrd", input, {}, limits_for(input.linked_size()), progress, program);
 }
 
 }  // namespace chainmail

@@ -1,10 +1,11 @@
 #include "files/import/import_input.h"
 
+#include <unistd.h>
+
 #include <cassert>
 #include <cerrno>
 #include <fstream>
 #include <numeric>
-#include <system_error>
 #include <utility>
 
 #include "files/import/channels.h"
@@ -12,11 +13,23 @@
 #include "files/text/text.h"
 
 namespace chainmail {
+namespace {
+
+[[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& problem) {
+  const std::string why = system_reason();
+  throw WriteFailure(shown(path), problem + " (" + why + ")",
+                     system_remedy("free some space, or set TMPDIR to another folder"));
+}
+
+}  // namespace
 
 void ImportInput::link(const std::string& name, RegularFile file) {
   const int channel = import::first_input + static_cast<int>(linked_.size());
   assert(channel <= import::last_input);
-  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(channel), folder() / name);
+  const auto path = folder() / name;
+  if (symlink(("/proc/self/fd/" + std::to_string(channel)).c_str(), path.c_str()) != 0) {
+    fail_writing(path, "a link cannot be created");
+  }
   linked_.push_back(std::move(file));
   name_first(name);
 }
@@ -26,8 +39,7 @@ void ImportInput::write(const std::string& name, std::string_view bytes) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
   if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
-    throw WriteFailure(shown(path), "it cannot be written to its end (" + std::generic_category().message(errno) + ")",
-                       "free some space, or set TMPDIR to another folder");
+    fail_writing(path, "it cannot be written to its end");
   }
   name_first(name);
 }

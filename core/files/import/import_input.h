@@ -21,7 +21,7 @@ class ImportInput {
       : shown_as_(std::move(shown_as)), passes_(passes) {}
 
   /// Adds a link to a file, without a copy. The import program inherits the open file, so a file that replaces it at
-  /// its path is not read.
+  /// its path is not read. Throws WriteFailure if the disk is full.
   void link(const std::string& name, RegularFile file);
   /// Adds a file with these bytes. Throws WriteFailure if the disk is full.
   void write(const std::string& name, std::string_view bytes);

@@ -13,8 +13,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -64,14 +64,20 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
+/// Throws Error for a failed system call, from errno.
+[[noreturn]] void fail_start(const std::string& problem) {
+  const std::string why = system_reason();
+  throw Error("chainmail-import", problem + " (" + why + ")", system_remedy("install it again"));
+}
+
 /// A copy of a descriptor that no other child inherits, with a number above those that the program uses.
 class Descriptor {
  public:
   Descriptor() = default;
   explicit Descriptor(int copied) : number_(fcntl(copied, F_DUPFD_CLOEXEC, first_free)) {
     if (number_ < 0) {
-      throw Error("chainmail-import", std::string("no more files can be opened (") + std::strerror(errno) + ")",
-                  "close other programs");
+      errno = errno == EINVAL ? EMFILE : errno;  // the limit is below first_free
+      fail_start("no more files can be opened");
     }
   }
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -96,8 +102,7 @@ class Pipe {
   Pipe() {
     std::array<int, 2> ends{-1, -1};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-      throw Error("chainmail-import", std::string("a pipe cannot be created (") + std::strerror(errno) + ")",
-                  "close other programs");
+      fail_start("a pipe cannot be created");
     }
     const Closed guard{ends};
     out_ = Descriptor(ends[0]);
@@ -124,20 +129,26 @@ class Pipe {
 class SpawnActions {
  public:
   SpawnActions() {
-    posix_spawn_file_actions_init(&actions_);
+    check(posix_spawn_file_actions_init(&actions_));
     for (int standard = 0; standard <= 2; ++standard) {
-      posix_spawn_file_actions_addopen(&actions_, standard, "/dev/null", standard == 0 ? O_RDONLY : O_WRONLY, 0);
+      check(posix_spawn_file_actions_addopen(&actions_, standard, "/dev/null", standard == 0 ? O_RDONLY : O_WRONLY, 0));
     }
   }
   SpawnActions(const SpawnActions&) = delete;
   SpawnActions& operator=(const SpawnActions&) = delete;
   ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
 
-  void give(int descriptor, int as) { posix_spawn_file_actions_adddup2(&actions_, descriptor, as); }
-  void close(int number) { posix_spawn_file_actions_addclose(&actions_, number); }
+  void give(int descriptor, int as) { check(posix_spawn_file_actions_adddup2(&actions_, descriptor, as)); }
+  void close(int number) { check(posix_spawn_file_actions_addclose(&actions_, number)); }
   const posix_spawn_file_actions_t* get() const { return &actions_; }
 
  private:
+  static void check(int error) {
+    if (error != 0) {
+      throw std::bad_alloc();  // no other error is possible
+    }
+  }
+
   posix_spawn_file_actions_t actions_;
 };
 
@@ -162,8 +173,8 @@ class Child {
                                   pointers_to(environment).data());
     if (error != 0) {
       process_ = 0;
-      throw Error(shown(words[0]), std::string("it cannot be started (") + std::strerror(error) + ")",
-                  "install it again");
+      errno = error;
+      fail_start(shown(words[0]) + " cannot be started");
     }
   }
   Child(const Child&) = delete;
@@ -179,11 +190,12 @@ class Child {
   /// Returns the status of waitpid, or nothing while the program runs.
   std::optional<int> ended() {
     int status = 0;
-    if (waitpid(process_, &status, WNOHANG) != process_) {
+    const pid_t found = waitpid(process_, &status, WNOHANG);
+    if (found != process_ && !(found < 0 && errno == ECHILD)) {
       return std::nullopt;
     }
     process_ = 0;
-    return status;
+    return status;  // 0 if a caller ignores SIGCHLD: then the system does not keep it
   }
 
   /// Number of bytes that it has read, or 0 if the system does not count them.
@@ -223,6 +235,9 @@ class Listener {
         take_share();
       }
       if (ready[0].revents != 0 && !take_result()) {
+        if (shares_open_ && poll(&ready[1], 1, 0) > 0) {
+          take_share();
+        }
         return bytes_.size() <= limits_.bytes ? Ending::closed : Ending::too_much;
       }
       if (is_late()) {
@@ -231,6 +246,8 @@ class Listener {
     }
   }
   bool is_late() const { return Clock::now() > end_; }
+  /// True if the program has reported that it works.
+  bool heard() const { return heard_; }
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
@@ -238,6 +255,7 @@ class Listener {
     double share = 0;
     const ssize_t got = read(shares_.out(), &share, sizeof share);
     shares_open_ = got > 0;
+    heard_ = heard_ || got > 0;
     if (got == ssize_t{sizeof share} && share >= 0 && share <= 1) {
       share_ = share;
     }
@@ -259,7 +277,7 @@ class Listener {
   Clock::time_point end_;
   std::vector<std::byte> bytes_;
   double share_ = 0;
-  bool shares_open_ = true;
+  bool shares_open_ = true, heard_ = false;
 };
 
 [[noreturn]] void refuse_memory(const std::string& where, const ImportLimits& limits) {
@@ -270,6 +288,15 @@ class Listener {
 [[noreturn]] void refuse_time(const std::string& where, unsigned seconds) {
   throw Error(where, "reading it takes longer than " + std::to_string(seconds) + " s",
               "use a smaller file, or another format");
+}
+
+/// Throws Error for a program that ended before it could do anything: it is not ours, or lacks a library.
+void check_start(int status, bool heard) {
+  if (!heard && WIFEXITED(status)) {
+    throw Error("chainmail-import",
+                "it ended as soon as it started (exit status " + std::to_string(WEXITSTATUS(status)) + ")",
+                "install it and the libraries that it needs again");
+  }
 }
 
 /// Throws Error for a `status` of waitpid that is not success.
@@ -326,6 +353,7 @@ Imported run_import(const std::string& task, const ImportInput& input, const std
     }
     poll(nullptr, 0, 1);
   }
+  check_start(*status, listener.heard() || !listener.bytes().empty());
   check_end(*status, where, limits);
   Imported imported = decode_imported(listener.bytes(), input.shown_as());
   if (const auto* refusal = std::get_if<Refusal>(&imported)) {

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "files/import/handover.h"
@@ -31,5 +33,17 @@ ImportLimits limits_for(std::uint64_t size);
 /// Cancelled.
 Imported run_import(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
                     const ImportLimits& limits, const Progress& progress, const std::filesystem::path& program = {});
+
+/// Runs a task as run_import does, and returns its result, which must be of this kind: ImportedMesh or Volume. Throws
+/// Error if it is of another kind.
+template <class Kind>
+Kind run_import_of(const std::string& task, const ImportInput& input, const std::vector<std::string>& arguments,
+                   const ImportLimits& limits, const Progress& progress, const std::filesystem::path& program = {}) {
+  Imported imported = run_import(task, input, arguments, limits, progress, program);
+  if (Kind* wanted = std::get_if<Kind>(&imported)) {
+    return std::move(*wanted);
+  }
+  throw damaged_answer(input.shown_as());
+}
 
 }  // namespace chainmail

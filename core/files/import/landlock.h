@@ -11,7 +11,7 @@ int landlock_version();
 
 /// Gives up access to all files, except that this thread, and the threads it starts, may still read what is in a folder
 /// and may open these files again, for example by /proc/self/fd. An empty path means no folder. Open descriptors stay
-/// as they are. The names, sizes and times of other files stay visible. The thread must not be able to gain privileges
+/// as they are. The thread must not be able to gain privileges
 /// (PR_SET_NO_NEW_PRIVS). Returns false if this fails.
 [[nodiscard]] bool give_up_files(const std::filesystem::path& folder, std::span<const int> files);
 

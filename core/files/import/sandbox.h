@@ -17,8 +17,9 @@ struct SandboxFiles {
 /// pipes. It cannot start a thread, a process or a program, open a file for writing, change or remove a file, open a
 /// socket, or affect another process: these calls fail. Threads that run already go on, in the sandbox.
 ///
-/// Files other than the given ones are hidden by Landlock. Where the kernel does not have it (see sandbox_hides_files),
-/// a process with a folder or inputs can read all files of the user; one without them can open no file at all.
+/// Files other than the given ones are hidden by Landlock; only the size and times of a file stay visible to a process
+/// that knows its path. Where the kernel does not have Landlock (see sandbox_hides_files), a process with a folder or
+/// inputs can read all files of the user; one without them can open no file at all.
 ///
 /// Call this on the only thread of a process: Landlock does not restrict other threads. Returns false if the kernel
 /// does not support the sandbox. Then no library may read a foreign file.

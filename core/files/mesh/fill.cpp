@@ -40,8 +40,8 @@ MeshPointer fill(const Mesh& surface, double size, const Progress& progress) {
   input.write("surface", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::string length;
   append_number(length, size);
-  auto filled = run_import("fill", input, {length}, filling_limits, progress.part(0, 0.9));
-  return opened(std::move(std::get<ImportedMesh>(filled)), "surface", {}, progress.part(0.9, 1)).mesh;
+  auto filled = run_import_of<ImportedMesh>("fill", input, {length}, filling_limits, progress.part(0, 0.9));
+  return opened(std::move(filled), "surface", {}, progress.part(0.9, 1)).mesh;
 }
 
 }  // namespace chainmail

@@ -118,7 +118,7 @@ ImportedMesh patches_of(const Mesh& mesh, const std::vector<std::vector<ElementI
   ImportInput input("surface");
   const auto bytes = encode_imported(surface_with(mesh, holes));
   input.write("surface", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  return std::get<ImportedMesh>(run_import("close", input, {}, closing_limits, progress));
+  return run_import_of<ImportedMesh>("close", input, {}, closing_limits, progress);
 }
 
 /// Appends the new elements and triangles of the patches, and the links along their edges.

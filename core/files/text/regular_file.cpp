@@ -36,9 +36,9 @@ RegularFile::RegularFile(const std::filesystem::path& path) : path_(path) {
   descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status {};
   if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
-    const std::string why = system_reason();
+    const std::string why = system_reason(), remedy = system_remedy("check its permissions");
     close(descriptor_);
-    throw Error(shown(path), "it cannot be read (" + why + ")", "check its permissions");
+    throw Error(shown(path), "it cannot be read (" + why + ")", remedy);
   }
   if (!S_ISREG(status.st_mode)) {  // it was replaced in the meantime
     close(descriptor_);

@@ -274,4 +274,16 @@ std::optional<int> stated_space(std::string_view line, const std::filesystem::pa
 
 std::string system_reason() { return std::generic_category().message(errno); }
 
+std::string system_remedy(const std::string& otherwise) {
+  switch (errno) {
+    case EMFILE:
+    case ENFILE:
+    case EAGAIN:
+    case ENOMEM:
+      return "close other programs, or raise the limits of this user (ulimit)";
+    default:
+      return otherwise;
+  }
+}
+
 }  // namespace chainmail

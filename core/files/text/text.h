@@ -93,6 +93,8 @@ class TextBlocks {
 
 /// Returns the reason for the failure of the last system call, from errno.
 std::string system_reason();
+/// Returns what to do about that failure: an answer for what the whole system is short of, else `otherwise`.
+std::string system_remedy(const std::string& otherwise);
 
 /// Returns the values of a comment `# WORD value…`; none if the first value does not begin like a number, because then
 /// the comment is a sentence.

@@ -117,6 +117,7 @@ Imported carry_out(const std::string& task, const std::filesystem::path& path,
     return Refusal{"this system cannot sandbox the program that reads this format (seccomp is missing)",
                    "use a kernel with seccomp, or another format"};
   }
+  report_share(0);  // the caller knows that this program works
   try {
     return tasks().at(task)(path, arguments);
   } catch (const Error& error) {
