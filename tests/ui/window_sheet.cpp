@@ -1,5 +1,6 @@
 // Tests pictures as sheets in a real window: opening, warping, saving.
 
+#include <QBuffer>
 #include <QDropEvent>
 #include <QFile>
 #include <QImage>
@@ -26,8 +27,10 @@ class WindowSheet : public QObject {
   void aPictureOpensAsASheetOfTheSizeChosen() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    bench.open(picture("a.png"));
     auto& bar = sheets(bench).bar();
+    sheets(bench).openPath(picture("a.png"));
+    QVERIFY(!bar.isVisible());  // the header is read in the background
+    bench.settle();
     QVERIFY(bar.isVisible());
     QCOMPARE(bench.document().mesh(), before);
     QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("a.png as a sheet: 120 × 80 pixels")));
@@ -90,6 +93,7 @@ class WindowSheet : public QObject {
     QApplication::sendEvent(&bench.window, &enter);
     QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(&bench.window, &drop);
+    bench.settle();
     auto& bar = sheets(bench).bar();
     QVERIFY(bar.isVisible());
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
@@ -114,8 +118,19 @@ class WindowSheet : public QObject {
     // Its header says 65,536 × 65,536 pixels, and has a valid checksum.
     huge.replace(16, 17, QByteArray::fromHex("00010000000100000802000000") + QByteArray::fromHex("e3e6a7b4"));
     QTest::newRow("nothing in it") << QByteArray() << QStringLiteral("none.png")
-                                   << QStringLiteral("it is not a picture");
-    QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg") << QStringLiteral("not a picture");
+                                   << QStringLiteral("it is not a PNG or JPEG picture");
+    QTest::newRow("text") << QByteArray("v 0 0 0\n") << QStringLiteral("text.jpg")
+                          << QStringLiteral("it is not a PNG or JPEG picture");
+    const QStringList other{QStringLiteral("svg"), QStringLiteral("bmp"), QStringLiteral("ppm")};
+    for (const QString& format : other) {
+      QTest::newRow(qPrintable(format + QStringLiteral(" with the name of a PNG")))
+          << pictureAs(format) << format + QStringLiteral(".png") << QStringLiteral("it is not a PNG or JPEG picture");
+    }
+    const QByteArray jpeg = all("c.jpg");
+    const qsizetype scan = jpeg.indexOf("\xff\xda");
+    QTest::newRow("a JPEG that takes a minute")
+        << jpeg.first(scan) + jpeg.sliced(scan, 14).repeated(130'000) + jpeg.last(2) << QStringLiteral("slow.jpg")
+        << QStringLiteral("it stores its pixels in 130,000 scans");
     QTest::newRow("half a JPEG") << all("c.jpg").chopped(900) << QStringLiteral("half.jpg")
                                  << QStringLiteral("it is damaged");
     QTest::newRow("half a PNG") << all("a.png").chopped(900) << QStringLiteral("half.png")
@@ -128,11 +143,8 @@ class WindowSheet : public QObject {
     QFETCH(QString, said);
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    const QString path = folder_.filePath(name);
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
-    file.close();
-    bench.open(path);
+    write(name, bytes);
+    bench.open(folder_.filePath(name));
     if (sheets(bench).bar().isVisible()) {
       bench.find<QPushButton>("sheetAgree")->click();  // its header was valid
       bench.settle();
@@ -140,6 +152,21 @@ class WindowSheet : public QObject {
     QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
     QVERIFY(bench.window.messages().sentence().contains(name));
     QCOMPARE(bench.document().mesh(), before);
+  }
+
+  void thePictureOfASessionIsPngOrJpegToo() {
+    for (const QString& format : {QStringLiteral("svg"), QStringLiteral("bmp")}) {
+      Workbench bench;
+      const MeshPointer before = bench.document().mesh();
+      const QString name = QStringLiteral("in_session_%1.png").arg(format);
+      write(name, pictureAs(format));
+      write(QStringLiteral("named.chainmail"),
+            "{\"format\": \"chainmail session\", \"version\": 2, \"name\": \"sheet\", \"mesh\": {\"file\": \"" + name.toUtf8() + "\"}}");
+      bench.open(folder_.filePath(QStringLiteral("named.chainmail")));
+      const QString sentence = bench.window.messages().sentence();
+      QVERIFY2(sentence.contains(name + QStringLiteral(": it is not a PNG or JPEG picture")), qPrintable(sentence));
+      QCOMPARE(bench.document().mesh(), before);
+    }
   }
 
   void aPictureIsTurnedAsItsCameraSays() {
@@ -253,7 +280,26 @@ class WindowSheet : public QObject {
   }
 
  private:
+  void write(const QString& name, const QByteArray& bytes) const {
+    QFile file(folder_.filePath(name));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+  }
+
   static Sheets& sheets(Workbench& bench) { return bench.window.findChild<FileActions*>()->sheets(); }
+
+  /// Returns the bytes of a picture in a format that is not opened. As SVG, it names another picture, which its reader
+  /// would open.
+  QByteArray pictureAs(const QString& format) const {
+    if (format == QLatin1String("svg")) {
+      return "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"100\" "
+             "height=\"100\"><image xlink:href=\"" +
+             picture("a.png").toUtf8() + "\" width=\"50\" height=\"50\"/></svg>";
+    }
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    QImage(picture("a.png")).save(&buffer, qPrintable(format));
+    return bytes;
+  }
 
   /// Returns the path of a colourful picture of 120 × 80 pixels. Makes it once.
   QString picture(const char* name) const {

@@ -1,13 +1,15 @@
 #include "io/picture_file.h"
 
-#include <QFile>
+#include <QBuffer>
 #include <QFileInfo>
 #include <QImageReader>
 #include <QImageWriter>
 #include <QPainter>
 #include <QSaveFile>
+#include <array>
 
 #include "common/as_path.h"
+#include "files/formats/bare_picture.h"
 #include "files/mesh/warp.h"
 #include "files/text/regular_file.h"
 #include "mesh/error.h"
@@ -15,7 +17,8 @@
 namespace chainmail {
 namespace {
 
-constexpr qsizetype headerBytes = 8;
+// Largest number of pixels of a JPEG times its scans. A usual progressive JPEG has about 10.
+constexpr double scanned_pixel_limit = 12 * picture_limit;
 constexpr int jpegQuality = 95;
 constexpr int megabyte = 1 << 20;
 
@@ -28,44 +31,61 @@ bool endsAsPicture(const QString& path) {
   throw Error(path.toStdString(), problem.toStdString(), remedy);
 }
 
-/// Sets up a reader that decides the format by content, not by name.
-void setUp(QImageReader& reader, const QString& path) {
-  require_file(asPath(path));
-  QImageReader::setAllocationLimit(int(4 * picture_limit / megabyte) +
-                                   1);  // in MB, a limit for all readers; pictures here are smaller
-  reader.setDecideFormatFromContent(true);
-  reader.setAutoTransform(true);
-  reader.setFileName(path);
-  if (QFile file(path); !file.open(QIODevice::ReadOnly)) {
-    failPicture(path, QStringLiteral("it cannot be read (%1)").arg(file.errorString()),
-                "check its name and permissions");
+/// A picture in memory, with Qt's reader for its format. Qt tries no other format: some open other files.
+class PictureReader {
+ public:
+  explicit PictureReader(const QString& path) : path_(path), picture_(read_bare_picture(asPath(path))) {
+    QImageReader::setAllocationLimit(int(4 * picture_limit / megabyte) +
+                                     1);  // in MB, a limit for all readers; pictures here are smaller
+    bytes_.setData(QByteArray::fromRawData(picture_.bytes.data(), qsizetype(picture_.bytes.size())));
+    bytes_.open(QIODevice::ReadOnly);
+    reader_.setAutoDetectImageFormat(false);
+    reader_.setAutoTransform(true);
+    reader_.setDevice(&bytes_);
+    reader_.setFormat(picture_.format == PictureFormat::png ? "png" : "jpeg");
+    if (!reader_.canRead() || size().isEmpty()) {
+      failPicture(path, QStringLiteral("its header is damaged"), "open a complete PNG or JPEG file");
+    }
+    checkSize();
   }
-  if (!reader.canRead()) {
-    failPicture(path, QStringLiteral("it is not a picture"), "open a PNG or JPEG file");
-  }
-}
 
-QSize sizeOf(const QImageReader& reader) {
-  const QSize size = reader.size();
-  return (reader.transformation() & QImageIOHandler::TransformationRotate90) != 0 ? size.transposed() : size;
-}
-
-/// True for a truncated JPEG: the end marker is missing after the last scan. Qt decodes it and fills the rest with
-/// grey. The two markers never appear within a scan.
-bool endsEarly(const QString& path) {
-  QFile file(path);
-  const qint64 size = file.open(QIODevice::ReadOnly) ? file.size() : 0;
-  const uchar* bytes = size > 0 ? file.map(0, size) : nullptr;
-  if (bytes == nullptr || size < 2 || bytes[0] != 0xFF || bytes[1] != 0xD8) {
-    return false;
+  /// Returns the size in pixels, with the rotation that the camera stored.
+  QSize size() const {
+    const QSize stored = reader_.size();
+    const bool turned = (reader_.transformation() & QImageIOHandler::TransformationRotate90) != 0;
+    return turned ? stored.transposed() : stored;
   }
-  for (qint64 i = size - 2; i > 0; --i) {
-    if (bytes[i] == 0xFF && (bytes[i + 1] == 0xD9 || bytes[i + 1] == 0xDA)) {
-      return bytes[i + 1] == 0xDA;
+  QImage read() {
+    const QSize stated = size();
+    QImage image;
+    if (!reader_.read(&image) || image.size() != stated) {
+      failPicture(path_, QStringLiteral("it is damaged"), "open a complete PNG or JPEG file");
+    }
+    return image;
+  }
+
+ private:
+  void checkSize() const {
+    const double pixels = double(size().width()) * size().height();
+    if (pixels > picture_limit) {
+      failPicture(path_,
+                  QStringLiteral("it has %L1 × %L2 pixels, more than %L3 million")
+                      .arg(size().width())
+                      .arg(size().height())
+                      .arg(qRound(picture_limit / 1e6)),
+                  "scale the picture down first");
+    }
+    if (pixels * double(picture_.scans) > scanned_pixel_limit) {
+      failPicture(path_, QStringLiteral("it stores its pixels in %L1 scans").arg(picture_.scans),
+                  "save it again, in another program");
     }
   }
-  return true;
-}
+
+  QString path_;
+  BarePicture picture_;
+  QBuffer bytes_;  // of picture_
+  QImageReader reader_;
+};
 
 QImage asImage(const Texture& picture) {
   const QImage upward(picture.texels.data(), int(picture.size[0]), int(picture.size[1]), qsizetype(4) * picture.size[0],
@@ -87,49 +107,33 @@ bool isPicture(const QString& path) {
   if (endsAsPicture(path)) {
     return true;
   }
-  QFile file(path);  // opening a pipe could block the window
-  const bool opened = QFileInfo(path).isFile() && file.open(QIODevice::ReadOnly);
-  const QByteArray header = opened ? file.read(headerBytes) : QByteArray();
-  return header == QByteArray("\x89PNG\r\n\x1a\n", headerBytes) || header.startsWith("\xff\xd8\xff");
+  if (!QFileInfo(path).isFile()) {
+    return false;
+  }
+  try {
+    std::array<char, picture_signature_size> beginning{};
+    const std::size_t count = RegularFile(asPath(path)).read(beginning);
+    return picture_format({beginning.data(), count}).has_value();
+  } catch (const Error&) {
+    return false;  // who opens it as a mesh is told why
+  }
 }
 
-QSize pictureSize(const QString& path) {
-  QImageReader reader;
-  setUp(reader, path);
-  const QSize size = sizeOf(reader);
-  if (size.isEmpty()) {
-    failPicture(path, QStringLiteral("its header is damaged"), "open a complete PNG or JPEG file");
-  }
-  if (double(size.width()) * size.height() > picture_limit) {
-    failPicture(path,
-                QStringLiteral("it has %L1 × %L2 pixels, more than %L3 million")
-                    .arg(size.width())
-                    .arg(size.height())
-                    .arg(qRound(picture_limit / 1e6)),
-                "scale the picture down first");
-  }
-  return size;
-}
+QSize pictureSize(const QString& path) { return PictureReader(path).size(); }
 
 Texture readPictureFile(const QString& path, const Progress& progress) {
-  const QSize size = pictureSize(path);
-  QImageReader reader;
-  setUp(reader, path);
-  QImage image;
-  if (endsEarly(path) || !reader.read(&image) || image.size() != size) {
-    failPicture(path, QStringLiteral("it is damaged"), "open a complete PNG or JPEG file");
-  }
+  QImage image = PictureReader(path).read();
   progress.report(0.5);
   image.convertTo(QImage::Format_RGBA8888);
   progress.report(0.8);
   Texture picture;
-  picture.size = {std::uint32_t(size.width()), std::uint32_t(size.height()), 1};
+  picture.size = {std::uint32_t(image.width()), std::uint32_t(image.height()), 1};
   picture.texels.reserve(picture.byte_count());
-  for (int y = size.height(); y-- > 0;) {
+  for (int y = image.height(); y-- > 0;) {
     const uchar* row = image.constScanLine(y);
-    picture.texels.insert(picture.texels.end(), row, row + qsizetype(4) * size.width());
+    picture.texels.insert(picture.texels.end(), row, row + qsizetype(4) * image.width());
   }
-  picture.box = {Point::Zero(), Point(size.width(), size.height(), 0)};
+  picture.box = {Point::Zero(), Point(image.width(), image.height(), 0)};
   progress.report(1);
   return picture;
 }

@@ -14,8 +14,8 @@ namespace chainmail {
 /// True if the extension or the content of a file is that of a PNG or JPEG.
 bool isPicture(const QString& path);
 
-/// Returns the size of a picture in pixels, with the rotation that the camera stored; reads only the header. Throws
-/// Error if the file is not a picture or has more than picture_limit pixels.
+/// Returns the size of a picture in pixels, with the rotation that the camera stored; decodes only the header. Throws
+/// Error if the file is not a PNG or JPEG by its signature, is not complete, or has more than picture_limit pixels.
 QSize pictureSize(const QString& path);
 
 /// Reads a picture with four channels, the bottom row first. Throws Error if it is damaged, and Cancelled.

@@ -54,16 +54,18 @@ void Sheets::adapt() {
   }
 }
 
+/// Even the header is read in the background: the file may be on a slow drive.
 void Sheets::openPath(const QString& path, bool first) {
-  try {
-    const QSize size = pictureSize(path);
-    asked_ = path;
-    first_ = first;
-    bar_->ask(QFileInfo(path).fileName(), size);
-  } catch (const Error& error) {
-    bar_->hide();
-    emit failed(QString::fromStdString(error.what()));
-  }
+  bar_->hide();
+  const QString name = QFileInfo(path).fileName();
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+              [this, path, name, first](const Progress&) -> Jobs::Finish {
+                return [this, path, name, first, size = pictureSize(path)] {
+                  asked_ = path;
+                  first_ = first;
+                  bar_->ask(name, size);
+                };
+              });
 }
 
 void Sheets::open(const QString& path, int across, bool first) {
