@@ -8,6 +8,7 @@
 #include "command_line/softness.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
+#include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "report/page/figure_table.h"
@@ -51,7 +52,7 @@ CalibrationOptions calibration_options(const CalibrateArguments& options, const 
 
 std::string read_name(const CalibrateArguments& options, const CalibrationOptions& how) {
   const std::filesystem::path path = *value_of(options.mesh.path);
-  std::string name = printable(path.stem().string()).substr(0, longest_preset_name - 20);
+  std::string name = printable(path.stem().string()).substr(0, limits::preset_name_bytes - 20);
   name = value_of(options.name).value_or(name + ", Poisson " + figure(how.elastic.material.poisson));
   if (const std::string fault = fault_of_name(name); !fault.empty()) {
     throw Error("--name", in_quotes(name) + " cannot name a preset", fault);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t oversampling = 3;  // samples per pixel along each axis
 constexpr double line_width = 1.0 / 128;  // of the picture
+constexpr double row_cost = 10;           // time of a row of a triangle, in samples
 
 /// Twice the area of a triangle in the picture, with the sign of its orientation.
 double area(const Raster::Place& a, const Raster::Place& b, const Raster::Place& c) {
@@ -29,34 +30,74 @@ void Raster::put(std::int64_t x, std::int64_t y, double depth, Colour colour) {
   }
 }
 
+/// Returns the first and the last row or column of samples that a shape touches between two places on an axis.
+std::array<std::int64_t, 2> Raster::range(double low, double high) const {
+  const auto last = double(side_ - 1);
+  return {std::int64_t(std::clamp(std::floor(low * double(side_)), 0.0, last)),
+          std::int64_t(std::clamp(std::ceil(high * double(side_)), 0.0, last))};
+}
+
+double Raster::cost_of_triangle(const std::array<Place, 3>& corners) const {
+  const auto [low, high] = std::minmax({corners[0][1], corners[1][1], corners[2][1]});
+  const auto rows = range(low, high);
+  return row_cost * double(rows[1] - rows[0] + 1) +
+         std::abs(area(corners[0], corners[1], corners[2])) / 2 * double(side_) * double(side_);
+}
+
 void Raster::draw_triangle(const std::array<Place, 3>& corners, Colour colour) {
   const Place &a = corners[0], &b = corners[1], &c = corners[2];
   const double whole = area(a, b, c);
   if (whole == 0) {
     return;
   }
-  const auto range = [&](std::size_t axis) {
-    const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-    const auto last = double(side_ - 1);
-    return std::array{std::int64_t(std::clamp(std::floor(low * double(side_)), 0.0, last)),
-                      std::int64_t(std::clamp(std::ceil(high * double(side_)), 0.0, last))};
-  };
-  const auto columns = range(0), rows = range(1);
+  const auto [lowest, highest] = std::minmax({a[1], b[1], c[1]});
+  const auto rows = range(lowest, highest);
   for (std::int64_t y = rows[0]; y <= rows[1]; ++y) {
-    for (std::int64_t x = columns[0]; x <= columns[1]; ++x) {
-      const Place at{(double(x) + 0.5) / double(side_), (double(y) + 0.5) / double(side_), 0};
-      const std::array share{area(at, b, c) / whole, area(a, at, c) / whole, area(a, b, at) / whole};
-      if (std::ranges::all_of(share, [](double one) { return one >= 0; })) {
-        put(x, y, share[0] * a[2] + share[1] * b[2] + share[2] * c[2], colour);
-      }
+    // The shares of the corners at a sample are linear in its column: `first` + `slope` * column.
+    const Place start{0.5 / double(side_), (double(y) + 0.5) / double(side_), 0};
+    const std::array first{area(start, b, c) / whole, area(a, start, c) / whole, area(a, b, start) / whole};
+    const std::array slope{(b[1] - c[1]) / whole / double(side_), (c[1] - a[1]) / whole / double(side_),
+                           (a[1] - b[1]) / whole / double(side_)};
+    const auto [from, to] = columns_inside(first, slope);
+    const double depth = first[0] * a[2] + first[1] * b[2] + first[2] * c[2];
+    const double depth_slope = slope[0] * a[2] + slope[1] * b[2] + slope[2] * c[2];
+    for (std::int64_t x = from; x <= to; ++x) {
+      put(x, y, depth + depth_slope * double(x), colour);
     }
   }
+}
+
+/// Returns the first and the last column in which no share is below 0. There is none if the first is larger.
+std::array<std::int64_t, 2> Raster::columns_inside(const std::array<double, 3>& first,
+                                                   const std::array<double, 3>& slope) const {
+  double from = 0;
+  auto to = double(side_ - 1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (slope[k] > 0) {
+      from = std::max(from, std::ceil(-first[k] / slope[k]));
+    } else if (slope[k] < 0) {
+      to = std::min(to, std::floor(first[k] / -slope[k]));
+    } else if (first[k] < 0) {
+      return {0, -1};
+    }
+  }
+  return {std::int64_t(std::min(from, double(side_))), std::int64_t(std::max(to, -1.0))};
+}
+
+double Raster::cost_of_line(const Place& from, const Place& to) const {
+  const double length = std::hypot(to[0] - from[0], to[1] - from[1]) * double(side_);
+  const auto width = double(2 * line_radius() + 1);
+  return std::clamp(length + 1, 1.0, 2.0 * double(side_)) * width * width;
+}
+
+std::int64_t Raster::line_radius() const {
+  return std::max(std::int64_t{1}, std::int64_t(line_width * double(side_) / 2));
 }
 
 void Raster::draw_line(const Place& from, const Place& to, Colour colour) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]) * double(side_);
   const auto steps = std::int64_t(std::clamp(std::ceil(length), 1.0, 2.0 * double(side_)));
-  const auto radius = std::max(std::int64_t{1}, std::int64_t(line_width * double(side_) / 2));
+  const std::int64_t radius = line_radius();
   for (std::int64_t step = 0; step <= steps; ++step) {
     const double share = double(step) / double(steps);
     const auto at = [&](std::size_t axis) { return from[axis] + share * (to[axis] - from[axis]); };

@@ -20,6 +20,9 @@ class Raster {
 
   void draw_triangle(const std::array<Place, 3>& corners, Colour colour);
   void draw_line(const Place& from, const Place& to, Colour colour);
+  /// Estimate the time that drawing takes, in samples that are written.
+  double cost_of_triangle(const std::array<Place, 3>& corners) const;
+  double cost_of_line(const Place& from, const Place& to) const;
 
   /// Writes the picture as PNG.
   void write_png(std::ostream& out) const;
@@ -31,6 +34,10 @@ class Raster {
     bool is_drawn;
   };
 
+  std::array<std::int64_t, 2> range(double low, double high) const;
+  std::array<std::int64_t, 2> columns_inside(const std::array<double, 3>& first,
+                                             const std::array<double, 3>& slope) const;
+  std::int64_t line_radius() const;
   void put(std::int64_t x, std::int64_t y, double depth, Colour colour);
   std::vector<std::uint8_t> pixels() const;
 

@@ -18,9 +18,10 @@ constexpr const char* run_footer =
     "  chainmail deform grid.dat --algorithm natural-queue --by 31:3,2 --positions moved.csv";
 
 constexpr const char* licence =
-    "\nMIT licence. Linked libraries: Bullet (zlib), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), libpng, zlib, CLI11 "
-    "(BSD)\n"
-    "and nlohmann/json (MIT). It starts chainmail-import, which is under the GPL, as a separate program.";
+    "\nMIT licence. Linked libraries: Bullet (zlib), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), libpng, zlib, "
+    "libseccomp\n"
+    "(LGPL-2.1), CLI11 (BSD) and nlohmann/json (MIT). It starts chainmail-import, which is under the GPL, as a "
+    "separate program.";
 
 std::string help_hint(const CLI::App& app) {
   return "see chainmail" + (app.get_parent() == nullptr ? "" : " " + app.get_name()) + " --help";

@@ -3,12 +3,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
+#include <vector>
 
 #include "command_line/common.h"
+#include "command_line/limited_work.h"
 #include "command_line/raster.h"
 #include "command_line/samples.h"
 #include "files/session/session.h"
+#include "files/text/limits.h"
 #include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 #include "mesh/surface.h"
 #include "solve/body.h"
@@ -33,7 +38,9 @@ Shown at_rest(const MeshPointer& mesh) { return {mesh, Cuts(mesh), mesh->rest}; 
 Shown session_of(const std::filesystem::path& path) {
   const auto open = [&](const std::string& name, std::uint32_t, const Progress& progress) {
     const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
-    return chainmail::open_mesh(!exists(beside) && exists(sample) ? sample : beside, {}, progress).mesh;
+    std::error_code none;
+    const bool is_sample = !exists(beside, none) && exists(sample, none);
+    return chainmail::open_mesh(is_sample ? sample : beside, {}, progress).mesh;
   };
   const Session session = read_session(path, {}, open);
   Body body(session.mesh, Precision::double_precision);
@@ -58,8 +65,10 @@ class Look {
     right_ = {std::cos(yaw), 0, -std::sin(yaw)};
     up_ = {-std::sin(pitch) * std::sin(yaw), std::cos(pitch), -std::sin(pitch) * std::cos(yaw)};
     toward_ = right_.cross(up_);
+    seen_.reserve(shown.mesh->element_count());
     for (ElementId e = 0; e < shown.mesh->element_count(); ++e) {
-      const Point at = seen(e);
+      seen_.push_back(seen_from_the_eye(e));
+      const Point& at = seen_.back();
       low_ = low_.cwiseMin(at);
       high_ = high_.cwiseMax(at);
     }
@@ -68,12 +77,12 @@ class Look {
   }
 
   Raster::Place place(ElementId element, double lift = 0) const {
-    const Point at = scale_ * (seen(element) - (low_ + high_) / 2);
+    const Point at = scale_ * (seen_[element] - (low_ + high_) / 2);
     return {0.5 + at.x(), 0.5 - at.y(), -at.z() - lift};
   }
   /// The colour of a face in a light that comes from the eye.
   Raster::Colour lit(const std::array<ElementId, 3>& corners) const {
-    const Point a = seen(corners[0]), b = seen(corners[1]), c = seen(corners[2]);
+    const Point &a = seen_[corners[0]], &b = seen_[corners[1]], &c = seen_[corners[2]];
     const Point normal = (b - a).cross(c - a);
     const double length = normal.norm(), light = length > 0 ? 0.4 + 0.6 * std::abs(normal.z()) / length : 1;
     Raster::Colour colour{};
@@ -83,7 +92,7 @@ class Look {
 
  private:
   /// The position of an element along the axes of the picture; z points to the eye.
-  Point seen(ElementId element) const {
+  Point seen_from_the_eye(ElementId element) const {
     Point at = shown_.mesh->origin;
     for (int k = 0; k < shown_.mesh->space_dimension; ++k) {
       at[shown_.mesh->axes[std::size_t(k)]] =
@@ -101,6 +110,7 @@ class Look {
   }
 
   const Shown& shown_;
+  std::vector<Point> seen_;  // position of each element along the axes of the picture
   Point right_, up_, toward_;
   Point low_ = Point::Constant(std::numeric_limits<double>::infinity());
   Point high_ = Point::Constant(-std::numeric_limits<double>::infinity());
@@ -124,23 +134,67 @@ std::vector<std::array<ElementId, 3>> faces_of(const Shown& shown) {
   return faces;
 }
 
+/// Draws some of `count` shapes, evenly spread, so that all together cost little more than `budget`. `cost(i)` is what
+/// shape i costs.
+template <class Cost, class Draw>
+void draw_within(double budget, std::size_t count, Cost cost, Draw draw) {
+  double all = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    all += cost(i);
+  }
+  double spent = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (all <= budget || spent <= budget * double(i) / double(count)) {
+      spent += cost(i);
+      draw(i);
+    }
+  }
+}
+
+void draw_faces(Raster& picture, const Look& look, const std::vector<std::array<ElementId, 3>>& faces) {
+  const auto corners = [&](std::size_t i) {
+    return std::array{look.place(faces[i][0]), look.place(faces[i][1]), look.place(faces[i][2])};
+  };
+  draw_within(
+      limits::thumbnail_samples, faces.size(), [&](std::size_t i) { return picture.cost_of_triangle(corners(i)); },
+      [&](std::size_t i) { picture.draw_triangle(corners(i), look.lit(faces[i])); });
+}
+
+void draw_links(Raster& picture, const Look& look, const Shown& shown) {
+  const auto& links = shown.mesh->links;
+  draw_within(
+      limits::thumbnail_samples, links.size(),
+      [&](std::size_t i) {
+        return shown.cuts.is_cut(LinkId(i)) ? 0
+                                            : picture.cost_of_line(look.place(links[i][0]), look.place(links[i][1]));
+      },
+      [&](std::size_t i) {
+        if (!shown.cuts.is_cut(LinkId(i))) {
+          picture.draw_line(look.place(links[i][0], line_lift), look.place(links[i][1], line_lift), link_colour);
+        }
+      });
+}
+
 Raster draw(const Shown& shown, std::uint32_t size) {
   Raster picture(size);
   const Look look(shown);
   const auto faces = faces_of(shown);
-  for (const auto& face : faces) {
-    picture.draw_triangle({look.place(face[0]), look.place(face[1]), look.place(face[2])}, look.lit(face));
-  }
+  draw_faces(picture, look, faces);
   // Links inside a volume are hidden anyway, and so many on a large surface that they would hide it.
   constexpr std::size_t most_links = 3000;
-  const bool shows_links = faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= most_links);
-  for (LinkId link = 0; shows_links && link < shown.mesh->links.size(); ++link) {
-    const auto& [a, b] = shown.mesh->links[link];
-    if (!shown.cuts.is_cut(link)) {
-      picture.draw_line(look.place(a, line_lift), look.place(b, line_lift), link_colour);
-    }
+  if (faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= most_links)) {
+    draw_links(picture, look, shown);
   }
   return picture;
+}
+
+/// Returns the picture of a file as PNG.
+std::string png_of(const std::filesystem::path& path, std::uint32_t pixels) {
+  const Shown shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
+  finish_in_sandbox();
+  std::ostringstream png;
+  draw(shown, pixels).write_png(png);
+  return png.str();
 }
 
 }  // namespace
@@ -154,11 +208,12 @@ Command add_thumbnail(CLI::App& root) {
   return {&app, [file, output, size] {
             const std::filesystem::path path = *value_of(file);
             const std::uint32_t pixels = whole_number_of(size, smallest, standard, largest);
-            const Shown shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
-            const Raster picture = draw(shown, pixels);
             Outputs outputs;
             outputs.keep(path);
-            outputs.add(*value_of(output), [&](std::ostream& out) { picture.write_png(out); });
+            const std::string png = run_limited(
+                chainmail::shown(path), {limits::thumbnail_seconds, limits::thumbnail_memory, limits::thumbnail_bytes},
+                [&] { return png_of(path, pixels); });
+            outputs.add(*value_of(output), [&](std::ostream& out) { out << png; });
             outputs.commit();
           }};
 }

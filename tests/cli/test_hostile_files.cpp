@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include "cli/chainmail_program.h"
+#include "packed_voxels.h"
 
 using namespace chainmail::test;
 
@@ -18,6 +19,9 @@ class HostileFilesTest : public QObject {
   void data_outside_need_to_be_allowed();
   void a_temporary_folder_that_is_none_gets_a_sentence_data();
   void a_temporary_folder_that_is_none_gets_a_sentence();
+  void known_attacks_end_soon_data();
+  void known_attacks_end_soon();
+  void a_small_file_of_many_voxels_takes_little_memory();
   void a_limit_of_file_size_is_as_a_full_disk_data();
   void a_limit_of_file_size_is_as_a_full_disk();
 
@@ -152,6 +156,46 @@ void HostileFilesTest::a_temporary_folder_that_is_none_gets_a_sentence() {
   QVERIFY2(outcome.error.startsWith("chainmail: " + folder.toUtf8()) && outcome.error.contains(sentence.toUtf8()),
            outcome.error);
   QCOMPARE(program_->files(), (QStringList{"a.off", "file"}));
+}
+
+void HostileFilesTest::known_attacks_end_soon_data() {
+  QTest::addColumn<QByteArray>("text");
+  const QDir folder(QStringLiteral(HOSTILE));
+  for (const QString& name : folder.entryList(QDir::Files)) {
+    QFile file(folder.filePath(name));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QTest::newRow(qPrintable(name)) << file.readAll();
+  }
+  QTest::newRow("thin.mha") << packed_volume({1 << 26, 1, 1});
+  QTest::newRow("slab.mha") << packed_volume({1 << 13, 1 << 13, 1});
+}
+
+/// Each opens, or gives one sentence.
+void HostileFilesTest::known_attacks_end_soon() {
+  QFETCH(QByteArray, text);
+  const QString name = QTest::currentDataTag();
+  program_->write(name, text);
+  program_->write("grid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n");
+  for (const QStringList& arguments : {QStringList{"info", name}, QStringList{"convert", name, "-o", "out.obj"},
+                                       QStringList{"thumbnail", name, "-o", "out.png"}}) {
+    const auto outcome = program_->run(arguments, [] {
+      const rlimit seconds{3, 3}, bytes{1U << 30, 1U << 30};
+      setrlimit(RLIMIT_CPU, &seconds);
+      setrlimit(RLIMIT_AS, &bytes);
+    });
+    QVERIFY2(outcome.code == 0 || (outcome.code == 2 && is_one_sentence(outcome)), outcome.error);
+  }
+}
+
+/// 2^29 voxels in half a megabyte: they are averaged while they are unpacked.
+void HostileFilesTest::a_small_file_of_many_voxels_takes_little_memory() {
+  program_->write("large.mha", packed_volume({1024, 1024, 512}));
+  const auto outcome = program_->run({"info", "large.mha"}, [] {
+    const rlimit bytes{1U << 29, 1U << 29};
+    setrlimit(RLIMIT_AS, &bytes);
+  });
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QVERIFY2(outcome.out.contains("\nread as           voxels from a density of "), outcome.out);
 }
 
 void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk_data() {

@@ -1,10 +1,13 @@
 #include <png.h>
+#include <sys/resource.h>
 
 #include <QPoint>
 #include <array>
+#include <random>
 #include <vector>
 
 #include "cli/chainmail_program.h"
+#include "packed_voxels.h"
 
 using namespace chainmail::test;
 
@@ -43,6 +46,11 @@ class ThumbnailCommandTest : public QObject {
   void a_square_fills_the_picture();
   void a_near_face_hides_a_far_one();
   void a_session_is_drawn_in_its_state();
+  void slender_faces_take_little_time_data();
+  void slender_faces_take_little_time();
+  void neighbouring_faces_leave_no_gap();
+  void work_without_end_is_ended();
+  void a_mesh_with_a_long_name_is_refused();
   void refused_data();
   void refused();
 
@@ -104,6 +112,91 @@ void ThumbnailCommandTest::a_session_is_drawn_in_its_state() {
   };
   QCOMPARE(links_are_drawn(""), std::pair(true, true));
   QCOMPARE(links_are_drawn("0,1"), std::pair(true, false));  // a cut link is not drawn
+}
+
+void ThumbnailCommandTest::slender_faces_take_little_time_data() {
+  QTest::addColumn<QByteArray>("shape");  // %1 to %3: the vertices
+  QTest::addColumn<int>("count");
+  QTest::newRow("slivers") << QByteArray("v 0 %1 0\nv 1 %2 0\nv 0.999 %3 0\nf -1 -2 -3\n") << 30'000;
+  QTest::newRow("large faces") << QByteArray("v 0 0 %1\nv 1 0 %2\nv 0.5 1 %3\nf -1 -2 -3\n") << 30'000;
+  QTest::newRow("lines") << QByteArray("v 0 %1 0\nv 1 %2 %3\nl -1 -2\n") << 50'000;
+}
+
+/// Each face and line spans the picture. The processor time is limited from outside, too.
+void ThumbnailCommandTest::slender_faces_take_little_time() {
+  QFETCH(QByteArray, shape);
+  QFETCH(int, count);
+  const Program program;
+  std::mt19937 random(3);
+  QByteArray text;
+  for (int i = 0; i < count; ++i) {
+    QByteArray one = shape;
+    for (const char* place : {"%1", "%2", "%3"}) {
+      one.replace(place, QByteArray::number(double(random() % 100'000) / 1e5));
+    }
+    text += one;
+  }
+  program.write("many.obj", text);
+  const auto outcome = program.run({"thumbnail", "many.obj", "-o", "picture.png", "--size", "1024"}, [] {
+    const rlimit seconds{3, 3};
+    setrlimit(RLIMIT_CPU, &seconds);
+  });
+  QVERIFY2(outcome.code == 0, outcome.error);
+  const Picture picture(program.path("picture.png"));
+  QVERIFY(picture.alpha({512, 512}) == 255);
+}
+
+void ThumbnailCommandTest::neighbouring_faces_leave_no_gap() {
+  const Program program;
+  QByteArray grid;
+  for (int y = 0; y <= 7; ++y) {
+    for (int x = 0; x <= 7; ++x) {
+      grid += QByteArray("v %1 %2 0\n").replace("%1", QByteArray::number(x)).replace("%2", QByteArray::number(y));
+    }
+  }
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      const int a = 8 * y + x + 1;
+      for (const std::array<int, 3>& face : {std::array{a, a + 1, a + 9}, {a, a + 9, a + 8}}) {
+        grid += "f " + QByteArray::number(face[0]) + ' ' + QByteArray::number(face[1]) + ' ' +
+                QByteArray::number(face[2]) + '\n';
+      }
+    }
+  }
+  const Picture picture = draw(program, "grid.obj", grid);
+  for (int y = 20; y < 236; ++y) {
+    for (int x = 20; x < 236; ++x) {
+      QCOMPARE(picture.alpha({x, y}), 255);
+    }
+  }
+}
+
+/// A megabyte with 2^30 voxels.
+void ThumbnailCommandTest::work_without_end_is_ended() {
+  const Program program;
+  program.write("large.mha", packed_volume({1024, 1024, 1024}));
+  const auto outcome = program.run({"thumbnail", "large.mha", "-o", "picture.png"}, [] {
+    const rlimit seconds{3, 3};
+    setrlimit(RLIMIT_CPU, &seconds);
+  });
+  QCOMPARE(outcome.code, 2);
+  QCOMPARE(
+      outcome.error,
+      QByteArray("chainmail: large.mha: this takes more than 2 s of processor time; use a smaller file, or open it "
+                 "in the workbench\n"));
+  QCOMPARE(program.files(), QStringList{"large.mha"});
+}
+
+/// Asking whether such a file exists fails.
+void ThumbnailCommandTest::a_mesh_with_a_long_name_is_refused() {
+  const Program program;
+  for (const int length : {250, 5000}) {
+    program.write("a.chainmail", R"({"format": "chainmail session", "version": 2, "name": "a", "mesh": {"file": ")" +
+                                     QByteArray(length, 'x') + R"(.obj"}, "cuts": [], "pins": [], "ui": {}})");
+    const auto outcome = program.run("thumbnail a.chainmail -o a.png");
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(is_one_sentence(outcome), outcome.error);
+  }
 }
 
 void ThumbnailCommandTest::refused_data() {

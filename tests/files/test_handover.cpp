@@ -53,6 +53,7 @@ void HandoverTest::a_mesh_comes_over_whole() {
 void HandoverTest::a_volume_comes_over_whole() {
   Volume volume;
   volume.size = {2, 1, 1};
+  volume.merged = 3;
   volume.spacing = Point(1, 2, 3);
   volume.origin = Point(-1, 0, 1);
   volume.densities = {7, 65535};
@@ -61,6 +62,7 @@ void HandoverTest::a_volume_comes_over_whole() {
   const auto again = std::get<Volume>(decode_imported(encode_imported(volume), "a.nrrd"));
   QVERIFY(again.size == volume.size && again.spacing == volume.spacing && again.origin == volume.origin);
   QCOMPARE(again.densities, volume.densities);
+  QCOMPARE(again.merged, 3U);
   QCOMPARE(again.density(0), 1.5);
 }
 

@@ -3,6 +3,7 @@
 
 #include "files/mesh/open_mesh.h"
 #include "files/session_support.h"
+#include "files/text/limits.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -53,6 +54,7 @@ class LessonTest : public QObject {
   void the_example_in_the_manual_is_a_lesson();
   void damaged_steps_are_refused_data();
   void damaged_steps_are_refused();
+  void long_texts_are_refused();
   void a_lesson_has_steps();
   void a_mesh_may_be_named();
   void names_that_lead_elsewhere_are_refused_data();
@@ -123,6 +125,29 @@ void LessonTest::damaged_steps_are_refused() {
   QVERIFY2(error.contains("; "), qPrintable(error));  // says what to do
 }
 
+/// The window lays them out, and shortens a title that is too wide.
+void LessonTest::long_texts_are_refused() {
+  const auto error = [](const std::string& title, const std::string& of_step, const std::string& text) {
+    Session session = lesson_session();
+    session.lesson.title = title;
+    session.lesson.steps[0].title = of_step;
+    session.lesson.steps[0].text = text;
+    return error_of([&] { parse_session(session_text(session), "a.chainmail"); });
+  };
+  const std::string name(limits::name_bytes, 'x'), text(limits::caption_bytes, 'y');
+  QCOMPARE(error(name, name, text), QString());
+  QCOMPARE(error(name + "x", name, text), QString("a.chainmail: lesson: 'title' has 256 bytes; use at most 255"));
+  QCOMPARE(error(name, name + "x", text),
+           QString("a.chainmail: lesson: step 1: 'title' has 256 bytes; use at most 255"));
+  QCOMPARE(error(name, name, text + "y"),
+           QString("a.chainmail: lesson: step 1: 'text' has 4097 bytes; use at most 4096"));
+  // Neither does an error repeat what is long.
+  std::string long_name = session_text(lesson_session());
+  long_name.replace(long_name.find("\"spiral\""), 8, '"' + std::string(1'000'000, 'z') + '"');
+  const QString said = error_of([&] { parse_session(long_name, "a.chainmail"); });
+  QVERIFY(said.contains("'algorithms' contains \"zzz") && said.size() < 1000);
+}
+
 void LessonTest::a_lesson_has_steps() {
   const QString text = QString::fromStdString(example());
   const auto from = text.indexOf("\"steps\": [") + 10, end = text.indexOf("]},\n \"mesh\"");  // between the brackets
@@ -164,7 +189,7 @@ void LessonTest::names_that_lead_elsewhere_are_refused() {
 /// A session with too many moves is saved without them, and so without captions that count them.
 void LessonTest::a_lesson_goes_with_its_moves() {
   Session session = lesson_session();
-  session.moves.resize(session_moves + 1, commands::Drag{});
+  session.moves.resize(limits::session_moves + 1, commands::Drag{});
   const Session again = parse_session(session_text(session), "a.chainmail");
   QVERIFY(again.moves.empty());
   QVERIFY(again.lesson.steps.empty());

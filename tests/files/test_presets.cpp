@@ -5,6 +5,7 @@
 
 #include "files/session/softness_presets.h"
 #include "files/support.h"
+#include "files/text/limits.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -17,6 +18,7 @@ class PresetsTest : public QObject {
   void those_built_in_are_softness();
   void what_is_written_reads_back();
   void names();
+  void their_number_is_limited();
   void other_files_are_refused_data();
   void other_files_are_refused();
   void files();
@@ -66,12 +68,33 @@ void PresetsTest::names() {
   for (const char* name : {"a", "wet clay 2", "Grüße", "50 %"}) {
     QCOMPARE(fault_of_name(name), std::string());
   }
-  const std::string longest(longest_preset_name, 'x');
+  const std::string longest(limits::preset_name_bytes, 'x');
   QVERIFY(fault_of_name(longest).empty());
   for (const std::string& name : {std::string(), std::string(" "), std::string(" a"), std::string("a "), longest + "x",
                                   std::string("a\nb"), std::string("\xff")}) {
     QVERIFY(!fault_of_name(name).empty());
   }
+}
+
+void PresetsTest::their_number_is_limited() {
+  std::vector<SoftnessPreset> presets(limits::presets);
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    presets[i].name = std::to_string(i);
+  }
+  std::ostringstream most;
+  write_presets(most, presets);
+  QCOMPARE(read(most.str()).size(), limits::presets);
+  presets.push_back({"one more", {}});
+  std::ostringstream more;
+  write_presets(more, presets);
+  QCOMPARE(error_of([&] { read(more.str()); }), QString("p.json: it contains 1001 presets; use at most 1000"));
+  // Other values are counted before memory is taken for them.
+  std::string values = R"({"version": 1, "presets": [0)";
+  for (std::size_t i = 0; i < limits::json_values; ++i) {
+    values += ",0";
+  }
+  QCOMPARE(error_of([&] { read(values + "]}"); }),
+           QString("p.json: it contains too many values; use a file with presets of softness"));
 }
 
 void PresetsTest::other_files_are_refused_data() {

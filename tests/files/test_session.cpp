@@ -7,6 +7,7 @@
 #include "core/families.h"
 #include "files/session_support.h"
 #include "files/text/base64.h"
+#include "files/text/limits.h"
 #include "mesh/cells.h"
 
 using namespace chainmail;
@@ -31,6 +32,7 @@ class SessionTest : public QObject {
   void the_file_is_json_as_it_is_documented();
   void a_split_object_comes_back_with_its_moves();
   void moves_without_end_are_left_out();
+  void a_long_name_is_written_shortened();
   void numbers_that_are_none_are_not_written();
   void saving_is_whole_or_not_at_all();
   void long_work_comes_to_its_end_and_is_cancelled();
@@ -286,7 +288,7 @@ void SessionTest::moves_without_end_are_left_out() {
     softness.links.set(link, {1, 1, 0});
   }
   const commands::SetSoftness own{softness};
-  session.moves.assign(session_moves / 3001, own);
+  session.moves.assign(limits::session_moves / 3001, own);
   session.moves_done = 1;
   const Session most = parse_session(session_text(session), "a.chainmail");
   QCOMPARE(most.moves.size(), session.moves.size());
@@ -294,6 +296,17 @@ void SessionTest::moves_without_end_are_left_out() {
   const Session beyond = parse_session(session_text(session), "a.chainmail");
   QVERIFY(beyond.moves.empty());
   QCOMPARE(beyond.cuts, session.cuts);
+}
+
+/// What the window writes, it opens again: names of objects grow with "filled" and "repaired".
+void SessionTest::a_long_name_is_written_shortened() {
+  Session session = session_on(generate({MeshKind::grid, {3, 3, 1}, 1, {}}));
+  for (int i = 0; i < 100; ++i) {
+    session.name += "∆, repaired";
+  }
+  const std::string name = parse_session(session_text(session), "a.chainmail").name;
+  QVERIFY(name.size() <= limits::name_bytes && name.size() > limits::name_bytes - 4);
+  QVERIFY(name.ends_with("…") && session.name.starts_with(name.substr(0, name.size() - 3)));
 }
 
 void SessionTest::numbers_that_are_none_are_not_written() {

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "files/session_support.h"
+#include "files/text/limits.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
@@ -17,6 +18,8 @@ class SessionErrorsTest : public QObject {
   void other_files_are_refused();
   void wrong_members_are_refused_data();
   void wrong_members_are_refused();
+  void a_lattice_without_spacing_is_refused();
+  void long_names_are_refused();
   void a_newer_version_is_named_before_all_else();
   void wrong_paths();
   void huge_claims_take_no_memory();
@@ -104,6 +107,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"size\": [3,3,1]", "\"size\": [3,3,1.0]", "mesh: the size of the lattice does not give 9 elements; ");
   row("\"spacing\": 1.5", "\"spacing\": 1", "mesh: element 1 is not at its position in the lattice; ");
   row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
+  row("\"spacing\": 1.5", "\"spacing\": -1.5", "mesh: spacing: ");
   row("3,3,0],", "3,3,1e101],", "mesh: 'rest' puts element 8 beyond 1e100; ");
   row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is not a number; ");
@@ -200,6 +204,31 @@ void SessionErrorsTest::wrong_members_are_refused() {
 }
 
 /// A newer version is reported before all other errors, because its members may have another meaning.
+/// All elements are at the positions that a lattice with this spacing gives.
+void SessionErrorsTest::a_lattice_without_spacing_is_refused() {
+  std::string text = good_;
+  const auto put = [&](const std::string& from, const std::string& to, const std::string& other) {
+    const std::size_t first = text.find(from) + from.size();
+    text.replace(first, text.find(to, first) - first, other);
+  };
+  put("\"rest\": [", "]", "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0");
+  put("\"spacing\": ", "}", "0");
+  const QString error = read(text);
+  QVERIFY2(error.startsWith("a.chainmail: mesh: spacing: "), qPrintable(error));
+}
+
+/// Names are in titles, menus and lists.
+void SessionErrorsTest::long_names_are_refused() {
+  const std::string longest(limits::name_bytes, 'x');
+  const auto name = [&](const std::string& text) { return with("\"cloth 3 × 3\"", '"' + text + '"'); };
+  QCOMPARE(name(longest), QString());
+  QCOMPARE(name(longest + "x"), QString("a.chainmail: 'name' has 256 bytes; use at most 255"));
+  std::string text = good_;
+  text.replace(text.find("\"elements\""), text.find("\"cuts\"") - text.find("\"elements\""),
+               "\"file\": \"" + std::string(5000, 'x') + "\"},\n");
+  QCOMPARE(read(text), QString("a.chainmail: mesh: 'file' has 5000 bytes; use at most 255"));
+}
+
 void SessionErrorsTest::a_newer_version_is_named_before_all_else() {
   const auto error = read(R"({"format": "chainmail session", "version": 7, "mesh": [], "rest": "elsewhere"})");
   QCOMPARE(error, QString("a.chainmail: its version is 7, but this program knows only version 2 and older; "

@@ -19,6 +19,7 @@ class TextTest : public QObject {
   void lines_end_in_any_way();
   void words_are_parted_by_blanks();
   void messages_stay_one_line_of_text();
+  void long_texts_are_shortened_between_characters();
   void statements_are_told_from_prose();
 };
 
@@ -106,6 +107,13 @@ void TextTest::messages_stay_one_line_of_text() {
            std::string("\\xc0\\xaf\\xed\\xa0\\x80"));  // an overlong form and a surrogate
   QCOMPARE(in_quotes(std::string(100, 'a')), "'" + std::string(40, 'a') + "…'");
   QCOMPARE(shown(std::filesystem::path("a\nb.dat"), 7), std::string("a\\x0ab.dat:7"));
+}
+
+void TextTest::long_texts_are_shortened_between_characters() {
+  QCOMPARE(shortened("abcdef", 6), std::string("abcdef"));
+  QCOMPARE(shortened("abcdefg", 6), std::string("abc…"));
+  QCOMPARE(shortened("abßdefg", 6), std::string("ab…"));  // the character of two bytes does not fit
+  QCOMPARE(shortened("aßdefgh", 6), std::string("aß…"));
 }
 
 void TextTest::statements_are_told_from_prose() {

@@ -69,6 +69,10 @@ class VolumesTest : public QObject {
   void voxels_above_a_threshold_are_elements();
   void several_voxels_make_one_element();
   void what_is_left_at_the_border_makes_an_element_too();
+  void a_brick_is_not_larger_than_the_volume();
+  void bricks_depend_on_the_size_only_where_it_is_long();
+  void a_volume_beyond_memory_is_averaged();
+  void data_too_short_for_their_voxels_are_refused_at_once();
   void what_is_dense_is_stiff();
   void otsu_parts_two_heaps();
   void otsu_finds_the_largest_variance_between_classes();
@@ -243,7 +247,7 @@ void VolumesTest::several_voxels_make_one_element() {
   // 4 x 2 voxels: the means of the two squares are 2.5 and 10. Only the second one is dense enough.
   const auto block = voxel_block(volume_of({4, 2, 1}, {1, 2, 10, 10, 3, 4, 10, 10}), {2.6, 2, true}, "v");
   QCOMPARE(block.mesh->element_count(), 1U);
-  QCOMPARE(block.mesh->rest_position(0), Point(2.5, 0.5, 0.5));
+  QCOMPARE(block.mesh->rest_position(0), Point(2.5, 0.5, 0));  // there is one layer
   std::vector<double> many(std::size_t{60} * 60 * 60, 1.0);
   const auto coarser = voxel_block(volume_of({60, 60, 60}, many), {0.5, {}, true}, "v");
   QCOMPARE(coarser.every, 2U);  // 216,000 voxels are too many for real time
@@ -255,6 +259,59 @@ void VolumesTest::what_is_left_at_the_border_makes_an_element_too() {
   const auto block = voxel_block(volume_of({5, 1, 1}, {9, 9, 9, 9, 9}), {8.0, 2, true}, "v");
   QCOMPARE(block.mesh->element_count(), 3U);
   QCOMPARE(block.mesh->link_count(), 2U);
+}
+
+/// Elements of a thin volume stay in it, however many voxels they have along its length.
+void VolumesTest::a_brick_is_not_larger_than_the_volume() {
+  const auto block = voxel_block(volume_of({8, 2, 1}, std::vector<double>(16, 5)), {4.0, 4, true}, "v");
+  QCOMPARE(block.mesh->element_count(), 2U);
+  QCOMPARE(block.mesh->rest_position(0), Point(1.5, 0.5, 0));
+  QCOMPARE(block.mesh->rest_position(1), Point(5.5, 0.5, 0));
+  QCOMPARE(block.mesh->texture->box[1], Point(7.5, 1.5, 0.5));
+}
+
+/// A long thin volume needs bricks of many voxels along its length only.
+void VolumesTest::bricks_depend_on_the_size_only_where_it_is_long() {
+  constexpr std::uint32_t length = 1U << 20;
+  std::vector<double> densities(std::size_t{2} * length, 1);
+  densities.back() = 0;
+  const auto block = voxel_block(volume_of({length, 2, 1}, densities), {0.5, {}, true}, "v");
+  QCOMPARE(block.every, 11U);  // 1,048,576 / 11 is below 100,000, and both rows are in one brick
+  QCOMPARE(block.mesh->element_count(), (length - 1) / 11 + 1);
+  QVERIFY(block.mesh->element_count() <= voxel_elements);
+}
+
+/// 7 x 4 x 3 voxels in 12: boxes of 2 x 2 x 2 voxels are 4 x 2 x 2, boxes of 3 x 3 x 3 are 3 x 2 x 1.
+void VolumesTest::a_volume_beyond_memory_is_averaged() {
+  Volume volume;
+  volume.size = {7, 4, 3};
+  volume.spacing = Point(1, 10, 100);
+  volume.origin = Point(5, 6, 7);
+  const auto number = [](std::size_t i) {
+    return double(i % 7 / 3 * 100 + i / 7 % 4 / 3 * 10 + (i == 0 ? 54 : 0));  // equal in each box but the first
+  };
+  take_densities(volume, "v", number, 12);
+  QCOMPARE(volume.size, (std::array<std::uint32_t, 3>{3, 2, 1}));
+  QCOMPARE(volume.merged, 3U);
+  QCOMPARE(volume.spacing, Point(3, 30, 300));
+  QCOMPARE(volume.origin, Point(6, 16, 107));
+  for (const auto& [voxel, density] : {std::pair(0, 2.0), {1, 100.0}, {2, 200.0}, {3, 10.0}, {4, 110.0}, {5, 210.0}}) {
+    QCOMPARE(volume.density(std::size_t(voxel)), density);
+  }
+  // Voxels per element count those of the file.
+  const auto block = voxel_block(volume, {0.0, 6, true}, "v");
+  QCOMPARE(block.every, 6U);
+  QCOMPARE(block.mesh->element_count(), 2U);
+  QCOMPARE(voxel_block(volume, {0.0, 5, true}, "v").every, 6U);  // not fewer than asked for
+  QCOMPARE(voxel_block(volume, {0.0, 2, true}, "v").every, 3U);
+}
+
+void VolumesTest::data_too_short_for_their_voxels_are_refused_at_once() {
+  auto read = read_metaimage_head(head + "ElementDataFile = LOCAL\n", "a.mha");
+  read.size = {1024, 1024, 1024};
+  read.compressed = true;
+  QCOMPARE(error_of([&] { metaimage_volume(read, std::string(100'000, 'x'), "a.mha"); }),
+           QString("a.mha: its 100000 bytes of compressed data are too few for its voxels; export it again"));
 }
 
 void VolumesTest::what_is_dense_is_stiff() {

@@ -10,6 +10,7 @@
 #include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/text.h"
+#include "files/text/limits.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -53,7 +54,7 @@ void PresetRow::arrange() {
   name_->setAccessibleName(QStringLiteral("Name of the preset"));
   name_->setToolTip(QStringLiteral("Enter saves the name, Esc cancels"));
   name_->setPlaceholderText(QStringLiteral("Name, then Enter"));
-  name_->setMaxLength(int(longest_preset_name));
+  name_->setMaxLength(int(limits::preset_name_bytes));
   more_->setObjectName(QStringLiteral("presetMore"));
   more_->setText(QStringLiteral("⋯"));
   more_->setAccessibleName(QStringLiteral("Save, rename, delete, import or export presets"));

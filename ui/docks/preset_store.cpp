@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/as_path.h"
+#include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 
@@ -27,7 +28,7 @@ std::string freeName(std::vector<SoftnessPreset>& presets, const std::string& na
   for (int i = 2; isBuiltIn(free) || find(presets, free) != presets.end(); ++i) {
     const std::string ending = " (" + std::to_string(i) + ")";
     QString start = QString::fromStdString(name);
-    while (start.toStdString().size() + ending.size() > longest_preset_name) {
+    while (start.toStdString().size() + ending.size() > limits::preset_name_bytes) {
       start.chop(1);
     }
     free = start.trimmed().toStdString() + ending;
@@ -55,11 +56,18 @@ void PresetStore::check(const std::string& name) const {
   }
 }
 
+void PresetStore::checkRoom() const {
+  if (own_.size() >= limits::presets) {
+    throw Error("presets", "there are " + std::to_string(own_.size()) + " already", "delete some of them first");
+  }
+}
+
 void PresetStore::save(const SoftnessPreset& preset) {
   check(preset.name);
   if (const auto there = find(own_, preset.name); there != own_.end()) {
     *there = preset;
   } else {
+    checkRoom();
     own_.push_back(preset);
   }
   keep();
@@ -86,6 +94,7 @@ std::size_t PresetStore::addFrom(const QString& path) {
   std::size_t added = 0;
   for (SoftnessPreset& preset : read_presets(asPath(path))) {
     if (std::ranges::find(own_, preset) == own_.end()) {
+      checkRoom();
       preset.name = freeName(own_, preset.name);
       own_.push_back(std::move(preset));
       ++added;

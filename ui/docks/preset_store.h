@@ -27,6 +27,8 @@ class PresetStore {
 
  private:
   void check(const std::string& name) const;
+  /// Throws Error if there are limits::presets already.
+  void checkRoom() const;
   void keep() const;
 
   std::vector<SoftnessPreset> own_;

@@ -5,24 +5,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "files/formats/data_file.h"
+#include "files/text/limits.h"
 #include "files/text/number_type.h"
+#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-constexpr std::size_t longest_metaimage_head = 100'000;
-
 class MetaImageHeadReader {
  public:
   MetaImageHeadReader(std::string_view text, const std::filesystem::path& path)
-      : text_(text.substr(0, longest_metaimage_head)), path_(path) {}
+      : text_(text.substr(0, limits::metaimage_header_bytes)), path_(path) {}
 
   MetaImageHead read() {
     bool local = false;
@@ -79,8 +81,8 @@ void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
   } else if (key == "DimSize") {
     const auto size = numbers(value);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(size[k] >= 0 && size[k] <= double(voxel_limit) && size[k] == std::floor(size[k]))) {
-        fail("a size is not a whole number up to " + std::to_string(voxel_limit), "write three sizes");
+      if (!(size[k] >= 0 && size[k] <= double(limits::voxels) && size[k] == std::floor(size[k]))) {
+        fail("a size is not a whole number up to " + std::to_string(limits::voxels), "write three sizes");
       }
       head_.size[k] = static_cast<std::uint64_t>(size[k]);
     }
@@ -170,77 +172,141 @@ const NumberType& metaimage_type(const MetaImageHead& head, const std::filesyste
   return *found;
 }
 
-/// Numbers compressed by zlib (Gailly and Adler). Each reading decompresses them again in pieces, because the data of a
-/// small file may exceed the memory.
-class PackedNumbers {
+/// The data of a volume: a part of a file, or of memory.
+struct VoxelData {
+  std::uint64_t size = 0;
+  /// Reads bytes from a place in the data. Returns fewer only at their end.
+  std::function<std::size_t(std::uint64_t place, std::span<char> to)> read;
+  const std::filesystem::path& path;
+};
+
+/// The numbers of a volume as bytes, in their order.
+class VoxelBytes {
  public:
-  PackedNumbers(std::span<const char> data, const NumberType& type, bool big_endian, const std::filesystem::path& path)
-      : data_(data), type_(type), big_endian_(big_endian), path_(path), piece_(piece_numbers * type.bytes) {
+  VoxelBytes() = default;
+  VoxelBytes(const VoxelBytes&) = delete;
+  VoxelBytes& operator=(const VoxelBytes&) = delete;
+  virtual ~VoxelBytes() = default;
+
+  virtual void restart() = 0;
+  /// Reads the next bytes. Throws Error if there are fewer.
+  virtual void take(std::span<char> to) = 0;
+};
+
+class PlainBytes : public VoxelBytes {
+ public:
+  explicit PlainBytes(const VoxelData& data) : data_(data) {}
+
+  void restart() override { taken_ = 0; }
+  void take(std::span<char> to) override {
+    if (data_.read(taken_, to) < to.size()) {
+      throw Error(shown(data_.path), "it became shorter while it was read", "open it again when it is complete");
+    }
+    taken_ += to.size();
+  }
+
+ private:
+  const VoxelData& data_;
+  std::uint64_t taken_ = 0;
+};
+
+/// Bytes compressed by zlib (Gailly and Adler). Each reading decompresses them again in pieces, because the data of a
+/// small file may exceed the memory.
+class PackedBytes : public VoxelBytes {
+ public:
+  explicit PackedBytes(const VoxelData& data) : data_(data), in_(most_in) {
     if (inflateInit2(&stream_, 15 + 32) != Z_OK) {  // accepts both formats of zlib
       throw std::bad_alloc();
     }
   }
-  PackedNumbers(const PackedNumbers&) = delete;
-  PackedNumbers& operator=(const PackedNumbers&) = delete;
-  ~PackedNumbers() { inflateEnd(&stream_); }
+  PackedBytes(const PackedBytes&) = delete;
+  PackedBytes& operator=(const PackedBytes&) = delete;
+  ~PackedBytes() override { inflateEnd(&stream_); }
 
-  /// Returns number i of `count`. i is 0, or one more than in the last call.
-  double operator()(std::size_t i, std::size_t count) {
-    if (i == 0) {
-      restart();
-    }
-    const std::size_t at = i % piece_numbers;
-    if (at == 0) {
-      unpack(std::min(piece_numbers, count - i) * type_.bytes);
-    }
-    return type_.read(piece_.data() + at * type_.bytes, big_endian_);
-  }
-
- private:
-  void restart() {
+  void restart() override {
     inflateReset(&stream_);
     stream_.avail_in = 0;
     taken_ = 0;
   }
-  void unpack(std::size_t bytes) {
-    stream_.next_out = reinterpret_cast<Bytef*>(piece_.data());
-    stream_.avail_out = static_cast<uInt>(bytes);
+  void take(std::span<char> to) override {
+    stream_.next_out = reinterpret_cast<Bytef*>(to.data());
+    stream_.avail_out = static_cast<uInt>(to.size());
     while (stream_.avail_out > 0) {
       if (stream_.avail_in == 0) {
-        const std::size_t in = std::min(data_.size() - taken_, most_in);
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data_.data() + taken_));  // zlib only reads it
+        const std::size_t in = data_.read(taken_, in_);
+        stream_.next_in = reinterpret_cast<Bytef*>(in_.data());
         stream_.avail_in = static_cast<uInt>(in);
         taken_ += in;
       }
       const int state = inflate(&stream_, Z_NO_FLUSH);
-      if (stream_.avail_out > 0 && (state != Z_OK || (stream_.avail_in == 0 && taken_ == data_.size()))) {
-        throw Error(shown(path_), "its compressed data are damaged or incomplete", "export it again");
+      if (stream_.avail_out > 0 && (state != Z_OK || (stream_.avail_in == 0 && taken_ == data_.size))) {
+        throw Error(shown(data_.path), "its compressed data are damaged or incomplete", "export it again");
       }
     }
   }
 
-  static constexpr std::size_t piece_numbers = std::size_t{1} << 16;
+ private:
   static constexpr std::size_t most_in = std::size_t{1} << 20;
 
-  std::span<const char> data_;
-  const NumberType& type_;
-  bool big_endian_;
-  const std::filesystem::path& path_;
-  std::vector<char> piece_;
+  const VoxelData& data_;
+  std::vector<char> in_;
   z_stream stream_{};
-  std::size_t taken_ = 0;
+  std::uint64_t taken_ = 0;
 };
 
-/// Reports the progress of two readings of the same numbers.
-class TwicePassed {
- public:
-  TwicePassed(std::size_t count, const Progress& progress) : count_(2 * count), progress_(progress) {}
-  void count() { progress_.report(done_++, count_); }
+/// Throws Error if the data cannot contain this many bytes, before they are read.
+void check_size(const VoxelData& data, bool compressed, std::uint64_t bytes) {
+  if (compressed && bytes / limits::compression_ratio > data.size) {
+    throw Error(shown(data.path),
+                "its " + std::to_string(data.size) + " bytes of compressed data are too few for its voxels",
+                "export it again");
+  }
+  if (!compressed && data.size < bytes) {
+    throw Error(shown(data.path),
+                "its data end after " + std::to_string(data.size) + " of " + std::to_string(bytes) + " bytes",
+                "export it again");
+  }
+}
 
- private:
-  std::size_t done_ = 0, count_;
-  const Progress& progress_;
-};
+std::unique_ptr<VoxelBytes> bytes_of(const VoxelData& data, bool compressed) {
+  if (compressed) {
+    return std::make_unique<PackedBytes>(data);
+  }
+  return std::make_unique<PlainBytes>(data);
+}
+
+Volume volume_of(const MetaImageHead& head, const VoxelData& data, const Progress& progress) {
+  constexpr std::size_t in_piece = std::size_t{1} << 16;
+  const NumberType& type = metaimage_type(head, data.path);
+  Volume volume;
+  volume.size = checked_volume_size(shown(data.path), head.size);
+  volume.spacing = head.spacing;
+  volume.origin = head.origin;
+  const std::size_t count = volume.voxel_count();
+  check_size(data, head.compressed, count * type.bytes);
+  const auto bytes = bytes_of(data, head.compressed);
+  std::vector<char> piece(std::min(in_piece, count) * type.bytes);
+  std::vector<double> numbers(std::min(in_piece, count));
+  std::size_t done = 0;
+  take_densities(volume, shown(data.path), [&](std::size_t i) {
+    if (i == 0) {
+      bytes->restart();
+    }
+    if (i % in_piece == 0) {
+      const std::size_t next = std::min(in_piece, count - i);
+      bytes->take(std::span(piece).first(next * type.bytes));
+      type.read(piece.data(), head.big_endian, std::span(numbers).first(next));
+      progress.report(double(done) / double(2 * count));  // of two readings
+      done += next;
+    }
+    return numbers[i % in_piece];
+  });
+  return volume;
+}
+
+VoxelData data_in(const RegularFile& file, std::uint64_t from, const std::filesystem::path& path) {
+  return {file.size() - from, [&file, from](std::uint64_t at, auto to) { return file.read_at(from + at, to); }, path};
+}
 
 }  // namespace
 
@@ -250,43 +316,25 @@ MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::
 
 Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
                         const Progress& progress) {
-  const NumberType& type = metaimage_type(head, path);
-  Volume volume;
-  volume.size = checked_volume_size(shown(path), head.size);
-  volume.spacing = head.spacing;
-  volume.origin = head.origin;
-  const std::size_t count = volume.voxel_count();
-  TwicePassed passed(count, progress);
-  if (head.compressed) {
-    PackedNumbers number(data, type, head.big_endian, path);
-    take_densities(volume, shown(path), [&](std::size_t i) {
-      passed.count();
-      return number(i, count);
-    });
-    return volume;
-  }
-  if (data.size() < count * type.bytes) {
-    throw Error(
-        shown(path),
-        "its data end after " + std::to_string(data.size()) + " of " + std::to_string(count * type.bytes) + " bytes",
-        "export it again");
-  }
-  take_densities(volume, shown(path), [&](std::size_t i) {
-    passed.count();
-    return type.read(data.data() + i * type.bytes, head.big_endian);
-  });
-  return volume;
+  const auto read = [data](std::uint64_t at, std::span<char> to) {
+    const auto rest = data.subspan(std::min(std::size_t(at), data.size()));
+    const auto part = rest.first(std::min(rest.size(), to.size()));
+    std::copy(part.begin(), part.end(), to.begin());
+    return part.size();
+  };
+  return volume_of(head, {data.size(), read, path}, progress);
 }
 
 Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress) {
-  const std::string file = read_bytes(path, "a volume", progress.part(0, 0.2));
-  const MetaImageHead head = read_metaimage_head(file, path);
+  RegularFile file(path);
+  std::string beginning(std::min<std::uint64_t>(limits::metaimage_header_bytes, file.size()), '\0');
+  beginning.resize(file.read(beginning));
+  const MetaImageHead head = read_metaimage_head(beginning, path);
   if (head.data_file == "LOCAL") {
-    return metaimage_volume(head, std::span(file).subspan(head.length), path, progress.part(0.2, 1));
+    return volume_of(head, data_in(file, head.length, path), progress);
   }
-  const auto data = data_file(path, head.data_file, outside);
-  const std::string bytes = read_bytes(data, "voxels", progress.part(0, 0.2));
-  return metaimage_volume(head, bytes, data, progress.part(0.2, 1));
+  const RegularFile other(data_file(path, head.data_file, outside));
+  return volume_of(head, data_in(other, 0, other.path()), progress);
 }
 
 }  // namespace chainmail

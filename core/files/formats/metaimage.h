@@ -26,7 +26,8 @@ struct MetaImageHead {
 /// Reads the header at the beginning of a file. Throws Error with the line.
 MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::path& path);
 
-/// Returns the volume of a header and its data. Throws Error if they do not match, and Cancelled.
+/// Returns the volume of a header and its data. Throws Error if they do not match, and Cancelled. Memory is taken for
+/// the volume only: the data are read in pieces.
 Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
                         const Progress& progress = {});
 

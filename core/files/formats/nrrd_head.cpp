@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -25,7 +26,7 @@ std::string field_of(std::string_view line) {
 /// Returns the lines up to the empty one that ends a header, or up to the end of the file.
 std::vector<std::string_view> header_lines(std::string_view text, const std::filesystem::path& path) {
   std::vector<std::string_view> lines;
-  const bool is_whole = text.size() < longest_nrrd_head;
+  const bool is_whole = text.size() < limits::nrrd_header_bytes;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(0, end);

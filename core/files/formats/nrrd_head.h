@@ -13,11 +13,8 @@ struct NrrdHead {
   std::string text;       // the header, with the name replaced by `data`
 };
 
-/// Largest size of a header (bytes). It may contain long comments.
-inline constexpr std::size_t longest_nrrd_head = std::size_t{1} << 20;
-
-/// Reads the header in the first longest_nrrd_head bytes of a file. Throws Error if the data are in several files, or
-/// if teem might find another file name in the header.
+/// Reads the header in the first limits::nrrd_header_bytes bytes of a file. Throws Error if the data are in several
+/// files, or if teem might find another file name in the header.
 NrrdHead read_nrrd_head(std::string_view beginning, const std::filesystem::path& path);
 
 }  // namespace chainmail

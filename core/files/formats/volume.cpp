@@ -6,14 +6,9 @@
 
 namespace chainmail {
 
-void DensityScale::widen(std::size_t voxel, double number) {
-  if (!(std::abs(number) <= density_limit)) {
-    throw Error(where_, "the density of voxel " + std::to_string(voxel) + " is not a number, or is beyond 1e30",
-                "use finite densities");
-  }
-  lowest_ = voxel == 0 ? number : std::min(lowest_, number);
-  highest_ = voxel == 0 ? number : std::max(highest_, number);
-  whole_ = whole_ && number == std::floor(number);
+void DensityScale::refuse(std::size_t voxel) const {
+  throw Error(where_, "the density of voxel " + std::to_string(voxel) + " is not a number, or is beyond 1e30",
+              "use finite densities");
 }
 
 double DensityScale::step() const {
@@ -26,12 +21,43 @@ std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const
   if (voxels == 0) {
     throw Error(where, "a size is 0, so there are no voxels", "use a volume of 1 voxel or more along each axis");
   }
-  if (voxels > double(voxel_limit)) {
-    throw Error(where, "there are more than " + std::to_string(voxel_limit) + " voxels", "use a smaller volume");
+  if (voxels > double(limits::voxels)) {
+    throw Error(where, "there are more than " + std::to_string(limits::voxels) + " voxels", "use a smaller volume");
   }
   std::array<std::uint32_t, 3> result{};
   std::transform(size.begin(), size.end(), result.begin(), [](auto one) { return static_cast<std::uint32_t>(one); });
   return result;
+}
+
+VoxelBoxes::VoxelBoxes(const std::array<std::uint32_t, 3>& volume_size, std::uint32_t edge)
+    : volume(volume_size), edges{}, count{} {
+  for (std::size_t k = 0; k < 3; ++k) {
+    edges[k] = std::min(edge, volume[k]);
+    count[k] = (volume[k] - 1) / edges[k] + 1;
+  }
+}
+
+VoxelBoxes boxes_for(const std::array<std::uint32_t, 3>& volume_size, std::uint64_t most) {
+  std::uint32_t low = 1, high = *std::max_element(volume_size.begin(), volume_size.end());
+  while (low < high) {  // the number of boxes falls as they grow
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (VoxelBoxes(volume_size, middle).total() <= most) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return {volume_size, low};
+}
+
+void merge_voxels(Volume& volume, const VoxelBoxes& boxes) {
+  volume.merged = boxes.edge();
+  volume.size = boxes.count;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t edge = boxes.edges[std::size_t(k)];
+    volume.origin[k] += volume.spacing[k] * (edge - 1) / 2;
+    volume.spacing[k] *= edge;
+  }
 }
 
 }  // namespace chainmail

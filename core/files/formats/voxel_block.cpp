@@ -15,65 +15,68 @@ namespace chainmail {
 namespace {
 
 constexpr ElementId no_voxel = std::numeric_limits<ElementId>::max();
-constexpr std::uint64_t most_texels = std::uint64_t{1} << 27;  // at most 128 MiB on the graphics card
-
 using Size = std::array<std::uint32_t, 3>;
 
-/// Blocks of `every` voxels along each axis, with their mean densities.
-struct Bricks {
-  Size size{1, 1, 1};
-  std::vector<float> densities;
-
-  std::size_t place(std::size_t x, std::size_t y, std::size_t z) const { return x + size[0] * (y + size[1] * z); }
-};
-
-Bricks averaged(const Volume& volume, std::uint32_t every, const Progress& progress) {
-  Bricks bricks;
-  std::transform(volume.size.begin(), volume.size.end(), bricks.size.begin(),
-                 [every](std::uint32_t n) { return (n - 1) / every + 1; });
-  std::vector<std::uint32_t> counts(std::size_t{bricks.size[0]} * bricks.size[1] * bricks.size[2]);
-  bricks.densities.resize(counts.size());
-  std::size_t voxel = 0;
-  for (std::uint32_t z = 0; z < volume.size[2]; ++z) {
-    progress.report(double(z) / volume.size[2]);
-    for (std::uint32_t y = 0; y < volume.size[1]; ++y) {
-      for (std::uint32_t x = 0; x < volume.size[0]; ++x, ++voxel) {
-        const std::size_t brick = bricks.place(x / every, y / every, z / every);
-        bricks.densities[brick] += float(volume.densities[voxel]);
-        ++counts[brick];
+/// Boxes of voxels with their mean densities.
+class Bricks {
+ public:
+  Bricks(const Volume& volume, std::uint32_t edge, const Progress& progress)
+      : volume_(&volume), boxes_(volume.size, edge) {
+    if (edge > 1) {
+      take_means(progress);
+    } else {
+      for (std::size_t step = 0; step < single_.size(); ++step) {
+        single_[step] = float(volume.lowest + volume.step * double(step));
       }
     }
   }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    bricks.densities[i] = float(volume.lowest + volume.step * double(bricks.densities[i]) / counts[i]);
-  }
-  return bricks;
-}
 
-std::uint64_t count_above(const Bricks& bricks, double threshold) {
-  return std::uint64_t(std::count_if(bricks.densities.begin(), bricks.densities.end(),
-                                     [threshold](float density) { return double(density) >= threshold; }));
-}
-
-std::shared_ptr<const Texture> texture_of(const Volume& volume, const Progress& progress) {
-  std::uint32_t every = 1;
-  while (volume.voxel_count() / every / every / every > most_texels) {
-    ++every;
+  const VoxelBoxes& boxes() const { return boxes_; }
+  std::size_t place(std::size_t x, std::size_t y, std::size_t z) const {
+    return x + boxes_.count[0] * (y + boxes_.count[1] * z);
   }
-  const Bricks bricks = averaged(volume, every, progress);
+  /// Density of a brick. Bricks of one voxel take no memory of their own.
+  float density(std::size_t brick) const { return means_.empty() ? single_[volume_->densities[brick]] : means_[brick]; }
+  std::uint64_t count_above(double threshold) const {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < boxes_.total(); ++i) {
+      count += double(density(i)) >= threshold ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  void take_means(const Progress& progress) {
+    means_.reserve(boxes_.total());
+    const auto number = [&](std::size_t voxel) {
+      progress.report(voxel, volume_->voxel_count());
+      return volume_->densities[voxel];
+    };
+    for_each_box<float>(boxes_, number, [this](float sum, std::uint64_t voxels) {
+      means_.push_back(float(volume_->lowest + volume_->step * double(sum) / double(voxels)));
+    });
+  }
+
+  const Volume* volume_;
+  VoxelBoxes boxes_;
+  std::vector<float> means_;
+  std::vector<float> single_ = std::vector<float>(std::size_t(most_density_steps) + 1);  // density of each step
+};
+
+std::shared_ptr<const Texture> texture_of(const Volume& volume) {
+  const auto [lowest, highest] = std::minmax_element(volume.densities.begin(), volume.densities.end());
+  const double range = std::max(int{*highest} - int{*lowest}, 1);
   auto texture = std::make_shared<Texture>();
-  texture->size = bricks.size;
+  texture->size = volume.size;
   texture->channels = 1;
-  const auto lowest = std::min_element(bricks.densities.begin(), bricks.densities.end());
-  const auto highest = std::max_element(bricks.densities.begin(), bricks.densities.end());
-  const float range = std::max(*highest - *lowest, std::numeric_limits<float>::min());
-  texture->texels.resize(bricks.densities.size());
-  std::transform(bricks.densities.begin(), bricks.densities.end(), texture->texels.begin(), [&](float density) {
-    return static_cast<std::uint8_t>(std::lround(255 * (density - *lowest) / range));
-  });
+  texture->texels.resize(volume.densities.size());
+  std::transform(volume.densities.begin(), volume.densities.end(), texture->texels.begin(),
+                 [range, low = *lowest](std::uint16_t density) {
+                   return static_cast<std::uint8_t>(255 * (density - low) / range + 0.5);
+                 });
   texture->box[0] = volume.origin - volume.spacing / 2;
   for (int k = 0; k < 3; ++k) {
-    texture->box[1][k] = texture->box[0][k] + volume.spacing[k] * every * bricks.size[k];
+    texture->box[1][k] = texture->box[0][k] + volume.spacing[k] * volume.size[std::size_t(k)];
   }
   return texture;
 }
@@ -81,24 +84,21 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume, const Progress& 
 /// Builds the elements of bricks that reach a density, numbered along x, then y, then z, with their links and cells.
 class BlockBuilder {
  public:
-  BlockBuilder(const Volume& volume, const Bricks& bricks, std::uint32_t every, double threshold)
-      : volume_(volume), bricks_(bricks), every_(every), element_(bricks.densities.size(), no_voxel) {
-    ElementId next = 0;
-    for (std::size_t i = 0; i < element_.size(); ++i) {
-      element_[i] = double(bricks.densities[i]) >= threshold ? next++ : no_voxel;
-    }
+  BlockBuilder(const Volume& volume, const Bricks& bricks, double threshold)
+      : volume_(volume), bricks_(bricks), threshold_(threshold), size_(bricks.boxes().count) {
+    number_layer(0);
   }
 
   /// Appends the density of each element to `densities`.
   MeshParts build(std::vector<float>& densities, const Progress& progress) {
-    const auto& size = bricks_.size;
-    for (std::uint32_t z = 0; z < size[2]; ++z) {
-      progress.report(double(z) / size[2]);
-      for (std::uint32_t y = 0; y < size[1]; ++y) {
-        for (std::uint32_t x = 0; x < size[0]; ++x) {
+    for (std::uint32_t z = 0; z < size_[2]; ++z) {
+      number_layer(z + 1);
+      progress.report(double(z) / size_[2]);
+      for (std::uint32_t y = 0; y < size_[1]; ++y) {
+        for (std::uint32_t x = 0; x < size_[0]; ++x) {
           if (at(x, y, z) != no_voxel) {
             add(x, y, z);
-            densities.push_back(bricks_.densities[bricks_.place(x, y, z)]);
+            densities.push_back(bricks_.density(bricks_.place(x, y, z)));
           }
         }
       }
@@ -107,13 +107,24 @@ class BlockBuilder {
   }
 
  private:
+  /// Numbers the elements of a layer. Two layers are kept.
+  void number_layer(std::uint32_t z) {
+    auto& layer = element_[z % 2];
+    layer.assign(std::size_t{size_[0]} * size_[1], no_voxel);
+    for (std::size_t i = 0; z < size_[2] && i < layer.size(); ++i) {
+      if (double(bricks_.density(bricks_.place(0, 0, z) + i)) >= threshold_) {
+        layer[i] = next_++;
+      }
+    }
+  }
   ElementId at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    const auto& size = bricks_.size;
-    return x < size[0] && y < size[1] && z < size[2] ? element_[bricks_.place(x, y, z)] : no_voxel;
+    return x < size_[0] && y < size_[1] && z < size_[2] ? element_[z % 2][x + std::size_t{size_[0]} * y] : no_voxel;
   }
 
   void add(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    const Point steps = Point(x, y, z) * every_ + Point::Constant((every_ - 1) / 2.0);
+    const auto& edges = bricks_.boxes().edges;
+    const Point edge(edges[0], edges[1], edges[2]);
+    const Point steps = Point(x, y, z).cwiseProduct(edge) + (edge - Point::Ones()) / 2;
     parts_.rest.push_back(volume_.origin + volume_.spacing.cwiseProduct(steps));
     const ElementId here = at(x, y, z);
     for (const ElementId other : {at(x + 1, y, z), at(x, y + 1, z), at(x, y, z + 1)}) {
@@ -136,8 +147,10 @@ class BlockBuilder {
 
   const Volume& volume_;
   const Bricks& bricks_;
-  std::uint32_t every_;
-  std::vector<ElementId> element_;  // element of each brick
+  double threshold_;
+  Size size_;
+  std::array<std::vector<ElementId>, 2> element_;  // element of each brick of an even and of an odd layer
+  ElementId next_ = 0;
   MeshParts parts_;
 };
 
@@ -160,13 +173,23 @@ OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& dens
   return softness;
 }
 
-/// Returns the smallest bricks that do not give too many elements.
-Bricks chosen_bricks(const Volume& volume, const VoxelOptions& options, double threshold, std::uint32_t& every,
-                     const Progress& progress) {
-  every = options.every.value_or(1);
-  Bricks bricks = averaged(volume, every, progress);
-  while (!options.every && count_above(bricks, threshold) > voxel_elements) {
-    bricks = averaged(volume, ++every, progress);
+/// Returns the edge at which `count` dense bricks of `now` become at most `most`, if they lie close together.
+std::uint32_t estimated_edge(const VoxelBoxes& now, std::uint64_t count, double most) {
+  const double share = std::min(1.0, most / double(count));
+  return boxes_for(now.volume, std::max(std::uint64_t(share * double(now.total())), std::uint64_t{1})).edge();
+}
+
+/// Returns bricks that do not give too many elements. Each try allows half as many as the one before, so that the
+/// number of tries does not depend on the volume.
+Bricks chosen_bricks(const Volume& volume, const VoxelOptions& options, double threshold, const Progress& progress) {
+  if (options.every) {
+    return {volume, (*options.every - 1) / volume.merged + 1, progress};
+  }
+  Bricks bricks(volume, 1, progress);
+  double most = voxel_elements;
+  for (std::uint64_t count; (count = bricks.count_above(threshold)) > voxel_elements; most /= 2) {
+    const std::uint32_t edge = estimated_edge(bricks.boxes(), count, most);
+    bricks = Bricks(volume, std::max(edge, bricks.boxes().edge() + 1), progress);
   }
   return bricks;
 }
@@ -175,12 +198,15 @@ Bricks chosen_bricks(const Volume& volume, const VoxelOptions& options, double t
 
 double otsu_threshold(const Volume& volume) {
   constexpr std::size_t bins = 65536;
-  std::vector<double> histogram(bins);
-  double count = 0, sum = 0;
+  std::vector<std::uint32_t> counts(bins);
   for (const std::uint16_t density : volume.densities) {
-    ++histogram[density];
-    ++count;
-    sum += density;
+    ++counts[density];
+  }
+  const std::vector<double> histogram(counts.begin(), counts.end());
+  const auto count = double(volume.densities.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < bins; ++i) {
+    sum += double(i) * histogram[i];
   }
   double below = 0, sum_below = 0, best = -1;
   std::size_t first = 0, last = 0;  // range of thresholds with the same classes: no density lies between them
@@ -206,8 +232,9 @@ VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const 
                        const Progress& progress) {
   VoxelBlock block;
   block.threshold = options.threshold.value_or(otsu_threshold(volume));
-  const Bricks bricks = chosen_bricks(volume, options, block.threshold, block.every, progress.part(0, 0.3));
-  const std::uint64_t count = count_above(bricks, block.threshold);
+  const Bricks bricks = chosen_bricks(volume, options, block.threshold, progress.part(0, 0.3));
+  const std::uint64_t count = bricks.count_above(block.threshold);
+  block.every = bricks.boxes().edge() * volume.merged;
   std::string threshold;
   append_number(threshold, block.threshold);
   if (count == 0) {
@@ -218,9 +245,8 @@ VoxelBlock voxel_block(const Volume& volume, const VoxelOptions& options, const 
                 "use several voxels per element");
   }
   std::vector<float> densities;
-  MeshParts parts =
-      BlockBuilder(volume, bricks, block.every, block.threshold).build(densities, progress.part(0.3, 0.6));
-  parts.texture = texture_of(volume, progress.part(0.6, 0.7));
+  MeshParts parts = BlockBuilder(volume, bricks, block.threshold).build(densities, progress.part(0.3, 0.6));
+  parts.texture = texture_of(volume);
   block.mesh = build_mesh(std::move(parts), progress.part(0.7, 1));
   if (options.stiff_where_dense) {
     block.softness = softness_by_density(*block.mesh, densities, block.threshold);

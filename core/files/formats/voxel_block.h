@@ -14,8 +14,8 @@ namespace chainmail {
 struct VoxelOptions {
   /// Lowest density of voxels that become elements. Default: otsu_threshold().
   std::optional<double> threshold;
-  /// Number of voxels along each axis that become one element. Default: the smallest with at most voxel_elements
-  /// elements.
+  /// Number of voxels along each axis that become one element; along a shorter axis, all of them. Default: chosen from
+  /// the size, so that there are at most voxel_elements elements.
   std::optional<std::uint32_t> every;
   /// True if links are stiffer where the density is higher: from the default softness at the threshold to rigid at the
   /// highest density. False if all links have the default softness.

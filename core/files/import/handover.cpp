@@ -6,6 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "files/text/limits.h"
 #include "files/text/text.h"
 
 namespace chainmail {
@@ -56,6 +57,7 @@ class Encoder {
   }
   void operator()(const Volume& volume) {
     put(volume.size);
+    put(volume.merged);
     for (const Point& point : {volume.spacing, volume.origin, Point(volume.lowest, volume.step, 0)}) {
       put(std::array{point.x(), point.y(), point.z()});
     }
@@ -184,6 +186,7 @@ ImportedMesh Decoder::take_mesh() {
 Volume Decoder::take_volume() {
   Volume volume;
   volume.size = take<std::array<std::uint32_t, 3>>();
+  volume.merged = take<std::uint32_t>();
   volume.spacing = take_point();
   volume.origin = take_point();
   const Point range = take_point();
@@ -191,9 +194,10 @@ Volume Decoder::take_volume() {
   volume.step = range[1];
   const double voxels = double(volume.size[0]) * volume.size[1] * volume.size[2];
   const double farthest = (volume.origin.cwiseAbs() + volume.spacing * 4294967296.0).maxCoeff();
-  if (!(voxels >= 1 && voxels <= double(voxel_limit)) || !volume.spacing.allFinite() ||
+  if (!(voxels >= 1 && voxels <= double(limits::voxels_in_memory)) || !volume.spacing.allFinite() ||
       !(volume.spacing.minCoeff() > 0) || !(farthest <= coordinate_limit) || !volume.origin.allFinite() ||
-      !std::isfinite(volume.lowest + volume.step * most_density_steps) || !(volume.step >= 0)) {
+      !std::isfinite(volume.lowest + volume.step * most_density_steps) || !(volume.step >= 0) || volume.merged == 0 ||
+      volume.merged > limits::voxels) {
     damaged();
   }
   volume.densities = take_all<std::uint16_t>(volume.voxel_count());

@@ -5,6 +5,7 @@
 #include "files/formats/data_file.h"
 #include "files/formats/nrrd_head.h"
 #include "files/import/import_process.h"
+#include "files/text/limits.h"
 #include "files/text/regular_file.h"
 
 namespace chainmail {
@@ -21,7 +22,7 @@ ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& p
 Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress,
                    const std::filesystem::path& program) {
   RegularFile file(path);
-  std::string beginning(longest_nrrd_head, '\0');
+  std::string beginning(limits::nrrd_header_bytes, '\0');
   beginning.resize(file.read(beginning));
   const NrrdHead head = read_nrrd_head(beginning, path);
   ImportInput input(path);

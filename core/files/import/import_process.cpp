@@ -321,7 +321,14 @@ void check_end(int status, const std::string& where, const ImportLimits& limits)
 
 ImportLimits limits_for(std::uint64_t size) {
   ImportLimits limits;
+  rlimit own{};
   limits.bytes = (std::uint64_t{2} << 30) + 40 * size;
+  if (getrlimit(RLIMIT_AS, &own) == 0) {
+    limits.bytes = std::min<std::uint64_t>(limits.bytes, own.rlim_cur);
+  }
+  if (getrlimit(RLIMIT_CPU, &own) == 0) {
+    limits.seconds = static_cast<unsigned>(std::min<rlim_t>(limits.seconds, own.rlim_cur));
+  }
   return limits;
 }
 

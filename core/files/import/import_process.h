@@ -21,7 +21,7 @@ struct ImportLimits {
 };
 
 /// Returns the limits for reading a file of this size (bytes). Memory grows with the size, on top of what the libraries
-/// themselves need.
+/// themselves need. Limits of this process also limit the import program.
 ImportLimits limits_for(std::uint64_t size);
 
 /// Runs a task of the import program on a file. Libraries may crash or hang on damaged files: they run in a process of

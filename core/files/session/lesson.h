@@ -35,7 +35,6 @@ struct Lesson {
   bool operator==(const Lesson&) const = default;
 };
 
-inline constexpr std::size_t lesson_steps = 1'000;     // largest number of steps
 inline constexpr std::size_t lesson_panels_least = 2;  // panels of the window
 inline constexpr std::size_t lesson_panels_most = 4;
 

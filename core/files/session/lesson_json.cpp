@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "files/text/json_fields.h"
+#include "files/text/limits.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -23,8 +24,9 @@ constexpr WindowName window_names[] = {{"colour", &LessonStep::colour},
                                        {"tool", &LessonStep::tool}};
 
 /// Returns a text that is not empty.
-std::string caption(const JsonFields& fields, const Json& object, const char* key) {
-  std::string text = fields.text(object, key);
+std::string caption(const JsonFields& fields, const Json& object, const char* key,
+                    std::size_t longest = limits::name_bytes) {
+  std::string text = fields.text(object, key, longest);
   if (text.empty()) {
     fields.fail(std::string("'") + key + "' is empty", "write what the reader shall see");
   }
@@ -74,7 +76,7 @@ LessonStep read_step(const JsonFields& fields, const Json& json, const Mesh& mes
   fields.check_keys(json, {"title", "text", "until", "algorithms", "candidate", "colour", "show", "dock", "tool"});
   LessonStep step;
   step.title = caption(fields, json, "title");
-  step.text = caption(fields, json, "text");
+  step.text = caption(fields, json, "text", limits::caption_bytes);
   step.until = read_until(fields, json, before, moves);
   if (json.contains("algorithms")) {
     step.algorithms = read_algorithms(fields, json, mesh);
@@ -123,8 +125,9 @@ Lesson read_lesson(const nlohmann::json& object, const std::string& where, const
   Lesson lesson;
   lesson.title = caption(fields, object, "title");
   const Json& steps = fields.array(object, "steps");
-  if (steps.empty() || steps.size() > lesson_steps) {
-    fields.fail("it has " + std::to_string(steps.size()) + " steps", "give 1 to " + std::to_string(lesson_steps));
+  if (steps.empty() || steps.size() > limits::lesson_steps) {
+    fields.fail("it has " + std::to_string(steps.size()) + " steps",
+                "give 1 to " + std::to_string(limits::lesson_steps));
   }
   for (const Json& step : steps) {
     fields.say_at(where + ": lesson: step " + std::to_string(lesson.steps.size() + 1));

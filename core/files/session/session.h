@@ -28,7 +28,7 @@ struct Session {
     Snapshot placement;
   };
 
-  std::string name;  // name of the object, as in titles
+  std::string name;  // name of the object, as in titles; a file has its first limits::name_bytes bytes
   MeshPointer mesh;
   /// If not empty, a file that has the mesh: the session is then written with this name in place of the mesh.
   std::string mesh_file;
@@ -37,7 +37,7 @@ struct Session {
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
-  std::vector<Panel> panels;  // 1 to session_panels
+  std::vector<Panel> panels;  // 1 to limits::session_panels
   /// Moves since the object was at rest and whole. The first `moves_done` are done; the others were undone and can be
   /// redone.
   std::vector<Command> moves;
@@ -51,11 +51,6 @@ struct Session {
 MeshPointer first_mesh(const Session& session);
 /// Returns the mesh that is written: the first one, or the present one if the moves are left out.
 MeshPointer written_mesh(const Session& session);
-
-inline constexpr std::size_t session_panels = 16;
-/// Largest number of moves in a session, with the links and elements that they name: some hours of dragging. A session
-/// with more moves is saved without them.
-inline constexpr std::size_t session_moves = 1'000'000;
 
 /// The ending of session files, with the dot.
 inline constexpr std::string_view session_ending = ".chainmail";
@@ -96,10 +91,10 @@ bool is_session(const std::filesystem::path& path);
 /// "frame" of "softness" is left out for the axes of the world. "frame" of a panel is there if its coordinates are
 /// those of a turned frame.
 ///
-/// "moves" are left out above session_moves; "lattice", "hexahedra" and "texture" if there are none; and "elastic" if
-/// it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and "neighbours"
-/// (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is isotropic.
-/// Throws Error for a number that is not finite, and Cancelled.
+/// "moves" are left out above limits::session_moves; "lattice", "hexahedra" and "texture" if there are none; and
+/// "elastic" if it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and
+/// "neighbours" (its ids) take the place of "links". In version 1, "softness" has c, s and h only, and its energy is
+/// isotropic. Throws Error for a number that is not finite, and Cancelled.
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// Writes a session into a file. A failed write leaves the file as it was.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "files/text/json_scan.h"
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -15,8 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t deepest_session = 16;  // levels of arrays and objects
-// Values that are neither packed nor moves: each takes some hundred times the memory of its text.
-constexpr std::size_t most_session_values = 10'000'000;
 
 enum class Packed { no, ids, reals };
 
@@ -119,7 +118,7 @@ bool SessionScanner::number(Value value, double real, std::optional<std::uint64_
 
 /// Adds a value to the tree.
 Json& SessionScanner::add(Json value) {
-  if (++values_ > most_session_values) {
+  if (++values_ > limits::json_values) {
     fail("it contains too many values", "use a session that the workbench saved");
   }
   if (open_.empty()) {

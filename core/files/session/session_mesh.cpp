@@ -115,7 +115,7 @@ void SessionMeshReader::take_lattice() {
   fields_.check_keys(json, {"size", "spacing"});
   const Json& size = fields_.array(json, "size");
   Lattice lattice;
-  lattice.spacing = fields_.number(fields_.member(json, "spacing"));
+  lattice.spacing = fields_.number(fields_.member(json, "spacing"), parameters::spacing);
   double product = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     const bool whole = size.size() == 3 && size[k].is_number_unsigned() && size[k].get<std::uint64_t>() <= count_;

@@ -7,6 +7,7 @@
 #include "files/session/session.h"
 #include "files/session/session_json.h"
 #include "files/session/session_mesh.h"
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "simulate/tape.h"
@@ -66,7 +67,7 @@ void SessionReader::check_kind() {
 /// Opens the mesh that the session names. Its name must not lead out of a folder.
 MeshPointer SessionReader::named_mesh(const Json& object, const Progress& progress) {
   fields_.check_keys(object, {"file", "across"});
-  const std::string name = fields_.text(object, "file");
+  const std::string name = fields_.text(object, "file", limits::name_bytes);
   if (name.empty() || name.find_first_of("/\\") != std::string::npos || name[0] == '.') {
     fields_.fail("'file' is not the plain name of a file", "put the mesh next to the session and write its name only");
   }
@@ -222,8 +223,9 @@ Session::Panel SessionReader::panel(const Json& object) {
 
 void SessionReader::take_panels() {
   const Json& panels = fields_.array(tree_, "panels");
-  if (panels.empty() || panels.size() > session_panels) {
-    fields_.fail("it has " + std::to_string(panels.size()) + " panels", "give 1 to " + std::to_string(session_panels));
+  if (panels.empty() || panels.size() > limits::session_panels) {
+    fields_.fail("it has " + std::to_string(panels.size()) + " panels",
+                 "give 1 to " + std::to_string(limits::session_panels));
   }
   for (const Json& one : panels) {
     fields_.say_at(file_ + ": panel " + std::to_string(result_.panels.size()));
@@ -256,7 +258,7 @@ void SessionReader::take_lesson() {
 
 Session SessionReader::read(const Progress& progress) {
   check_kind();
-  result_.name = fields_.text(tree_, "name");
+  result_.name = fields_.text(tree_, "name", limits::name_bytes);
   take_mesh(progress.part(0, 0.8));
   take_moves(progress.part(0.8, 0.9));
   // The file has the mesh with which the moves begin.

@@ -12,6 +12,7 @@
 #include "files/session/session_json.h"
 #include "files/text/base64.h"
 #include "files/text/json_fields.h"
+#include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -79,7 +80,7 @@ bool moves_fit(const std::vector<Command>& moves) {
   for (const Command& command : moves) {
     all += weight(command);
   }
-  return all > 0 && all <= session_moves;
+  return all > 0 && all <= limits::session_moves;
 }
 
 class SessionWriter {
@@ -267,7 +268,8 @@ void SessionWriter::write_moves(const Progress& progress) {
 }
 
 void SessionWriter::write(const Progress& progress) {
-  const std::string name = OrderedJson(session_.name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  const std::string name = OrderedJson(shortened(session_.name, limits::name_bytes))
+                               .dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
        << ", \"name\": " << name << ",\n";
   if (session_.mesh_file.empty()) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 #include "files/text/json_fields.h"
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -59,8 +61,8 @@ std::string fault_of_name(std::string_view name) {
   if (name.empty() || name.front() == ' ' || name.back() == ' ') {
     return "a name must not be empty, or begin or end with a blank";
   }
-  if (name.size() > longest_preset_name) {
-    return "a name has at most " + std::to_string(longest_preset_name) + " bytes";
+  if (name.size() > limits::preset_name_bytes) {
+    return "a name has at most " + std::to_string(limits::preset_name_bytes) + " bytes";
   }
   return printable(name) == name ? "" : "a name must be one line of text";
 }
@@ -76,11 +78,17 @@ std::vector<SoftnessPreset> read_presets(std::string_view text, const std::files
     fields.fail("its version is not " + std::to_string(presets_version), "export the presets again with this program");
   }
   fields.check_keys(json, {"version", "presets"});
+  const auto& list = fields.array(json, "presets");
+  if (list.size() > limits::presets) {
+    fields.fail("it contains " + std::to_string(list.size()) + " presets",
+                "use at most " + std::to_string(limits::presets));
+  }
   std::vector<SoftnessPreset> presets;
-  for (const auto& one : fields.array(json, "presets")) {
+  std::unordered_set<std::string> names;
+  for (const auto& one : list) {
     fields.say_at(shown(path) + ": preset " + std::to_string(presets.size()));
     SoftnessPreset preset = preset_of(fields, one);
-    if (std::ranges::find(presets, preset.name, &SoftnessPreset::name) != presets.end()) {
+    if (!names.insert(preset.name).second) {
       fields.fail(in_quotes(preset.name) + " appears twice", "rename one of them");
     }
     presets.push_back(std::move(preset));

@@ -15,13 +15,24 @@ using Json = nlohmann::json;
 /// Checks that a text is JSON that we can read, without building a tree. Throws Error if it is not.
 class JsonCheck : public JsonScan {
  public:
-  using JsonScan::JsonScan;
+  JsonCheck(std::string_view text, const std::filesystem::path& path, const std::string& content)
+      : JsonScan(text, path, content),
+        too_many_(shown(path), "it contains too many values", "use a file with " + content) {}
 
  private:
-  void take_value(Json /*value*/) override {}
-  void open(Json /*empty*/) override {}
+  void take_value(Json /*value*/) override { count(); }
+  void open(Json /*empty*/) override { count(); }
   void close() override {}
   void take_key(const std::string& /*key*/) override {}
+
+  void count() {
+    if (++values_ > limits::json_values) {
+      throw Error(too_many_);
+    }
+  }
+
+  Error too_many_;
+  std::size_t values_ = 0;
 };
 
 }  // namespace
@@ -31,7 +42,9 @@ Json parse_json(std::string_view text, const std::filesystem::path& path, const 
   return Json::parse(text);
 }
 
-std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+std::string text_of(const Json& json) {
+  return shortened(json.dump(-1, ' ', true, Json::error_handler_t::replace), limits::name_bytes);
+}
 
 void JsonFields::fail(const std::string& problem, const std::string& remedy) const {
   throw Error(where_, problem, remedy);
@@ -69,10 +82,13 @@ const JsonFields::Json& JsonFields::object(const Json& object, const std::string
   return json;
 }
 
-std::string JsonFields::text(const Json& object, const std::string& key) const {
+std::string JsonFields::text(const Json& object, const std::string& key, std::size_t longest) const {
   const Json& json = member(object, key);
   if (!json.is_string()) {
     fail("'" + key + "' is not a text", "write it in quotes");
+  }
+  if (const std::size_t size = json.get_ref<const std::string&>().size(); size > longest) {
+    fail("'" + key + "' has " + std::to_string(size) + " bytes", "use at most " + std::to_string(longest));
   }
   return json.get<std::string>();
 }

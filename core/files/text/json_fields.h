@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/text/limits.h"
 #include "mesh/parameters.h"
 #include "solve/relaxation_scheme.h"
 #include "solve/softness.h"
@@ -14,8 +15,8 @@
 namespace chainmail {
 
 /// Parses the JSON of a file. `content` describes the expected content in error messages. Throws Error, with the line,
-/// if the text is not JSON, if it is nested deeper than our formats, or if it contains a number that is too large for a
-/// double.
+/// if the text is not JSON, if it is nested deeper than our formats, if it contains more than limits::json_values, or a
+/// number that is too large for a double.
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content);
 
 /// Checks and returns the members of objects. Throws Error if one is missing or has the wrong type.
@@ -35,7 +36,8 @@ class JsonFields {
   const Json& member(const Json& object, const std::string& key) const;
   const Json& array(const Json& object, const std::string& key) const;
   const Json& object(const Json& object, const std::string& key) const;
-  std::string text(const Json& object, const std::string& key) const;
+  /// Returns a text with at most `longest` bytes.
+  std::string text(const Json& object, const std::string& key, std::size_t longest = limits::text_bytes) const;
   bool boolean(const Json& object, const std::string& key) const;
   double number(const Json& json) const;
   /// Returns a number. Throws Error if it is not in the range of the parameter.
@@ -61,7 +63,7 @@ std::vector<std::string> softness_keys();
 /// reads them.
 void add_softness(nlohmann::ordered_json& object, const Softness& softness);
 
-/// Returns a value as text for error messages.
+/// Returns a value as text for error messages; long ones are shortened.
 std::string text_of(const nlohmann::json& json);
 
 }  // namespace chainmail

@@ -15,6 +15,7 @@ struct NumberType {
   std::string_view name;
   std::size_t bytes;
   double (*read_native)(const char* in_native_order);
+  void (*read_natives)(const char* in_native_order, std::span<double> to);
 
   /// Returns the number at the beginning of `from`.
   double read(const char* from, bool big_endian) const {
@@ -25,15 +26,35 @@ struct NumberType {
     std::reverse_copy(from, from + bytes, native.begin());
     return read_native(native.data());
   }
+
+  /// Reads numbers that follow each other.
+  void read(const char* from, bool big_endian, std::span<double> to) const {
+    if (big_endian == (std::endian::native == std::endian::big)) {
+      read_natives(from, to);
+      return;
+    }
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i] = read(from + i * bytes, big_endian);
+    }
+  }
 };
 
 template <class Number>
+double number_at(const char* bytes) {
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return static_cast<double>(number);
+}
+
+template <class Number>
 constexpr NumberType number_type(std::string_view name) {
-  return {name, sizeof(Number), [](const char* bytes) {
-            Number number;
-            std::memcpy(&number, bytes, sizeof number);
-            return static_cast<double>(number);
-          }};
+  constexpr auto read_all = [](const char* bytes, std::span<double> to) {
+    for (double& one : to) {
+      one = number_at<Number>(bytes);
+      bytes += sizeof(Number);
+    }
+  };
+  return {name, sizeof(Number), number_at<Number>, read_all};
 }
 
 /// Returns the type with this name; null if there is none.

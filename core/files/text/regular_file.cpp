@@ -56,12 +56,16 @@ RegularFile::~RegularFile() {
   }
 }
 
-std::size_t RegularFile::read(std::span<char> bytes) {
+namespace {
+
+/// Calls `read(done)`, which reads on after the bytes that are done, until all bytes are there or the file ends.
+template <class Read>
+std::size_t read_all(const std::filesystem::path& path, std::span<char> bytes, Read read) {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+    const ssize_t got = read(done);
     if (got < 0 && errno != EINTR) {
-      throw Error(shown(path_), "it cannot be read to its end (" + system_reason() + ")", "check the disk");
+      throw Error(shown(path), "it cannot be read to its end (" + system_reason() + ")", "check the disk");
     }
     if (got == 0) {
       break;
@@ -69,6 +73,19 @@ std::size_t RegularFile::read(std::span<char> bytes) {
     done += got > 0 ? static_cast<std::size_t>(got) : 0;
   }
   return done;
+}
+
+}  // namespace
+
+std::size_t RegularFile::read(std::span<char> bytes) {
+  return read_all(path_, bytes,
+                  [&](std::size_t done) { return ::read(descriptor_, bytes.data() + done, bytes.size() - done); });
+}
+
+std::size_t RegularFile::read_at(std::uint64_t place, std::span<char> bytes) const {
+  return read_all(path_, bytes, [&](std::size_t done) {
+    return pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(place + done));
+  });
 }
 
 std::filesystem::path resolved(const std::filesystem::path& path) {

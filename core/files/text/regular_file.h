@@ -26,6 +26,8 @@ class RegularFile {
   /// Reads the next bytes and returns their number. It is less than the requested one only at the end of the file.
   /// Throws Error if the disk fails.
   std::size_t read(std::span<char> bytes);
+  /// Reads bytes from a place in the file in the same way. The next read() does not change.
+  std::size_t read_at(std::uint64_t place, std::span<char> bytes) const;
 
  private:
   std::filesystem::path path_;

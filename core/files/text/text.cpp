@@ -10,14 +10,13 @@
 #include <system_error>
 #include <vector>
 
+#include "files/text/limits.h"
 #include "files/text/regular_file.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-// Largest size of a file (bytes): ten times that of the largest mesh allowed.
-constexpr std::size_t largest_text = std::size_t{4} << 30;
 constexpr std::size_t longest_quote = 40;
 constexpr std::size_t lines_between_reports = 4096;  // one or two milliseconds
 
@@ -71,6 +70,18 @@ std::string in_quotes(std::string_view word) {
   return "'" + printable(word.substr(0, longest_quote)) + (is_long ? "…'" : "'");
 }
 
+std::string shortened(std::string_view text, std::size_t most) {
+  static constexpr std::string_view ellipsis = "…";
+  if (text.size() <= most) {
+    return std::string(text);
+  }
+  std::size_t end = most - ellipsis.size();
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) {
+    --end;
+  }
+  return std::string(text.substr(0, end)) + std::string(ellipsis);
+}
+
 std::string shown(const std::filesystem::path& path) { return path.empty() ? "''" : printable(path.string()); }
 
 std::string shown(const std::filesystem::path& path, std::size_t line) {
@@ -84,7 +95,7 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
                        const Progress& progress) {
   RegularFile file(path);
   const Error too_large(shown(path), "it is larger than 4 GiB", "use a smaller file");
-  if (file.size() > largest_text) {
+  if (file.size() > limits::file_bytes) {
     throw too_large;
   }
   std::string text;
@@ -96,7 +107,7 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
     if (is_text && text.find('\0', text.size() - got) != std::string::npos) {
       throw Error(shown(path), "it is not a text file", "use a text file with " + content);
     }
-    if (text.size() > largest_text) {
+    if (text.size() > limits::file_bytes) {
       throw too_large;  // the file grew while it was read
     }
   }

@@ -18,6 +18,9 @@ namespace chainmail {
 std::string printable(std::string_view text);
 /// Returns a word in quotes; long words are shortened.
 std::string in_quotes(std::string_view word);
+/// Returns a text with at most `most` bytes: of a longer one the beginning, which ends between two characters of UTF-8
+/// and with an ellipsis.
+std::string shortened(std::string_view text, std::size_t most);
 /// Returns a path as text for messages; with a line, as `file:line`.
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);

@@ -1,11 +1,14 @@
 #include <teem/nrrd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 
 #include "files/import/program/tasks.h"
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -45,19 +48,45 @@ double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
   return 1;
 }
 
+/// Loads a file, or its header only, without memory for the data.
+std::unique_ptr<Nrrd, Remove> load(const std::filesystem::path& path, bool header_only) {
+  const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> how(nrrdIoStateNew(), &nrrdIoStateNix);
+  how->skipData = header_only ? 1 : 0;
+  std::unique_ptr<Nrrd, Remove> file(nrrdNew());
+  if (nrrdLoad(file.get(), path.c_str(), how.get()) != 0) {
+    refuse("teem cannot read it (" + complaint() + ")", "export it again");
+  }
+  return file;
+}
+
+std::uint64_t size_of(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  return none ? 0 : size;
+}
+
+/// Returns the number of voxels along each axis. Refuses more than the data of this size can give.
+std::array<std::uint32_t, 3> checked_size(const Nrrd& file, std::uint64_t data_bytes) {
+  if (file.dim != 3 || file.type == nrrdTypeBlock) {
+    refuse("it has " + std::to_string(file.dim) + " axes, but a volume of densities has 3",
+           "save a single channel at a single time");
+  }
+  const auto size = checked_volume_size("", {file.axis[0].size, file.axis[1].size, file.axis[2].size});
+  const std::uint64_t voxels = std::uint64_t{size[0]} * size[1] * size[2];
+  if (voxels * nrrdTypeSize[file.type] / limits::compression_ratio > data_bytes) {
+    refuse("its data are too few for its voxels, or compressed too much", "export it again, as raw data");
+  }
+  return size;
+}
+
 }  // namespace
 
 Volume read_nrrd(const std::filesystem::path& path) {
-  const std::unique_ptr<Nrrd, Remove> file(nrrdNew());
-  if (nrrdLoad(file.get(), path.c_str(), nullptr) != 0) {
-    refuse("teem cannot read it (" + complaint() + ")", "export it again");
-  }
-  if (file->dim != 3 || file->type == nrrdTypeBlock) {
-    refuse("it has " + std::to_string(file->dim) + " axes, but a volume of densities has 3",
-           "save a single channel at a single time");
-  }
+  const std::uint64_t data_bytes = size_of(path) + size_of(path.parent_path() / "data");
+  checked_size(*load(path, true), data_bytes);
+  const auto file = load(path, false);
   Volume volume;
-  volume.size = checked_volume_size("", {file->axis[0].size, file->axis[1].size, file->axis[2].size});
+  volume.size = checked_size(*file, data_bytes);
   for (int k = 0; k < 3; ++k) {
     volume.spacing[k] = spacing_of(file->axis[k], file->spaceDim);
     const double origin = file->spaceDim == 3 ? file->spaceOrigin[k] : file->axis[k].min;

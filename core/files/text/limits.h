@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The limits of files. A reader refuses what is beyond them in one sentence, before it takes memory for it. The manual
+/// lists them in resources/manual/formats.md.
+namespace chainmail::limits {
+
+// All files
+inline constexpr std::uint64_t file_bytes = std::uint64_t{4} << 30;  // ten times that of the largest mesh allowed
+inline constexpr std::size_t metaimage_header_bytes = 100'000;       // of a volume
+
+inline constexpr std::size_t nrrd_header_bytes = std::size_t{1} << 20;  // may contain long comments
+
+// Texts, in UTF-8 (bytes)
+inline constexpr std::size_t name_bytes = 255;  // of an object and of a file, and the title of a lesson or of a step
+inline constexpr std::size_t caption_bytes = 4096;    // text of a step of a lesson
+inline constexpr std::size_t text_bytes = 65'536;     // any other text in a file of JSON
+inline constexpr std::size_t preset_name_bytes = 60;  // of a preset of softness
+
+// Numbers of parts
+/// Values in a file of JSON: each takes some hundred times the memory of its text. Long arrays of numbers in sessions
+/// and recorded moves do not count.
+inline constexpr std::size_t json_values = 10'000'000;
+inline constexpr std::size_t presets = 1000;             // of softness, in one file
+inline constexpr std::size_t session_panels = 16;        // of a session
+inline constexpr std::size_t session_moves = 1'000'000;  // with the links and elements that they name
+inline constexpr std::size_t lesson_steps = 1000;        // of a lesson
+
+// Volumes
+/// Largest number of voxels of a file. Larger volumes are refused.
+inline constexpr std::uint64_t voxels = std::uint64_t{1} << 30;
+/// Largest number of voxels in memory. A larger volume is averaged while it is read.
+inline constexpr std::uint64_t voxels_in_memory = std::uint64_t{1} << 27;
+/// Largest ratio of the size of data to their size when compressed. zlib does not reach it (RFC 1951).
+inline constexpr std::uint64_t compression_ratio = 1040;
+
+// Thumbnails: file managers draw them for files that nobody chose to open
+inline constexpr std::uint64_t thumbnail_seconds = 2;                      // of processor time
+inline constexpr std::uint64_t thumbnail_memory = std::uint64_t{1} << 30;  // bytes
+inline constexpr std::uint64_t thumbnail_bytes = std::uint64_t{16} << 20;  // of the picture
+/// Points of the picture, with those that a nearer face hides. Of more faces, or more links, some are not drawn.
+inline constexpr double thumbnail_samples = 1e8;
+
+}  // namespace chainmail::limits
