@@ -36,7 +36,13 @@ void ProgressLine::write(const std::string& text) {
 
 struct Watch::Line {
   Line(std::string text, const JobState& job)
-      : thread([text = std::move(text), &job, this](const std::stop_token& stop) { show(text, job, stop); }) {}
+      : thread([text = std::move(text), &job, this](const std::stop_token& stop) {
+          try {
+            show(text, job, stop);
+          } catch (const std::exception&) {
+            // A line that cannot be written must not end the work.
+          }
+        }) {}
 
   void show(const std::string& text, const JobState& job, const std::stop_token& stop) {
     ProgressLine line;
@@ -57,7 +63,7 @@ Watch::Watch(std::string text) {
     try {
       line_ = std::make_unique<Line>(std::move(text), job_);
     } catch (const std::system_error&) {
-      return;  // no thread can be started: the job runs without a line
+      // The system starts no more threads: the work runs without a line.
     }
   }
 }

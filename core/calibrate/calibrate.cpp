@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <span>
+#include <system_error>
 #include <thread>
 
 #include "calibrate/drags.h"
@@ -135,13 +136,19 @@ class Bench {
     begin_drags();
     std::vector<Residual> residuals(dragged_.size());
     const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, dragged_.size());
+    const auto share = [&](std::size_t first) {
+      for (std::size_t i = first; i < residuals.size(); i += threads) {
+        residuals[i] = next_residual(i, softness);
+      }
+    };
     std::vector<std::future<void>> running;
+    running.reserve(threads);
     for (std::size_t first = 0; first < threads; ++first) {
-      running.push_back(std::async(std::launch::async, [&, first] {
-        for (std::size_t i = first; i < residuals.size(); i += threads) {
-          residuals[i] = next_residual(i, softness);
-        }
-      }));
+      try {
+        running.push_back(std::async(std::launch::async, share, first));
+      } catch (const std::system_error&) {
+        share(first);  // the system starts no more threads
+      }
     }
     std::ranges::for_each(running, [](auto& one) { one.wait(); });
     std::ranges::for_each(running, [](auto& one) { one.get(); });

@@ -42,7 +42,7 @@ class FrameExchange {
  public:
   static constexpr unsigned frame_count = 2;
 
-  /// Begins to fill a frame; publish() ends it. Meanwhile the reader keeps the one that it has.
+  /// Begins to fill a frame; publish() or give_up() ends it. Meanwhile the reader keeps the one that it has.
   Frame& begin() {
     State before = State::empty;
     while (!state_.compare_exchange_weak(before, State::being_filled, std::memory_order_acquire)) {
@@ -53,6 +53,8 @@ class FrameExchange {
   /// Returns the index of the frame that is being filled, below frame_count.
   unsigned index() const { return back_; }
   void publish() { state_.store(State::filled, std::memory_order_release); }
+  /// Ends filling without a result: the reader keeps the frame that it has.
+  void give_up() { state_.store(State::empty, std::memory_order_release); }
 
   /// Returns the newest published frame, or the one before while the writer fills the next one. It does not change
   /// until the next call.

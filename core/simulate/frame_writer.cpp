@@ -18,7 +18,12 @@ void FrameWriter::publish(Simulation& simulation) {
   ++number_;
   note_changes(simulation);
   Frame& frame = frames_.begin();
-  fill(frame, pending_[frames_.index()], simulation);
+  try {
+    fill(frame, pending_[frames_.index()], simulation);
+  } catch (...) {
+    frames_.give_up();
+    throw;
+  }
   frames_.publish();
 }
 
@@ -26,10 +31,11 @@ void FrameWriter::publish(Simulation& simulation) {
 /// blocks as changed.
 void FrameWriter::note_changes(Simulation& simulation) {
   if (mesh_ != simulation.mesh_pointer()) {
-    mesh_ = simulation.mesh_pointer();
-    const ElementBlocks none(mesh_->element_count());
+    mesh_.reset();  // until all is made for the new mesh: if memory runs out, the next frame starts again
+    const ElementBlocks none(simulation.mesh().element_count());
     changed_.assign(none.block_count(), 0);
     pending_.fill(none);
+    mesh_ = simulation.mesh_pointer();
   }
   simulation.changed().for_each_run(
       [this](ElementId first, ElementId end) { std::ranges::fill(blocks_of(changed_, first, end), number_); });

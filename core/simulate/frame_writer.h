@@ -14,7 +14,8 @@ class FrameWriter {
  public:
   explicit FrameWriter(FrameExchange& frames) : frames_(frames) {}
 
-  /// Publishes a frame of the current state. The simulation must be the same in every call.
+  /// Publishes a frame of the current state. The simulation must be the same in every call. If memory runs out, no
+  /// frame is published, and a later call tries it again.
   void publish(Simulation& simulation);
 
  private:

@@ -1,6 +1,7 @@
 #include "simulate/pass_recorder.h"
 
 #include <algorithm>
+#include <new>
 #include <variant>
 
 namespace chainmail {
@@ -47,15 +48,26 @@ void PassRecorder::begin(const Command& command, Simulation& simulation) {
   passes_ = simulation.statistics().passes;
   const std::lock_guard lock(mutex_);
   is_whole_ = false;
-  follow(simulation);
+  try {
+    follow(simulation);
+  } catch (const std::bad_alloc&) {
+    give_up(simulation);
+  }
+}
+
+/// Records nothing of this pass: it must not fail because there is no memory for its record.
+void PassRecorder::give_up(Simulation& simulation) {
+  runs_ = false;
+  record_ = {};
+  simulation.set_trace(nullptr);
 }
 
 /// Copies the changes since the last pass began.
 void PassRecorder::follow(const Simulation& simulation) {
   if (record_.mesh != simulation.mesh_pointer()) {
+    record_.before.resize(simulation.mesh().rest.size());
+    pending_ = ElementBlocks(simulation.mesh().element_count());
     record_.mesh = simulation.mesh_pointer();
-    record_.before.resize(record_.mesh->rest.size());
-    pending_ = ElementBlocks(record_.mesh->element_count());
     conditions_.reset();
     copy(simulation, 0, record_.mesh->element_count());
     return;
@@ -76,6 +88,14 @@ void PassRecorder::end(Simulation& simulation) {
   if (!runs_ || simulation.statistics().passes == passes_ || simulation.last_handle() == nullptr) {
     return;
   }
+  try {
+    finish(simulation);
+  } catch (const std::bad_alloc&) {
+    // The record stays unfinished, so nobody reads it.
+  }
+}
+
+void PassRecorder::finish(const Simulation& simulation) {
   if (!conditions_) {
     const auto pins = simulation.body().pins();
     conditions_ = std::make_shared<const PassConditions>(

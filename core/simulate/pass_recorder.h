@@ -12,7 +12,7 @@
 namespace chainmail {
 
 /// Stores the last pass of a simulation for another thread. Costs nothing while it is off. While it is on, it copies
-/// the positions and the changes of each pass.
+/// the positions and the changes of each pass. Without enough memory for that, a pass is not recorded.
 class PassRecorder {
  public:
   /// Turns recording on or off. Turning it off drops the record. Call this on the reading thread.
@@ -31,6 +31,8 @@ class PassRecorder {
   void follow(const Simulation& simulation);
   void copy(const Simulation& simulation, ElementId first, ElementId end);
   void write(const Simulation& simulation);
+  void finish(const Simulation& simulation);
+  void give_up(Simulation& simulation);
 
   std::atomic<bool> on_ = false;
   mutable std::mutex mutex_;  // guards the two below

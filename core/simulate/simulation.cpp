@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/failure.h"
 #include "mesh/parameters.h"
 #include "solve/split_state.h"
 
@@ -79,8 +80,14 @@ void Simulation::time_pass(Move move) {
   const auto start = Clock::now();
   try {
     statistics_.last_pass = move();
-  } catch (const std::bad_alloc&) {
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
     mark_all();  // the pass may have stopped in the middle
+    valid_ = false;
+    statistics_.remark = failure_sentence("stopped");
     throw;
   }
   const auto end = Clock::now();
@@ -133,8 +140,8 @@ bool Simulation::step() {
     // A command waits.
   } catch (const Error& error) {
     refuse_relaxation(error.what());
-  } catch (const std::bad_alloc&) {
-    refuse_relaxation("memory: not enough memory to relax the object; use a smaller mesh");
+  } catch (...) {
+    refuse_relaxation(failure_sentence("relaxation"));
   }
   if (Clock::now() > relaxation_deadline_) {
     fall_asleep();
@@ -170,7 +177,11 @@ RelaxationResult Simulation::take_relaxed(Relax relax) {
       statistics_.remark.clear();
     }
     return slice;
-  } catch (const std::bad_alloc&) {
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
     mark_all();  // an iteration may have stopped in the middle
     throw;
   }
@@ -545,7 +556,17 @@ void Simulation::wake_new(ElementId first) {
 
 // Saved states, for undo and for replay of recorded commands.
 
-void Simulation::carry_out(const commands::KeepState& command) { kept_[command.state] = current_state(); }
+/// Without enough memory, the state gets the positions that were kept before it: cuts, pins and softness can still be
+/// restored.
+void Simulation::carry_out(const commands::KeepState& command) {
+  try {
+    kept_[command.state] = current_state();
+  } catch (const std::bad_alloc&) {
+    kept_[command.state] = last_kept_state();
+    throw Error("undo", "there is not enough memory to keep these positions",
+                "save your work; undoing the next step returns to earlier positions");
+  }
+}
 
 void Simulation::carry_out(const commands::RestoreState& command) { take_state(kept(command.state)); }
 
@@ -594,8 +615,20 @@ void Simulation::take(const Handover& handover, Algorithm algorithm) {
 }
 
 Simulation::State Simulation::current_state() {
-  body().update(last_kept_, unkept_, away_);
+  State state = last_kept_state();
+  body().update(state.positions, unkept_, away_);  // may run out of memory, so it comes before any change
+  unkept_.for_each_block([&](std::size_t block, ElementId /*first*/, ElementId /*end*/) {
+    last_kept_.blocks[block] = state.positions.blocks[block];
+  });
+  last_kept_.from_rest = state.positions.from_rest;
+  last_kept_.frame = state.positions.frame;
   unkept_.clear();
+  return state;
+}
+
+/// Returns the state of the object with the positions that were last saved or restored.
+Simulation::State Simulation::last_kept_state() {
+  last_kept_.blocks.resize(away_.block_count());
   const auto pins = body().pins();
   return {mesh_, body().cuts().links(), {pins.begin(), pins.end()}, body().shared_softness(), last_kept_, valid_};
 }

@@ -44,7 +44,7 @@ class Simulation {
   /// exist, softness out of range, a drag without a grab, a saved state that does not exist); then nothing changes.
   void apply(const Command& command);
   /// Runs a slice of relaxation of about 2 ms, or one iteration toward the equilibrium, for idle time. Returns true if
-  /// there is more to do. If there is no equilibrium, or not enough memory, relaxation ends and the remark says why.
+  /// there is more to do. If there is no equilibrium, or if it fails, relaxation ends and the remark says why.
   bool step();
   /// True if the last slice prepared later ones, which are much faster.
   bool has_prepared() const { return prepared_; }
@@ -150,6 +150,7 @@ class Simulation {
   void wake_new(ElementId first);
   void fall_asleep();
   State current_state();
+  State last_kept_state();
   void take_state(const State& state);
   void take_cuts(const std::vector<LinkId>& cuts);
   void take_positions(const Snapshot& positions);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <future>
-#include <new>
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/failure.h"
 #include "mesh/generate.h"
 #include "solve/thread_team.h"
 
@@ -21,6 +21,8 @@ constexpr auto relaxation_share = std::chrono::milliseconds(8);
 constexpr auto pause_of_handle = std::chrono::milliseconds(100);
 // A drag is prepared when the pointer has rested for this time.
 constexpr auto rest_of_pointer = std::chrono::milliseconds(80);
+// After a failure, the thread waits so long before it tries the same again.
+constexpr auto pause_of_failure = std::chrono::milliseconds(500);
 // Interval between updates of the displayed figures.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
@@ -82,9 +84,10 @@ void SolverThread::ask(Question question) { add(std::move(question)); }
 void SolverThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    overrulers_ += overrules(task) ? 1 : 0;
+    const int more = overrules(task) ? 1 : 0;
+    tasks_.push_back(std::move(task));  // may run out of memory, so it comes before any change
+    overrulers_ += more;
     work_.cancelled = work_.cancelled || overrulers_ > 0 || preparing_;
-    tasks_.push_back(std::move(task));
     ++posted_;
     waiting_.fetch_add(1, std::memory_order_release);
   }
@@ -121,51 +124,80 @@ std::string SolverThread::take_error() {
   return std::exchange(error_, {});
 }
 
-void SolverThread::refuse(const std::string& sentence) {
+void SolverThread::refuse(std::string sentence) noexcept {
   const std::lock_guard lock(mutex_);
-  error_ = sentence;
+  error_ = std::move(sentence);
   unseen_ = true;  // the next frame announces it
 }
 
-void SolverThread::carry_out(const Task& task) {
-  if (const auto* question = std::get_if<Question>(&task)) {
-    (*question)(simulation_);
-    finish_task();
-    return;
-  }
+/// Reports the exception that is being handled. The thread goes on: its owner must not lose the object.
+void SolverThread::report_failure() noexcept {
+  refuse(failure_sentence(info(simulation_.statistics().algorithm).label));
+}
+
+/// Moves are dropped when the window closes, and after one has failed, until something else comes than a move of the
+/// same handle.
+bool SolverThread::is_dropped(const Task& task) const {
   const auto* command = std::get_if<Command>(&task);
-  if (abandoned_ && only_moves(command)) {
-    finish_task();
-    return;
+  return (abandoned_ && only_moves(command)) || (stopped_ && is_one_of<Drag, MoveControlPoint>(command));
+}
+
+void SolverThread::carry_out(const Task& task) {
+  const auto* command = std::get_if<Command>(&task);
+  if (!is_dropped(task)) {
+    run_task(task);
+    if (!std::holds_alternative<Question>(task)) {
+      if (!is_one_of<Grab>(command)) {  // a grab changes no picture, and a frame now would delay that of the first move
+        unseen_ = true;
+        measured_ = false;
+      }
+      last_command_ = Clock::now();
+    }
   }
-  if (command != nullptr) {
-    recorder_.begin(*command, simulation_);
-  }
+  finish_task();
+}
+
+void SolverThread::run_task(const Task& task) {
+  const auto* command = std::get_if<Command>(&task);
+  stopped_ = stopped_ && command == nullptr;
   try {
-    command != nullptr ? simulation_.apply(*command) : std::get<Job>(task)(simulation_);
-  } catch (const Error& error) {
-    refuse(error.what());
-  } catch (const std::bad_alloc&) {
-    refuse("memory: not enough memory; use a smaller mesh");
+    if (command != nullptr) {
+      recorder_.begin(*command, simulation_);
+      simulation_.apply(*command);
+    } else if (const auto* question = std::get_if<Question>(&task)) {
+      (*question)(simulation_);
+    } else {
+      std::get<Job>(task)(simulation_);
+    }
+  } catch (const Error&) {
+    report_failure();
   } catch (const Cancelled&) {
     // The next task replaces the result.
   } catch (const std::future_error&) {
     // The panel whose state this task should copy no longer exists.
+  } catch (...) {
+    report_failure();
+    stopped_ = is_one_of<Drag, MoveControlPoint>(command);
   }
   if (command != nullptr) {
     recorder_.end(simulation_);
   }
-  if (!is_one_of<Grab>(command)) {  // a grab changes no picture, and a frame now would delay that of the first move
-    unseen_ = true;
-    measured_ = false;
-  }
-  last_command_ = Clock::now();
-  finish_task();
 }
 
 void SolverThread::finish_task() {
-  if (waiting_.fetch_sub(1, std::memory_order_acq_rel) == 1 && became_idle_) {
-    became_idle_();
+  if (waiting_.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+    announce_idle();
+  }
+}
+
+void SolverThread::announce_idle() {
+  try {
+    if (became_idle_) {
+      became_idle_();
+    }
+    owes_idle_ = false;
+  } catch (...) {
+    owes_idle_ = true;
   }
 }
 
@@ -184,32 +216,52 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
 void SolverThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
-    const bool is_still = !unseen_ && !simulation_.statistics().relaxing;
-    if (!tasks_.empty()) {
-      const Task task = take_task(stop);
-      lock.unlock();
-      carry_out(task);
-    } else if (may_relax()) {
-      work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
-      lock.unlock();
-      relax();
-    } else if (is_still && must_prepare() && Clock::now() >= time_to_prepare()) {
-      prepare_next(lock);
-      continue;
-    } else if (is_still && measured_) {
-      wait_for_news(lock, stop);
-      continue;
-    } else {
-      lock.unlock();
+    try {
+      take_turn(lock, stop);
+    } catch (...) {  // nothing below should throw; whatever does must not end the process
+      if (lock.owns_lock()) {
+        lock.unlock();
+      }
+      report_failure();
+      lock.lock();
+      changed_.wait_for(lock, stop, pause_of_failure, [&] { return stop.stop_requested(); });
     }
-    if (unseen_ && Clock::now() >= last_frame_ + frame_time) {
-      refresh_figures();
-      publish();
-    }
-    lock.lock();
-    rest(lock, stop);
   }
   answer_questions(lock, stop);
+}
+
+/// Does what is most urgent, or waits until there is something to do. The caller must hold the lock.
+void SolverThread::take_turn(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const bool is_still = !unseen_ && !simulation_.statistics().relaxing;
+  if (!tasks_.empty()) {
+    const Task task = take_task(stop);
+    lock.unlock();
+    carry_out(task);
+  } else if (may_relax()) {
+    work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
+    lock.unlock();
+    relax();
+  } else if (is_still && must_prepare() && Clock::now() >= time_to_prepare()) {
+    prepare_next(lock);
+    return;
+  } else if (owes_idle_) {
+    changed_.wait_for(lock, stop, pause_of_failure, [this] { return !tasks_.empty(); });
+    lock.unlock();
+    announce_idle();
+    lock.lock();
+    return;
+  } else if (is_still && measured_) {
+    wait_for_news(lock, stop);
+    return;
+  } else {
+    lock.unlock();
+  }
+  if (unseen_ && Clock::now() >= last_frame_ + frame_time) {
+    refresh_figures();
+    show();
+  }
+  lock.lock();
+  rest(lock, stop);
 }
 
 /// Answers the remaining questions: a session that is saved while the window closes waits for them. Drops commands that
@@ -271,6 +323,8 @@ void SolverThread::prepare_next(std::unique_lock<std::mutex>& lock) {
     prepared_.fetch_add(1, std::memory_order_release);
   } catch (const Cancelled&) {
     is_cancelled = true;
+  } catch (...) {
+    // The move will fail, too, and say so.
   }
   lock.lock();
   preparing_ = false;
@@ -303,18 +357,24 @@ void SolverThread::measure_later(std::unique_lock<std::mutex>& lock, const std::
   lock.unlock();
   if (measure(stop)) {
     measured_ = true;
-    publish();
+    show();
   }
   lock.lock();
 }
 
-/// Measures the violation of the whole mesh, unless a command comes. Returns true if it was measured.
+/// Measures the violation of the whole mesh, unless a command comes. Returns true if it was measured, or if it failed
+/// and must not be tried again before something changes.
 bool SolverThread::measure(const std::stop_token& stop) {
   const RunningPass running;
-  while (idle() && !stop.stop_requested()) {
-    if (!simulation_.measure()) {
-      return true;
+  try {
+    while (idle() && !stop.stop_requested()) {
+      if (!simulation_.measure()) {
+        return true;
+      }
     }
+  } catch (...) {
+    report_failure();
+    return true;
   }
   return false;
 }
@@ -325,9 +385,24 @@ void SolverThread::refresh_figures() {
   // The violation of the whole mesh is out of date after elements have moved.
   const bool outdated = simulation_.statistics().violation_of_whole_mesh;
   if (!simulation_.changed().empty() && (outdated || now >= next_violation_)) {
-    simulation_.refresh_statistics(false);
+    try {
+      simulation_.refresh_statistics(false);
+    } catch (...) {
+      report_failure();  // the frame shows the figures of before
+    }
     // The measurement of a large mesh takes longer than a pass, so it gets at most a tenth of the time.
     next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
+  }
+}
+
+/// Publishes a frame. If that fails, the reader gets the reason instead, and the next frame comes some time later.
+void SolverThread::show() {
+  try {
+    publish();
+  } catch (...) {
+    report_failure();
+    last_frame_ = Clock::now() + pause_of_failure;
+    frame_ready_();
   }
 }
 

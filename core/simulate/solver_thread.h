@@ -21,8 +21,10 @@ class SolverThread {
  public:
   using Question = std::function<void(const Simulation&)>;
 
-  /// `frame_ready` is called after a frame was published: for the first frame by this constructor, then by the solver's
-  /// thread. That thread calls `became_idle` each time idle() becomes true. Neither may block.
+  /// `frame_ready` is called after a frame was published, and when there is an error to take: for the first frame by
+  /// this constructor, then by the solver's thread. That thread calls `became_idle` each time idle() becomes true.
+  /// Neither may block. If one throws, it is called again later. Throws std::bad_alloc, and std::system_error if the
+  /// system starts no thread.
   SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<void()> frame_ready,
                std::function<void()> became_idle = {});
   /// Continues, with `algorithm`, from the object of another solver after all its posted tasks. Until then it shows an
@@ -46,8 +48,8 @@ class SolverThread {
   void prepare(std::optional<ElementId> element);
   /// Returns the number of preparations that ended, also of those that had nothing to do.
   int prepared() const { return prepared_.load(std::memory_order_acquire); }
-  /// Calls `question` on the solver's thread, after everything posted before. It must not block. When the solver ends,
-  /// it answers the remaining questions for the current object.
+  /// Calls `question` on the solver's thread, after everything posted before. It must not block. What it throws is
+  /// reported as an error. When the solver ends, it answers the remaining questions for the current object.
   void ask(Question question);
   /// Returns true if all posted commands are done and all questions are answered.
   bool idle() const { return waiting() == 0; }
@@ -57,7 +59,8 @@ class SolverThread {
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// Returns the newest frame. Only one thread may call this.
   const Frame& latest_frame() { return frames_.latest(); }
-  /// Returns and clears the message of the last refused command, if any.
+  /// Returns and clears the message of the last refused command or failure, if any. A method that fails in the middle
+  /// of a move stops: further moves of the same handle are dropped. The thread goes on with everything else.
   std::string take_error();
 
   /// Turns recording of passes on or off.
@@ -72,9 +75,14 @@ class SolverThread {
   void add(Task task);
   Task take_task(const std::stop_token& stop);
   void run(const std::stop_token& stop);
-  void refuse(const std::string& sentence);
+  void take_turn(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  void refuse(std::string sentence) noexcept;
+  void report_failure() noexcept;
   void carry_out(const Task& task);
+  void run_task(const Task& task);
+  bool is_dropped(const Task& task) const;
   void finish_task();
+  void announce_idle();
   void relax();
   bool may_relax() const;
   void wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -86,6 +94,7 @@ class SolverThread {
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool measure(const std::stop_token& stop);
   void refresh_figures();
+  void show();
   void publish();
 
   JobState work_;  // state of a long pass
@@ -100,6 +109,8 @@ class SolverThread {
   PassTimes::Clock::duration slice_time_{};  // of the last slice of relaxation
   std::atomic<bool> unseen_ = false;         // something changed since the last frame
   bool measured_ = false;                    // the last frame shows the violation of the whole mesh
+  bool stopped_ = false;                     // a move failed: further moves of this handle are dropped
+  bool owes_idle_ = false;                   // became_idle has to be called again, because it threw
 
   std::atomic<int> prepared_ = 0;
   std::atomic<bool> abandoned_ = false;

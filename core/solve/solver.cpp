@@ -1,6 +1,5 @@
 #include "solve/solver.h"
 
-#include <new>
 #include <string>
 #include <utility>
 
@@ -38,7 +37,7 @@ Method& Solver::method() {
   return *method_;
 }
 
-/// Runs a pass. If memory runs out in the middle of it, the next pass uses nothing of it.
+/// Runs a pass. If it fails in the middle, for lack of memory for example, the next pass uses nothing of it.
 template <class Pass>
 PassCount Solver::run(Pass pass) {
   const RunningPass running;
@@ -46,7 +45,11 @@ PassCount Solver::run(Pass pass) {
     const PassCount count = pass(method());
     body_.note_move();
     return count;
-  } catch (const std::bad_alloc&) {
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
     body_.note_move();
     moved_.clear();
     method_.reset();
@@ -98,7 +101,9 @@ void Solver::prepare(ElementId element) {
   const RunningPass running;
   try {
     method().prepare(body_, element, threads_, progress_);
-  } catch (const std::bad_alloc&) {
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
     method_.reset();  // the move will say so
   }
 }
@@ -155,7 +160,7 @@ RelaxationResult Solver::settle(double until, int most, std::span<const ElementI
   return equilibrate([&] { equilibrium_->solve(body_, held, until, most, progress); });
 }
 
-/// Runs iterations toward the equilibrium. If memory runs out in the middle, the next ones use nothing of them.
+/// Runs iterations toward the equilibrium. If they fail in the middle, the next ones use nothing of them.
 template <class Solve>
 RelaxationResult Solver::equilibrate(Solve solve) {
   try {
@@ -163,7 +168,11 @@ RelaxationResult Solver::equilibrate(Solve solve) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
     }
     solve();
-  } catch (const std::bad_alloc&) {
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
     body_.note_relaxation();
     equilibrium_.reset();
     throw;

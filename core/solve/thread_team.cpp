@@ -7,8 +7,8 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -135,21 +135,24 @@ class Helpers {
     std::jthread thread;
   };
 
-  /// Starts one more helper. Returns false if there are enough, or if the system allows no more threads.
+  /// Starts one more helper. Returns false if there are enough, or if the system allows no more threads or has no
+  /// memory for one.
   bool start() {
-    if (int(helpers_.size()) >= core_count() - 1) {
+    const std::size_t before = helpers_.size();
+    if (int(before) >= core_count() - 1) {
       return false;
     }
-    Helper& helper = helpers_.emplace_back();
     try {
+      Helper& helper = helpers_.emplace_back();
       helper.thread = std::jthread([this, &helper](const std::stop_token& stop) { serve(helper, stop); });
-    } catch (const std::system_error&) {
-      helpers_.pop_back();
+    } catch (const std::exception&) {
+      helpers_.resize(before);
       return false;
     }
     return true;
   }
 
+  /// Throws nothing: take() keeps what a part throws for the team.
   void serve(Helper& helper, const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, stop, [&] { return helper.team != nullptr; })) {
@@ -179,8 +182,10 @@ ThreadTeam::ThreadTeam(int most) : most_(most) {}
 
 void ThreadTeam::call_helpers() {
   if (!has_called_ && std::min(most_, core_count()) > 1 && busy.load() < core_count()) {
-    shared_ = std::make_unique<Shared>();
-    Helpers::all().send(*shared_, most_ - 1);
+    shared_.reset(new (std::nothrow) Shared);  // without memory for it, the team stays alone
+    if (shared_) {
+      Helpers::all().send(*shared_, most_ - 1);
+    }
   }
   has_called_ = true;
 }

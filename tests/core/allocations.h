@@ -6,17 +6,33 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
-/// Counts the memory that a program allocates by operator new. It replaces all forms of operator new, under sanitizers
-/// too, so only one source of a program may include it. Memory that a library allocates by malloc is not counted.
+/// Counts the memory that a program allocates by operator new, and lets large allocations fail. It replaces all forms
+/// of operator new, under sanitizers too, so only one source of a program may include it. Memory that a library
+/// allocates by malloc is not counted.
 namespace chainmail::test {
 
 inline std::atomic<std::uint64_t> allocations = 0;
 inline std::atomic<std::size_t> bytes_held = 0;
 inline std::atomic<std::size_t> most_bytes_held = 0;  // since it was last set to bytes_held; exact only for one thread
 
+/// Allocations of more bytes fail, in all threads.
+inline std::atomic<std::size_t> largest_allocation = std::numeric_limits<std::size_t>::max();
+
+/// Lets allocations of more than some bytes fail while it exists.
+struct LittleMemory {
+  explicit LittleMemory(std::size_t largest) { largest_allocation = largest; }
+  LittleMemory(const LittleMemory&) = delete;
+  LittleMemory& operator=(const LittleMemory&) = delete;
+  ~LittleMemory() { largest_allocation = std::numeric_limits<std::size_t>::max(); }
+};
+
 inline void* counted(std::size_t bytes, std::size_t alignment) noexcept {
+  if (bytes > largest_allocation.load(std::memory_order_relaxed)) {
+    return nullptr;
+  }
   allocations.fetch_add(1, std::memory_order_relaxed);
   // aligned_alloc accepts only multiples of the alignment.
   void* taken = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
