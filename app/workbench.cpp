@@ -1,14 +1,15 @@
 // The workbench program: reads the arguments and opens the main window.
 
-#include <QApplication>
 #include <QCommandLineParser>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <string_view>
 
+#include "common/application.h"
 #include "docks/mesh_dock.h"
 #include "io/sessions.h"
+#include "mesh/failure.h"
 #include "version/version.h"
 #include "window/main_window.h"
 #include "window/startup.h"
@@ -44,17 +45,15 @@ void describe(QCommandLineParser& parser) {
                                QStringLiteral("[FILE]"));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
+/// Reads the arguments, opens the window and runs until it is closed. Returns the exit status.
+int run(int argc, char** argv) {
   if (!has_display(argc, argv)) {
     return fail(
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
                        "chainmail"));
   }
   chainmail::prepareApplication();
-  QApplication application(argc, argv);
+  chainmail::Application application(argc, argv);
   QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));
   chainmail::styleApplication();
 
@@ -88,4 +87,16 @@ int main(int argc, char** argv) {
     window.welcome();
   }
   return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
+  try {
+    return run(argc, argv);
+  } catch (...) {  // before the window was open, or while it was closed
+    std::fprintf(stderr, "workbench: %s\n", chainmail::failure_sentence("window").c_str());
+    return 2;
+  }
 }

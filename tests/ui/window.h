@@ -16,6 +16,7 @@
 #include <future>
 #include <memory>
 
+#include "common/application.h"
 #include "common/theme.h"
 #include "mesh/generate.h"
 #include "panels/panel.h"
@@ -225,7 +226,7 @@ int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // so that the user's files are not used
-  QApplication application(argc, argv);
+  Application application(argc, argv);
   remember(Theme::dark);  // independent of the desktop's theme
   styleApplication();
   if (const QString why = whyNoWindow(); !why.isEmpty()) {

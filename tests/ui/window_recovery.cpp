@@ -104,7 +104,7 @@ int crashingProgram(int argc, char** argv) {
   prepareApplication();
   QTemporaryDir settings;
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
-  QApplication application(argc, argv);
+  Application application(argc, argv);
   styleApplication();
   Workbench bench(cloth());
   bench.window.sessions().protect();

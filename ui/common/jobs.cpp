@@ -1,8 +1,9 @@
 #include "common/jobs.h"
 
-#include <exception>
-#include <new>
 #include <string>
+
+#include "common/announce.h"
+#include "mesh/failure.h"
 
 namespace chainmail {
 
@@ -16,12 +17,7 @@ struct Jobs::Job {
   std::atomic<bool> done = false;
 };
 
-Jobs::~Jobs() {
-  close();
-  if (thread_.joinable()) {
-    thread_.join();
-  }
-}
+Jobs::~Jobs() { close(); }
 
 void Jobs::start(Kind kind, const QString& text, Work work) {
   if (running() && (kind == Kind::save || current_->kind == Kind::save)) {
@@ -30,18 +26,19 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
     return;
   }
   cancel();
-  text_ = text;
-  current_ = std::make_shared<Job>();
-  current_->kind = kind;
-  current_->text = text.toStdString();
-  thread_ = std::thread([this, job = current_, work = std::move(work), before = std::move(thread_)]() mutable {
-    // Only one job runs at a time: two would slow each other down. This thread waits for the previous one; the window
-    // does not wait.
-    if (before.joinable()) {
-      before.join();
-    }
-    run(*job, work);
-  });
+  try {
+    const auto job = std::make_shared<Job>();
+    job->kind = kind;
+    job->text = text.toStdString();
+    // A cancelled job may still run: two at a time would slow each other down. The thread waits for it, the window does
+    // not.
+    thread_.add([this, job, work = std::move(work)] { run(*job, work); });
+    text_ = text;
+    current_ = job;
+  } catch (...) {
+    emit failed(QString::fromStdString(failure_sentence(text.toStdString())));
+    return;
+  }
   emit changed();
 }
 
@@ -66,13 +63,11 @@ void Jobs::run(Job& job, const Work& work) {
     job.finish = work(Progress(job.state));
   } catch (const Cancelled&) {
     return;
-  } catch (const std::bad_alloc&) {
-    job.error = job.text + ": there is not enough memory; use a smaller mesh";
-  } catch (const std::exception& error) {
-    job.error = error.what();
+  } catch (...) {
+    job.error = failure_sentence(job.text);
   }
   job.done = true;
-  QMetaObject::invokeMethod(this, &Jobs::receive, Qt::QueuedConnection);
+  announce(this, &Jobs::receive);
 }
 
 void Jobs::receive() {
@@ -82,8 +77,13 @@ void Jobs::receive() {
   const auto job = std::exchange(current_, nullptr);
   emit changed();
   if (job->finish) {
-    job->finish();
-  } else {
+    try {
+      job->finish();
+    } catch (...) {
+      job->error = failure_sentence(job->text);
+    }
+  }
+  if (!job->error.empty()) {
     emit failed(QString::fromStdString(job->error));
   }
 }

@@ -3,8 +3,8 @@
 #include <QObject>
 #include <functional>
 #include <memory>
-#include <thread>
 
+#include "common/task_thread.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -18,16 +18,17 @@ class Jobs : public QObject {
 
  public:
   enum class Kind { load, save };
-  /// Runs in the GUI thread when the work is done.
+  /// Runs in the GUI thread when the work is done. If it throws, the job has failed.
   using Finish = std::function<void()>;
-  /// Runs on the thread of the job and must not access the window. May throw Error.
+  /// Runs on the thread of the jobs and must not access the window. Whatever it throws becomes the sentence of
+  /// failed(); Error brings its own.
   using Work = std::function<Finish(const Progress&)>;
 
   Jobs() = default;
   ~Jobs() override;
 
   /// Starts a job. A load job cancels a running load job. If the new or the running job is a save job, the new
-  /// job is refused and failed() is emitted, so that no work is lost.
+  /// job is refused and failed() is emitted, so that no work is lost. The same if the system starts no thread for it.
   void start(Kind kind, const QString& text, Work work);
   void cancel();
   /// Call this when the window closes. Cancels a load job; a save job still finishes.
@@ -51,8 +52,8 @@ class Jobs : public QObject {
   void receive();
 
   QString text_;
-  std::shared_ptr<Job> current_;  // shared with its thread
-  std::thread thread_;            // thread of the newest job; it waits for the earlier threads
+  std::shared_ptr<Job> current_;  // shared with the thread
+  TaskThread thread_;             // last: ends before the members that its tasks use
 };
 
 }  // namespace chainmail

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
-#include <new>
 
+#include "common/announce.h"
+#include "common/application.h"
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "files/session/session.h"
@@ -35,22 +36,23 @@ void replaceValues(Contents& present, const Contents& from, const Contents& to, 
   }
 }
 
-/// Emits the signals of the values that differ, and algorithmChanged for these panels.
+/// Emits the signals of the values that differ, and algorithmChanged for these panels. A listener that fails must not
+/// leave the change half done.
 void emitSignals(Document& document, const Contents& from, const Contents& to, const std::vector<int>& panels) {
   if (from.object != to.object) {
-    emit document.meshChanged();
+    Application::guarded([&] { emit document.meshChanged(); });
   }
   if (from.softness != to.softness) {
-    emit document.softnessChanged();
+    Application::guarded([&] { emit document.softnessChanged(); });
   }
   if (from.relaxation != to.relaxation) {
-    emit document.relaxationChanged();
+    Application::guarded([&] { emit document.relaxationChanged(); });
   }
   if (from.elastic != to.elastic) {
-    emit document.elasticChanged();
+    Application::guarded([&] { emit document.elasticChanged(); });
   }
   for (const int panel : panels) {
-    emit document.algorithmChanged(panel);
+    Application::guarded([&] { emit document.algorithmChanged(panel); });
   }
 }
 
@@ -79,8 +81,12 @@ class Document::Edit : public QUndoCommand {
         kept_(kept) {}
 
   ~Edit() override {
-    if (state_) {
-      document_.post(commands::DropState{*state_});
+    try {
+      if (state_) {
+        document_.post(commands::DropState{*state_});
+      }
+    } catch (...) {
+      // No memory for the command: the solvers keep a state that nobody needs.
     }
   }
 
@@ -93,9 +99,16 @@ class Document::Edit : public QUndoCommand {
     if (state_ && !kept_) {
       document_.post(commands::KeepState{*state_});
     }
-    document_.carryOut(change_, before_);
+    try {
+      document_.carryOut(change_, before_);
+    } catch (...) {  // no memory for a command: the solvers return to the state before
+      if (state_) {
+        document_.post(commands::RestoreState{*state_});
+      }
+      throw;
+    }
     change_.carryOut = {};
-    document_.show(change_, before_, change_.after, true);
+    show(before_, change_.after, true);
   }
 
   void undo() override { exchange(change_.after, before_, false); }
@@ -119,7 +132,12 @@ class Document::Edit : public QUndoCommand {
     document_.post(commands::RestoreState{*state_});
     document_.post(commands::DropState{*state_});
     state_ = now;
-    document_.show(change_, from, to, done);
+    show(from, to, done);
+  }
+
+  /// The step must reach the stack, or leave it, whatever fails here.
+  void show(const Contents& from, const Contents& to, bool done) {
+    Application::guarded([&] { document_.show(change_, from, to, done); });
   }
 
   Document& document_;
@@ -250,7 +268,7 @@ void Document::show(Change& change, const Contents& from, const Contents& to, bo
   }
   if (change.sessionFile) {
     std::swap(*change.sessionFile, sessionFile_);
-    emit sessionFileChanged();
+    Application::guarded([this] { emit sessionFileChanged(); });
   }
   emitSignals(*this, from, to, panels);
   showParts(change, done);
@@ -279,17 +297,17 @@ void Document::showParts(const Change& change, bool done) {
 void Document::showCuts(const std::vector<LinkId>& links, bool cut) {
   DocumentObject& object = *contents_.object;
   cut ? object.parts.cut(object.cuts, links) : object.parts.uncut(object.cuts, links);
-  emit cutsChanged(links, cut);
+  Application::guarded([&] { emit cutsChanged(links, cut); });
   if (!selection_.empty()) {
     selection_.links = linksAmong(*object.mesh, object.cuts, selection_.elements);
-    emit selectionChanged();
+    Application::guarded([this] { emit selectionChanged(); });
   }
 }
 
 void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
   auto& pins = contents_.object->pins;
   pins = combined(pins, elements, pinned ? SelectionMode::add : SelectionMode::remove);
-  emit pinsChanged();
+  Application::guarded([this] { emit pinsChanged(); });
 }
 
 void Document::undo() {
@@ -601,7 +619,7 @@ void Document::post(const Command& command) {
   if (log_->waits()) {
     log_->sample();
   }
-  emit tapeChanged();
+  Application::guarded([this] { emit tapeChanged(); });
 }
 
 /// Called when a solver has become idle. Sends the newest move, which waits for the slowest solver, as soon as all are
@@ -646,19 +664,12 @@ void Document::reportRefusal(int panel, const QString& sentence) {
 
 std::function<void()> Document::frameAnnouncer(int panel) {
   return [this, panel] {
-    if (!frameAnnounced_[std::size_t(panel)].exchange(true)) {
-      QMetaObject::invokeMethod(
-          this, [this, panel] { receiveFrame(panel); }, Qt::QueuedConnection);
-    }
+    announceOnce(frameAnnounced_[std::size_t(panel)], this, [this, panel] { receiveFrame(panel); });
   };
 }
 
 std::function<void()> Document::idleAnnouncer() {
-  return [this] {
-    if (!idleAnnounced_.exchange(true)) {
-      QMetaObject::invokeMethod(this, &Document::receiveIdle, Qt::QueuedConnection);
-    }
-  };
+  return [this] { announceOnce(idleAnnounced_, this, &Document::receiveIdle); };
 }
 
 bool Document::idle() const {
@@ -687,10 +698,14 @@ void Document::ask(int panel, SolverThread::Question question) {
 
 std::future<Snapshot> Document::snapshot(int panel) {
   const auto promise = std::make_shared<std::promise<Snapshot>>();
-  ask(panel, [promise](const Simulation& simulation) {
+  ask(panel, [promise, panel, mesh = mesh()](const Simulation& simulation) {
     try {
+      if (simulation.mesh_pointer() != mesh) {
+        throw Error("panel " + panelName(panel).toStdString(), "its solver could not take over the object",
+                    "undo the last step");
+      }
       promise->set_value(simulation.snapshot());
-    } catch (const std::bad_alloc&) {
+    } catch (...) {
       promise->set_exception(std::current_exception());
     }
   });
@@ -717,11 +732,14 @@ void Document::addSolver(std::unique_ptr<SolverThread> solver) {
 void Document::addPanel() {
   if (panels() < mostPanels) {
     const Algorithm algorithm = unusedAlgorithm();
+    log_->flush();
+    // May find no memory or no thread, so it comes before any change.
+    auto solver =
+        std::make_unique<SolverThread>(*solvers_.front(), algorithm, frameAnnouncer(panels()), idleAnnouncer());
     dropWaypoints();
     replayed_ = false;  // the new panel has not replayed anything
     contents_.algorithms[std::size_t(panels())] = algorithm;
-    log_->flush();
-    addSolver(std::make_unique<SolverThread>(*solvers_.front(), algorithm, frameAnnouncer(panels()), idleAnnouncer()));
+    addSolver(std::move(solver));
     emit panelsChanged();
   }
 }
@@ -767,7 +785,7 @@ void Document::replaceUnfitAlgorithms() {
       from = chainmail::text(info(algorithm(panel)).label);
       contents_.algorithms[std::size_t(panel)] = Algorithm::natural_queue;
       where << panelName(panel);
-      emit algorithmChanged(panel);
+      Application::guarded([&] { emit algorithmChanged(panel); });
     }
   }
   if (!where.isEmpty()) {
@@ -798,7 +816,7 @@ void Document::showInstead(int panel, const Frame* frame) {
 void Document::setHighlight(const Highlight& highlight) {
   if (highlight != highlight_) {
     highlight_ = highlight;
-    emit highlightChanged();
+    Application::guarded([this] { emit highlightChanged(); });
   }
 }
 
@@ -824,7 +842,7 @@ void Document::select(std::vector<ElementId> elements) {
   if (elements != selection_.elements) {
     selection_.links = linksAmong(*mesh(), cuts(), elements);
     selection_.elements = std::move(elements);
-    emit selectionChanged();
+    Application::guarded([this] { emit selectionChanged(); });
   }
 }
 

@@ -39,12 +39,18 @@ MeshLevelPointer MeshLevels::at(const MeshPointer& mesh, unsigned step) {
 
 const Surface& MeshLevels::surface(const MeshPointer& mesh, const Cuts& cuts) {
   if (surface_ == nullptr || surface_->table().mesh() != mesh) {
-    surface_ = maker_.take(mesh);
+    auto surface = maker_.take(mesh);
     for (const LinkId link : cuts.links()) {
-      surface_->cut(link);
+      surface->cut(link);
     }
+    surface_ = std::move(surface);
   }
   return *surface_;
+}
+
+const Surface* MeshLevels::surfaceIfAny(const MeshPointer& mesh, const Cuts& cuts) {
+  return (surface_ != nullptr && surface_->table().mesh() == mesh) || maker_.succeeds(mesh) ? &surface(mesh, cuts)
+                                                                                            : nullptr;
 }
 
 bool MeshLevels::hasSurface(const MeshPointer& mesh) {

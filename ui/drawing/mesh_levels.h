@@ -22,9 +22,12 @@ class MeshLevels {
   MeshLevelPointer at(const MeshPointer& mesh, unsigned step);
 
   /// Returns the surface of the mesh's cells; waits if it is still being computed. A new surface has these cuts;
-  /// showCuts() updates it later.
+  /// showCuts() updates it later. If it could not be computed, throws the reason.
   const Surface& surface(const MeshPointer& mesh, const Cuts& cuts);
-  /// Returns true if surface() would not wait. Otherwise SurfaceMaker::made is emitted when the surface is ready.
+  /// The same, but returns null if it could not be computed.
+  const Surface* surfaceIfAny(const MeshPointer& mesh, const Cuts& cuts);
+  /// Returns true if surface() would neither wait nor throw. Otherwise SurfaceMaker::made is emitted when the
+  /// computation has ended.
   bool hasSurface(const MeshPointer& mesh);
   SurfaceMaker& maker() { return maker_; }
   void showCuts(const std::vector<LinkId>& links, bool cut);

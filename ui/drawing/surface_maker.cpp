@@ -1,5 +1,10 @@
 #include "drawing/surface_maker.h"
 
+#include <system_error>
+#include <utility>
+
+#include "mesh/failure.h"
+
 namespace chainmail {
 namespace {
 
@@ -15,16 +20,25 @@ bool SurfaceMaker::has(const MeshPointer& mesh) {
   if (mesh != mesh_) {
     begin(mesh);
   }
-  return !result_.valid() || result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (result_.valid() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    receive();
+  }
+  return !result_.valid() && !failure_;
 }
 
-std::unique_ptr<Surface> SurfaceMaker::take(const MeshPointer& mesh) {
+bool SurfaceMaker::succeeds(const MeshPointer& mesh) {
   if (mesh != mesh_) {
     begin(mesh);
   }
   if (result_.valid()) {
-    surface_ = result_.get();
-    table_ = surface_->table_pointer();
+    receive();
+  }
+  return !failure_;
+}
+
+std::unique_ptr<Surface> SurfaceMaker::take(const MeshPointer& mesh) {
+  if (!succeeds(mesh)) {
+    std::rethrow_exception(failure_);
   }
   return surface_ != nullptr ? std::move(surface_) : std::make_unique<Surface>(table_);
 }
@@ -33,28 +47,55 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
   giveUp();
   mesh_ = mesh;
   surface_.reset();
-  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= mostCellsAtOnce) {
-    surface_ = makeSurface(mesh);
-    table_ = surface_->table_pointer();
-    return;
-  }
-  job_ = std::make_unique<JobState>();
-  std::promise<std::unique_ptr<Surface>> promise;
-  result_ = promise.get_future();
-  thread_ = std::thread([this, mesh, promise = std::move(promise)]() mutable {
+  table_.reset();
+  failure_ = nullptr;
+  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= mostCellsAtOnce || !beginInBackground(mesh)) {
+    std::promise<std::unique_ptr<Surface>> promise;
+    result_ = promise.get_future();
     try {
-      promise.set_value(makeSurface(mesh, Progress(*job_)));
-      emit made();
-    } catch (...) {  // cancelled, or out of memory: take() throws the exception
+      promise.set_value(makeSurface(mesh));
+    } catch (...) {
       promise.set_exception(std::current_exception());
     }
-  });
+    receive();
+  }
+}
+
+/// Returns false if the system starts no thread.
+bool SurfaceMaker::beginInBackground(const MeshPointer& mesh) {
+  job_ = std::make_unique<JobState>();
+  const auto promise = std::make_shared<std::promise<std::unique_ptr<Surface>>>();
+  try {
+    thread_.add([this, mesh, promise] {
+      try {
+        promise->set_value(makeSurface(mesh, Progress(*job_)));
+      } catch (...) {  // cancelled, or out of memory: take() throws the exception
+        promise->set_exception(std::current_exception());
+      }
+      emit made();
+    });
+  } catch (const std::system_error&) {
+    return false;
+  }
+  result_ = promise->get_future();
+  return true;
+}
+
+/// Takes over the result, and waits for it.
+void SurfaceMaker::receive() {
+  try {
+    surface_ = std::exchange(result_, {}).get();
+    table_ = surface_->table_pointer();
+  } catch (...) {
+    failure_ = std::current_exception();
+    emit failed(QString::fromStdString(failure_sentence("faces")));
+  }
 }
 
 void SurfaceMaker::giveUp() {
-  if (thread_.joinable()) {
+  if (job_ != nullptr) {
     job_->cancelled = true;
-    thread_.join();
+    thread_.finish();
   }
   result_ = {};
 }

@@ -4,11 +4,15 @@
 #include <QFile>
 #include <algorithm>
 #include <atomic>
+#include <system_error>
 
+#include "common/announce.h"
+#include "common/application.h"
 #include "common/as_path.h"
 #include "document/session_draft.h"
 #include "files/session/session.h"
 #include "io/unsaved_work.h"
+#include "mesh/failure.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -18,6 +22,16 @@ using std::chrono::milliseconds;
 
 // Longest time from a change to the written file: the wait and, at worst, two writes.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
+constexpr milliseconds waitAfterFailure(10'000);
+
+/// Returns the memory that writing the work takes at most: the positions of all panels, those of one panel twice more
+/// as it is written, and some for the rest.
+std::size_t memoryFor(const Document& document) {
+  constexpr std::size_t rest = 8 * 1024 * 1024;
+  const Mesh& mesh = *document.mesh();
+  const std::size_t positions = sizeof(double) * std::size_t(mesh.space_dimension) * mesh.element_count();
+  return rest + (std::size_t(document.panels()) + 2) * positions;
+}
 
 }  // namespace
 
@@ -26,6 +40,7 @@ struct Autosave::Writing {
   // The thread writes them before it sets `done`; the window reads them after that.
   Object object;
   std::string error;
+  bool isWritten = false;
   std::atomic<bool> done = false;
 };
 
@@ -42,11 +57,19 @@ Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
   timer_.setSingleShot(true);
   timer_.setInterval(longestWait);
   connect(&timer_, &QTimer::timeout, this, &Autosave::save);
+  try {
+    thread_.start();
+  } catch (const std::system_error&) {
+    // The first writing tries it again.
+  }
   listen();
+  // Later, when somebody listens to failed().
+  QMetaObject::invokeMethod(this, &Autosave::holdMemory, Qt::QueuedConnection);
 }
 
 Autosave::~Autosave() {
-  endWriting();
+  cancelWriting();
+  thread_.finish();
   remove();
 }
 
@@ -57,12 +80,18 @@ void Autosave::discardAll(std::vector<Adopted>& adopted) {
   adopted.clear();
 }
 
-void Autosave::endWriting() {
+void Autosave::cancelWriting() {
   if (writing_) {
     writing_->job.cancelled = true;
   }
-  if (thread_.joinable()) {
-    thread_.join();
+}
+
+/// Runs a task after those before, on the thread that writes. If the system starts no thread, this one waits for it.
+void Autosave::run(const TaskThread::Task& task) {
+  try {
+    thread_.add(task);
+  } catch (const std::system_error&) {
+    task();
   }
 }
 
@@ -72,21 +101,22 @@ void Autosave::keep() {
   if (!document_.isModified()) {
     return;
   }
-  endWriting();
-  thread_ = std::jthread(
-      [path = path_, adopted = std::move(adopted_), draft = SessionDraft(document_, look_.read())]() mutable {
-        try {
-          save_session(asPath(path), draft.finished({}), {});
-          unsaved_work::discardObjects(path);
-          discardAll(adopted);
-        } catch (const std::exception&) {
-          // The window is gone, so nothing can be reported. The previous files stay.
-        }
-        if (QFile::exists(path)) {
-          QFile::rename(path, unsaved_work::closedPath(path));
-          unsaved_work::discardOldest();
-        }
-      });
+  cancelWriting();
+  memory_.release();
+  const auto adopted = std::make_shared<std::vector<Adopted>>(std::move(adopted_));
+  run([path = path_, adopted, draft = SessionDraft(document_, look_.read())] {
+    try {
+      save_session(asPath(path), draft.finished({}), {});
+      unsaved_work::discardObjects(path);
+      discardAll(*adopted);
+    } catch (...) {
+      // The window is gone, so nothing can be reported. The previous files stay.
+    }
+    if (QFile::exists(path)) {
+      QFile::rename(path, unsaved_work::closedPath(path));
+      unsaved_work::discardOldest();
+    }
+  });
 }
 
 bool Autosave::setAside() {
@@ -94,11 +124,11 @@ bool Autosave::setAside() {
     return false;
   }
   const QString path = unsaved_work::closedPath(unsaved_work::newPath());
-  aside_ = std::jthread([path, draft = SessionDraft(document_, look_.read())] {
+  run([path, draft = SessionDraft(document_, look_.read())] {
     try {
       save_session(asPath(path), draft.finished({}), {});
       unsaved_work::discardOldest();
-    } catch (const std::exception&) {
+    } catch (...) {
       // The work can still be undone; automatic saving reports a full disk.
     }
   });
@@ -113,6 +143,26 @@ void Autosave::listen() {
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
   connect(&document_, &Document::frameReady, this, &Autosave::noticeChange);
   look_.follow(*this, [this] { noticeChange(); });
+  connect(&document_, &Document::meshChanged, this, &Autosave::holdMemory);
+  connect(&document_, &Document::panelsChanged, this, &Autosave::holdMemory);
+  if (const Application* application = Application::get()) {
+    connect(application, &Application::failed, this, &Autosave::saveSoon);
+  }
+}
+
+/// Holds the memory for the next writing, unless one is under way.
+void Autosave::holdMemory() {
+  if (!closed_ && !writing_ && !memory_.hold(memoryFor(document_))) {
+    reportFailure(
+        QStringLiteral("memory: little is left; save your work, then close other programs or use a smaller "
+                       "mesh"));
+  }
+}
+
+void Autosave::reportFailure(const QString& why) {
+  if (std::exchange(failure_, why) != why) {
+    emit failed(QStringLiteral("Automatic saving may fail. It tries again: %1").arg(why));
+  }
 }
 
 /// Writes the object into a file of its own, unless that file has it already.
@@ -137,7 +187,7 @@ void Autosave::noticeChange() {
     return;
   }
   changed_ = true;
-  if (!writing_ && !timer_.isActive() && !broken_) {
+  if (!writing_ && !timer_.isActive()) {
     timer_.start();
   }
 }
@@ -149,6 +199,13 @@ Autosave::Mark Autosave::mark() const {
     mark.changed.push_back(frame == nullptr || frame->changed.empty() ? 0 : *std::ranges::max_element(frame->changed));
   }
   return mark;
+}
+
+/// Writes at once, because something has failed that may fail again, and worse.
+void Autosave::saveSoon() {
+  if (!closed_ && !writing_ && document_.isModified()) {
+    timer_.start(0);
+  }
 }
 
 void Autosave::save() {
@@ -163,23 +220,35 @@ void Autosave::save() {
   saved_ = std::move(now);
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
+  memory_.release();
   writing_ = std::make_shared<Writing>();
-  thread_ = std::jthread(
-      [this, writing = writing_, path = path_, object = object_, draft = SessionDraft(document_, saved_.look)] {
-        try {
-          const Progress progress(writing->job);
-          Session session = draft.finished(progress);
-          writing->object = withObject(path, session, object, progress.part(0, 0.5));
-          const QString name = unsaved_work::objectName(path, writing->object.number);
-          session.mesh_file = name.toStdString();
-          save_session(asPath(path), session, progress.part(0.5, 1));
-          unsaved_work::discardObjects(path, name);
-        } catch (const std::exception& problem) {
-          writing->error = problem.what();
-        }
-        writing->done = true;
-        QMetaObject::invokeMethod(this, &Autosave::receive, Qt::QueuedConnection);
-      });
+  try {
+    run([this, writing = writing_, object = object_, draft = SessionDraft(document_, saved_.look)] {
+      write(*writing, object, draft);
+    });
+  } catch (...) {  // no memory for the draft
+    writing_->error = failure_sentence("unsaved work");
+    receive();
+  }
+}
+
+void Autosave::write(Writing& writing, const Object& object, const SessionDraft& draft) {
+  try {
+    const Progress progress(writing.job);
+    Session session = draft.finished(progress);
+    writing.object = withObject(path_, session, object, progress.part(0, 0.5));
+    const QString name = unsaved_work::objectName(path_, writing.object.number);
+    session.mesh_file = name.toStdString();
+    save_session(asPath(path_), session, progress.part(0.5, 1));
+    unsaved_work::discardObjects(path_, name);
+    writing.isWritten = true;
+  } catch (const Cancelled&) {
+    // The window closes, or the first panel has no positions at this moment.
+  } catch (...) {
+    writing.error = failure_sentence("unsaved work");
+  }
+  writing.done = true;
+  announce(this, &Autosave::receive);
 }
 
 void Autosave::receive() {
@@ -187,11 +256,16 @@ void Autosave::receive() {
     return;
   }
   const auto written = std::exchange(writing_, nullptr);
-  if (!written->error.empty()) {
-    broken_ = true;
-    emit failed(QStringLiteral("Automatic saving has stopped: %1").arg(QString::fromStdString(written->error)));
+  if (!written->isWritten) {
+    saved_ = {};
+    timer_.start(waitAfterFailure);
+    if (!written->error.empty()) {
+      reportFailure(QString::fromStdString(written->error));
+    }
+    memory_.hold(memoryFor(document_));
     return;
   }
+  failure_.clear();
   object_ = written->object;
   discardAll(adopted_);
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
@@ -199,6 +273,7 @@ void Autosave::receive() {
   if (changed_) {
     timer_.start();
   }
+  holdMemory();
 }
 
 void Autosave::adopt(const QString& path, std::unique_ptr<QLockFile> lock) {

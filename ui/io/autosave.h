@@ -7,11 +7,14 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <thread>
 
+#include "common/held_memory.h"
+#include "common/task_thread.h"
 #include "document/document.h"
 
 namespace chainmail {
+
+class SessionDraft;
 
 /// Reads and sets how the window shows its object: cameras, colours, docks. A session keeps it as JSON that only the
 /// window interprets.
@@ -27,6 +30,10 @@ struct LookAccess {
 /// of its own, which stays until another object is open. Each file is written completely or not at all. A lock shows
 /// whether the program still runs or has crashed. The files are removed once the user has saved the work. The window's
 /// look is part of the work, but a change of the look alone is not saved.
+///
+/// One thread writes, from the start to the end: when the system has no more threads, this one is there. The memory
+/// that a writing takes is held in between. If a writing fails nevertheless, it is tried again some seconds later, and
+/// earlier files stay. After each failure that the application reports, the work is written at once.
 class Autosave : public QObject {
   Q_OBJECT
 
@@ -47,7 +54,7 @@ class Autosave : public QObject {
   void adopt(const QString& path, std::unique_ptr<QLockFile> lock);
 
  signals:
-  /// Emitted when saving fails; `sentence` says why.
+  /// Emitted when saving fails; `sentence` says why. While it fails again for the same reason, there is no other.
   void failed(const QString& sentence);
 
  private:
@@ -75,14 +82,19 @@ class Autosave : public QObject {
   void listen();
   void noticeChange();
   void save();
+  void saveSoon();
   void receive();
+  void reportFailure(const QString& why);
   void remove();
-  void endWriting();
+  void cancelWriting();
+  void run(const TaskThread::Task& task);
+  void write(Writing& writing, const Object& object, const SessionDraft& draft);
+  void holdMemory();
   Mark mark() const;
 
   Document& document_;
   const LookAccess look_;
-  QString path_;
+  const QString path_;  // also read by the thread
   QLockFile lock_;
   QTimer timer_;
   std::uint64_t steps_ = 0;
@@ -90,12 +102,12 @@ class Autosave : public QObject {
   Object object_;
   std::vector<Adopted> adopted_;
   bool changed_ = false;  // true if the work changed during writing
-  bool broken_ = false;
-  bool closed_ = false;  // the window is closed: later changes are not saved
+  QString failure_;       // why the last writing failed; empty if it did not
+  bool closed_ = false;   // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
-  std::jthread thread_;
-  std::jthread aside_;  // writes work that was set aside
+  HeldMemory memory_;                 // for the next writing
+  TaskThread thread_;                 // last: ends before the members that its tasks use
 };
 
 }  // namespace chainmail

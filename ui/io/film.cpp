@@ -7,6 +7,7 @@
 #include <QWidget>
 
 #include "io/pictures.h"
+#include "mesh/failure.h"
 
 namespace chainmail {
 namespace {
@@ -24,7 +25,6 @@ QString pictureName(std::size_t number) {
 }  // namespace
 
 Film::Film(Document& document, QWidget& scene) : document_(document), scene_(scene) {
-  encoders_.setMaxThreadCount(1);
   wait_.setInterval(pollMilliseconds);
   connect(&wait_, &QTimer::timeout, this, &Film::takeNext);
   connect(&ffmpeg_, &QProcess::finished, this, [this] { endVideo(); });
@@ -63,7 +63,7 @@ void Film::begin(const QString& path) {
   }
   next_ = 0;
   size_ = {};
-  unwritten_ = false;
+  unwritten_ = stopped_ = false;
   before_ = tape.position();
   running_ = true;
   emit changed();
@@ -105,12 +105,25 @@ void Film::take() {
 
 void Film::savePicture(const QImage& picture) {
   ++waiting_;
-  encoders_.start([this, picture, path = folder_->filePath(pictureName(next_))] {
-    if (!picture.save(path)) {
+  try {
+    encoder_.add([this, picture, path = folder_->filePath(pictureName(next_))] {
+      encode(picture, path);
+      --waiting_;
+    });
+  } catch (...) {  // the system starts no thread
+    --waiting_;
+    fail(QString::fromStdString(failure_sentence(path_.toStdString())));
+  }
+}
+
+void Film::encode(const QImage& picture, const QString& path) {
+  try {
+    if (!stopped_ && !picture.save(path)) {
       unwritten_ = true;
     }
-    --waiting_;
-  });
+  } catch (...) {  // no memory
+    unwritten_ = true;
+  }
 }
 
 void Film::startVideo(QSize size) {
@@ -132,7 +145,7 @@ void Film::finish() {
   if (video_) {
     ffmpeg_.closeWriteChannel();  // ffmpeg ends after the last picture
   } else {
-    encoders_.waitForDone();
+    encoder_.finish();
     finishPictures();
   }
 }
@@ -174,9 +187,8 @@ void Film::endVideo() {
 void Film::stopWriters() {
   ffmpeg_.kill();
   ffmpeg_.waitForFinished();
-  encoders_.clear();
-  encoders_.waitForDone();
-  waiting_ = 0;
+  stopped_ = true;
+  encoder_.finish();
 }
 
 void Film::cancel() {

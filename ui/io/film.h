@@ -4,12 +4,12 @@
 #include <QObject>
 #include <QProcess>
 #include <QTemporaryDir>
-#include <QThreadPool>
 #include <QTimer>
 #include <atomic>
 #include <memory>
 #include <vector>
 
+#include "common/task_thread.h"
 #include "document/document.h"
 
 namespace chainmail {
@@ -43,6 +43,7 @@ class Film : public QObject {
   void takeNext();
   void take();
   void savePicture(const QImage& picture);
+  void encode(const QImage& picture, const QString& path);
   void startVideo(QSize size);
   void sendPicture(const QImage& picture);
   void finish();
@@ -63,10 +64,11 @@ class Film : public QObject {
   QSize size_;
   std::size_t before_ = 0;                 // position in the recorded commands before the film
   std::unique_ptr<QTemporaryDir> folder_;  // for the unfinished film
-  QThreadPool encoders_;
-  std::atomic<int> waiting_ = 0;         // pictures not encoded yet
-  std::atomic<bool> unwritten_ = false;  // true if a picture could not be written
+  std::atomic<int> waiting_ = 0;           // pictures not encoded yet
+  std::atomic<bool> unwritten_ = false;    // true if a picture could not be written
+  std::atomic<bool> stopped_ = false;      // true if pictures that wait must not be encoded
   QProcess ffmpeg_;
+  TaskThread encoder_;  // last: ends before the members that its tasks use
 };
 
 }  // namespace chainmail

@@ -62,6 +62,8 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   followPanels();
   connect(&links_, &PanelLinks::camerasLinked, this, &PanelArea::linkCameras);
   connect(&levels_->maker(), &SurfaceMaker::made, this, &PanelArea::refresh);
+  // Queued, because it may come in the middle of painting.
+  connect(&levels_->maker(), &SurfaceMaker::failed, this, &PanelArea::failed, Qt::QueuedConnection);
   connect(&document, &Document::cutsChanged, this,
           [this](const std::vector<LinkId>& links, bool cut) { levels_->showCuts(links, cut); });
   connect(&document, &Document::meshChanged, this, [this] {

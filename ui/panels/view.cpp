@@ -14,10 +14,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/application.h"
 #include "document/panel_colour.h"
 #include "drawing/front_links.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
+#include "mesh/failure.h"
 #include "mesh/split_along.h"
 #include "mesh/surface.h"
 #include "panels/orientation_cube.h"
@@ -362,7 +364,8 @@ std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
   if (crossed.empty() || !camera_->spatial()) {
     return crossed;
   }
-  if (frame->mesh->triangles.empty() && levels_->surface(frame->mesh, document_.cuts()).table().empty()) {
+  const Surface* surface = levels_->surfaceIfAny(frame->mesh, document_.cuts());
+  if (frame->mesh->triangles.empty() && (surface == nullptr || surface->table().empty())) {
     return nearestLinks(*frame, boxes(*frame), projection(), stroke, crossed);
   }
   const auto faces = frontFaces(*frame, QRectF(stroke.p1(), stroke.p2()).normalized());
@@ -372,7 +375,9 @@ std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
 /// Returns the faces that may hide links in a part of the view.
 std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
   auto faces = wholeFaces(frame, boxes(frame), document_.cuts(), projection(), part);
-  appendFaces(levels_->surface(frame.mesh, document_.cuts()), faces);
+  if (const Surface* surface = levels_->surfaceIfAny(frame.mesh, document_.cuts())) {
+    appendFaces(*surface, faces);
+  }
   if (const auto isShown = shown()) {
     std::erase_if(faces, [&](const Face& face) { return std::ranges::none_of(face, isShown); });
   }
@@ -551,8 +556,8 @@ void View::initializeGL() {
     painter_.initialize();
     selectionOutdated_ = true;
     painterReady_ = true;
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
+  } catch (...) {
+    emit failed(QString::fromStdString(failure_sentence("view")));
   }
 }
 
@@ -573,7 +578,12 @@ ObjectPainter& View::ghostPainter() {
   return *ghostPainter_;
 }
 
+/// An exception must not leave this function: QOpenGLWidget would believe that it is still painting.
 void View::paintGL() {
+  Application::guarded([this] { paint(); });
+}
+
+void View::paint() {
   if (fitPending_) {
     fitRest();  // there was no resize since the view became visible
   }

@@ -174,6 +174,7 @@ class View : public QOpenGLWidget {
   ObjectPainter& ghostPainter();
   void freeGhostPainter();
   ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground, DetailBudget::Detail detail) const;
+  void paint();
   void paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail);
   void draw(const Easel& on);
   void takeFrames(const Easel& on);

@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/application.h"
 #include "common/icons.h"
 #include "io/file_actions.h"
 #include "io/mesh_repair.h"
@@ -152,6 +153,9 @@ void MainWindow::arrange() {
 void MainWindow::listen() {
   connect(&document_, &Document::refused, messages_, &MessageBar::warn);
   connect(&document_, &Document::noticed, messages_, &MessageBar::note);
+  if (const Application* application = Application::get()) {
+    connect(application, &Application::failed, messages_, &MessageBar::say);
+  }
   area_->addOverlay(propagationOverlay_);
   area_->addOverlay(regions_);
   area_->addOverlay(measurement_);

@@ -1,35 +1,34 @@
 #include "docks/report/report_thread.h"
 
-#include <exception>
+#include <new>
 
+#include "common/announce.h"
+#include "mesh/failure.h"
 #include "report/run/drags.h"
 
 namespace chainmail {
 
-ReportThread::~ReportThread() {
-  thread_.request_stop();
-  if (thread_.joinable()) {
-    thread_.join();
-  }
-}
+ReportThread::~ReportThread() { stop_.request_stop(); }
 
 void ReportThread::start(Order order) {
   cancel();
-  running_ = true;
+  stop_ = std::stop_source();
   ++atWork_;
-  thread_ =
-      std::jthread([this, order = std::move(order), before = std::move(thread_)](const std::stop_token& stop) mutable {
-        // Two runs at once would disturb each other's times. The thread waits, not the window.
-        if (before.joinable()) {
-          before.join();
-        }
-        run(order, stop);
-        atWork_.fetch_sub(1, std::memory_order_release);
-      });
+  try {
+    // Two runs at once would disturb each other's times. The thread waits for the one before, not the window.
+    thread_.add([this, order = std::make_shared<Order>(std::move(order)), stop = stop_.get_token()] {
+      run(*order, stop);
+      atWork_.fetch_sub(1, std::memory_order_release);
+    });
+    running_ = true;
+  } catch (...) {
+    --atWork_;
+    emit failed(QString::fromStdString(failure_sentence("report")));
+  }
 }
 
 void ReportThread::cancel() {
-  thread_.request_stop();
+  stop_.request_stop();
   running_ = false;
   const std::scoped_lock lock(mutex_);
   news_ = {};  // drops messages from before the request; the thread posts no more
@@ -46,8 +45,8 @@ void ReportThread::run(Order& order, const std::stop_token& stop) {
     post({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, stop);
   } catch (const std::bad_alloc&) {
     post({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, stop);
-  } catch (const std::exception& error) {
-    post({0, {}, {}, error.what()}, stop);
+  } catch (...) {
+    post({0, {}, {}, failure_sentence(order.object.name)}, stop);
   }
 }
 
@@ -59,7 +58,7 @@ void ReportThread::post(News news, const std::stop_token& stop) {
   }
   news_ = std::move(news);
   if (!announced_.exchange(true)) {
-    QMetaObject::invokeMethod(this, &ReportThread::receive, Qt::QueuedConnection);
+    announce(this, &ReportThread::receive);
   }
 }
 

@@ -4,9 +4,10 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
-#include <thread>
 
+#include "common/task_thread.h"
 #include "report/run/compare.h"
 
 namespace chainmail {
@@ -30,7 +31,7 @@ class ReportThread : public QObject {
   explicit ReportThread(QObject* parent) : QObject(parent) {}
   ~ReportThread() override;
 
-  /// Starts a run. Cancels the current run first, if there is one.
+  /// Starts a run. Cancels the current run first, if there is one. Emits failed() if the system starts no thread.
   void start(Order order);
   void cancel();
   bool running() const { return running_; }
@@ -62,7 +63,8 @@ class ReportThread : public QObject {
   std::mutex mutex_;                     // guards news_
   News news_;
 
-  std::jthread thread_;  // last, so that the thread ends before the members that it writes to
+  std::stop_source stop_;  // of the newest run
+  TaskThread thread_;      // last, so that the thread ends before the members that it writes to
 };
 
 }  // namespace chainmail

@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "common/announce.h"
 #include "common/panel_names.h"
 #include "common/text.h"
 
@@ -20,11 +21,7 @@ SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const Softnes
     : contestant_(contestant),
       view_(new SizeTestView(std::move(levels), contestant.colour)),
       state_(new QLabel),
-      solver_(mesh, contestant.algorithm, [this] {
-        if (!announced_.exchange(true)) {
-          QMetaObject::invokeMethod(this, &SizeTestPanel::receive, Qt::QueuedConnection);
-        }
-      }) {
+      solver_(mesh, contestant.algorithm, [this] { announceOnce(announced_, this, &SizeTestPanel::receive); }) {
   solver_.post(commands::SetSoftness{softness});
   state_->setObjectName(QStringLiteral("sizeTestState%1").arg(contestant.panel));
   view_->setObjectName(QStringLiteral("sizeTestView%1").arg(contestant.panel));

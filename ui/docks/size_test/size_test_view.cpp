@@ -3,7 +3,8 @@
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 
-#include "mesh/error.h"
+#include "common/application.h"
+#include "mesh/failure.h"
 
 namespace chainmail {
 namespace {
@@ -66,8 +67,8 @@ void SizeTestView::initializeGL() {
   try {
     painter_.initialize();
     ready_ = true;
-  } catch (const Error& error) {
-    emit failed(QString::fromStdString(error.what()));
+  } catch (...) {
+    emit failed(QString::fromStdString(failure_sentence("view")));
   }
 }
 
@@ -81,7 +82,12 @@ ObjectPainter::Scene SizeTestView::scene() const {
   return scene;
 }
 
+/// An exception must not leave this function: QOpenGLWidget would believe that it is still painting.
 void SizeTestView::paintGL() {
+  Application::guarded([this] { paint(); });
+}
+
+void SizeTestView::paint() {
   auto* gl = context()->functions();
   const QColor ground = colours::background;
   gl->glClearColor(ground.redF(), ground.greenF(), ground.blueF(), 1);

@@ -33,6 +33,7 @@ class SizeTestView : public QOpenGLWidget {
 
  private:
   void fit();
+  void paint();
   ObjectPainter::Scene scene() const;
 
   colours::Colour colour_;
