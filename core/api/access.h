@@ -32,7 +32,7 @@ struct Mesh::Inside {
 
 struct Snapshot::Inside {
   inner::Snapshot snapshot;
-  MeshPointer mesh;
+  Mesh mesh;
   inner::Precision precision;
 };
 
@@ -62,13 +62,15 @@ struct Body::Inside {
 
 struct Handle::Inside {
   inner::Handle handle;
-  MeshPointer mesh;
+  Mesh mesh;
 };
 
 struct ReferenceSolution::Inside {
   MeshPointer mesh;
   inner::ReferenceSolution reference;
 };
+
+struct DeformerState;
 
 /// Leads from the types of the interface to what is behind them.
 struct Access {
@@ -81,6 +83,13 @@ struct Access {
   static const Body::Inside& inside(const Body& body) { return *body.inside_; }
   static const inner::Body& body(const Body& body) { return body.inside_->solver->body(); }
   static Handle::Inside& inside(Handle& handle) { return *handle.inside_; }
+  static const Handle::Inside& inside(const Handle& handle) { return *handle.inside_; }
+  static Handle handle(inner::Handle handle, Mesh mesh) {
+    return Handle(std::make_unique<Handle::Inside>(Handle::Inside{std::move(handle), std::move(mesh)}));
+  }
+  // Defined with Deformer, see api/state.h.
+  static DeformerState hand_over(Deformer& deformer);
+  static void take_over(Deformer& deformer, const DeformerState& state);
   static const ReferenceSolution::Inside& inside(const ReferenceSolution& one) { return *one.inside_; }
   static const Snapshot::Inside& inside(const Snapshot& one) { return *one.inside_; }
   /// Makes a type of the interface that shares what is behind it.

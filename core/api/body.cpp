@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/access.h"
+#include "api/state.h"
 #include "mesh/parameters.h"
 
 namespace chainmail::api {
@@ -27,34 +28,6 @@ static_assert(Elasticity().young == parameters::young.standard &&
               Elasticity().iterations == parameters::iterations.standard);
 
 namespace {
-
-ElementBlocks every_block(const inner::Mesh& mesh) {
-  ElementBlocks all(mesh.element_count());
-  all.insert_all();
-  return all;
-}
-
-inner::Snapshot snapshot_of(const inner::Body& body) {
-  return body.is_at_rest() ? body.snapshot(ElementBlocks(body.mesh().element_count()))
-                           : body.snapshot(every_block(body.mesh()));
-}
-
-std::unique_ptr<Solver> copy_of(Solver& solver) {
-  inner::Body& from = solver.body();
-  auto copy = make_solver(from.mesh_pointer(), Algorithm::natural_queue, from.precision());
-  inner::Body& body = copy->body();
-  body.work_in_frame(from.works_in_frame());
-  body.store_displacements(from.stores_displacements());
-  body.set_softness(from.shared_softness());
-  body.set_elastic(from.elastic());
-  body.cut(from.cuts().links());
-  body.pin(from.pins());
-  if (!from.is_at_rest()) {
-    body.restore(snapshot_of(from), every_block(from.mesh()));
-    body.reach() = from.reach();
-  }
-  return copy;
-}
 
 std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> links) {
   check_link_ids(mesh, links);
@@ -80,9 +53,7 @@ Body::Body(const Mesh& mesh, Precision precision) {
   }
 }
 
-Body::Body(const Body& other)
-    : inside_(std::make_unique<Inside>(Inside{other.inside_->mesh, copy_of(*other.inside_->solver),
-                                              other.inside_->handle, other.inside_->is_held})) {}
+Body::Body(const Body& other) : Body(body_of(other.mesh(), state_of(other))) {}
 Body::Body(Body&& other) noexcept = default;
 Body& Body::operator=(const Body& other) {
   Body copy(other);
@@ -134,13 +105,13 @@ void Body::reset() {
 
 Snapshot Body::snapshot() const {
   const inner::Body& body = inside_->body();
-  return Access::make<Snapshot>(snapshot_of(body), body.mesh_pointer(), body.precision());
+  return Access::make<Snapshot>(snapshot_of(body), inside_->mesh, body.precision());
 }
 
 void Body::restore(const Snapshot& snapshot) {
   inner::Body& body = inside_->body();
   const auto& [positions, mesh, precision] = Access::inside(snapshot);
-  if (mesh != body.mesh_pointer() || precision != body.precision()) {
+  if (!(mesh == inside_->mesh) || precision != body.precision()) {
     throw Error("snapshot", "it is of another mesh or precision", "restore it into a body of the same mesh");
   }
   body.restore(positions, every_block(body.mesh()));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/access.h"
+#include "api/state.h"
 #include "mesh/parameters.h"
 
 namespace chainmail::api {
@@ -101,7 +102,7 @@ MoveResult Deformer::move(Handle& handle, const Pose& target) {
   auto& body = Access::inside(inside_->body);
   const inner::Mesh& mesh = body.body().mesh();
   auto& held = Access::inside(handle);
-  if (held.mesh != body.body().mesh_pointer()) {
+  if (!(held.mesh == body.mesh)) {
     throw Error("handle", "it is of another mesh", "grab elements of this object");
   }
   check_coordinates(mesh, "pivot", target.pivot, false);
@@ -170,6 +171,22 @@ EquilibriumCertificate Deformer::certificate() {
     const auto found = inside_->solver().certificate().value_or(inner::EquilibriumCertificate{});
     return EquilibriumCertificate{found.violation, found.residual, found.gap, found.binds, found.iterations};
   });
+}
+
+DeformerState Access::hand_over(Deformer& deformer) {
+  const auto& inside = *deformer.inside_;
+  const AlgorithmInfo& entry = info(inside.algorithm);
+  if (entry.is_added()) {
+    throw Error("method '" + std::string(entry.name) + "'", "a program has registered it, so nothing knows its state",
+                "set another method first, or keep what it needs yourself");
+  }
+  return {deformer.method(), inside.is_tracing, inside.trace, deformer.inside_->solver().hand_over()};
+}
+
+void Access::take_over(Deformer& deformer, const DeformerState& state) {
+  guarded([&] { deformer.inside_->solver().take_over(state.memory); });
+  deformer.inside_->is_tracing = state.is_tracing;
+  deformer.inside_->trace = state.trace;
 }
 
 void Deformer::set_job(const Job& job) { inside_->job = job; }

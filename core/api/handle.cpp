@@ -1,6 +1,7 @@
 #include "chainmail/handle.h"
 
 #include <numbers>
+#include <utility>
 
 #include "api/access.h"
 
@@ -20,9 +21,10 @@ Pose pose_of(const inner::Pose& pose) {
 Handle::Handle(const Body& body, const std::vector<ElementId>& elements)
     : inside_(guarded([&] {
         const inner::Body& inside = Access::body(body);
-        return std::make_unique<Inside>(Inside{inner::Handle(inside, elements), inside.mesh_pointer()});
+        return std::make_unique<Inside>(Inside{inner::Handle(inside, elements), body.mesh()});
       })) {}
 
+Handle::Handle(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
 Handle::Handle(const Handle& other) : inside_(std::make_unique<Inside>(*other.inside_)) {}
 Handle::Handle(Handle&& other) noexcept = default;
 Handle& Handle::operator=(const Handle& other) {

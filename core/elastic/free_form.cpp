@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "elastic/bernstein.h"
 #include "elastic/methods.h"
@@ -71,6 +72,20 @@ class FreeForm final : public ElasticSolver {
     displacements_.assign(displacements.begin(), displacements.end());
     const bool at_rest = std::ranges::all_of(displacements_, [](double one) { return one == 0; });
     controls_ = at_rest ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(volume_.count(), dimension_)) : fitted();
+    place_controls();
+    begin();
+  }
+
+  /// The displacements of the elements and of the control points.
+  std::vector<double> memory() const override {
+    std::vector<double> memory = displacements_;
+    memory.insert(memory.end(), controls_.data(), controls_.data() + controls_.size());
+    return memory;
+  }
+  void recall(std::span<const double> memory) override {
+    check_memory(memory, displacements_.size() + std::size_t(controls_.size()));
+    std::copy_n(memory.begin(), displacements_.size(), displacements_.begin());
+    std::ranges::copy(memory.subspan(displacements_.size()), controls_.data());
     place_controls();
     begin();
   }

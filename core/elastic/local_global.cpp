@@ -1,6 +1,7 @@
 #include "elastic/local_global.h"
 
 #include <cmath>
+#include <span>
 
 #include "elastic/anderson.h"
 #include "elastic/cholesky.h"
@@ -182,6 +183,20 @@ class LocalGlobal final : public IteratedSolver {
     }
     scatter(end, displacements);
     return not_converged(iterations_, step.lpNorm<Eigen::Infinity>() / length_);
+  }
+
+  /// The rotations from which the next ones are found.
+  std::vector<double> kept(const std::vector<double>& /*displacements*/) const override {
+    std::vector<double> kept;
+    for (const Square& rotation : rotations_) {
+      kept.insert(kept.end(), rotation.data(), rotation.data() + rotation.size());
+    }
+    return kept;
+  }
+  void keep(std::span<const double> kept, const std::vector<double>& /*displacements*/) override {
+    for (std::size_t g = 0; g < rotations_.size(); ++g) {
+      rotations_[g] = Eigen::Map<const Square>(kept.data() + g * std::size_t(N * N));
+    }
   }
 
   const char* name_;

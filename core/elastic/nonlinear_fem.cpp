@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "elastic/corotated.h"
 #include "elastic/elimination.h"
@@ -77,6 +78,12 @@ class NonlinearFem final : public ElasticSolver {
 
   void reset() override {
     displacements_ = base_;
+    remark_.clear();
+  }
+  std::vector<double> memory() const override { return displacements_; }
+  void recall(std::span<const double> memory) override {
+    check_memory(memory, displacements_.size());
+    displacements_.assign(memory.begin(), memory.end());
     remark_.clear();
   }
   const std::vector<double>& displacements() const override { return displacements_; }

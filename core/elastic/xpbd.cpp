@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "elastic/cell_edges.h"
 #include "elastic/corotated.h"
@@ -270,13 +271,41 @@ class Xpbd final : public IteratedSolver {
 
   /// Halves the square of the time step, by which compliances are divided.
   void halve_step() {
+    multiply_compliances(2);
+    forget_forces();
+  }
+  void multiply_compliances(double by) {
+    all_compliances_ *= by;
     for (Distance& one : distances_) {
-      one.compliance *= 2;
+      one.compliance *= by;
     }
     for (Volume& one : volumes_) {
-      one.compliance *= 2;
+      one.compliance *= by;
     }
-    forget_forces();
+  }
+
+  /// The compliances, as a power of 2 of those at the beginning, and the multipliers.
+  std::vector<double> kept(const std::vector<double>& displacements) const override {
+    const double knows = is_where_it_was(displacements) ? 1 : 0;
+    std::vector<double> kept{all_compliances_};
+    for (const Distance& one : distances_) {
+      kept.push_back(knows * one.multiplier);
+    }
+    for (const Volume& one : volumes_) {
+      kept.push_back(knows * one.multiplier);
+    }
+    return kept;
+  }
+  void keep(std::span<const double> kept, const std::vector<double>& displacements) override {
+    multiply_compliances(std::max(1.0, kept[0]) / all_compliances_);
+    auto next = kept.begin() + 1;
+    for (Distance& one : distances_) {
+      one.multiplier = *next++;
+    }
+    for (Volume& one : volumes_) {
+      one.multiplier = *next++;
+    }
+    last_ = displacements;
   }
 
   /// True if the multipliers are those of these displacements. Those of prescribed elements may differ.
@@ -303,6 +332,7 @@ class Xpbd final : public IteratedSolver {
   std::vector<double> mobility_;  // inverse mass of each element: 1, or 0 if its displacement is prescribed
   std::vector<Distance> distances_;
   std::vector<Volume> volumes_;
+  double all_compliances_ = 1;                     // over those at the beginning: a power of 2
   double length_ = 1;                              // mean of the edges, the unit of moves (mesh units)
   std::vector<double> last_, predicted_, before_;  // iterates
 };

@@ -115,10 +115,37 @@ PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, 
   return take_answer(body, {}, output.moved);
 }
 
-void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
+ElasticDeformation::Conditions ElasticDeformation::conditions_of(const Body& body) {
   const Revisions& now = body.revisions();
-  const Conditions conditions{now.cuts, now.pins, now.elastic};
-  const std::uint64_t positions = now.positions + now.relaxed;
+  return {now.cuts, now.pins, now.elastic};
+}
+
+std::uint64_t ElasticDeformation::positions_of(const Body& body) {
+  return body.revisions().positions + body.revisions().relaxed;
+}
+
+/// A solver that would begin anew at the next move is dropped: the one of the copy is new, too.
+std::vector<double> ElasticDeformation::hand_over(const Body& body) {
+  held_ = {};
+  if (!solver_ || conditions_of(body) != made_for_ || positions_of(body) != positions_) {
+    const bool waits = !solver_ && conditions_of(body) == made_for_ && positions_of(body) == positions_;
+    solver_.reset();
+    return waits ? memory_ : std::vector<double>();
+  }
+  std::vector<double> memory = solver_->memory();
+  solver_->recall(memory);
+  return memory;
+}
+
+void ElasticDeformation::take_over(const Body& body, std::vector<double> memory) {
+  memory_ = std::move(memory);
+  made_for_ = conditions_of(body);
+  positions_ = positions_of(body);
+}
+
+void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
+  const Conditions conditions = conditions_of(body);
+  const std::uint64_t positions = positions_of(body);
   const bool knows_positions = solver_ && positions_ == positions;
   if (solver_ && conditions == made_for_ && (knows_positions || pin_displacements(body) == pinned_)) {
     if (!knows_positions) {
@@ -135,9 +162,11 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
       progress);
+  const bool remembers = !memory_.empty() && made_for_ == conditions && positions_ == positions;
   made_for_ = conditions;
   positions_ = positions;
-  take_positions(body);
+  const std::vector<double> memory = std::exchange(memory_, {});
+  remembers ? solver_->recall(memory) : take_positions(body);
 }
 
 void ElasticDeformation::take_positions(const Body& body) {

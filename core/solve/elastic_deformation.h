@@ -18,6 +18,8 @@ class ElasticDeformation final : public Method {
   std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
   std::span<const double> control_points(Body& body, const Progress& progress) override;
   PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
+  std::vector<double> hand_over(const Body& body) override;
+  void take_over(const Body& body, std::vector<double> memory) override;
 
  private:
   /// What a preparation is valid for.
@@ -26,6 +28,8 @@ class ElasticDeformation final : public Method {
     bool operator==(const Conditions&) const = default;
   };
 
+  static Conditions conditions_of(const Body& body);
+  static std::uint64_t positions_of(const Body& body);
   void prepare(const Body& body, const Progress& progress);
   void take_positions(const Body& body);
   void move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress);
@@ -37,6 +41,7 @@ class ElasticDeformation final : public Method {
   Conditions made_for_;
   std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
   std::vector<double> pinned_;   // displacements of the pins that it was made for
+  std::vector<double> memory_;   // that the solver needs when it is made, if the body is then as it was
 
   /// What the solver holds.
   struct Grab {

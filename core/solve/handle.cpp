@@ -25,15 +25,23 @@ Eigen::Quaterniond quaternion_of(const Point& rotation) {
 
 std::string name_of(ElementId element) { return "element " + std::to_string(element); }
 
-void check_handle(const Body& body, std::span<const ElementId> ascending) {
+void check_elements(const Mesh& mesh, std::span<const ElementId> ascending) {
   if (ascending.empty()) {
     throw Error("handle", "it has no elements", "grab at least one element");
   }
-  std::ranges::for_each(ascending, [&](ElementId one) { check_element(body.mesh(), one); });
+  std::ranges::for_each(ascending, [&](ElementId one) { check_element(mesh, one); });
   if (const auto twice = std::ranges::adjacent_find(ascending); twice != ascending.end()) {
     throw Error(name_of(*twice), "it is grabbed twice", "name each element of the handle once");
   }
-  check_free(body, ascending);
+}
+
+void check_state(const HandleState& state) {
+  const auto is_within = [](const Point& point) { return (point.array().abs() <= coordinate_limit).all(); };
+  if (!std::ranges::is_sorted(state.elements) || state.positions.size() != state.elements.size() ||
+      !std::ranges::all_of(state.positions, is_within) || !is_within(state.pose.pivot) ||
+      !is_within(state.pose.rotation)) {
+    throw Error("handle", "its state is damaged", "grab its elements again");
+  }
 }
 
 }  // namespace
@@ -111,14 +119,27 @@ void check_free(const Body& body, std::span<const ElementId> elements) {
 
 Handle::Handle(const Body& body, std::vector<ElementId> elements) : elements_(std::move(elements)) {
   std::ranges::sort(elements_);
-  check_handle(body, elements_);
+  check_elements(body.mesh(), elements_);
+  check_free(body, elements_);
   const PositionView positions = body.positions();
-  pivot_ = Point::Zero();
   for (const ElementId element : elements_) {
     positions_.push_back(point_of(body.mesh(), positions, element));
-    pivot_ += positions_.back() / double(elements_.size());
   }
+  begin();
   pose_ = grabbed();
+}
+
+Handle::Handle(const Mesh& mesh, HandleState state)
+    : elements_(std::move(state.elements)), positions_(std::move(state.positions)), pose_(state.pose) {
+  check_state({elements_, positions_, pose_});
+  check_elements(mesh, elements_);
+  begin();
+}
+
+void Handle::begin() {
+  for (const Point& position : positions_) {
+    pivot_ += position / double(elements_.size());
+  }
   grab_ = has_one() ? 0 : new_grab();
 }
 

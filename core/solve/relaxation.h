@@ -68,6 +68,17 @@ class ActiveSet {
     last_ = 0;
   }
 
+  /// Returns the elements, ascending. They stay in the set.
+  std::vector<ElementId> elements() const {
+    std::vector<ElementId> result;
+    for (std::size_t at = first_; at <= last_ && at < words_.size(); ++at) {
+      for (std::uint64_t word = words_[at]; word != 0; word &= word - 1) {
+        result.push_back(static_cast<ElementId>(64 * at + std::size_t(std::countr_zero(word))));
+      }
+    }
+    return result;
+  }
+
  private:
   std::vector<std::uint64_t> words_;  // one bit per element
   // All words outside this range are 0.
@@ -110,6 +121,19 @@ class Relaxation {
   void wake_all(const Body& body);
   /// Makes all elements inactive.
   void sleep();
+
+  /// What a relaxation has still to visit.
+  struct Pending {
+    std::vector<ElementId> now;   // in this sweep
+    std::vector<ElementId> next;  // in the next one
+    bool in_sweep = false;
+    double largest_step = 0;  // of this sweep (mesh units)
+  };
+  /// Returns what a relaxation of a copy of the body needs in order to continue as this one does, bit for bit. Forgets
+  /// the rotations, from which the next ones would be found in other last bits.
+  Pending hand_over(const Body& body);
+  /// Continues as the relaxation that handed this over. All elements exist in the body.
+  void take_over(const Body& body, const Pending& pending);
 
   /// Continues the current sweep, or begins one, with a step in (0, 1], until it ends or `budget` elements were
   /// visited. Elements of `held` (ascending) and pinned elements stay. If nothing is active, `visited` is 0 and the

@@ -1,5 +1,7 @@
 #include "solve/thread_team.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -17,6 +19,8 @@ namespace {
 
 /// Number of threads that run a pass, or help in one.
 std::atomic<int> busy{0};
+/// Number of passes that this thread runs.
+thread_local int passes_here = 0;
 
 /// Waits for an event that another thread brings about soon: a part takes some microseconds.
 class ShortWait {
@@ -43,8 +47,14 @@ int core_count() {
   return count;
 }
 
-RunningPass::RunningPass() { ++busy; }
-RunningPass::~RunningPass() { --busy; }
+RunningPass::RunningPass() {
+  ++busy;
+  ++passes_here;
+}
+RunningPass::~RunningPass() {
+  --busy;
+  --passes_here;
+}
 
 struct ThreadTeam::Shared {
   /// The state of the work in one number, so that a helper that comes late cannot take a part of other work: number of
@@ -95,11 +105,27 @@ struct ThreadTeam::Shared {
 namespace {
 
 /// The helpers of the process. They are started when a team first needs them, and sleep while none does.
+///
+/// A fork copies only the thread that calls it. The new process has no helpers, nobody may wait for those that it seems
+/// to have, and one of them may have held their mutex. So it leaves them alone and starts its own.
 class Helpers {
  public:
   static Helpers& all() {
-    static Helpers helpers;
-    return helpers;
+    Helpers* helpers = present.load(std::memory_order_acquire);
+    if (helpers == nullptr) {
+      auto made = std::make_unique<Helpers>();
+      helpers = present.compare_exchange_strong(helpers, made.get()) ? made.release() : helpers;
+    }
+    return *helpers;
+  }
+
+  /// Ends the helpers, at the end of the process.
+  static void end() { delete present.exchange(nullptr); }
+
+  /// Call this in a process that a fork has made.
+  static void begin_in_fork() {
+    left_alone = present.exchange(nullptr);
+    busy = passes_here;
   }
 
   /// Sends helpers to a team: those that are free, but at most `most`.
@@ -171,10 +197,23 @@ class Helpers {
     std::exchange(helper.team, nullptr)->helpers.fetch_sub(1, std::memory_order_release);  // the team may be gone now
   }
 
+  inline static std::atomic<Helpers*> present = nullptr;     // made when they are first needed
+  inline static std::atomic<Helpers*> left_alone = nullptr;  // of the process before the fork
+
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Helper> helpers_;  // last: its threads end before the members that they use
 };
+
+/// Exists as long as the process.
+struct HelpersOfProcess {
+  HelpersOfProcess() { pthread_atfork(nullptr, nullptr, &Helpers::begin_in_fork); }
+  HelpersOfProcess(const HelpersOfProcess&) = delete;
+  HelpersOfProcess& operator=(const HelpersOfProcess&) = delete;
+  ~HelpersOfProcess() { Helpers::end(); }
+};
+
+const HelpersOfProcess helpers_of_process;
 
 }  // namespace
 

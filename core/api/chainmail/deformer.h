@@ -118,6 +118,7 @@ class Deformer {
   MoveResult move_control_point(std::uint32_t point, const Vector3& target);
 
  private:
+  friend struct Access;
   struct Inside;
   std::unique_ptr<Inside> inside_;
 };

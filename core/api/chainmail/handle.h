@@ -60,6 +60,7 @@ class Handle {
  private:
   friend struct Access;
   struct Inside;
+  explicit Handle(std::unique_ptr<Inside> inside);
   std::unique_ptr<Inside> inside_;
 };
 
