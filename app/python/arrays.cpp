@@ -21,14 +21,17 @@ std::string shape_in_words(const py::array& array) {
   return words + (array.ndim() == 1 ? ",)" : ")");
 }
 
-/// Returns numbers as an array. Lists whose rows differ in length become arrays of objects.
+/// Returns numbers as an array. Lists whose rows differ in length become arrays of objects. What else NumPy raises,
+/// such as MemoryError, is thrown.
 py::array array_from(py::handle values, const std::string& name) {
-  py::array array = py::array::ensure(values);
-  if (!array) {
-    PyErr_Clear();
-    throw Error(name, "it is not an array of numbers", "give a NumPy array or nested lists of equal length");
+  try {
+    return py::array(py::reinterpret_borrow<py::object>(values));
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
+      throw;
+    }
   }
-  return array;
+  throw Error(name, "it is not an array of numbers", "give a NumPy array or nested lists of equal length");
 }
 
 std::string type_in_words(const py::array& array) { return py::str(py::object(array.dtype())); }
@@ -36,18 +39,22 @@ std::string type_in_words(const py::array& array) { return py::str(py::object(ar
 bool is_whole(const py::array& array) { return array.dtype().kind() == 'i' || array.dtype().kind() == 'u'; }
 bool is_number(const py::array& array) { return array.dtype().kind() == 'f' || is_whole(array); }
 
-py::array_t<std::int64_t> whole_numbers(const py::array& array, const std::string& name) {
+/// An array whose numbers lie one after the other. Its constructor converts, and throws what NumPy raises.
+template <class Number>
+using Flat = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+
+Flat<std::int64_t> whole_numbers(const py::array& array, const std::string& name) {
   if (array.size() > 0 && !is_whole(array)) {
     throw Error(name, "the numbers are of type " + type_in_words(array), "give whole numbers, such as dtype uint32");
   }
-  return py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
+  return Flat<std::int64_t>(array);
 }
 
-py::array_t<double> real_numbers(const py::array& array, const std::string& name) {
+Flat<double> real_numbers(const py::array& array, const std::string& name) {
   if (array.size() > 0 && !is_number(array)) {
     throw Error(name, "the numbers are of type " + type_in_words(array), "give real numbers, such as dtype float64");
   }
-  return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  return Flat<double>(array);
 }
 
 std::uint32_t checked_id(std::int64_t id, const char* what) {
@@ -58,7 +65,7 @@ std::uint32_t checked_id(std::int64_t id, const char* what) {
   return static_cast<std::uint32_t>(id);
 }
 
-std::vector<std::uint32_t> checked_ids(const py::array_t<std::int64_t>& numbers, const char* what) {
+std::vector<std::uint32_t> checked_ids(const Flat<std::int64_t>& numbers, const char* what) {
   std::vector<std::uint32_t> ids(std::size_t(numbers.size()));
   std::transform(numbers.data(), numbers.data() + numbers.size(), ids.begin(),
                  [what](std::int64_t id) { return checked_id(id, what); });
@@ -66,7 +73,7 @@ std::vector<std::uint32_t> checked_ids(const py::array_t<std::int64_t>& numbers,
 }
 
 /// Returns x, y and z for each row. Fewer than three columns are `axes`, and the other coordinates are `origin`.
-std::vector<double> spread_out(const py::array_t<double>& numbers, const std::array<int, 3>& axes,
+std::vector<double> spread_out(const Flat<double>& numbers, const std::array<int, 3>& axes,
                                const std::array<double, 3>& origin) {
   const auto rows = std::size_t(numbers.shape(0));
   const auto columns = std::size_t(numbers.shape(1));
@@ -180,7 +187,7 @@ std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values)
 
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count) {
   const py::array array = array_from(value, name);
-  const py::array_t<double> numbers = real_numbers(array, name);
+  const Flat<double> numbers = real_numbers(array, name);
   if (array.ndim() == 0) {
     return std::vector<double>(count, *numbers.data());
   }
@@ -188,6 +195,16 @@ std::vector<double> numbers_of(py::handle value, const std::string& name, std::s
     throw Error(name, "the array has the shape " + shape_in_words(array),
                 "give one number, or the shape (" + std::to_string(count) + ",)");
   }
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::vector<double> flat_reals_of(py::handle values, const std::string& name) {
+  const Flat<double> numbers = real_numbers(array_from(values, name), name);
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::vector<std::int64_t> flat_wholes_of(py::handle values, const std::string& name) {
+  const Flat<std::int64_t> numbers = whole_numbers(array_from(values, name), name);
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 

@@ -35,6 +35,10 @@ std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values)
 /// Returns a number, or one for each of `count` links. `name` is that of the argument.
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count);
 
+/// Return the numbers of an array of any shape, one row after the other.
+std::vector<double> flat_reals_of(py::handle values, const std::string& name);
+std::vector<std::int64_t> flat_wholes_of(py::handle values, const std::string& name);
+
 /// Returns the position of a word in a list. Throws Error, with all words, if it is not in it.
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words);
 

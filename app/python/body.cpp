@@ -87,7 +87,7 @@ void add_state(BodyClass& body) {
           },
           py::arg("snapshot"),
           "Restores positions, bit for bit. Raises Error if the snapshot is of another mesh or precision.")
-      .def("copy", &copy_of, "Returns an independent copy of the state, without a deformer.")
+      .def("copy", &copy_of, "Returns an independent copy of the state, without a deformer. The mesh is the same.")
       .def("__copy__", &copy_of)
       .def(
           "__deepcopy__", [](Object& one, const py::object&) { return copy_of(one); }, py::arg("memo"))
@@ -177,8 +177,8 @@ void add_frame(BodyClass& body) {
 }  // namespace
 
 void add_body(py::module_& module) {
-  py::class_<api::Snapshot>(module, "Snapshot", "The positions of an object at one time.")
-      .def(py::self == py::self)
+  SnapshotClass snapshot(module, "Snapshot", "The positions of an object at one time.");
+  snapshot.def(py::self == py::self)
       .def("__repr__", [](const api::Snapshot&) { return "<Snapshot>"; })
       .attr("__hash__") = py::none();
   BodyClass body(
@@ -194,6 +194,7 @@ void add_body(py::module_& module) {
   add_energy(body);
   add_frame(body);
   add_position_view(body);
+  add_body_state(body, snapshot);
 }
 
 }  // namespace chainmail::python

@@ -6,6 +6,7 @@
 #include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
+#include "python/pickling.h"
 #include "python/table.h"
 #include "python/words.h"
 
@@ -92,25 +93,24 @@ py::dict compare(Object& object, const std::vector<api::Drag>& drags, const Opti
 }
 
 void add_drag(py::module_& module) {
-  py::class_<api::Drag>(
+  py::class_<api::Drag> type(
       module, "Drag",
       "A drag from rest: grabs elements, then moves them along a path, one pass per motion.\n\n"
       "Each motion of the path is a displacement (x, y, z) from where they were grabbed (mesh units), or a\n"
-      "pair of a displacement and a Rotation.")
-      .def(py::init(&drag_from), py::arg("name"), py::arg("elements"), py::arg("path"))
+      "pair of a displacement and a Rotation.");
+  type.def(py::init(&drag_from), py::arg("name"), py::arg("elements"), py::arg("path"))
       .def_readonly("name", &api::Drag::name, "Name in tables.")
       .def_property_readonly(
           "elements", [](const api::Drag& drag) { return array_of(drag.elements); },
           "The grabbed elements: shape (n,), dtype uint32. A copy.")
       .def_property_readonly("path", &path_of, "The motions from where they were grabbed.")
-      .def("__repr__",
-           [](const api::Drag& drag) {
-             return "<Drag: " + std::string(py::repr(py::str(drag.name))) + ", " +
-                    std::to_string(drag.elements.size()) + " elements, " + std::to_string(drag.path.size()) + " moves>";
-           })
-      .def(py::pickle(
-          [](const api::Drag& drag) { return py::make_tuple(drag.name, array_of(drag.elements), path_of(drag)); },
-          [](const py::tuple& state) { return drag_from(state[0].cast<std::string>(), state[1], state[2]); }));
+      .def("__repr__", [](const api::Drag& drag) {
+        return "<Drag: " + std::string(py::repr(py::str(drag.name))) + ", " + std::to_string(drag.elements.size()) +
+               " elements, " + std::to_string(drag.path.size()) + " moves>";
+      });
+  add_pickling(
+      type, [](const api::Drag& drag) { return py::make_tuple(drag.name, array_of(drag.elements), path_of(drag)); },
+      [](const py::tuple& state) { return drag_from(state[0].cast<std::string>(), state[1], state[2]); });
 }
 
 }  // namespace

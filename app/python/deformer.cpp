@@ -10,29 +10,15 @@
 #include "python/held_handle.h"
 #include "python/long_work.h"
 #include "python/module.h"
+#include "python/mover.h"
+#include "python/pickling.h"
+#include "python/trace_rows.h"
 #include "python/words.h"
 
 namespace chainmail::python {
 namespace {
 
 constexpr std::uint64_t quick_visits = 200'000;  // visits of elements that take a few ms
-
-/// The Python class Deformer: the right to move an object.
-class Mover {
- public:
-  Mover(ObjectPointer object, std::string_view method) : object_(std::move(object)) {
-    const UseObject use(*object_);
-    object_->attach(method);
-  }
-  Mover(const Mover&) = delete;
-  Mover& operator=(const Mover&) = delete;
-  ~Mover() { object_->detach(); }
-
-  const ObjectPointer& object() const { return object_; }
-
- private:
-  ObjectPointer object_;
-};
 
 /// Runs work on a deformer without the lock of Python. Work that may take long looks for Ctrl-C meanwhile.
 template <class Work>
@@ -81,22 +67,9 @@ int relax(const Mover& mover, int sweeps, double step, const std::string& scheme
   return run(object, is_slow, [&](api::Deformer& deformer) { return deformer.relax(sweeps, options); });
 }
 
-/// Returns the trace as rows: element, sponsor or -1, and 1 if it moved.
-py::array_t<std::int64_t> trace_of(const api::Deformer& deformer) {
-  const auto trace = deformer.trace();
-  py::array_t<std::int64_t> rows({py::ssize_t(trace.size()), py::ssize_t(3)});
-  std::int64_t* out = rows.mutable_data();
-  for (const api::TraceStep& step : trace) {
-    *out++ = step.element;
-    *out++ = step.sponsor == api::no_sponsor ? -1 : std::int64_t(step.sponsor);
-    *out++ = step.moved ? 1 : 0;
-  }
-  return rows;
-}
-
 void add_results(py::module_& module) {
-  py::class_<api::MoveResult>(module, "MoveResult", "What a move did.")
-      .def_readonly("checked", &api::MoveResult::checked, "Number of candidates that the method processed.")
+  py::class_<api::MoveResult> result(module, "MoveResult", "What a move did.");
+  result.def_readonly("checked", &api::MoveResult::checked, "Number of candidates that the method processed.")
       .def_readonly("moved", &api::MoveResult::moved, "Number of elements that moved, without the handle.")
       .def_readonly("stopped", &api::MoveResult::stopped, "True if the handle stopped before its target.")
       .def_readonly("reached", &api::MoveResult::reached, "The pose where the handle is now.")
@@ -105,8 +78,18 @@ void add_results(py::module_& module) {
         return "<MoveResult: " + std::to_string(one.moved) + " moved, " + std::to_string(one.checked) + " checked" +
                (one.stopped ? ", stopped" : "") + (one.remark.empty() ? "" : ", " + one.remark) + ">";
       });
-  py::class_<api::EquilibriumCertificate>(module, "EquilibriumCertificate",
-                                          "How close an object is to the equilibrium.")
+  add_pickling(
+      result,
+      [](const api::MoveResult& one) {
+        return py::make_tuple(one.checked, one.moved, one.stopped, one.reached, one.remark);
+      },
+      [](const py::tuple& state) {
+        return api::MoveResult{state[0].cast<std::uint64_t>(), state[1].cast<std::uint64_t>(), state[2].cast<bool>(),
+                               state[3].cast<api::Pose>(), state[4].cast<std::string>()};
+      });
+  py::class_<api::EquilibriumCertificate> certificate(module, "EquilibriumCertificate",
+                                                      "How close an object is to the equilibrium.");
+  certificate
       .def_readonly("violation", &api::EquilibriumCertificate::violation,
                     "Largest violation of a link, in rest lengths.")
       .def_readonly("residual", &api::EquilibriumCertificate::residual,
@@ -123,9 +106,17 @@ void add_results(py::module_& module) {
         return "<EquilibriumCertificate: residual " + std::string(py::repr(py::float_(one.residual))) + " after " +
                std::to_string(one.iterations) + " iterations>";
       });
+  add_pickling(
+      certificate,
+      [](const api::EquilibriumCertificate& one) {
+        return py::make_tuple(one.violation, one.residual, one.energy_gap, one.regions_bind, one.iterations);
+      },
+      [](const py::tuple& state) {
+        return api::EquilibriumCertificate{state[0].cast<double>(), state[1].cast<double>(),
+                                           state[2].cast<std::optional<double>>(), state[3].cast<bool>(),
+                                           state[4].cast<int>()};
+      });
 }
-
-using MoverClass = py::class_<Mover>;
 
 void add_moves(MoverClass& deformer) {
   deformer
@@ -172,7 +163,7 @@ void add_moves(MoverClass& deformer) {
           "trace",
           [](const Mover& mover) {
             const UseObject use(*mover.object());
-            return trace_of(mover.object()->deformer());
+            return rows_of(mover.object()->deformer().trace());
           },
           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The "
           "columns\n"
@@ -289,7 +280,7 @@ void add_deformer(py::module_& module) {
       .def(py::init([](const ObjectPointer& body, const std::string& method) {
              return std::make_unique<Mover>(body, method);
            }),
-           py::arg("body"), py::arg("method") = "natural-queue")
+           py::arg("body").none(false), py::arg("method") = "natural-queue")
       .def(py::init([](const api::Mesh& mesh, const std::string& method, const std::string& precision) {
              return std::make_unique<Mover>(std::make_shared<Object>(api::Body(mesh, precision_of(precision))), method);
            }),
@@ -298,6 +289,7 @@ void add_deformer(py::module_& module) {
   add_relaxation(deformer);
   add_control_points(deformer);
   add_settings(deformer);
+  add_deformer_state(deformer);
   module.def(
       "deform", &deform, py::arg("mesh"), py::arg("elements"), py::arg("by"), py::kw_only(),
       py::arg("method") = "natural-queue",

@@ -26,14 +26,15 @@ std::string handle_in_words(const HeldHandle& held) {
 }  // namespace
 
 void add_handle(py::module_& module) {
-  py::class_<HeldHandle, std::shared_ptr<HeldHandle>>(
+  HandleClass handle(
       module, "Handle",
       "What is grabbed: one element, or many that move together as one rigid body.\n\n"
       "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of "
       "these\n"
       "positions. Raises Error if there is none, or if one does not exist, is given twice or is pinned. After "
       "positions\n"
-      "were set, restored or reset, grab again.")
+      "were set, restored or reset, grab again.");
+  handle
       .def(py::init([](Object& object, const py::object& elements) {
              const UseObject use(object);
              return std::make_shared<HeldHandle>(api::Handle(object.body(), ids_of(elements, "element")));
@@ -56,6 +57,7 @@ void add_handle(py::module_& module) {
           "units)\n"
           "and a rotation about the pivot.")
       .def("__repr__", &handle_in_words);
+  add_handle_state(handle);
 }
 
 }  // namespace chainmail::python

@@ -6,6 +6,7 @@
 #include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
+#include "python/pickling.h"
 
 namespace chainmail::python {
 namespace {
@@ -106,16 +107,19 @@ void add_figures(py::module_& module) {
 }
 
 void add_reference(py::module_& module) {
-  py::class_<api::ReferenceSolution>(
+  py::class_<api::ReferenceSolution> reference(
       module, "ReferenceSolution",
       "The positions that a neo-Hookean elastic object has: converged finite elements on\n"
-      "the object's own cells or faces.")
+      "the object's own cells or faces.");
+  reference
       .def(
           "positions", [](const api::ReferenceSolution& one) { return array_of(one.positions(), 3); },
           "Returns the positions: shape (element_count, 3), dtype float64 (mesh units). A copy.")
       .def_property_readonly("handle_displacement", &api::ReferenceSolution::handle_displacement,
                              "Largest displacement of an element of the handle (mesh units).")
       .def("__repr__", [](const api::ReferenceSolution&) { return "<ReferenceSolution>"; });
+  refuse_pickling(reference, "it belongs to a mesh of this process",
+                  "pickle its positions(), or compute it again there");
   module.def(
       "reference_solution", &reference_solution, py::arg("body"), py::arg("handle"), py::kw_only(),
       py::arg("job") = py::none(), py::arg("progress") = py::none(),

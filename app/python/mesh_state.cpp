@@ -1,28 +1,15 @@
 // Meshes as bytes, for another process: pickle, and with it Dask.
 #include <pybind11/stl.h>
 
-#include <algorithm>
-
 #include "api/access.h"
+#include "files/session/flat_mesh.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/own_softness.h"
+#include "python/pickling.h"
 
 namespace chainmail::python {
 namespace {
-
-template <std::size_t Columns>
-std::vector<std::array<ElementId, Columns>> groups_of(const std::vector<ElementId>& flat) {
-  std::vector<std::array<ElementId, Columns>> groups(flat.size() / Columns);
-  for (std::size_t i = 0; i < groups.size() * Columns; ++i) {
-    groups[i / Columns][i % Columns] = flat[i];
-  }
-  return groups;
-}
-
-template <std::size_t Columns>
-py::array_t<ElementId> flat_array(std::span<const std::array<ElementId, Columns>> groups) {
-  return array_of(std::span(groups.empty() ? nullptr : groups.front().data(), groups.size() * Columns));
-}
 
 /// The softness of links that a file makes stiffer.
 py::list own_softness_of(const api::Mesh& mesh) {
@@ -38,64 +25,75 @@ py::object lattice_of(const chainmail::Mesh& mesh) {
 }
 
 /// Returns what the mesh is made of. The neighbour table keeps its order, on which results depend.
-py::dict state_of(const api::Mesh& mesh) {
-  const chainmail::Mesh& inside = *api::Access::pointer(mesh);
+py::object state_of(const api::Mesh& mesh) {
+  const FlatMesh flat = flat_mesh_of(*api::Access::pointer(mesh));
   py::dict state;
-  state["rest"] = array_of(mesh.rest_positions(), 1);
-  state["first_entry"] = array_of(inside.first_entry);
-  state["neighbours"] = array_of(inside.neighbours);
-  state["triangles"] = flat_array(mesh.triangles());
-  state["polygons"] = array_of(inside.polygons);
-  state["tetrahedra"] = flat_array(mesh.tetrahedra());
-  state["hexahedra"] = flat_array(mesh.hexahedra());
-  state["lattice"] = lattice_of(inside);
-  state["space_dimension"] = inside.space_dimension;
+  state["rest"] = array_of(flat.rest, 1);
+  state["first_entry"] = array_of(flat.first_entry);
+  state["neighbours"] = array_of(flat.neighbours);
+  state["triangles"] = array_of(flat.triangles);
+  state["polygons"] = array_of(flat.polygons);
+  state["tetrahedra"] = array_of(flat.tetrahedra);
+  state["hexahedra"] = array_of(flat.hexahedra);
+  state["lattice"] = lattice_of(*api::Access::pointer(mesh));
+  state["space_dimension"] = flat.space_dimension;
   state["softness"] = own_softness_of(mesh);
   state["remark"] = mesh.remark();
   return state;
 }
 
-template <class Value>
-Value part_of(const py::dict& state, const char* name) {
-  return state[name].cast<Value>();
+FlatMesh flat_mesh_from(const StateFields& state) {
+  using SizeAndSpacing = std::pair<std::array<std::uint32_t, 3>, double>;
+  FlatMesh flat{.rest = state.reals("rest"),
+                .first_entry = state.ids("first_entry"),
+                .neighbours = state.ids("neighbours"),
+                .triangles = state.ids("triangles"),
+                .polygons = state.ids("polygons"),
+                .tetrahedra = state.ids("tetrahedra"),
+                .hexahedra = state.ids("hexahedra"),
+                .lattice = {},
+                .space_dimension = state.get<std::int64_t>("space_dimension")};
+  if (const auto lattice = state.get<std::optional<SizeAndSpacing>>("lattice")) {
+    flat.lattice = Lattice{lattice->first, lattice->second};
+  }
+  return flat;
 }
 
-std::vector<ElementId> ids_in(const py::dict& state, const char* name) { return ids_of(state[name], "element"); }
-
-/// Returns the parts. build_mesh finds the same axes and numbers of links again.
-MeshParts parts_of(const py::dict& state) {
-  MeshParts parts;
-  const auto rest = part_of<py::array_t<double, py::array::c_style | py::array::forcecast>>(state, "rest");
-  for (py::ssize_t at = 0; at + 2 < rest.size(); at += 3) {
-    parts.rest.emplace_back(rest.data()[at], rest.data()[at + 1], rest.data()[at + 2]);
+/// Returns the softness of links that exist.
+OwnSoftness softness_of_links_from(const StateFields& state, const chainmail::Mesh& mesh) {
+  std::vector<std::pair<LinkId, chainmail::LinkSoftness>> entries;
+  for (const auto& [link, softness] : state.get<std::vector<std::pair<LinkId, api::LinkSoftness>>>("softness")) {
+    check_links(mesh, std::span(&link, 1));
+    entries.emplace_back(link, api::softness_of(softness));
+    check(entries.back().second);
   }
-  parts.first_entry = ids_in(state, "first_entry");
-  parts.neighbours = ids_in(state, "neighbours");
-  parts.triangles = groups_of<3>(ids_in(state, "triangles"));
-  parts.polygons = ids_in(state, "polygons");
-  parts.tetrahedra = groups_of<4>(ids_in(state, "tetrahedra"));
-  parts.hexahedra = groups_of<8>(ids_in(state, "hexahedra"));
-  if (const py::object lattice = state["lattice"]; !lattice.is_none()) {
-    const auto [size, spacing] = lattice.cast<std::pair<std::array<std::uint32_t, 3>, double>>();
-    parts.lattice = Lattice{size, spacing};
-  }
-  parts.space_dimension = part_of<int>(state, "space_dimension");
-  return parts;
+  return grouped(std::move(entries));
 }
 
-api::Mesh mesh_of(const py::dict& state) {
-  OwnSoftness softness;
-  for (const py::handle row : state["softness"]) {
-    const auto [link, own] = row.cast<std::pair<LinkId, api::LinkSoftness>>();
-    softness.set(link, api::softness_of(own));
-  }
+api::Mesh mesh_of(const py::object& parts) {
+  const StateFields state("Mesh", parts);
   return api::guarded([&] {
-    return api::Access::mesh(build_mesh(parts_of(state)), std::move(softness), part_of<std::string>(state, "remark"));
+    MeshPointer mesh = checked_mesh(flat_mesh_from(state), state.where());
+    OwnSoftness softness = softness_of_links_from(state, *mesh);
+    return api::Access::mesh(std::move(mesh), std::move(softness), state.get<std::string>("remark"));
   });
 }
 
 }  // namespace
 
-void add_mesh_state(py::class_<api::Mesh>& mesh) { mesh.def(py::pickle(&state_of, &mesh_of)); }
+void add_mesh_state(py::class_<api::Mesh>& mesh) {
+  add_pickling(mesh, &state_of, &mesh_of);
+  const py::object as_object = mesh.attr("__reduce_ex__");
+  const auto reduce = [as_object](const py::object& self, int protocol) -> py::object {
+    const py::object shared = shared_mesh(self);
+    // Another object stands for this mesh: copy.copy() returns that one, since a mesh does not change.
+    return shared.is(self) ? as_object(self, protocol)
+                           : py::make_tuple(py::module_::import("copy").attr("copy"), py::make_tuple(shared));
+  };
+  mesh.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(mesh));
+  mesh.def("__copy__", [](const py::object& self) { return self; });
+  mesh.def(
+      "__deepcopy__", [](const py::object& self, const py::object& /*memo*/) { return self; }, py::arg("memo"));
+}
 
 }  // namespace chainmail::python

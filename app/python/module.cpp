@@ -1,12 +1,14 @@
 #include "python/module.h"
 
 #include "python/errors.h"
+#include "python/pickling.h"
 
 PYBIND11_MODULE(_core, module) {
   using namespace chainmail::python;  // NOLINT(google-build-using-namespace)
   module.doc() = "The compiled part of the package chainmail.";
   module.attr("__version__") = CHAINMAIL_VERSION;
   translate_errors();
+  add_pickled_meshes(module);
   add_types(module);  // first: others use them as defaults
   add_mesh(module);
   add_method(module);
@@ -18,4 +20,6 @@ PYBIND11_MODULE(_core, module) {
   add_compare(module);
   add_calibrate(module);
   add_ramp(module);
+  refuse_uninitialised(module);
+  add_pickled_functions(module);
 }

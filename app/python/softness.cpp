@@ -7,6 +7,7 @@
 #include "api/access.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/own_softness.h"
 
 namespace chainmail::python {
 namespace {
@@ -56,12 +57,6 @@ bool is_before(const InnerSoftness& one, const InnerSoftness& other) {
     return numbers;
   };
   return key(one) < key(other);
-}
-
-/// Puts links with equal softness one after the other, so that they form groups.
-OwnSoftness grouped(std::vector<std::pair<LinkId, InnerSoftness>> entries) {
-  std::ranges::stable_sort(entries, [](const auto& a, const auto& b) { return is_before(a.second, b.second); });
-  return OwnSoftness(entries.begin(), entries.end());
 }
 
 using Numbers = std::map<std::string, std::vector<double>>;
@@ -142,6 +137,11 @@ void set_softness(Object& object, const api::LinkSoftness& softness, const py::o
 }
 
 }  // namespace
+
+OwnSoftness grouped(std::vector<std::pair<LinkId, LinkSoftness>> entries) {
+  std::ranges::stable_sort(entries, [](const auto& a, const auto& b) { return is_before(a.second, b.second); });
+  return OwnSoftness(entries.begin(), entries.end());
+}
 
 void add_softness(BodyClass& body) {
   body.def_property_readonly(

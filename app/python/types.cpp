@@ -7,6 +7,7 @@
 #include "chainmail/chainmail.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/pickling.h"
 
 namespace chainmail::python {
 namespace {
@@ -47,8 +48,9 @@ api::LinkSoftness softness_from(const py::tuple& values) {
 }
 
 void add_rotation(py::module_& module) {
-  py::class_<api::Rotation>(module, "Rotation",
-                            "A rotation about an axis. In a plane only the axis across it is possible, on a line none.")
+  py::class_<api::Rotation> rotation(
+      module, "Rotation", "A rotation about an axis. In a plane only the axis across it is possible, on a line none.");
+  rotation
       .def(py::init([](const py::object& axis, double degrees) {
              return api::Rotation{vector_of(axis, "axis"), degrees};
            }),
@@ -60,16 +62,17 @@ void add_rotation(py::module_& module) {
                     "The angle in degrees, counterclockwise as seen from the tip of the axis.")
       .def(py::self == py::self)
       .def("__repr__", [](const api::Rotation& one) { return text_of(one); })
-      .def(py::pickle([](const api::Rotation& one) { return py::make_tuple(tuple_of(one.axis), one.degrees); },
-                      [](const py::tuple& state) {
-                        return api::Rotation{vector_of(state[0], "axis"), state[1].cast<double>()};
-                      }))
       .attr("__hash__") = py::none();
+  add_pickling(
+      rotation, [](const api::Rotation& one) { return py::make_tuple(tuple_of(one.axis), one.degrees); },
+      [](const py::tuple& state) {
+        return api::Rotation{vector_of(state[0], "axis"), state[1].cast<double>()};
+      });
 }
 
 void add_pose(py::module_& module) {
-  py::class_<api::Pose>(module, "Pose", "Where a handle is: its pivot and its rotation since it was grabbed.")
-      .def(py::init([](const py::object& pivot, const api::Rotation& rotation) {
+  py::class_<api::Pose> pose(module, "Pose", "Where a handle is: its pivot and its rotation since it was grabbed.");
+  pose.def(py::init([](const py::object& pivot, const api::Rotation& rotation) {
              return api::Pose{vector_of(pivot, "pivot"), rotation};
            }),
            py::arg("pivot"), py::arg("rotation") = api::Rotation())
@@ -84,14 +87,20 @@ void add_pose(py::module_& module) {
                     (one.rotation.degrees == 0 ? "" : ", rotation=" + text_of(one.rotation)) + ")";
            })
       .attr("__hash__") = py::none();
+  add_pickling(
+      pose, [](const api::Pose& one) { return py::make_tuple(tuple_of(one.pivot), one.rotation); },
+      [](const py::tuple& state) {
+        return api::Pose{vector_of(state[0], "pivot"), state[1].cast<api::Rotation>()};
+      });
 }
 
 void add_link_softness(py::module_& module) {
   const api::LinkSoftness standard;
-  py::class_<api::LinkSoftness>(
+  py::class_<api::LinkSoftness> softness(
       module, "LinkSoftness",
       "How far a link may shorten, lengthen and lean, relative to its rest vector, and how strongly relaxation\n"
-      "returns it to its rest vector. A value object: it does not change.")
+      "returns it to its rest vector. A value object: it does not change.");
+  softness
       .def(py::init(
                [](double compression, double stretch, double shear, double lateral, double stiffness, double exponent) {
                  return api::LinkSoftness{compression, stretch, shear, lateral, stiffness, exponent};
@@ -114,15 +123,17 @@ void add_link_softness(py::module_& module) {
       .def("as_dict", &numbers_of, "Returns the six numbers by name.")
       .def(py::self == py::self)
       .def("__hash__", [](const api::LinkSoftness& one) { return py::hash(values_of(one)); })
-      .def("__repr__", [](const api::LinkSoftness& one) { return text_of(one); })
-      .def(py::pickle(&values_of, &softness_from));
+      .def("__repr__", [](const api::LinkSoftness& one) { return text_of(one); });
+  add_pickling(softness, &values_of, &softness_from);
 }
 
 void add_elasticity(py::module_& module) {
   const api::Elasticity standard;
-  py::class_<api::Elasticity>(module, "Elasticity",
-                              "Settings of the methods of elasticity and of free-form deformation. The ChainMail\n"
-                              "family ignores them. A value object: it does not change.")
+  py::class_<api::Elasticity> elasticity(
+      module, "Elasticity",
+      "Settings of the methods of elasticity and of free-form deformation. The ChainMail\n"
+      "family ignores them. A value object: it does not change.");
+  elasticity
       .def(py::init([](double young, double poisson, const std::array<std::uint32_t, 3>& control_points,
                        std::uint32_t iterations) {
              return api::Elasticity{young, poisson, control_points, iterations};
@@ -150,22 +161,32 @@ void add_elasticity(py::module_& module) {
              return text.str();
            })
       .attr("__hash__") = py::none();
+  add_pickling(
+      elasticity,
+      [](const api::Elasticity& one) {
+        return py::make_tuple(one.young, one.poisson, one.control_points, one.iterations);
+      },
+      [](const py::tuple& state) {
+        return api::Elasticity{state[0].cast<double>(), state[1].cast<double>(),
+                               state[2].cast<std::array<std::uint32_t, 3>>(), state[3].cast<std::uint32_t>()};
+      });
 }
 
 void add_job(py::module_& module) {
-  py::class_<api::Job>(
+  py::class_<api::Job> job(
       module, "Job",
       "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to\n"
-      "use from any thread.")
-      .def(py::init<>())
+      "use from any thread.");
+  job.def(py::init<>())
       .def_property_readonly("share", &api::Job::share, "The share of the work that is done, from 0 to 1.")
       .def("cancel", &api::Job::cancel,
            "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
       .def_property_readonly("is_cancelled", &api::Job::is_cancelled, "True if cancel() was called.")
-      .def("__repr__", [](const api::Job& job) {
-        return "<Job: " + std::to_string(int(100 * job.share())) + " % done" +
-               (job.is_cancelled() ? ", cancelled>" : ">");
+      .def("__repr__", [](const api::Job& one) {
+        return "<Job: " + std::to_string(int(100 * one.share())) + " % done" +
+               (one.is_cancelled() ? ", cancelled>" : ">");
       });
+  refuse_pickling(job, "it belongs to the work of this process", "make another one where it is needed");
 }
 
 }  // namespace
