@@ -1,6 +1,7 @@
 """What workers load by name."""
 
 import os
+import threading
 from pathlib import Path
 
 import chainmail
@@ -16,6 +17,47 @@ def cut_one(body):
 
 def drag_element_seven(mesh):
     return chainmail.deform(mesh, 7, (1, 0, 0))
+
+
+def violation_of(body):
+    return chainmail.violation(body)
+
+
+def finish_drag(pair):
+    deformer, handle = pair
+    result = deformer.move(handle, handle.after((-0.7, 0.3, 0.2), chainmail.Rotation((1, 0, 2), 9)))
+    deformer.relax(3)
+    return deformer, result
+
+
+class Occupied:
+    """A comparison of a body in another thread, which lasts until this is left."""
+
+    def __init__(self, body):
+        self.job = chainmail.Job()
+        self.started, self.proceed = threading.Event(), threading.Event()
+        self.thread = threading.Thread(target=self.run, args=(body,))
+        self.was_cancelled = False
+
+    def run(self, body):
+        def progress(_):
+            self.started.set()
+            self.proceed.wait()
+
+        try:
+            chainmail.compare(body, repetitions=10**6, job=self.job, progress=progress)
+        except chainmail.Cancelled:
+            self.was_cancelled = True
+
+    def __enter__(self):
+        self.thread.start()
+        assert self.started.wait(60)
+
+    def __exit__(self, *_):
+        self.job.cancel()
+        self.proceed.set()
+        self.thread.join()
+        assert self.was_cancelled  # it was in use all the time
 
 
 class DieOnce:

@@ -7,35 +7,7 @@ import chainmail
 import numpy as np
 import pytest
 
-
-class Occupied:
-    """A comparison of a body in another thread, which lasts until this is left."""
-
-    def __init__(self, body):
-        self.job = chainmail.Job()
-        self.started, self.proceed = threading.Event(), threading.Event()
-        self.thread = threading.Thread(target=self.run, args=(body,))
-        self.was_cancelled = False
-
-    def run(self, body):
-        def progress(_):
-            self.started.set()
-            self.proceed.wait()
-
-        try:
-            chainmail.compare(body, repetitions=10**6, job=self.job, progress=progress)
-        except chainmail.Cancelled:
-            self.was_cancelled = True
-
-    def __enter__(self):
-        self.thread.start()
-        assert self.started.wait(60)
-
-    def __exit__(self, *_):
-        self.job.cancel()
-        self.proceed.set()
-        self.thread.join()
-        assert self.was_cancelled  # it was in use all the time
+from study_helpers import Occupied
 
 
 def test_every_use_of_a_busy_body_is_an_error():

@@ -1,0 +1,202 @@
+"""Damages pickles and states at random, and uses what they still make: python damage.py bytes|states SEED ROUNDS.
+
+Prints how many objects were made. A signal is a finding; the last line of the error output names its round.
+"""
+
+import copy
+import faulthandler
+import io
+import pickle
+import random
+import resource
+import sys
+
+import chainmail
+import numpy as np
+
+MEMORY = 4 << 30  # so that a damaged size raises MemoryError
+
+
+def samples():
+    """Returns small objects of all kinds, in the middle of their work."""
+    found = [
+        chainmail.make_line(4),
+        chainmail.make_cloth(4, 3, space_dimension=3),
+        chainmail.make_tetra(3, 2, 2),
+        chainmail.make_mesh(
+            np.random.default_rng(1).normal(size=(8, 3)), hexahedra=[range(8)], triangles=[[0, 1, 2]], links=[[0, 6]]
+        ),
+    ]
+    turn = chainmail.Rotation((0, 0, 1), 5)
+    for method in ("natural-queue", "generalized", "exact", "fem", "neo-hookean", "ffd", "arap", "xpbd"):
+        deformer = chainmail.Deformer(chainmail.make_tetra(3, 2, 2), method)
+        body = deformer.body
+        body.set_link_softness([1, 2], stretch=[1.3, 1.5])
+        body.set_elasticity(chainmail.Elasticity(iterations=5))
+        body.pin(body.mesh.side("right"))
+        if method == "exact":
+            body.set_frame(chainmail.Rotation((0, 1, 1), 20))
+        if method == "generalized":
+            body.cut([3, 4])
+        handle = deformer.grab([0, 3])
+        deformer.set_tracing(True)
+        deformer.move(handle, handle.after((-0.1, 0.1, 0), turn))
+        deformer.relax(1, scheme="link")
+        found += [deformer, body, handle, body.snapshot(), (deformer, handle)]
+    return found + [turn, chainmail.LinkSoftness(), chainmail.Elasticity(), chainmail.Drag("d", [0], [(1, 1, 1)])]
+
+
+class Loader(pickle.Unpickler):
+    """Makes nothing but the objects of these pickles."""
+
+    def find_class(self, module, name):
+        known = module.startswith(("chainmail", "numpy")) or (module, name) in {
+            ("copyreg", "__newobj__"), ("copy", "copy"), ("_codecs", "encode"),
+        }  # fmt: skip
+        if not known or module.startswith("numpy.") and name not in {"_reconstruct", "scalar", "_frombuffer"}:
+            raise pickle.UnpicklingError(name)
+        return super().find_class(module, name)
+
+
+def damaged_bytes(chance, data):
+    data = bytearray(data)
+    for _ in range(chance.choice((1, 1, 2, 5))):
+        at = chance.randrange(len(data))
+        kind = chance.randrange(6)
+        if kind < 2:
+            data[at] ^= 1 << chance.randrange(8)
+        elif kind == 2:
+            data[at] = chance.choice((0, 1, 127, 128, 255))
+        elif kind == 3:
+            del data[at : at + chance.randrange(1, 9)]
+        elif kind == 4:
+            end = at + chance.randrange(1, 40)
+            data[at:at] = data[at:end]
+        else:
+            other = chance.randrange(len(data))
+            data[at : at + 8] = data[other : other + 8]
+        if not data:
+            return b"N."
+    return bytes(data)
+
+
+NUMBERS = (0, 1, -1, 2, 3, 7, 2**31 - 1, 2**31, 2**32 - 2, 2**32 - 1, 2**32, 2**63, np.nan, np.inf, 1e-320, 1e300, 0.5)
+
+
+def damaged(chance, value):
+    """Returns another value in place of a part of a state."""
+    kind = chance.randrange(8)
+    if isinstance(value, np.ndarray) and kind < 6:
+        array = value.copy()
+        if kind == 0 and array.size:
+            array.flat[chance.randrange(array.size)] = chance.choice([n for n in NUMBERS if fits(n, array.dtype)])
+        elif kind == 1 and array.size:
+            array.flat[chance.randrange(array.size)] += array.dtype.type(1)
+        elif kind == 2:
+            array = array.ravel()[: chance.randrange(array.size + 1)]
+        elif kind == 3:
+            array = np.concatenate([array.ravel(), array.ravel()[: chance.randrange(9)]])
+        elif kind == 4:
+            array = chance.choice((array.astype(float), array.astype(np.int8), array[::-1], array[::2], array.T))
+        elif array.size:
+            one, other = chance.randrange(array.size), chance.randrange(array.size)
+            array.flat[one], array.flat[other] = array.flat[other], array.flat[one]
+        return array
+    if isinstance(value, (tuple, list)) and value and kind < 6:
+        parts = list(value)
+        parts[chance.randrange(len(parts))] = damaged(chance, chance.choice(parts))
+        return type(value)(parts)
+    if isinstance(value, bool) and kind < 4:
+        return not value
+    return chance.choice((*NUMBERS, None, True, "", "float", "exact", "link", (), [], {}, [0], np.zeros((2, 2)), b"x"))
+
+
+def fits(number, dtype):
+    return dtype.kind == "f" or (number == number and abs(number) < 2**31 and number == int(number) >= 0)
+
+
+def damaged_state(chance, one):
+    state = one.__getstate__()
+    if isinstance(state, tuple):
+        return damaged(chance, state)
+    if "body" in state:
+        state["body"] = state["body"].copy()
+    for _ in range(chance.choice((1, 1, 2, 4))):
+        name = chance.choice(list(state))
+        if chance.randrange(20) == 0:
+            del state[name]
+        else:
+            state[name] = damaged(chance, state[name])
+        if not state:
+            break
+    return state
+
+
+def attempt(work):
+    try:
+        return work()
+    except (Exception, RecursionError):
+        return None
+
+
+def use(one):
+    """Calls everything that may reach what a state has damaged."""
+    if isinstance(one, (tuple, list)):
+        for part in one:
+            use(part)
+        if len(one) == 2 and isinstance(one[0], chainmail.Deformer) and isinstance(one[1], chainmail.Handle):
+            attempt(lambda: one[0].move(one[1], one[1].after((0.2, 0, 0.1))))
+        return
+    if isinstance(one, chainmail.Mesh):
+        use(chainmail.Body(one))
+        attempt(one.rest_lengths)
+        for name in ("left", "boundary"):
+            attempt(lambda: one.side(name))
+        for method in ("exact", "3d", "arap", "bem", "neo-hookean"):
+            attempt(lambda: chainmail.Deformer(one, method).move(0, (0.1, 0.1)))
+    if isinstance(one, chainmail.Body):
+        for work in (one.positions, one.link_softness, one.reset, lambda: chainmail.violation(one),
+                     lambda: chainmail.elastic_energy(one), lambda: use(chainmail.Deformer(one))):  # fmt: skip
+            attempt(work)
+    if isinstance(one, chainmail.Deformer):
+        for scheme in ("mean", "link", "equilibrium"):
+            attempt(lambda: one.relax(2, scheme=scheme))
+        for element in (0, 1, 5):
+            attempt(lambda: one.move(element, (0.3, 0.2, 0.1)))
+        for work in (one.trace, one.moved, one.certificate, one.control_points, one.body.positions, one.release):
+            attempt(work)
+        attempt(lambda: one.set_method("exact") or one.move(0, (0.1, 0, 0)))
+        attempt(lambda: copy.deepcopy(one).move(0, (0.2, 0, 0)))
+    if isinstance(one, chainmail.Handle):
+        deformer = attempt(lambda: chainmail.Deformer(chainmail.make_tetra(3, 2, 2)))
+        attempt(lambda: deformer.move(one, one.after((1, 0, 0))))
+    if isinstance(one, chainmail.Snapshot):
+        attempt(lambda: one == copy.deepcopy(one))
+    attempt(lambda: repr(one))
+    attempt(lambda: pickle.dumps(one))
+
+
+def main(kind, seed, rounds):
+    faulthandler.enable()
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    chance = random.Random(seed)
+    found = samples()
+    data = [pickle.dumps(one, protocol) for one in found for protocol in (0, 2, 5)]
+    single = [one for one in found if not isinstance(one, tuple)]
+    made = 0
+    for number in range(rounds):
+        print(f"\rround {number}", end="", file=sys.stderr, flush=True)
+        if kind == "bytes":
+            one = attempt(lambda: Loader(io.BytesIO(damaged_bytes(chance, chance.choice(data)))).load())
+        else:
+            source = chance.choice(single)
+            one = type(source).__new__(type(source))
+            one = one if attempt(lambda: one.__setstate__(damaged_state(chance, source)) or True) else None
+        if one is not None:
+            made += 1
+            use(one)
+    print(f"{made} objects in {rounds} rounds")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))

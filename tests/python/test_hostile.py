@@ -1,0 +1,256 @@
+"""Damaged pickles, arrays and objects: an exception, never a signal."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import chainmail
+import numpy as np
+import pytest
+
+SEED = 20260101
+ROUNDS = 1500
+
+
+@pytest.mark.parametrize("kind", ["bytes", "states"])
+def test_damaged_pickles(kind):
+    """Every object that a damaged pickle still makes can be used. `python damage.py bytes SEED ROUNDS` does more."""
+    program = Path(__file__).with_name("damage.py")
+    print(f"seed {SEED}, {ROUNDS} rounds")
+    done = subprocess.run(
+        [sys.executable, program, kind, str(SEED), str(ROUNDS)], capture_output=True, text=True, timeout=240
+    )
+    assert done.returncode == 0, f"seed {SEED}, {done.stdout[-300:]}\n{done.stderr[-2000:]}"
+    assert int(done.stdout.split()[0]) > 50  # so many objects were made, and used
+
+
+def state_of(one, **changes):
+    return {**one.__getstate__(), **changes}
+
+
+def made(one, state):
+    return type(one).__new__(type(one)).__setstate__(state)
+
+
+MESH = chainmail.make_tetra(3, 3, 3)
+BAD_MESHES = {
+    "no element": dict(rest=np.zeros((0, 1))),
+    "half an element": dict(rest=np.zeros((80, 1))),
+    "a coordinate that is no number": dict(rest=np.full((81, 1), np.nan)),
+    "one coordinate that is no number": dict(rest=np.where(np.arange(81) == 7, np.nan, MESH.rest_positions().ravel())),
+    "a coordinate beyond all": dict(rest=np.full((81, 1), 1e200)),
+    "rows that descend": dict(first_entry=MESH.__getstate__()["first_entry"][::-1]),
+    "rows that wrap around": dict(first_entry=[0, 4, 2**32 - 2, 3], neighbours=[0, 1, 2]),
+    "no rows": dict(first_entry=[]),
+    "a neighbour out of range": dict(neighbours=np.full(MESH.__getstate__()["neighbours"].shape, 10**6)),
+    "a neighbour that is the element": dict(neighbours=np.zeros(MESH.__getstate__()["neighbours"].shape, int)),
+    "a negative neighbour": dict(neighbours=np.full(MESH.__getstate__()["neighbours"].shape, -1)),
+    "a corner out of range": dict(tetrahedra=[0, 1, 2, 27]),
+    "half a cell": dict(tetrahedra=[0, 1, 2]),
+    "a polygon that does not end": dict(polygons=[4, 0, 1, 2]),
+    "a polygon of nothing": dict(polygons=[0]),
+    "a corner of a polygon out of range": dict(polygons=[3, 0, 1, 99]),
+    "an empty lattice": dict(lattice=([0, 0, 0], 1.0)),
+    "a lattice of another size": dict(lattice=([2, 3, 3], 1.0)),
+    "a lattice elsewhere": dict(lattice=([3, 3, 3], 2.0)),
+    "a lattice without a spacing": dict(lattice=([3, 3, 3], np.nan)),
+    "a lattice that is none": dict(lattice=7),
+    "no space": dict(space_dimension=0),
+    "space below none": dict(space_dimension=-3),
+    "too much space": dict(space_dimension=2**40),
+    "a plane": dict(space_dimension=2),
+    "softness of no link": dict(softness=[(10**6, chainmail.LinkSoftness())]),
+    "softness out of range": dict(softness=[(0, chainmail.LinkSoftness(stretch=-1))]),
+    "arrays of text": dict(rest="abc"),
+    "arrays of floats": dict(triangles=[0.5, 1, 2]),
+    "a remark that is none": dict(remark=5),
+}
+
+
+@pytest.mark.parametrize("bad", BAD_MESHES)
+def test_a_damaged_mesh_is_refused(bad):
+    with pytest.raises(chainmail.Error) as raised:
+        made(MESH, state_of(MESH, **BAD_MESHES[bad]))
+    assert "\n" not in str(raised.value)
+
+
+def test_an_untouched_state_is_taken():
+    again = chainmail.Mesh.__new__(chainmail.Mesh)
+    again.__setstate__(MESH.__getstate__())
+    assert np.array_equal(again.links, MESH.links)
+
+
+@pytest.mark.parametrize("state", [None, 5, (), [], {}, {"rest": []}, "rest"])
+def test_states_that_are_none(state):
+    deformer = chainmail.Deformer(MESH)
+    for one in (MESH, deformer, deformer.body, deformer.grab(0), deformer.body.snapshot()):
+        with pytest.raises(chainmail.Error, match="state of a"):
+            made(one, state)
+    for one in (chainmail.LinkSoftness(), chainmail.Rotation((0, 0, 1), 3), chainmail.Elasticity()):
+        with pytest.raises((TypeError, ValueError, IndexError, RuntimeError)):
+            made(one, state)
+
+
+BAD_BODIES = {
+    "a cut that does not exist": dict(cuts=[10**6]),
+    "a pin that does not exist": dict(pins=[27]),
+    "a negative pin": dict(pins=[-1]),
+    "no such precision": dict(precision="half"),
+    "no such energy": dict(energy="thermal"),
+    "no such axes": dict(axes="crooked"),
+    "axes that are no number": dict(axes="given", turned_by=(np.nan, 0, 0)),
+    "softness out of range": dict(softness=chainmail.LinkSoftness(stretch=0.5)),
+    "softness of no link": dict(own_links=[10**6], own_softness=[0.8, 1.2, 0.1, 1, 1, -1]),
+    "half a softness": dict(own_links=[0], own_softness=[0.8, 1.2]),
+    "own softness out of range": dict(own_links=[0], own_softness=[0.8, 0.2, 0.1, 1, 1, -1]),
+    "elasticity out of range": dict(elasticity=chainmail.Elasticity(poisson=7)),
+    "positions of nothing": dict(runs=[0, 28], held=np.zeros(84)),
+    "runs that descend": dict(runs=[5, 3], held=[]),
+    "half a run": dict(runs=[5], held=[]),
+    "a position that is no number": dict(runs=[0, 1], held=[np.nan, 0, 0]),
+    "too few positions": dict(runs=[0, 2], held=[0, 0, 0]),
+    "a reach that is no number": dict(reach=(np.nan, 0)),
+    "a handle that does not exist": dict(handle=[27]),
+    "a handle in disorder": dict(handle=[2, 1]),
+    "no mesh": dict(mesh=None),
+    "another mesh": dict(mesh=7, precision="double"),
+}
+
+
+@pytest.mark.parametrize("bad", BAD_BODIES)
+def test_a_damaged_body_is_refused(bad):
+    body = chainmail.Body(MESH)
+    with pytest.raises(chainmail.Error):
+        made(body, state_of(body, **BAD_BODIES[bad]))
+
+
+BAD_DEFORMERS = {
+    "no body": dict(body=None),
+    "another body": dict(body=3),
+    "no such method": dict(method="magic"),
+    "a method that does not work on the mesh": dict(method="3d"),
+    "no such scheme": dict(scheme="wild"),
+    "no thread": dict(threads=0),
+    "threads without end": dict(threads=2**70),
+    "an element that does not exist": dict(moved=[27]),
+    "a visit of none": dict(relaxes_next=[27], in_sweep=True),
+    "a visit of none in this sweep": dict(relaxes_now=[2**31]),
+    "a step that is no number": dict(largest_step=np.nan),
+    "half a trace": dict(trace=[1, 2]),
+    "a trace of nobody": dict(trace=[-5, 2, 1]),
+    "a memory of no number": dict(memory=[np.nan]),
+}
+
+
+@pytest.mark.parametrize("bad", BAD_DEFORMERS)
+def test_a_damaged_deformer_is_refused(bad):
+    deformer = chainmail.Deformer(MESH)
+    changes = {"body": chainmail.Body(MESH), **BAD_DEFORMERS[bad]}
+    with pytest.raises(chainmail.Error):
+        made(deformer, state_of(deformer, **changes))
+
+
+@pytest.mark.parametrize("method", [row["name"] for row in chainmail.methods() if row["family"] == "elastic"])
+def test_a_memory_of_another_size_is_refused(method):
+    deformer = chainmail.Deformer(MESH, method)
+    deformer.body.pin(MESH.side("right"))
+    deformer.move(0, (-0.1, 0, 0))
+    state = state_of(deformer, body=deformer.body.copy())
+    if len(state["memory"]) == 0:
+        return  # a linear method
+    again = chainmail.Deformer.__new__(chainmail.Deformer)
+    again.__setstate__({**state, "memory": state["memory"][1:]})
+    with pytest.raises(chainmail.Error, match="memory of the method"):
+        again.move(0, (-0.2, 0, 0))
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        dict(elements=[]),
+        dict(elements=[27], positions=[0, 0, 0]),
+        dict(elements=[1, 0]),
+        dict(elements=[0, 0]),
+        dict(positions=[0, 0]),
+        dict(positions=[0, 0, np.nan, 1, 0, 0]),
+        dict(positions=[0, 0, 0]),
+        dict(pivot=(np.inf, 0, 0)),
+        dict(rotation=(0, np.nan, 0)),
+        dict(mesh=5),
+    ],
+)
+def test_a_damaged_handle_is_refused(bad):
+    handle = chainmail.Handle(chainmail.Body(MESH), [0, 1])
+    with pytest.raises(chainmail.Error):
+        made(handle, state_of(handle, **bad))
+
+
+def test_objects_that_no_constructor_has_seen():
+    """pybind11 lets them exist, and gave their methods memory that nobody had written."""
+    program = (
+        "import chainmail\n"
+        "kinds = [one for one in vars(chainmail).values() if type(one).__name__ == 'pybind11_type']\n"
+        "assert len(kinds) > 10\n"
+        "for kind in kinds:\n"
+        "    one = kind.__new__(kind)\n"
+        "    for name in dir(kind):\n"
+        "        if name in ('__class__', '__new__', '__init__', '__dict__', '__subclasshook__', '__init_subclass__'):\n"
+        "            continue\n"
+        "        for arguments in ((), (0,), (one,), (chainmail.make_line(3),)):\n"
+        "            try:\n"
+        "                found = getattr(one, name)\n"
+        "                found(*arguments)\n"
+        "            except Exception:\n"
+        "                pass\n"
+        "print('alive')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (done.stdout, done.returncode) == ("alive\n", 0), done.stderr
+    for kind in (chainmail.Mesh, chainmail.Body, chainmail.Deformer, chainmail.LinkSoftness):
+        with pytest.raises(TypeError, match="is not initialised"):
+            repr(kind.__new__(kind))
+
+
+def test_none_is_no_object():
+    program = (
+        "import chainmail\n"
+        "for wrong in (lambda: chainmail.Deformer(None), lambda: chainmail.Body(None), lambda: chainmail.Handle(None, 0),\n"
+        "              lambda: chainmail.Deformer(chainmail.Body(chainmail.make_line(3)), None),\n"
+        "              lambda: chainmail.compare(None), lambda: chainmail.violation(None)):\n"
+        "    try:\n"
+        "        wrong()\n"
+        "    except TypeError:\n"
+        "        print('TypeError')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (done.stdout, done.returncode) == ("TypeError\n" * 6, 0), done.stderr
+
+
+# More than any machine has, without taking any.
+ENDLESS = np.broadcast_to(np.float32(0), (2**45, 3))
+ENDLESS_IDS = np.broadcast_to(np.uint32(0), (2**45, 2))
+
+
+@pytest.mark.parametrize(
+    "call",
+    {
+        "positions": lambda: chainmail.make_mesh(ENDLESS, [[0, 1]]),
+        "links": lambda: chainmail.make_mesh([[0, 0], [1, 0]], ENDLESS_IDS),
+        "ids": lambda: chainmail.Body(MESH).pin(ENDLESS_IDS[:, 0]),
+        "numbers": lambda: chainmail.Body(MESH).set_link_softness(stretch=ENDLESS[:, 0]),
+        "a state": lambda: made(MESH, state_of(MESH, rest=ENDLESS)),
+    }.items(),
+    ids=lambda item: item[0],
+)
+def test_memory_that_runs_out_is_a_memory_error(call):
+    with pytest.raises(MemoryError):
+        call[1]()
+
+
+def test_an_exception_of_the_caller_is_not_hidden():
+    class Array:
+        def __array__(self, *_, **__):
+            raise KeyError("of the caller")
+
+    with pytest.raises(KeyError, match="of the caller"):
+        chainmail.make_mesh(Array(), [[0, 1]])
