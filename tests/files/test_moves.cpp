@@ -1,5 +1,6 @@
 #include <QTemporaryDir>
 #include <QtTest>
+#include <ctime>
 
 #include "core/allocations.h"
 #include "files/session/moves.h"
@@ -35,6 +36,7 @@ class MovesTest : public QObject {
   void what_is_wrong_with_the_file_comes_before_its_commands();
   void a_large_file_takes_little_memory_besides_its_commands_data();
   void a_large_file_takes_little_memory_besides_its_commands();
+  void frames_of_the_object_are_found_once();
   void reading_and_writing_can_be_cancelled();
   void files();
 
@@ -415,6 +417,20 @@ void MovesTest::a_large_file_takes_little_memory_besides_its_commands() {
   const std::size_t bound = items * (3 * of_item + (of_item < sizeof(Command) ? 2 * 3 * 16 : 0)) + (1U << 16);
   QVERIFY2(most_bytes_held - before < bound,
            qPrintable(QString("%1 bytes an item").arg((most_bytes_held - before) / items)));
+}
+
+/// A short command asks for the principal axes, which takes time in proportion to the object.
+void MovesTest::frames_of_the_object_are_found_once() {
+  const auto large = made(MeshKind::grid, {400, 500, 1});
+  std::string text = R"({"version": 1, "commands": [)";
+  for (int i = 0; i < 30'000; ++i) {
+    text += i == 0 ? "" : ",";
+    text += R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "object"}})";
+  }
+  const std::clock_t before = std::clock();
+  QCOMPARE(read_moves(text + "]}", std::filesystem::path("m.json"), large).size(), std::size_t{30'000});
+  const double seconds = double(std::clock() - before) / CLOCKS_PER_SEC;
+  QVERIFY2(seconds < 5, qPrintable(QString::number(seconds)));
 }
 
 void MovesTest::reading_and_writing_can_be_cancelled() {

@@ -90,8 +90,12 @@ void VolumeBar::ask(const QString& name, std::shared_ptr<const OpenedVolume> vol
   threshold_->setSingleStep(range / 100);
   threshold_->setValue(volume_->standardThreshold);
   describe();
-  AskBar::ask(QStringLiteral("%1: %L2 × %L3 × %L4 voxels").arg(name).arg(of.size[0]).arg(of.size[1]).arg(of.size[2]),
-              threshold_);
+  QString title =
+      QStringLiteral("%1: %L2 × %L3 × %L4 voxels").arg(name).arg(of.size[0]).arg(of.size[1]).arg(of.size[2]);
+  if (of.merged > 1) {
+    title += QStringLiteral(", each the mean of up to %L1 × %L1 × %L1 of the file").arg(of.merged);
+  }
+  AskBar::ask(title, threshold_);
 }
 
 VoxelOptions VolumeBar::options() const {
@@ -108,7 +112,8 @@ void VolumeBar::describe() {
   const QSignalBlocker quiet(slider_);
   slider_->setValue(toSlider(threshold_->value()));
   const std::uint64_t above = volume_->above(threshold_->value());
-  const double elements = double(above) / std::pow(std::max(every_->value(), 1), 3);
+  const int every = std::max(every_->value() / int(volume_->volume.merged), 1);  // voxels in memory
+  const double elements = double(above) / std::pow(every, 3);
   QString result = QStringLiteral("%L1 voxels").arg(above);
   if (every_->value() > 1) {
     result += QStringLiteral(", about %L1 elements").arg(std::llround(elements));

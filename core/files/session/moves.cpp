@@ -40,15 +40,21 @@ class MoveFields : public JsonFields {
   std::vector<std::uint32_t> indices(const MoveMembers& command, const std::string& key) const;
   SplitEdit split(const MoveMembers& command) const;
 
+  RegionFrame frame(const Json& members) { return JsonFields::frame(members, *mesh_, principal_); }
+
   const MeshPointer& mesh() const { return mesh_; }
   /// From now on, commands are about this mesh.
-  void set_mesh(MeshPointer mesh) { mesh_ = std::move(mesh); }
+  void set_mesh(MeshPointer mesh) {
+    mesh_ = std::move(mesh);
+    principal_.reset();
+  }
 
  private:
   std::vector<double> row(const Json& json, std::size_t size, const std::string& key) const;
   std::uint32_t index(const Json& json, const std::string& key) const;
 
   MeshPointer mesh_;
+  std::optional<RegionFrame> principal_;  // principal axes of the mesh, once they are needed
 };
 
 ElementId MoveFields::element(const Json& json) const {
@@ -300,10 +306,8 @@ Command MovesReader::softness(const Members& of) {
   auto keys = softness_keys();
   keys.insert(keys.end(), {"do", "energy", "frame", "links"});
   fields_.check_keys(of.members, keys);
-  Softness result{fields_.softness(of.members),
-                  {},
-                  fields_.energy(of.members, absent_energy_),
-                  fields_.frame(of.members, *fields_.mesh())};
+  Softness result{
+      fields_.softness(of.members), {}, fields_.energy(of.members, absent_energy_), fields_.frame(of.members)};
   if (!of.members.contains("links")) {
     return commands::SetSoftness{result};
   }

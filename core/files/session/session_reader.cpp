@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "files/session/lesson_json.h"
@@ -111,8 +112,11 @@ void SessionReader::take_softness() {
   auto keys = softness_keys();
   keys.insert(keys.end(), {"energy", "frame", "own"});
   fields_.check_keys(object, keys);
-  Softness softness{
-      fields_.softness(object), {}, fields_.energy(object, absent_energy_), fields_.frame(object, *result_.mesh)};
+  std::optional<RegionFrame> principal;
+  Softness softness{fields_.softness(object),
+                    {},
+                    fields_.energy(object, absent_energy_),
+                    fields_.frame(object, *result_.mesh, principal)};
   take_own(softness, object);
   try {
     for (const auto& [link, own] : softness.links) {

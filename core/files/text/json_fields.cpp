@@ -153,7 +153,7 @@ Point JsonFields::rotation_vector(const Json& object, const std::string& key) co
   return {number(values[0]), number(values[1]), number(values[2])};
 }
 
-RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh) const {
+RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh, std::optional<RegionFrame>& principal) const {
   if (!object.contains("frame")) {
     return {};
   }
@@ -169,7 +169,10 @@ RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh) const {
     return {};
   }
   if (which == FrameKind::object && !frame.contains("rotation")) {
-    return principal_axes(mesh).frame;
+    if (!principal) {
+      principal = principal_axes(mesh).frame;
+    }
+    return *principal;
   }
   RegionFrame result(which, rotation_vector(frame, "rotation"));
   try {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,8 +48,8 @@ class JsonFields {
   /// Returns the kind of energy of a softness, or `absent` if it is left out.
   EnergyKind energy(const Json& object, EnergyKind absent = standard_energy) const;
   /// Returns the frame of a softness for this mesh; that of the world if it is left out. Principal axes without a
-  /// rotation are found in the mesh.
-  RegionFrame frame(const Json& object, const Mesh& mesh) const;
+  /// rotation are found in the mesh, which takes time in proportion to its size, and are kept in `principal`.
+  RegionFrame frame(const Json& object, const Mesh& mesh, std::optional<RegionFrame>& principal) const;
   /// Returns a rotation vector: the axis times the angle (radians).
   Point rotation_vector(const Json& object, const std::string& key) const;
   RelaxationScheme relaxation_scheme(const Json& name) const;
