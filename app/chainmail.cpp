@@ -39,10 +39,9 @@ int main(int argc, char** argv) {
     return complain(
         chainmail::shown(error.path1()) + ": " + error.code().message() + "; check the path and its permissions",
         failed);
-  } catch (const std::system_error& error) {  // no thread can be started, for example
-    return complain("system: " + error.code().message() +
-                        "; close other programs, or raise the limits of this user "
-                        "(ulimit)",
+  } catch (const std::system_error& error) {  // of a thread
+    return complain("threads: none can be started (" + error.code().message() +
+                        "); close other programs, or raise the limits of this user (ulimit)",
                     failed);
   } catch (const std::exception& error) {
     return complain(std::string("internal: ") + error.what() + "; please report it", failed);

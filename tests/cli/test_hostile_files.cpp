@@ -1,5 +1,9 @@
+#include <linux/sched.h>
+#include <seccomp.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+
+#include <cerrno>
 
 #include "cli/chainmail_program.h"
 #include "packed_voxels.h"
@@ -22,6 +26,7 @@ class HostileFilesTest : public QObject {
   void known_attacks_end_soon_data();
   void known_attacks_end_soon();
   void a_small_file_of_many_voxels_takes_little_memory();
+  void without_threads_it_says_what_to_do();
   void a_limit_of_file_size_is_as_a_full_disk_data();
   void a_limit_of_file_size_is_as_a_full_disk();
 
@@ -196,6 +201,24 @@ void HostileFilesTest::a_small_file_of_many_voxels_takes_little_memory() {
   });
   QVERIFY2(outcome.code == 0, outcome.error);
   QVERIFY2(outcome.out.contains("\nread as           voxels from a density of "), outcome.out);
+/// Acts like a system on which no more threads may be started.
+void HostileFilesTest::without_threads_it_says_what_to_do() {
+#ifdef __SANITIZE_THREAD__
+  QSKIP("this sanitizer needs a thread of its own");
+#endif
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  const scmp_arg_cmp of_a_thread{0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD};
+  QCOMPARE(seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0), 0);  // then clone is used
+  QCOMPARE(seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EAGAIN), SCMP_SYS(clone), 1, &of_a_thread), 0);
+  QCOMPARE(program_->run("generate tetra 3x3x3 -o t.msh").code, 0);
+  const QString line = "calibrate t.msh --young 3000 --poisson 0.45 --pins bottom --relaxation equilibrium -o new.json";
+  const auto outcome = program_->run(line.split(' '), [filter] { seccomp_load(filter); });
+  seccomp_release(filter);
+  QCOMPARE(outcome.code, 1);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QCOMPARE(outcome.error,
+           QByteArray("chainmail: threads: none can be started (Resource temporarily unavailable); close "
+                      "other programs, or raise the limits of this user (ulimit)\n"));
 }
 
 void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk_data() {

@@ -61,10 +61,10 @@ class PicturesTest : public QObject {
   void what_ends_early_is_damaged();
 
  private:
-  std::string path() const { return folder_.filePath("picture").toStdString(); }
   BarePicture bare(const std::string& bytes) const {
-    put_file(path(), bytes);
-    return read_bare_picture(path());
+    const std::string path = folder_.filePath("picture").toStdString();
+    put_file(path, bytes);
+    return read_bare_picture(path);
   }
 
   QTemporaryDir folder_;

@@ -135,6 +135,10 @@ class WindowSheet : public QObject {
                                  << QStringLiteral("it is damaged");
     QTest::newRow("half a PNG") << all("a.png").chopped(900) << QStringLiteral("half.png")
                                 << QStringLiteral("it is damaged");
+    QByteArray deep = all("a.png");
+    deep.replace(16, 17, QByteArray::fromHex("00002710000027101006000000") + QByteArray::fromHex("eadebe64"));
+    QTest::newRow("10,000 × 10,000 pixels of 64 bits")
+        << deep << QStringLiteral("deep.png") << QStringLiteral("of 16 bits per colour, more than 50 million");
     QTest::newRow("huge") << huge << QStringLiteral("huge.png") << QStringLiteral("more than 100 million");
   }
   void damagedAndHugePicturesGetASentence() {
@@ -161,7 +165,8 @@ class WindowSheet : public QObject {
       const QString name = QStringLiteral("in_session_%1.png").arg(format);
       write(name, pictureAs(format));
       write(QStringLiteral("named.chainmail"),
-            "{\"format\": \"chainmail session\", \"version\": 2, \"name\": \"sheet\", \"mesh\": {\"file\": \"" + name.toUtf8() + "\"}}");
+            "{\"format\": \"chainmail session\", \"version\": 2, \"name\": \"sheet\", \"mesh\": {\"file\": \"" +
+                name.toUtf8() + "\"}}");
       bench.open(folder_.filePath(QStringLiteral("named.chainmail")));
       const QString sentence = bench.window.messages().sentence();
       QVERIFY2(sentence.contains(name + QStringLiteral(": it is not a PNG or JPEG picture")), qPrintable(sentence));

@@ -66,13 +66,16 @@ class PictureReader {
 
  private:
   void checkSize() const {
-    const double pixels = double(size().width()) * size().height();
-    if (pixels > picture_limit) {
+    constexpr int usualBits = 32;  // of a pixel in memory
+    const bool large = QImage::toPixelFormat(reader_.imageFormat()).bitsPerPixel() > usualBits;
+    const double pixels = double(size().width()) * size().height(), limit = large ? picture_limit / 2 : picture_limit;
+    if (pixels > limit) {
       failPicture(path_,
-                  QStringLiteral("it has %L1 × %L2 pixels, more than %L3 million")
+                  QStringLiteral("it has %L1 × %L2 pixels%4, more than %L3 million")
                       .arg(size().width())
                       .arg(size().height())
-                      .arg(qRound(picture_limit / 1e6)),
+                      .arg(qRound(limit / 1e6))
+                      .arg(large ? QStringLiteral(" of 16 bits per colour") : QString()),
                   "scale the picture down first");
     }
     if (pixels * double(picture_.scans) > scanned_pixel_limit) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "files/text/regular_file.h"
 #include "files/text/text.h"
@@ -12,6 +13,10 @@ namespace {
 
 constexpr std::string_view png_signature("\x89PNG\r\n\x1a\n", picture_signature_size);
 constexpr std::string_view jpeg_signature = "\xff\xd8\xff";
+
+[[noreturn]] void refuse_format(const std::filesystem::path& path) {
+  throw Error(shown(path), "it is not a PNG or JPEG picture", "save it as one of these");
+}
 
 /// Moves the parts of a file that stay to its beginning, without a copy of the file.
 class Sieve {
@@ -179,23 +184,12 @@ std::optional<PictureFormat> picture_format(std::string_view beginning) {
   return beginning.starts_with(jpeg_signature) ? std::optional(PictureFormat::jpeg) : std::nullopt;
 }
 
-BarePicture read_bare_picture(const std::filesystem::path& path) {
-  RegularFile file(path);
-  BarePicture picture;
-  picture.bytes.resize(picture_signature_size);
-  picture.bytes.resize(file.read(picture.bytes));
-  const auto format = picture_format(picture.bytes);
+BarePicture bare_picture(std::string bytes, const std::filesystem::path& path) {
+  const auto format = picture_format(bytes);
   if (!format) {
-    throw Error(shown(path), "it is not a PNG or JPEG picture", "save it as one of these");
+    refuse_format(path);
   }
-  if (file.size() > picture_file_limit) {
-    throw Error(shown(path), "it is larger than " + std::to_string(picture_file_limit >> 20) + " MiB",
-                "scale the picture down first");
-  }
-  const std::size_t begun = picture.bytes.size();
-  picture.bytes.resize(std::max<std::size_t>(begun, file.size()));
-  picture.bytes.resize(begun + file.read(std::span(picture.bytes).subspan(begun)));
-  picture.format = *format;
+  BarePicture picture{*format, std::move(bytes)};
   bool is_complete = false;
   if (*format == PictureFormat::png) {
     is_complete = strip_png(picture.bytes);
@@ -208,6 +202,23 @@ BarePicture read_bare_picture(const std::filesystem::path& path) {
     throw Error(shown(path), "it is damaged", "open a complete PNG or JPEG file");
   }
   return picture;
+}
+
+BarePicture read_bare_picture(const std::filesystem::path& path) {
+  RegularFile file(path);
+  std::string bytes(picture_signature_size, '\0');
+  bytes.resize(file.read(bytes));
+  if (!picture_format(bytes)) {
+    refuse_format(path);  // before memory is taken for the rest
+  }
+  if (file.size() > picture_file_limit) {
+    throw Error(shown(path), "it is larger than " + std::to_string(picture_file_limit >> 20) + " MiB",
+                "scale the picture down first");
+  }
+  const std::size_t begun = bytes.size();
+  bytes.resize(std::max<std::size_t>(begun, file.size()));
+  bytes.resize(begun + file.read(std::span(bytes).subspan(begun)));
+  return bare_picture(std::move(bytes), path);
 }
 
 }  // namespace chainmail

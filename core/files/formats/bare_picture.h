@@ -27,10 +27,11 @@ struct BarePicture {
   std::size_t scans = 1;  // of a JPEG: each one refines all pixels
 };
 
-/// Reads a picture for a decoder, which sees only what decides about pixels: no text, which could unpack to gigabytes,
-/// no colour profile and no preview. Of the camera's notes only the first block stays, which contains the rotation.
-/// Throws Error if the file is not a picture by its signature, larger than picture_file_limit, or if its parts are not
-/// complete.
+/// Prepares the bytes of a file for a decoder, which sees only what decides about pixels: no text, which could unpack
+/// to gigabytes, no colour profile and no preview. Of the camera's notes only the first block stays, which contains the
+/// rotation. Throws Error about `path` if this is not a picture by its signature, or if its parts are not complete.
+BarePicture bare_picture(std::string bytes, const std::filesystem::path& path);
+/// Reads a file and prepares it. Also throws Error if it is larger than picture_file_limit.
 BarePicture read_bare_picture(const std::filesystem::path& path);
 
 }  // namespace chainmail
