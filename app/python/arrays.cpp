@@ -103,20 +103,25 @@ double number_of(PyObject* value) {
 
 }  // namespace
 
-std::uint32_t id_of(py::handle value, const char* what) {
-  int overflow = 0;
+std::optional<std::int64_t> whole_of(py::handle value) {
   const py::object index = PyLong_CheckExact(value.ptr())
                                ? py::reinterpret_borrow<py::object>(value)
                                : py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!index) {
     throw py::error_already_set();
   }
-  const long long id = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
-  if (overflow != 0) {
-    throw Error(std::string(what) + " " + std::string(py::str(index)).substr(0, 60),
+  int overflow = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+  return overflow == 0 ? std::optional<std::int64_t>(number) : std::nullopt;
+}
+
+std::uint32_t id_of(py::handle value, const char* what) {
+  const auto id = whole_of(value);
+  if (!id) {
+    throw Error(std::string(what) + " " + std::string(py::repr(value)).substr(0, 60),
                 std::string("there is no such ") + what, "use a number from 0");
   }
-  return checked_id(id, what);
+  return checked_id(*id, what);
 }
 
 std::vector<std::uint32_t> ids_of(py::handle values, const char* what) {
@@ -200,11 +205,6 @@ std::vector<double> numbers_of(py::handle value, const std::string& name, std::s
 
 std::vector<double> flat_reals_of(py::handle values, const std::string& name) {
   const Flat<double> numbers = real_numbers(array_from(values, name), name);
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
-std::vector<std::int64_t> flat_wholes_of(py::handle values, const std::string& name) {
-  const Flat<std::int64_t> numbers = whole_numbers(array_from(values, name), name);
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 

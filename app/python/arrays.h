@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ namespace py = pybind11;
 // What Python passes, as what C++ takes. These functions throw api::Error with a sentence for a wrong shape, a wrong
 // type of numbers and a number that is no id; TypeError for something else than numbers.
 
+/// Returns a whole number; nothing if it is beyond 64 bits. Throws TypeError for something else.
+std::optional<std::int64_t> whole_of(py::handle value);
 /// Returns an id. `what` is the word in errors: element or link.
 std::uint32_t id_of(py::handle value, const char* what);
 /// Returns ids from a sequence or a one-dimensional array of whole numbers, or from a single number.
@@ -35,9 +38,8 @@ std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values)
 /// Returns a number, or one for each of `count` links. `name` is that of the argument.
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count);
 
-/// Return the numbers of an array of any shape, one row after the other.
+/// Returns the numbers of an array of any shape, one row after the other.
 std::vector<double> flat_reals_of(py::handle values, const std::string& name);
-std::vector<std::int64_t> flat_wholes_of(py::handle values, const std::string& name);
 
 /// Returns the position of a word in a list. Throws Error, with all words, if it is not in it.
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words);

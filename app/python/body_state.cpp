@@ -24,8 +24,8 @@ Point point_from(const StateFields& state, const char* name) {
 void put_positions(py::dict& state, const chainmail::Snapshot& positions, const chainmail::Mesh& mesh) {
   const PositionRuns runs = runs_of(positions, mesh);
   state["from_rest"] = runs.from_rest;
-  state["runs"] = array_of(runs.runs);
-  state["held"] = array_of(runs.held, 1);
+  state["runs"] = bytes_of(runs.runs);
+  state["held"] = bytes_of(runs.held);
   state["frame"] = tuple_of_point(runs.frame.rotation());
 }
 
@@ -48,8 +48,8 @@ void put_softness(py::dict& state, const Softness& softness) {
     }
   }
   state["softness"] = api::softness_of(softness.global);
-  state["own_links"] = array_of(links);
-  state["own_softness"] = array_of(numbers, softness_numbers.size());
+  state["own_links"] = bytes_of(links);
+  state["own_softness"] = bytes_of(numbers);
   state["energy"] = word_for(api::energy_of(softness.energy));
   state["axes"] = frame_kinds[std::size_t(softness.frame.kind())];
   state["turned_by"] = tuple_of_point(softness.frame.rotation());
@@ -92,11 +92,11 @@ py::object body_parts(Object& object) {
   state["stores_displacements"] = from.stores_displacements;
   put_softness(state, *from.softness);
   state["elasticity"] = body.elasticity();
-  state["cuts"] = array_of(from.cuts);
-  state["pins"] = array_of(from.pins);
+  state["cuts"] = bytes_of(from.cuts);
+  state["pins"] = bytes_of(from.pins);
   put_positions(state, from.positions, *Access::pointer(body.mesh()));
   state["reach"] = py::make_tuple(from.reach.since_rest, from.reach.since_check);
-  state["handle"] = array_of(from.handle);
+  state["handle"] = bytes_of(from.handle);
   state["is_held"] = from.is_held;
   return state;
 }

@@ -109,7 +109,7 @@ void add_drag(py::module_& module) {
                " elements, " + std::to_string(drag.path.size()) + " moves>";
       });
   add_pickling(
-      type, [](const api::Drag& drag) { return py::make_tuple(drag.name, array_of(drag.elements), path_of(drag)); },
+      type, [](const api::Drag& drag) { return py::make_tuple(drag.name, drag.elements, path_of(drag)); },
       [](const py::tuple& state) { return drag_from(state[0].cast<std::string>(), state[1], state[2]); });
 }
 

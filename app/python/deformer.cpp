@@ -12,7 +12,6 @@
 #include "python/module.h"
 #include "python/mover.h"
 #include "python/pickling.h"
-#include "python/trace_rows.h"
 #include "python/words.h"
 
 namespace chainmail::python {
@@ -65,6 +64,19 @@ int relax(const Mover& mover, int sweeps, double step, const std::string& scheme
   const bool is_slow = options.scheme == api::RelaxationScheme::equilibrium ||
                        elements * std::uint64_t(std::max(sweeps, 0)) > quick_visits;
   return run(object, is_slow, [&](api::Deformer& deformer) { return deformer.relax(sweeps, options); });
+}
+
+/// Returns the trace as rows: element, sponsor or -1, and 1 if it moved.
+py::array_t<std::int64_t> trace_of(const api::Deformer& deformer) {
+  const auto trace = deformer.trace();
+  py::array_t<std::int64_t> rows({py::ssize_t(trace.size()), py::ssize_t(3)});
+  std::int64_t* out = rows.mutable_data();
+  for (const api::TraceStep& step : trace) {
+    *out++ = step.element;
+    *out++ = step.sponsor == api::no_sponsor ? -1 : std::int64_t(step.sponsor);
+    *out++ = step.moved ? 1 : 0;
+  }
+  return rows;
 }
 
 void add_results(py::module_& module) {
@@ -163,7 +175,7 @@ void add_moves(MoverClass& deformer) {
           "trace",
           [](const Mover& mover) {
             const UseObject use(*mover.object());
-            return rows_of(mover.object()->deformer().trace());
+            return trace_of(mover.object()->deformer());
           },
           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The "
           "columns\n"

@@ -1,14 +1,12 @@
 // Deformers and handles as bytes, for another process: pickle.
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "api/state.h"
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/pickling.h"
-#include "python/trace_rows.h"
 #include "python/words.h"
 
 namespace chainmail::python {
@@ -16,16 +14,23 @@ namespace {
 
 using api::Access;
 
+/// Returns three numbers for each step: the element, its sponsor, and 1 if it moved.
+std::vector<std::uint32_t> flat_trace(const std::vector<api::TraceStep>& trace) {
+  std::vector<std::uint32_t> flat;
+  for (const api::TraceStep& step : trace) {
+    flat.insert(flat.end(), {step.element, step.sponsor, step.moved ? 1U : 0U});
+  }
+  return flat;
+}
+
 std::vector<api::TraceStep> trace_from(const StateFields& state) {
-  const std::vector<std::int64_t> rows = state.wholes("trace");
-  const auto fits = [](std::int64_t one) { return one >= -1 && one < std::int64_t(api::no_sponsor); };
-  if (rows.size() % 3 != 0 || !std::ranges::all_of(rows, fits)) {
+  const std::vector<std::uint32_t> flat = state.ids("trace");
+  if (flat.size() % 3 != 0) {
     state.refuse("trace");
   }
   std::vector<api::TraceStep> trace;
-  for (std::size_t i = 0; i < rows.size(); i += 3) {
-    trace.push_back({static_cast<ElementId>(rows[i]),
-                     rows[i + 1] < 0 ? api::no_sponsor : static_cast<ElementId>(rows[i + 1]), rows[i + 2] != 0});
+  for (std::size_t i = 0; i < flat.size(); i += 3) {
+    trace.push_back({flat[i], flat[i + 1], flat[i + 2] != 0});
   }
   return trace;
 }
@@ -37,16 +42,16 @@ py::object deformer_parts(const Mover& mover) {
   state["body"] = mover.object();
   state["method"] = method;
   state["is_tracing"] = is_tracing;
-  state["trace"] = rows_of(trace);
+  state["trace"] = bytes_of(flat_trace(trace));
   state["scheme"] = scheme_words[std::size_t(memory.relaxation)];
   state["threads"] = memory.threads;
-  state["moved"] = array_of(memory.moved);
-  state["relaxes_now"] = array_of(memory.pending.now);
-  state["relaxes_next"] = array_of(memory.pending.next);
+  state["moved"] = bytes_of(memory.moved);
+  state["relaxes_now"] = bytes_of(memory.pending.now);
+  state["relaxes_next"] = bytes_of(memory.pending.next);
   state["in_sweep"] = memory.pending.in_sweep;
   state["largest_step"] = memory.pending.largest_step;
   state["is_awake"] = memory.is_awake;
-  state["memory"] = array_of(memory.method, 1);
+  state["memory"] = bytes_of(memory.method);
   return state;
 }
 
@@ -85,8 +90,8 @@ py::object handle_parts(HeldHandle& held) {
   }
   py::dict state;
   state["mesh"] = shared_mesh(mesh);
-  state["elements"] = array_of(from.elements);
-  state["positions"] = array_of(positions, 3);
+  state["elements"] = bytes_of(from.elements);
+  state["positions"] = bytes_of(positions);
   state["pivot"] = tuple_of(api::vector_of(from.pose.pivot));
   state["rotation"] = tuple_of(api::vector_of(from.pose.rotation));
   return state;
@@ -117,17 +122,6 @@ std::shared_ptr<HeldHandle> copied_handle(HeldHandle& held) {
 }
 
 }  // namespace
-
-py::array_t<std::int64_t> rows_of(std::span<const api::TraceStep> trace) {
-  py::array_t<std::int64_t> rows({py::ssize_t(trace.size()), py::ssize_t(3)});
-  std::int64_t* out = rows.mutable_data();
-  for (const api::TraceStep& step : trace) {
-    *out++ = step.element;
-    *out++ = step.sponsor == api::no_sponsor ? -1 : std::int64_t(step.sponsor);
-    *out++ = step.moved ? 1 : 0;
-  }
-  return rows;
-}
 
 void add_handle_state(HandleClass& handle) {
   add_pickling(handle, &handle_parts, &handle_from);

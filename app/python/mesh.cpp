@@ -3,6 +3,8 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <limits>
+
 #include "api/access.h"
 #include "python/arrays.h"
 #include "python/module.h"
@@ -57,11 +59,12 @@ api::LatticeOptions lattice_options(double spacing, std::optional<int> space_dim
 }
 
 std::uint32_t size_of(const py::object& value, const char* name) {
-  const long long size = value.cast<long long>();
-  if (size < 1 || size > 0xffffffffLL) {
-    throw api::Error(name, std::to_string(size) + " is no number of elements", "use a number from 1");
+  const auto size = whole_of(value);
+  if (!size || *size < 1 || *size > std::numeric_limits<std::uint32_t>::max()) {
+    throw api::Error(name, std::string(py::repr(value)).substr(0, 60) + " is no number of elements",
+                     "use a number from 1");
   }
-  return static_cast<std::uint32_t>(size);
+  return static_cast<std::uint32_t>(*size);
 }
 
 api::Mesh mesh_from(const py::object& positions, const py::object& links, const py::object& triangles,

@@ -28,13 +28,13 @@ py::object lattice_of(const chainmail::Mesh& mesh) {
 py::object state_of(const api::Mesh& mesh) {
   const FlatMesh flat = flat_mesh_of(*api::Access::pointer(mesh));
   py::dict state;
-  state["rest"] = array_of(flat.rest, 1);
-  state["first_entry"] = array_of(flat.first_entry);
-  state["neighbours"] = array_of(flat.neighbours);
-  state["triangles"] = array_of(flat.triangles);
-  state["polygons"] = array_of(flat.polygons);
-  state["tetrahedra"] = array_of(flat.tetrahedra);
-  state["hexahedra"] = array_of(flat.hexahedra);
+  state["rest"] = bytes_of(flat.rest);
+  state["first_entry"] = bytes_of(flat.first_entry);
+  state["neighbours"] = bytes_of(flat.neighbours);
+  state["triangles"] = bytes_of(flat.triangles);
+  state["polygons"] = bytes_of(flat.polygons);
+  state["tetrahedra"] = bytes_of(flat.tetrahedra);
+  state["hexahedra"] = bytes_of(flat.hexahedra);
   state["lattice"] = lattice_of(*api::Access::pointer(mesh));
   state["space_dimension"] = flat.space_dimension;
   state["softness"] = own_softness_of(mesh);
@@ -83,14 +83,13 @@ api::Mesh mesh_of(const py::object& parts) {
 
 void add_mesh_state(py::class_<api::Mesh>& mesh) {
   add_pickling(mesh, &state_of, &mesh_of);
-  const py::object as_object = mesh.attr("__reduce_ex__");
-  const auto reduce = [as_object](const py::object& self, int protocol) -> py::object {
+  const py::object as_object = mesh.attr("__reduce__");
+  set_reduction(mesh, [as_object](const py::object& self) -> py::object {
     const py::object shared = shared_mesh(self);
     // Another object stands for this mesh: copy.copy() returns that one, since a mesh does not change.
-    return shared.is(self) ? as_object(self, protocol)
+    return shared.is(self) ? as_object(self)
                            : py::make_tuple(py::module_::import("copy").attr("copy"), py::make_tuple(shared));
-  };
-  mesh.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(mesh));
+  });
   mesh.def("__copy__", [](const py::object& self) { return self; });
   mesh.def(
       "__deepcopy__", [](const py::object& self, const py::object& /*memo*/) { return self; }, py::arg("memo"));

@@ -1,5 +1,8 @@
 #include "python/pickling.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "api/access.h"
 #include "python/arrays.h"
 
@@ -23,12 +26,17 @@ py::object key_of(const api::Mesh& mesh) {
 
 }  // namespace
 
+void set_reduction(const py::object& type, const std::function<py::object(const py::object&)>& reduce) {
+  const auto in_any_protocol = [reduce](const py::object& self, int /*protocol*/) { return reduce(self); };
+  type.attr("__reduce__") = py::cpp_function(reduce, py::name("__reduce__"), py::is_method(type));
+  type.attr("__reduce_ex__") = py::cpp_function(in_any_protocol, py::name("__reduce_ex__"), py::is_method(type));
+}
+
 void refuse_pickling(const py::object& type, const std::string& problem, const std::string& remedy) {
   const auto name = type.attr("__name__").cast<std::string>();
-  const auto refuse = [name, problem, remedy](const py::object& /*self*/, int /*protocol*/) -> py::object {
+  set_reduction(type, [name, problem, remedy](const py::object& /*self*/) -> py::object {
     throw api::Error(name, problem, remedy);
-  };
-  type.attr("__reduce_ex__") = py::cpp_function(refuse, py::name("__reduce_ex__"), py::is_method(type));
+  });
 }
 
 void refuse_uninitialised(const py::module_& module) {
@@ -96,8 +104,29 @@ void StateFields::refuse(const char* name) const {
   throw api::Error(where_, "its part '" + std::string(name) + "' is missing or damaged", "pickle the object again");
 }
 
-std::vector<std::uint32_t> StateFields::ids(const char* name) const { return ids_of(object(name), name); }
-std::vector<double> StateFields::reals(const char* name) const { return flat_reals_of(object(name), name); }
-std::vector<std::int64_t> StateFields::wholes(const char* name) const { return flat_wholes_of(object(name), name); }
+template <class Number>
+std::optional<std::vector<Number>> StateFields::unpacked(const char* name) const {
+  const py::object part = object(name);
+  if (PyBytes_Check(part.ptr()) == 0) {
+    return std::nullopt;
+  }
+  const auto size = std::size_t(PyBytes_GET_SIZE(part.ptr()));
+  if (size % sizeof(Number) != 0) {
+    refuse(name);
+  }
+  std::vector<Number> numbers(size / sizeof(Number));
+  std::copy_n(PyBytes_AS_STRING(part.ptr()), size, reinterpret_cast<char*>(numbers.data()));
+  return numbers;
+}
+
+std::vector<std::uint32_t> StateFields::ids(const char* name) const {
+  auto numbers = unpacked<std::uint32_t>(name);
+  return numbers ? std::move(*numbers) : ids_of(object(name), name);
+}
+
+std::vector<double> StateFields::reals(const char* name) const {
+  auto numbers = unpacked<double>(name);
+  return numbers ? std::move(*numbers) : flat_reals_of(object(name), name);
+}
 
 }  // namespace chainmail::python

@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,13 +16,16 @@ namespace chainmail::python {
 
 namespace py = pybind11;
 
+/// Sets the function that reduces objects of a class to what pickle writes. What Python does without it knows only
+/// protocols from 2 on; in others, and if it is called directly, pybind11 ends the process.
+void set_reduction(const py::object& type, const std::function<py::object(const py::object&)>& reduce);
+
 /// Makes the objects of a class known to pickle, in all protocols, and to copy. `get` returns the state of an object,
 /// from which `set` makes it again. A state may come from outside: `set` checks it.
 template <class Class, class Get, class Set>
 void add_pickling(Class& type, Get get, Set set) {
   type.def(py::pickle(std::move(get), std::move(set)));
-  // pybind11's own objects know protocols from 2 on.
-  type.def("__reduce_ex__", [](const py::object& self, int /*protocol*/) {
+  set_reduction(type, [](const py::object& self) -> py::object {
     return py::make_tuple(py::module_::import("copyreg").attr("__newobj__"), py::make_tuple(py::type::of(self)),
                           self.attr("__getstate__")());
   });
@@ -46,6 +51,13 @@ py::object shared_mesh(const api::Mesh& mesh);
 /// The same for an object that stands for its mesh if no other one does.
 py::object shared_mesh(const py::object& mesh);
 
+/// Returns the bytes of numbers, as a part of a state. An array of NumPy would not do: NumPy trusts what is pickled of
+/// it, and a damaged one ends the process.
+template <class Numbers>
+py::bytes bytes_of(const Numbers& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(*numbers.data())};
+}
+
 /// The parts of a state. Throws Error, with the name of the class, if one is missing or of another type.
 class StateFields {
  public:
@@ -58,17 +70,21 @@ class StateFields {
       return object(name).cast<Value>();
     } catch (const py::cast_error&) {
       refuse(name);
+    } catch (const py::reference_cast_error&) {  // from None
+      refuse(name);
     }
   }
-  /// Return the numbers of an array of any shape.
+  /// Return numbers: those that bytes_of() took, or those of an array of any shape.
   std::vector<std::uint32_t> ids(const char* name) const;
   std::vector<double> reals(const char* name) const;
-  std::vector<std::int64_t> wholes(const char* name) const;
   [[noreturn]] void refuse(const char* name) const;
 
   const std::string& where() const { return where_; }
 
  private:
+  template <class Number>
+  std::optional<std::vector<Number>> unpacked(const char* name) const;
+
   std::string where_;
   py::dict parts_;
 };

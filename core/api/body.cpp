@@ -29,6 +29,16 @@ static_assert(Elasticity().young == parameters::young.standard &&
 
 namespace {
 
+/// Throws Error if the rest positions are out of the range of a precision.
+void check_precision(const inner::Mesh& mesh, inner::Precision precision) {
+  const double limit = position_limit(precision);
+  for (const Point& corner : mesh.box) {
+    if (!(corner.array().abs() <= limit).all()) {
+      throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
+    }
+  }
+}
+
 std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> links) {
   check_link_ids(mesh, links);
   std::ranges::sort(links);
@@ -44,6 +54,7 @@ bool Snapshot::operator==(const Snapshot& other) const {
 }
 
 Body::Body(const Mesh& mesh, Precision precision) {
+  check_precision(*Access::pointer(mesh), precision_of(precision));
   inside_ = guarded([&] {
     return std::make_unique<Inside>(
         Inside{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
@@ -210,6 +221,7 @@ void Body::set_frame(const Rotation& rotation) {
   guarded([&] { inner::check(rotation_of(rotation), inside_->body().mesh()); });
   Softness next = inside_->body().softness();
   next.frame = RegionFrame(FrameKind::given, rotation_of(rotation).vector());
+  guarded([&] { inner::check(next.frame, inside_->body().mesh()); });
   inside_->set_softness(next);
 }
 

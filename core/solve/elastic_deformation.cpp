@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/error.h"
 #include "solve/body_view.h"
 
 namespace chainmail {
@@ -67,6 +68,7 @@ PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput outp
   } else {
     move_rigidly(body.mesh(), move, output.progress);
   }
+  check_answer(body);
   return take_answer(body, move.handle.elements(), output.moved);
 }
 
@@ -112,6 +114,7 @@ PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, 
     to[k] = target[body.mesh().axes[k]];
   }
   solver_->move_control_point(point, std::span(to).first(dimension));
+  check_answer(body);
   return take_answer(body, {}, output.moved);
 }
 
@@ -171,6 +174,22 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
 
 void ElasticDeformation::take_positions(const Body& body) {
   solver_->start_from(displacements_of(body.mesh(), body.positions()));
+}
+
+/// Throws Error if the body cannot store the answer. Numbers overflow where an object is deformed beyond measure. The
+/// next move begins at the positions that the body has.
+void ElasticDeformation::check_answer(const Body& body) {
+  const std::vector<double>& answer = solver_->displacements();
+  const std::vector<double>& rest = body.mesh().rest;
+  const double limit = position_limit(body.precision());
+  for (std::size_t i = 0; i < answer.size(); ++i) {
+    if (!(std::abs(rest[i] + answer[i]) <= limit)) {
+      solver_.reset();
+      held_ = {};
+      throw Error("positions", "the answer of the method is no finite number of the precision",
+                  "move the handle less, or reset the object");
+    }
+  }
 }
 
 /// Sets the position of every element, and collects those that moved.

@@ -34,6 +34,7 @@ class ElasticDeformation final : public Method {
   void take_positions(const Body& body);
   void move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress);
   void hold(const Body& body, const Handle& handle, const Progress& progress);
+  void check_answer(const Body& body);
   PassCount take_answer(Body& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) const;
 
   ElasticMethod method_;

@@ -145,7 +145,8 @@ RegionFrame frame_for(const Mesh& mesh, const RegionFrame& frame) {
 }
 
 void check(const RegionFrame& frame, const Mesh& mesh) {
-  if (!frame.rotation().allFinite()) {
+  // The axes of an angle beyond all measure are no numbers.
+  if (!frame.rotation().allFinite() || !frame.axes().allFinite()) {
     throw Error("frame", "its rotation is not finite", "give an axis and an angle as numbers");
   }
   for (int k = 0; k < 3 && mesh.space_dimension < 3; ++k) {

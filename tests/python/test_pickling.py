@@ -208,9 +208,14 @@ def test_relaxation_of_each_energy_continues(energy):
     assert np.array_equal(again.body.positions(), deformer.body.positions())
 
 
-@pytest.mark.parametrize("method", [row["name"] for row in chainmail.methods() if row["family"] == "chainmail"])
-def test_a_pickle_does_not_change_the_original(method):
-    (deformer, handle), (control, other) = (begun(method, "double", False, False) for _ in range(2))
+# These take up the handle again, with other last digits.
+REGRABS = {"exact", "ffd"}
+
+
+@pytest.mark.parametrize("many", [False, True])
+@pytest.mark.parametrize("method", [name for name in METHODS if name not in REGRABS])
+def test_a_pickle_does_not_change_the_original(method, many):
+    (deformer, handle), (control, other) = (begun(method, "double", many, False) for _ in range(2))
     pickle.dumps(deformer)
     assert_equal(continued(deformer, handle, "link"), continued(control, other, "link"))
 
