@@ -201,6 +201,8 @@ void HostileFilesTest::a_small_file_of_many_voxels_takes_little_memory() {
   });
   QVERIFY2(outcome.code == 0, outcome.error);
   QVERIFY2(outcome.out.contains("\nread as           voxels from a density of "), outcome.out);
+}
+
 /// Acts like a system on which no more threads may be started.
 void HostileFilesTest::without_threads_it_says_what_to_do() {
 #ifdef __SANITIZE_THREAD__
