@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <QProcess>
 #include <QtTest>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,7 @@ class ImportProcessTest : public QObject {
   void it_says_how_much_it_has_read();
   void no_temporary_folder_stays();
   void other_files_are_hidden();
+  void its_version_says_what_the_sandbox_has();
   void a_program_of_another_kind_gets_a_sentence_data();
   void a_program_of_another_kind_gets_a_sentence();
   void when_no_file_can_be_opened_it_says_so();
@@ -229,6 +231,15 @@ void ImportProcessTest::other_files_are_hidden() {
               "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 1\nencoding: raw\ndata file: " + secret + "\n");
   const QString error = error_of([&] { run_import("nrrd", input, {}, limits_for(0), {}); });
   QVERIFY2(error.startsWith("a.nhdr: teem cannot read it (") && error.contains("couldn't open"), qPrintable(error));
+}
+
+void ImportProcessTest::its_version_says_what_the_sandbox_has() {
+  QProcess program;
+  program.start(IMPORT_PROGRAM, {"--version"});
+  QVERIFY(program.waitForFinished());
+  const QByteArray line = import::sandbox_hides_files() ? "Sandbox: Landlock and seccomp." : "Sandbox: seccomp only.";
+  const QByteArray said = program.readAllStandardOutput();
+  QVERIFY2(said.contains(line), said);
 }
 
 void ImportProcessTest::a_program_of_another_kind_gets_a_sentence_data() {

@@ -18,7 +18,7 @@ namespace chainmail {
 namespace {
 
 // Largest number of pixels of a JPEG times its scans. A usual progressive JPEG has about 10.
-constexpr double scanned_pixel_limit = 12 * picture_limit;
+constexpr double scannedPixelLimit = 12 * picture_limit;
 constexpr int jpegQuality = 95;
 constexpr int megabyte = 1 << 20;
 
@@ -78,7 +78,7 @@ class PictureReader {
                       .arg(large ? QStringLiteral(" of 16 bits per colour") : QString()),
                   "scale the picture down first");
     }
-    if (pixels * double(picture_.scans) > scanned_pixel_limit) {
+    if (pixels * double(picture_.scans) > scannedPixelLimit) {
       failPicture(path_, QStringLiteral("it stores its pixels in %L1 scans").arg(picture_.scans),
                   "save it again, in another program");
     }
