@@ -14,8 +14,8 @@ class WorkbenchStyle : public QProxyStyle {
 
  public:
   WorkbenchStyle();
-  /// Makes labels, tool tips and questions show their text as it is. A label with rich text sets Qt::RichText when it is
-  /// made, and escapes what is not its own (QString::toHtmlEscaped).
+  /// Makes labels, tool tips and questions show their text as it is. A label with rich text sets Qt::RichText when it
+  /// is made, and escapes what is not its own (QString::toHtmlEscaped).
   void polish(QWidget* widget) override;
   using QProxyStyle::polish;
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,

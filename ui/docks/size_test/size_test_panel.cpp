@@ -40,8 +40,8 @@ void SizeTestPanel::arrange() {
   head->setContentsMargins(8, 6, 8, 6);
   head->setSpacing(8);
   head->addWidget(swatch);
-  auto* name = new QLabel(QStringLiteral("<b>%1</b>&nbsp; %2")
-                              .arg(panelName(contestant_.panel), text(info(contestant_.algorithm).label)));
+  auto* name = new QLabel(
+      QStringLiteral("<b>%1</b>&nbsp; %2").arg(panelName(contestant_.panel), text(info(contestant_.algorithm).label)));
   name->setTextFormat(Qt::RichText);
   head->addWidget(name);
   head->addWidget(state_, 1, Qt::AlignRight);
