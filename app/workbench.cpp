@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/application.h"
+#include "common/last_words.h"
 #include "docks/mesh_dock.h"
 #include "io/sessions.h"
 #include "mesh/failure.h"
@@ -52,6 +53,9 @@ int run(int argc, char** argv) {
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
                        "chainmail"));
   }
+  if (const QString why = chainmail::whyNoMemory(); !why.isEmpty()) {
+    return fail(why);
+  }
   chainmail::prepareApplication();
   chainmail::Application application(argc, argv);
   QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));
@@ -93,6 +97,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
+  chainmail::prepareLastWords();
   try {
     return run(argc, argv);
   } catch (...) {  // before the window was open, or while it was closed

@@ -1,13 +1,8 @@
 #include "common/application.h"
 
-#include <unistd.h>
-
 #include <QEvent>
-#include <cstdlib>
-#include <exception>
 #include <mutex>
 #include <new>
-#include <string_view>
 #include <utility>
 
 #include "common/held_memory.h"
@@ -44,21 +39,11 @@ void fillReserve() {
   reserve().memory.hold(reserveBytes);
 }
 
-/// The last resort: an exception that nothing has caught. Says where the work is; autosave has written it before.
-[[noreturn]] void sayLastWords() {
-  constexpr std::string_view words =
-      "workbench: it has to end because of an unexpected error; the next start offers your unsaved work\n";
-  const auto written = ::write(STDERR_FILENO, words.data(), words.size());
-  static_cast<void>(written);
-  std::abort();
-}
-
 }  // namespace
 
 Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
   fillReserve();
   std::set_new_handler(&giveReserve);
-  std::set_terminate(&sayLastWords);
 }
 
 Application::~Application() { std::set_new_handler(nullptr); }

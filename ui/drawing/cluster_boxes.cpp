@@ -27,11 +27,12 @@ ClusterBoxes::Box boxOf(std::span<const ElementId> elements, const Frame& frame)
 
 void ClusterBoxes::follow(const MeshLevelPointer& level, const Frame& frame) {
   if (level != level_ || frame.series != series_) {
-    level_ = level;
-    series_ = frame.series;
+    level_.reset();  // until all is made for the new one: if memory runs out, the next call starts again
     boxes_.resize(level->clusterCount());
     seen_.assign(level->clusterCount(), 0);
     prepared_.reset();
+    level_ = level;
+    series_ = frame.series;
   }
   frame_ = &frame;
 }

@@ -133,11 +133,16 @@ void ObjectPainter::destroy() {
   for (QOpenGLBuffer* buffer : buffers()) {
     buffer->destroy();
   }
+  seeThrough_.destroy();
+  startOver();
+}
+
+void ObjectPainter::startOver() {
   mesh_.reset();
   restMesh_.reset();
   texture_.reset();
   parts_.forget();
-  seeThrough_.destroy();
+  inLayer_ = {};
   frameNumber_ = 0;
   valuesNumber_ = 0;
   selectedIndices_ = 0;

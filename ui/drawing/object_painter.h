@@ -24,6 +24,9 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   /// Compiles the shaders; throws Error with the driver's log if they do not compile.
   void initialize();
   void destroy();
+  /// Call this after a paint that failed in the middle: the next one sends everything to the graphics card again. The
+  /// selection must be set again.
+  void startOver();
   /// Frees the memory that drawSeeThrough uses until its next call.
   void freeSeeThrough() { seeThrough_.destroy(); }
 

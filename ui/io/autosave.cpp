@@ -24,13 +24,23 @@ using std::chrono::milliseconds;
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
 constexpr milliseconds waitAfterFailure(10'000);
 
-/// Returns the memory that writing the work takes at most: the positions of all panels, those of one panel twice more
-/// as it is written, and some for the rest.
+/// Returns the memory that writing the work takes at most: the positions of all panels, those of one panel up to four
+/// times as they are collected for the file, and some for the rest.
 std::size_t memoryFor(const Document& document) {
-  constexpr std::size_t rest = 8 * 1024 * 1024;
+  constexpr std::size_t rest = 16 * 1024 * 1024;
   const Mesh& mesh = *document.mesh();
   const std::size_t positions = sizeof(double) * std::size_t(mesh.space_dimension) * mesh.element_count();
-  return rest + (std::size_t(document.panels()) + 2) * positions;
+  return rest + (std::size_t(document.panels()) + 4) * positions;
+}
+
+/// Returns a sentence about the exception that is being handled.
+std::string failedSentence() noexcept {
+  const std::string why = failure_sentence("unsaved work");
+  try {
+    return "Automatic saving failed and is tried again: " + why;
+  } catch (...) {
+    return why;
+  }
 }
 
 }  // namespace
@@ -150,18 +160,23 @@ void Autosave::listen() {
   }
 }
 
-/// Holds the memory for the next writing, unless one is under way.
+/// Holds the memory for the next writing, unless one is under way. Warns when there is not enough.
 void Autosave::holdMemory() {
-  if (!closed_ && !writing_ && !memory_.hold(memoryFor(document_))) {
-    reportFailure(
-        QStringLiteral("memory: little is left; save your work, then close other programs or use a smaller "
-                       "mesh"));
+  if (closed_ || writing_) {
+    return;
   }
+  const bool isHeld = memory_.hold(memoryFor(document_));
+  if (!isHeld && !std::exchange(lacksMemory_, true)) {
+    emit failed(QStringLiteral(
+        "Memory is almost used up, so unsaved work may not be kept; save it, then close other programs or "
+        "use a smaller mesh"));
+  }
+  lacksMemory_ = !isHeld;
 }
 
-void Autosave::reportFailure(const QString& why) {
-  if (std::exchange(failure_, why) != why) {
-    emit failed(QStringLiteral("Automatic saving may fail. It tries again: %1").arg(why));
+void Autosave::reportFailure(const QString& sentence) {
+  if (std::exchange(failure_, sentence) != sentence) {
+    emit failed(sentence);
   }
 }
 
@@ -209,6 +224,10 @@ void Autosave::saveSoon() {
 }
 
 void Autosave::save() {
+  if (writing_) {
+    changed_ = true;  // its end starts the next one
+    return;
+  }
   if (!document_.isModified()) {
     remove();
     return;
@@ -227,32 +246,57 @@ void Autosave::save() {
       write(*writing, object, draft);
     });
   } catch (...) {  // no memory for the draft
-    writing_->error = failure_sentence("unsaved work");
+    writing_->error = failedSentence();
+    writing_->done = true;
     receive();
   }
 }
 
 void Autosave::write(Writing& writing, const Object& object, const SessionDraft& draft) {
+  const Progress progress(writing.job);
   try {
-    const Progress progress(writing.job);
-    Session session = draft.finished(progress);
-    writing.object = withObject(path_, session, object, progress.part(0, 0.5));
-    const QString name = unsaved_work::objectName(path_, writing.object.number);
-    session.mesh_file = name.toStdString();
-    save_session(asPath(path_), session, progress.part(0.5, 1));
-    unsaved_work::discardObjects(path_, name);
+    writing.object = writeFiles(draft.finished(progress), object, progress);
     writing.isWritten = true;
   } catch (const Cancelled&) {
     // The window closes, or the first panel has no positions at this moment.
+  } catch (const std::bad_alloc&) {
+    writing.error = writeMoves(object, draft, progress);
   } catch (...) {
-    writing.error = failure_sentence("unsaved work");
+    writing.error = failedSentence();
   }
   writing.done = true;
   announce(this, &Autosave::receive);
 }
 
+/// Writes the object, unless its file has it already, and the work. Returns the object that is written.
+Autosave::Object Autosave::writeFiles(Session session, const Object& object, const Progress& progress) const {
+  const Object written = withObject(path_, session, object, progress.part(0, 0.5));
+  const QString name = unsaved_work::objectName(path_, written.number);
+  session.mesh_file = name.toStdString();
+  save_session(asPath(path_), session, progress.part(0.5, 1));
+  unsaved_work::discardObjects(path_, name);
+  return written;
+}
+
+/// Writes the work without positions when there is no memory for them, unless an earlier file has some. Returns the
+/// sentence for the user.
+std::string Autosave::writeMoves(const Object& object, const SessionDraft& draft, const Progress& progress) const {
+  std::string sentence = failedSentence();
+  try {
+    if (!QFile::exists(path_)) {
+      writeFiles(draft.withoutPositions(), object, progress);
+      sentence =
+          "Automatic saving kept the moves, but had no memory for the positions; save your work, then close other "
+          "programs or use a smaller mesh";
+    }
+  } catch (...) {
+    // The first sentence says it.
+  }
+  return sentence;
+}
+
 void Autosave::receive() {
-  if (closed_) {
+  if (closed_ || !writing_ || !writing_->done) {
     return;
   }
   const auto written = std::exchange(writing_, nullptr);
@@ -262,7 +306,7 @@ void Autosave::receive() {
     if (!written->error.empty()) {
       reportFailure(QString::fromStdString(written->error));
     }
-    memory_.hold(memoryFor(document_));
+    holdMemory();
     return;
   }
   failure_.clear();

@@ -84,11 +84,13 @@ class Autosave : public QObject {
   void save();
   void saveSoon();
   void receive();
-  void reportFailure(const QString& why);
+  void reportFailure(const QString& sentence);
   void remove();
   void cancelWriting();
   void run(const TaskThread::Task& task);
   void write(Writing& writing, const Object& object, const SessionDraft& draft);
+  Object writeFiles(Session session, const Object& object, const Progress& progress) const;
+  std::string writeMoves(const Object& object, const SessionDraft& draft, const Progress& progress) const;
   void holdMemory();
   Mark mark() const;
 
@@ -102,11 +104,12 @@ class Autosave : public QObject {
   Object object_;
   std::vector<Adopted> adopted_;
   bool changed_ = false;  // true if the work changed during writing
-  QString failure_;       // why the last writing failed; empty if it did not
+  QString failure_;       // the last sentence of failed(); empty after a writing that did not fail
   bool closed_ = false;   // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
   HeldMemory memory_;                 // for the next writing
+  bool lacksMemory_ = false;          // true if so much could not be held
   TaskThread thread_;                 // last: ends before the members that its tasks use
 };
 

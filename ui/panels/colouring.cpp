@@ -156,7 +156,7 @@ const ColourValues* Colouring::follow(int panel) {
 }
 
 /// Starts to compute the values of a panel: copies everything that they depend on. Returns false while a required frame
-/// or the reference solution is missing.
+/// or the reference solution is missing. If memory runs out, the values are outdated as before.
 bool Colouring::start(int panel) {
   Work& work = works_[panel];
   work.others = comparedWith(panel);
@@ -167,8 +167,6 @@ bool Colouring::start(int panel) {
     return false;
   }
   const Mesh& mesh = *document_.mesh();
-  work.outdated = false;
-  work.running = true;
   work.next = 0;
   work.squares = 0;
   work.building.mesh = document_.mesh();
@@ -183,6 +181,8 @@ bool Colouring::start(int panel) {
       work.copies[one].follow(*document_.frame(one));
     }
   }
+  work.outdated = false;
+  work.running = true;
   return true;
 }
 

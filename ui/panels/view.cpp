@@ -580,7 +580,23 @@ ObjectPainter& View::ghostPainter() {
 
 /// An exception must not leave this function: QOpenGLWidget would believe that it is still painting.
 void View::paintGL() {
-  Application::guarded([this] { paint(); });
+  Application::guarded([this] {
+    try {
+      paint();
+    } catch (...) {
+      startOver();
+      throw;
+    }
+  });
+}
+
+/// After a paint that failed in the middle, the next one must not use what it left half done.
+void View::startOver() {
+  painter_.startOver();
+  if (ghostPainter_ != nullptr) {
+    ghostPainter_->startOver();
+  }
+  selectionOutdated_ = true;
 }
 
 void View::paint() {

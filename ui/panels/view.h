@@ -175,6 +175,7 @@ class View : public QOpenGLWidget {
   void freeGhostPainter();
   ObjectDrawing::Scene scene(double pixelRatio, const QColor& ground, DetailBudget::Detail detail) const;
   void paint();
+  void startOver();
   void paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail);
   void draw(const Easel& on);
   void takeFrames(const Easel& on);

@@ -1,5 +1,7 @@
 #include "window/startup.h"
 
+#include <sys/mman.h>
+
 #include <QApplication>
 #include <QIcon>
 #include <QOpenGLContext>
@@ -13,6 +15,12 @@
 static void loadResources() { Q_INIT_RESOURCE(workbench); }
 
 namespace chainmail {
+namespace {
+
+// Address space that the window takes with a small object. OpenGL without a graphics card takes most of it.
+constexpr std::size_t windowBytes = std::size_t{1024} * 1024 * 1024;
+
+}  // namespace
 
 void prepareApplication() {
   loadResources();
@@ -34,6 +42,18 @@ void styleApplication() {
   QApplication::setWindowIcon(QIcon(QStringLiteral(":/org.chainmail.workbench.png")));
   QApplication::setStyle(new WorkbenchStyle);
   applyGround(rememberedGround());
+}
+
+QString whyNoMemory() {
+  // Takes no memory of the machine: such pages cannot be used.
+  void* space = ::mmap(nullptr, windowBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (space == MAP_FAILED) {
+    return QStringLiteral(
+        "memory: the window needs 1 GB of address space; raise the limit (ulimit -v), or use the command line program "
+        "chainmail");
+  }
+  ::munmap(space, windowBytes);
+  return {};
 }
 
 QString whyNoWindow() {

@@ -10,6 +10,10 @@ void prepareApplication();
 /// Sets icon, style and palette. Call it after the application object is made.
 void styleApplication();
 
+/// Returns the reason why there is too little memory for the window; empty if there is enough. Call it before the
+/// application object is made: graphics drivers crash without memory.
+QString whyNoMemory();
+
 /// Returns the reason why the workbench cannot draw on this platform; empty if it can.
 QString whyNoWindow();
 

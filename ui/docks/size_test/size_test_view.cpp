@@ -84,7 +84,14 @@ ObjectPainter::Scene SizeTestView::scene() const {
 
 /// An exception must not leave this function: QOpenGLWidget would believe that it is still painting.
 void SizeTestView::paintGL() {
-  Application::guarded([this] { paint(); });
+  Application::guarded([this] {
+    try {
+      paint();
+    } catch (...) {
+      painter_.startOver();
+      throw;
+    }
+  });
 }
 
 void SizeTestView::paint() {
