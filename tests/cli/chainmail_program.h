@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/resource.h>
+
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -50,6 +52,17 @@ class Program {
  private:
   QTemporaryDir folder_;
 };
+
+/// Limits processor time and address space of a process, for Program::run. A sanitizer takes more of both.
+inline void limit_resources(rlim_t seconds, rlim_t bytes = RLIM_INFINITY) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  seconds *= 10;
+  bytes = RLIM_INFINITY;
+#endif
+  const rlimit time{seconds, seconds}, space{bytes, bytes};
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_AS, &space);
+}
 
 /// Checks that standard error is one line that begins with `chainmail: WHERE` and says what to do.
 inline bool is_one_sentence(const Outcome& outcome) {

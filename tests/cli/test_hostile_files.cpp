@@ -183,11 +183,7 @@ void HostileFilesTest::known_attacks_end_soon() {
   program_->write("grid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n");
   for (const QStringList& arguments : {QStringList{"info", name}, QStringList{"convert", name, "-o", "out.obj"},
                                        QStringList{"thumbnail", name, "-o", "out.png"}}) {
-    const auto outcome = program_->run(arguments, [] {
-      const rlimit seconds{3, 3}, bytes{1U << 30, 1U << 30};
-      setrlimit(RLIMIT_CPU, &seconds);
-      setrlimit(RLIMIT_AS, &bytes);
-    });
+    const auto outcome = program_->run(arguments, [] { limit_resources(3, 1U << 30); });
     QVERIFY2(outcome.code == 0 || (outcome.code == 2 && is_one_sentence(outcome)), outcome.error);
   }
 }
@@ -195,10 +191,7 @@ void HostileFilesTest::known_attacks_end_soon() {
 /// 2^29 voxels in half a megabyte: they are averaged while they are unpacked.
 void HostileFilesTest::a_small_file_of_many_voxels_takes_little_memory() {
   program_->write("large.mha", packed_volume({1024, 1024, 512}));
-  const auto outcome = program_->run({"info", "large.mha"}, [] {
-    const rlimit bytes{1U << 29, 1U << 29};
-    setrlimit(RLIMIT_AS, &bytes);
-  });
+  const auto outcome = program_->run({"info", "large.mha"}, [] { limit_resources(60, 1U << 29); });
   QVERIFY2(outcome.code == 0, outcome.error);
   QVERIFY2(outcome.out.contains("\nread as           voxels from a density of "), outcome.out);
 }

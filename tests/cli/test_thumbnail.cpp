@@ -1,5 +1,4 @@
 #include <png.h>
-#include <sys/resource.h>
 
 #include <QPoint>
 #include <array>
@@ -137,10 +136,8 @@ void ThumbnailCommandTest::slender_faces_take_little_time() {
     text += one;
   }
   program.write("many.obj", text);
-  const auto outcome = program.run({"thumbnail", "many.obj", "-o", "picture.png", "--size", "1024"}, [] {
-    const rlimit seconds{3, 3};
-    setrlimit(RLIMIT_CPU, &seconds);
-  });
+  const auto outcome =
+      program.run({"thumbnail", "many.obj", "-o", "picture.png", "--size", "1024"}, [] { limit_resources(3); });
   QVERIFY2(outcome.code == 0, outcome.error);
   const Picture picture(program.path("picture.png"));
   QVERIFY(picture.alpha({512, 512}) == 255);
@@ -175,10 +172,7 @@ void ThumbnailCommandTest::neighbouring_faces_leave_no_gap() {
 void ThumbnailCommandTest::work_without_end_is_ended() {
   const Program program;
   program.write("large.mha", packed_volume({1024, 1024, 1024}));
-  const auto outcome = program.run({"thumbnail", "large.mha", "-o", "picture.png"}, [] {
-    const rlimit seconds{3, 3};
-    setrlimit(RLIMIT_CPU, &seconds);
-  });
+  const auto outcome = program.run({"thumbnail", "large.mha", "-o", "picture.png"}, [] { limit_resources(3); });
   QCOMPARE(outcome.code, 2);
   QCOMPARE(
       outcome.error,

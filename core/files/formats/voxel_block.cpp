@@ -69,11 +69,13 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume) {
   auto texture = std::make_shared<Texture>();
   texture->size = volume.size;
   texture->channels = 1;
+  std::vector<std::uint8_t> texels(std::size_t{*highest} + 1);  // of each density
+  for (std::size_t density = *lowest; density < texels.size(); ++density) {
+    texels[density] = static_cast<std::uint8_t>(std::lround(255 * double(density - *lowest) / range));
+  }
   texture->texels.resize(volume.densities.size());
   std::transform(volume.densities.begin(), volume.densities.end(), texture->texels.begin(),
-                 [range, low = *lowest](std::uint16_t density) {
-                   return static_cast<std::uint8_t>(255 * (density - low) / range + 0.5);
-                 });
+                 [&texels](std::uint16_t density) { return texels[density]; });
   texture->box[0] = volume.origin - volume.spacing / 2;
   for (int k = 0; k < 3; ++k) {
     texture->box[1][k] = texture->box[0][k] + volume.spacing[k] * volume.size[std::size_t(k)];
