@@ -5,7 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <future>
-#include <utility>
+#include <system_error>
 
 #include "chainmail/job.h"
 
@@ -17,10 +17,17 @@ void wait_for_work(const api::Job& job, const pybind11::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within);
 
 /// Runs work that may take long in a thread of its own, while this thread looks for Ctrl-C: Python handles signals only
-/// between its own instructions. The work must not touch Python.
+/// between its own instructions. The work must not touch Python. If the system has no memory for another thread, the
+/// work runs in this one, and Ctrl-C waits for it.
 template <class Work>
 auto run_long(const api::Job& job, const pybind11::object& progress, Work work) {
-  auto result = std::async(std::launch::async, std::move(work));
+  std::future<decltype(work())> result;
+  try {
+    result = std::async(std::launch::async, std::ref(work));
+  } catch (const std::system_error&) {
+    const pybind11::gil_scoped_release unlocked;
+    return work();
+  }
   wait_for_work(job, progress,
                 [&](std::chrono::milliseconds time) { return result.wait_for(time) == std::future_status::ready; });
   return result.get();

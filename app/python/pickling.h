@@ -55,7 +55,13 @@ py::object shared_mesh(const py::object& mesh);
 /// it, and a damaged one ends the process.
 template <class Numbers>
 py::bytes bytes_of(const Numbers& numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(*numbers.data())};
+  const auto* const data = reinterpret_cast<const char*>(numbers.data());
+  const auto size = py::ssize_t(numbers.size() * sizeof(*numbers.data()));
+  auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(data, size));
+  if (!bytes) {
+    throw py::error_already_set();
+  }
+  return bytes;
 }
 
 /// The parts of a state. Throws Error, with the name of the class, if one is missing or of another type.
