@@ -8,6 +8,7 @@
 
 #include "common/announce.h"
 #include "common/application.h"
+#include "common/held_memory.h"
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "files/session/session.h"
@@ -53,6 +54,17 @@ void emitSignals(Document& document, const Contents& from, const Contents& to, c
   }
   for (const int panel : panels) {
     Application::guarded([&] { emit document.algorithmChanged(panel); });
+  }
+}
+
+/// Throws Error if there is too little memory to work with a mesh, which exists already: to show it, to move it, to
+/// undo and to save it automatically. Without this check, the graphics driver would crash before the first work is
+/// saved. The figures are measured ones, with a margin: 220 bytes for an element of a grid with two panels.
+void requireMemoryFor(const Mesh& mesh) {
+  constexpr std::size_t forDrawing = 64 * 1024 * 1024, perElement = 200, perLink = 40;
+  HeldMemory trial;
+  if (!trial.hold(forDrawing + perElement * mesh.element_count() + perLink * mesh.links.size())) {
+    throw Error("memory", "there is not enough to work with this object", "close other programs or use a smaller mesh");
   }
 }
 
@@ -471,6 +483,7 @@ void Document::resetObject() {
 }
 
 void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
+  requireMemoryFor(*mesh);
   Change edit = change(text);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
   Softness carried = kept_for(*mesh, *wholeSoftness());
@@ -482,6 +495,7 @@ void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const Q
 }
 
 void Document::restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text) {
+  requireMemoryFor(*session->mesh);
   Change edit = change(text);
   auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
   object->parts.cut(object->cuts, session->cuts);

@@ -180,10 +180,11 @@ class Document : public QObject {
   /// Splits faces of the object, and cuts links of the object before the split.
   void split(const SplitPointer& split, const std::vector<LinkId>& cut = {});
   void resetObject();
-  /// Replaces the object. `own` contains the softness of links that have their own.
+  /// Replaces the object. `own` contains the softness of links that have their own. Throws Error if there is too little
+  /// memory to work with it; nothing has changed then.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});
-  /// Opens a session. A panel that the session does not have shows the object of the session's first panel and keeps
-  /// its algorithm if possible.
+  /// Opens a session, unless there is too little memory as for replaceMesh(). A panel that the session does not have
+  /// shows the object of the session's first panel and keeps its algorithm if possible.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
   /// The file of this session; empty if it has none yet.
   const QString& sessionFile() const { return sessionFile_; }

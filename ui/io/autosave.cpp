@@ -35,7 +35,7 @@ std::size_t memoryFor(const Document& document) {
 
 /// Returns a sentence about the exception that is being handled.
 std::string failedSentence() noexcept {
-  const std::string why = failure_sentence("unsaved work");
+  std::string why = failure_sentence("unsaved work");
   try {
     return "Automatic saving failed and is tried again: " + why;
   } catch (...) {
@@ -160,7 +160,8 @@ void Autosave::listen() {
   }
 }
 
-/// Holds the memory for the next writing, unless one is under way. Warns when there is not enough.
+/// Holds the memory for the next writing, unless one is under way. If there is not enough, warns, and writes before
+/// there is even less.
 void Autosave::holdMemory() {
   if (closed_ || writing_) {
     return;
@@ -270,7 +271,7 @@ void Autosave::write(Writing& writing, const Object& object, const SessionDraft&
 
 /// Writes the object, unless its file has it already, and the work. Returns the object that is written.
 Autosave::Object Autosave::writeFiles(Session session, const Object& object, const Progress& progress) const {
-  const Object written = withObject(path_, session, object, progress.part(0, 0.5));
+  Object written = withObject(path_, session, object, progress.part(0, 0.5));
   const QString name = unsaved_work::objectName(path_, written.number);
   session.mesh_file = name.toStdString();
   save_session(asPath(path_), session, progress.part(0.5, 1));
