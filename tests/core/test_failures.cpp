@@ -28,7 +28,7 @@ class FailuresTest : public QObject {
   void a_state_without_memory_restores_cuts_and_pins();
   void a_pass_without_memory_for_its_record_is_a_pass();
   void a_solver_without_a_thread_says_so();
-  void a_team_without_threads_works_alone();
+  void a_team_without_threads_and_memory_works_alone();
 };
 
 namespace {
@@ -128,7 +128,7 @@ void FailuresTest::a_question_that_fails_is_reported() {
   for (const Failure failure : {Failure::memory, Failure::other, Failure::number}) {
     solver.ask([failure](const Simulation&) { fail(failure); });
     QVERIFY(begins(next_error(solver), "Natural Queue"));
-    QVERIFY(solver.idle());
+    QVERIFY(wait_until([&] { return solver.idle(); }));
   }
   QVERIFY(!positions_of(solver).empty());
 }
@@ -244,12 +244,15 @@ void FailuresTest::a_solver_without_a_thread_says_so() {
   QVERIFY(positions_of(second) == positions_of(first));
 }
 
-void FailuresTest::a_team_without_threads_works_alone() {
-  const NoThreads none;
-  ThreadTeam team(8);
-  team.call_helpers();
+void FailuresTest::a_team_without_threads_and_memory_works_alone() {
   std::array<std::atomic<int>, 5> runs{};
-  team.run(runs.size(), [&](std::size_t part) { ++runs[part]; });
+  {
+    const NoThreads none;
+    const LittleMemory little(50);
+    ThreadTeam team(8);
+    team.call_helpers();
+    team.run(runs.size(), [&](std::size_t part) { ++runs[part]; });
+  }
   for (const auto& count : runs) {
     QCOMPARE(count.load(), 1);
   }

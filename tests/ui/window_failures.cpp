@@ -256,7 +256,8 @@ class WindowFailures : public QObject {
     }
     QCOMPARE(pinsOnDisk(), std::vector<ElementId>{3});
     QVERIFY(!hasPositionsOnDisk());
-    QVERIFY(timer->isActive());  // no change is needed for another attempt
+    QVERIFY(timer->isActive());
+    QCOMPARE(timer->interval(), 10'000);  // of the next attempt, for which no change is needed
     timer->start(0);
     QTRY_VERIFY(hasPositionsOnDisk());
   }
