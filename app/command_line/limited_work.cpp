@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "files/import/sandbox.h"
@@ -114,6 +115,9 @@ std::string answer_of(const std::function<std::string()>& work) {
     return is_error + error.where() + between_texts + error.problem() + between_texts + error.remedy();
   } catch (const std::bad_alloc&) {
     return {is_out_of_memory};
+  } catch (const std::system_error& error) {  // also of file systems
+    return is_error + ("system" + (between_texts + error.code().message())) + between_texts +
+           "close other programs, or check the path and its permissions";
   } catch (const std::exception& error) {
     return is_fault + std::string(error.what());
   }
@@ -159,6 +163,12 @@ std::string result_of(const std::string& where, const WorkLimits& limits, const 
 
 }  // namespace
 
+bool is_in_second_half(const WorkLimits& limits) {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return std::uint64_t(used.ru_utime.tv_sec + used.ru_stime.tv_sec) >= limits.seconds / 2;
+}
+
 std::string run_limited(const std::string& where, const WorkLimits& limits, const std::function<std::string()>& work) {
   const TemporaryFolder folder;  // removed even if the work is killed
   WorkPipe pipe;
@@ -187,7 +197,7 @@ void finish_in_sandbox() {
   if (started.ru_utime.tv_sec > 0 || started.ru_utime.tv_usec > 0) {
     std::signal(SIGXCPU, SIG_DFL);  // the programs had the other half
   }
-  // Without it, the limits still hold.
+  // Without it, the limits still apply.
   static_cast<void>(import::enter_sandbox());
 }
 

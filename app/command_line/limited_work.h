@@ -20,6 +20,9 @@ struct WorkLimits {
 /// Call this on the only thread of a process.
 std::string run_limited(const std::string& where, const WorkLimits& limits, const std::function<std::string()>& work);
 
+/// For the work, before it starts a program: true if it has used the half of the time that is for programs.
+bool is_in_second_half(const WorkLimits& limits);
+
 /// For the work, when all its files are read: counts the processor time of programs that it started, and enters a
 /// sandbox in which it can only compute and answer.
 void finish_in_sandbox();

@@ -26,6 +26,8 @@ constexpr Raster::Colour face_colour{86, 156, 214}, link_colour{38, 92, 140};
 constexpr double margin = 0.06;     // of the picture
 constexpr double line_lift = 1e-3;  // of the object: links on faces are in front of them
 
+constexpr WorkLimits work_limits{limits::thumbnail_seconds, limits::thumbnail_memory, limits::thumbnail_bytes};
+
 /// What a file shows: an object in a state.
 struct Shown {
   MeshPointer mesh;
@@ -40,6 +42,9 @@ Shown session_of(const std::filesystem::path& path) {
     const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
     std::error_code none;
     const bool is_sample = !exists(beside, none) && exists(sample, none);
+    if (is_in_second_half(work_limits)) {
+      throw Error(chainmail::shown(path), "it takes too long to read", "open it in the workbench");
+    }
     return chainmail::open_mesh(is_sample ? sample : beside, {}, progress).mesh;
   };
   const Session session = read_session(path, {}, open);
@@ -210,9 +215,8 @@ Command add_thumbnail(CLI::App& root) {
             const std::uint32_t pixels = whole_number_of(size, smallest, standard, largest);
             Outputs outputs;
             outputs.keep(path);
-            const std::string png = run_limited(
-                chainmail::shown(path), {limits::thumbnail_seconds, limits::thumbnail_memory, limits::thumbnail_bytes},
-                [&] { return png_of(path, pixels); });
+            const std::string png =
+                run_limited(chainmail::shown(path), work_limits, [&] { return png_of(path, pixels); });
             outputs.add(*value_of(output), [&](std::ostream& out) { out << png; });
             outputs.commit();
           }};

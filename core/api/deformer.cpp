@@ -177,7 +177,8 @@ DeformerState Access::hand_over(Deformer& deformer) {
   const auto& inside = *deformer.inside_;
   const AlgorithmInfo& entry = info(inside.algorithm);
   if (entry.is_added()) {
-    throw Error("method '" + std::string(entry.name) + "'", "a program has registered it, so nothing knows its state",
+    throw Error("method '" + std::string(entry.name) + "'",
+                "a program has registered it, so its state cannot be copied",
                 "set another method first, or keep what it needs yourself");
   }
   return {deformer.method(), inside.is_tracing, inside.trace, deformer.inside_->solver().hand_over()};

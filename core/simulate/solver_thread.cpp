@@ -218,7 +218,7 @@ void SolverThread::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     try {
       take_turn(lock, stop);
-    } catch (...) {  // nothing below should throw; whatever does must not end the process
+    } catch (...) {  // nothing below should throw; an exception must not end the process
       if (lock.owns_lock()) {
         lock.unlock();
       }

@@ -145,7 +145,7 @@ RegionFrame frame_for(const Mesh& mesh, const RegionFrame& frame) {
 }
 
 void check(const RegionFrame& frame, const Mesh& mesh) {
-  // The axes of an angle beyond all measure are no numbers.
+  // The axes of an angle that is too large are not numbers.
   if (!frame.rotation().allFinite() || !frame.axes().allFinite()) {
     throw Error("frame", "its rotation is not finite", "give an axis and an angle as numbers");
   }

@@ -192,6 +192,29 @@ class WindowForeign : public QObject {
     QVERIFY(bench.view(0).rect().contains(bench.place(0, 0)));
   }
 
+  void hostileFilesOpenOrGiveASentence_data() {
+    QTest::addColumn<QString>("path");
+    for (const QFileInfo& file : QDir(QStringLiteral(HOSTILE)).entryInfoList(QDir::Files)) {
+      QTest::newRow(qPrintable(file.fileName())) << file.filePath();
+    }
+  }
+
+  void hostileFilesOpenOrGiveASentence() {
+    QFETCH(const QString, path);
+    QVERIFY(QFile::copy(QStringLiteral(SAMPLES "/sphere.obj"), folder_.filePath(QStringLiteral("grid.obj"))) ||
+            QFile::exists(folder_.filePath(QStringLiteral("grid.obj"))));
+    const QString copy = folder_.filePath(QFileInfo(path).fileName());
+    QVERIFY(QFile::copy(path, copy));
+    Workbench bench;
+    bench.open(copy);
+    const QString sentence = bench.window.messages().isVisible() ? bench.window.messages().sentence() : QString();
+    QVERIFY2(sentence.isEmpty() || sentence.startsWith(copy), qPrintable(sentence));
+    QCOMPARE(sentence.isEmpty(), bench.window.windowTitle().startsWith(QFileInfo(copy).fileName()));
+    const QPoint middle = bench.view(0).rect().center();
+    bench.stroke(0, {middle, middle + QPoint(20, 10)});
+    QVERIFY(bench.window.isVisible());
+  }
+
   /// A lesson whose texts are markup, in a session and a mesh whose names are markup.
   void textsFromOutsideArePlain() {
     Workbench bench;

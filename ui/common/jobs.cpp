@@ -1,6 +1,7 @@
 #include "common/jobs.h"
 
 #include <string>
+#include <utility>
 
 #include "common/announce.h"
 #include "mesh/failure.h"
@@ -20,6 +21,7 @@ struct Jobs::Job {
 Jobs::~Jobs() { close(); }
 
 void Jobs::start(Kind kind, const QString& text, Work work) {
+  receive();  // there may have been no memory to announce the end of the last job
   if (running() && (kind == Kind::save || current_->kind == Kind::save)) {
     emit failed(
         QStringLiteral("%1: another job, '%2', is still running; wait until it ends, or cancel it").arg(text, text_));

@@ -20,7 +20,7 @@ class Jobs : public QObject {
   enum class Kind { load, save };
   /// Runs in the GUI thread when the work is done. If it throws, the job has failed.
   using Finish = std::function<void()>;
-  /// Runs on the thread of the jobs and must not access the window. Whatever it throws becomes the sentence of
+  /// Runs on the thread of the jobs and must not access the window. Its exceptions become the sentence of
   /// failed(); Error brings its own.
   using Work = std::function<Finish(const Progress&)>;
 

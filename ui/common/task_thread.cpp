@@ -35,7 +35,7 @@ void TaskThread::run(const std::stop_token& stop) {
     try {
       task();
     } catch (...) {
-      // Whatever a task did not report itself must not end the process.
+      // An exception that the task did not report must not end the process.
     }
     task = nullptr;  // frees what it holds before the next one
     lock.lock();

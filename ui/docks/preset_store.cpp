@@ -56,9 +56,9 @@ void PresetStore::check(const std::string& name) const {
   }
 }
 
-void PresetStore::checkRoom() const {
-  if (own_.size() >= limits::presets) {
-    throw Error("presets", "there are " + std::to_string(own_.size()) + " already", "delete some of them first");
+void PresetStore::checkRoom(std::size_t present) {
+  if (present >= limits::presets) {
+    throw Error("presets", "there cannot be more than " + std::to_string(present), "delete some of them first");
   }
 }
 
@@ -67,7 +67,7 @@ void PresetStore::save(const SoftnessPreset& preset) {
   if (const auto there = find(own_, preset.name); there != own_.end()) {
     *there = preset;
   } else {
-    checkRoom();
+    checkRoom(own_.size());
     own_.push_back(preset);
   }
   keep();
@@ -91,15 +91,16 @@ void PresetStore::remove(const std::string& name) {
 }
 
 std::size_t PresetStore::addFrom(const QString& path) {
-  std::size_t added = 0;
+  std::vector<SoftnessPreset> all = own_;
   for (SoftnessPreset& preset : read_presets(asPath(path))) {
-    if (std::ranges::find(own_, preset) == own_.end()) {
-      checkRoom();
-      preset.name = freeName(own_, preset.name);
-      own_.push_back(std::move(preset));
-      ++added;
+    if (std::ranges::find(all, preset) == all.end()) {
+      checkRoom(all.size());
+      preset.name = freeName(all, preset.name);
+      all.push_back(std::move(preset));
     }
   }
+  const std::size_t added = all.size() - own_.size();
+  own_ = std::move(all);
   keep();
   return added;
 }

@@ -28,7 +28,7 @@ class PresetStore {
  private:
   void check(const std::string& name) const;
   /// Throws Error if there are limits::presets already.
-  void checkRoom() const;
+  static void checkRoom(std::size_t present);
   void keep() const;
 
   std::vector<SoftnessPreset> own_;

@@ -191,7 +191,9 @@ void Document::apply(Change change) {
   endDrag();
   lastRefusal_ = {};
   const auto state = stateFor(change.gesture, change.text);
-  undoStack_.push(new Edit(*this, std::move(change), state));
+  auto edit = std::make_unique<Edit>(*this, std::move(change), state);
+  undoStack_.push(edit.get());  // may throw before it takes the edit over
+  static_cast<void>(edit.release());
 }
 
 /// Returns the id of a new state; none if the step will be merged into the last one, which has a saved state already.

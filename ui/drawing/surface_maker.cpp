@@ -1,5 +1,6 @@
 #include "drawing/surface_maker.h"
 
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -45,7 +46,7 @@ std::unique_ptr<Surface> SurfaceMaker::take(const MeshPointer& mesh) {
 
 void SurfaceMaker::begin(const MeshPointer& mesh) {
   giveUp();
-  mesh_ = mesh;
+  mesh_.reset();  // until there is a result to wait for, or a failure
   surface_.reset();
   table_.reset();
   failure_ = nullptr;
@@ -57,6 +58,7 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
     } catch (...) {
       promise.set_exception(std::current_exception());
     }
+    mesh_ = mesh;
     receive();
   }
 }
@@ -78,6 +80,7 @@ bool SurfaceMaker::beginInBackground(const MeshPointer& mesh) {
     return false;
   }
   result_ = promise->get_future();
+  mesh_ = mesh;
   return true;
 }
 

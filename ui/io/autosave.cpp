@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <system_error>
+#include <utility>
 
 #include "common/announce.h"
 #include "common/application.h"
@@ -47,8 +48,9 @@ std::string failedSentence() noexcept {
 
 struct Autosave::Writing {
   JobState job;
+  bool hasEarlier = false;  // true if the file has positions already
   // The thread writes them before it sets `done`; the window reads them after that.
-  Object object;
+  Object object;  // in its file, before and after
   std::string error;
   bool isWritten = false;
   std::atomic<bool> done = false;
@@ -80,7 +82,9 @@ Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
 Autosave::~Autosave() {
   cancelWriting();
   thread_.finish();
-  remove();
+  if (!keeps_) {
+    remove();
+  }
 }
 
 void Autosave::discardAll(std::vector<Adopted>& adopted) {
@@ -97,10 +101,16 @@ void Autosave::cancelWriting() {
 }
 
 /// Runs a task after those before, on the thread that writes. If the system starts no thread, this one waits for it.
-void Autosave::run(const TaskThread::Task& task) {
+void Autosave::run(TaskThread::Task task) {
+  bool runs = true;
   try {
-    thread_.add(task);
+    thread_.start();
   } catch (const std::system_error&) {
+    runs = false;
+  }
+  if (runs) {
+    thread_.add(std::move(task));
+  } else {
     task();
   }
 }
@@ -111,6 +121,7 @@ void Autosave::keep() {
   if (!document_.isModified()) {
     return;
   }
+  keeps_ = true;  // before anything can fail: then the files of the last writing stay
   cancelWriting();
   memory_.release();
   const auto adopted = std::make_shared<std::vector<Adopted>>(std::move(adopted_));
@@ -120,7 +131,7 @@ void Autosave::keep() {
       unsaved_work::discardObjects(path);
       discardAll(*adopted);
     } catch (...) {
-      // The window is gone, so nothing can be reported. The previous files stay.
+      // The window is gone, so nothing can be reported. The files of the last writing stay.
     }
     if (QFile::exists(path)) {
       QFile::rename(path, unsaved_work::closedPath(path));
@@ -203,6 +214,7 @@ void Autosave::noticeChange() {
     return;
   }
   changed_ = true;
+  takeUnannounced();
   if (!writing_ && !timer_.isActive()) {
     timer_.start();
   }
@@ -224,7 +236,15 @@ void Autosave::saveSoon() {
   }
 }
 
+/// Takes over a writing whose end could not be announced, because there was no memory for that.
+void Autosave::takeUnannounced() {
+  if (writing_ && writing_->done) {
+    receive();
+  }
+}
+
 void Autosave::save() {
+  takeUnannounced();
   if (writing_) {
     changed_ = true;  // its end starts the next one
     return;
@@ -233,35 +253,41 @@ void Autosave::save() {
     remove();
     return;
   }
+  try {
+    startWriting();
+  } catch (...) {  // no memory for the draft
+    saved_ = {};
+    timer_.start(waitAfterFailure);
+    reportFailure(QString::fromStdString(failedSentence()));
+    holdMemory();
+  }
+}
+
+void Autosave::startWriting() {
   Mark now = mark();
   if (now == saved_) {
     return;  // the frame or the look changed back
   }
-  saved_ = std::move(now);
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
   memory_.release();
-  writing_ = std::make_shared<Writing>();
-  try {
-    run([this, writing = writing_, object = object_, draft = SessionDraft(document_, saved_.look)] {
-      write(*writing, object, draft);
-    });
-  } catch (...) {  // no memory for the draft
-    writing_->error = failedSentence();
-    writing_->done = true;
-    receive();
-  }
+  const auto writing = std::make_shared<Writing>();
+  writing->hasEarlier = hasPositions_;
+  writing->object = object_;
+  run([this, writing, draft = SessionDraft(document_, now.look)] { write(*writing, draft); });
+  saved_ = std::move(now);
+  writing_ = writing;
 }
 
-void Autosave::write(Writing& writing, const Object& object, const SessionDraft& draft) {
+void Autosave::write(Writing& writing, const SessionDraft& draft) {
   const Progress progress(writing.job);
   try {
-    writing.object = writeFiles(draft.finished(progress), object, progress);
+    writing.object = writeFiles(draft.finished(progress), writing.object, progress);
     writing.isWritten = true;
   } catch (const Cancelled&) {
     // The window closes, or the first panel has no positions at this moment.
   } catch (const std::bad_alloc&) {
-    writing.error = writeMoves(object, draft, progress);
+    writing.error = writeMoves(writing, draft, progress);
   } catch (...) {
     writing.error = failedSentence();
   }
@@ -281,11 +307,11 @@ Autosave::Object Autosave::writeFiles(Session session, const Object& object, con
 
 /// Writes the work without positions when there is no memory for them, unless an earlier file has some. Returns the
 /// sentence for the user.
-std::string Autosave::writeMoves(const Object& object, const SessionDraft& draft, const Progress& progress) const {
+std::string Autosave::writeMoves(Writing& writing, const SessionDraft& draft, const Progress& progress) const {
   std::string sentence = failedSentence();
   try {
-    if (!QFile::exists(path_)) {
-      writeFiles(draft.withoutPositions(), object, progress);
+    if (!writing.hasEarlier) {
+      writing.object = writeFiles(draft.withoutPositions(), writing.object, progress);
       sentence =
           "Automatic saving kept the moves, but had no memory for the positions; save your work, then close other "
           "programs or use a smaller mesh";
@@ -301,6 +327,7 @@ void Autosave::receive() {
     return;
   }
   const auto written = std::exchange(writing_, nullptr);
+  object_ = written->object;
   if (!written->isWritten) {
     saved_ = {};
     timer_.start(waitAfterFailure);
@@ -311,7 +338,7 @@ void Autosave::receive() {
     return;
   }
   failure_.clear();
-  object_ = written->object;
+  hasPositions_ = true;
   discardAll(adopted_);
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
   timer_.setInterval(std::clamp(mostBehind - 2 * took, shortestWait, longestWait));
@@ -329,6 +356,7 @@ void Autosave::remove() {
   unsaved_work::discard(path_);
   saved_ = {};
   object_ = {};
+  hasPositions_ = false;
   discardAll(adopted_);
 }
 

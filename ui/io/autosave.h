@@ -82,15 +82,17 @@ class Autosave : public QObject {
   void listen();
   void noticeChange();
   void save();
+  void startWriting();
+  void takeUnannounced();
   void saveSoon();
   void receive();
   void reportFailure(const QString& sentence);
   void remove();
   void cancelWriting();
-  void run(const TaskThread::Task& task);
-  void write(Writing& writing, const Object& object, const SessionDraft& draft);
+  void run(TaskThread::Task task);
+  void write(Writing& writing, const SessionDraft& draft);
   Object writeFiles(Session session, const Object& object, const Progress& progress) const;
-  std::string writeMoves(const Object& object, const SessionDraft& draft, const Progress& progress) const;
+  std::string writeMoves(Writing& writing, const SessionDraft& draft, const Progress& progress) const;
   void holdMemory();
   Mark mark() const;
 
@@ -103,9 +105,11 @@ class Autosave : public QObject {
   Mark saved_;
   Object object_;
   std::vector<Adopted> adopted_;
-  bool changed_ = false;  // true if the work changed during writing
-  QString failure_;       // the last sentence of failed(); empty after a writing that did not fail
-  bool closed_ = false;   // the window is closed: later changes are not saved
+  bool hasPositions_ = false;  // true if the file has positions, not only moves
+  bool keeps_ = false;         // the files stay when this ends
+  bool changed_ = false;       // true if the work changed during writing
+  QString failure_;            // the last sentence of failed(); empty after a writing that did not fail
+  bool closed_ = false;        // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
   HeldMemory memory_;                 // for the next writing

@@ -118,7 +118,7 @@ bool isPicture(const QString& path) {
     const std::size_t count = RegularFile(asPath(path)).read(beginning);
     return picture_format({beginning.data(), count}).has_value();
   } catch (const Error&) {
-    return false;  // who opens it as a mesh is told why
+    return false;  // opening it as a mesh shows the reason
   }
 }
 

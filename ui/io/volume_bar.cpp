@@ -112,7 +112,8 @@ void VolumeBar::describe() {
   const QSignalBlocker quiet(slider_);
   slider_->setValue(toSlider(threshold_->value()));
   const std::uint64_t above = volume_->above(threshold_->value());
-  const int every = std::max(every_->value() / int(volume_->volume.merged), 1);  // voxels in memory
+  const int merged = int(volume_->volume.merged);
+  const int every = every_->value() > 0 ? (every_->value() - 1) / merged + 1 : 1;  // voxels in memory, as it opens
   const double elements = double(above) / std::pow(every, 3);
   QString result = QStringLiteral("%L1 voxels").arg(above);
   if (every_->value() > 1) {

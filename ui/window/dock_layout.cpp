@@ -4,6 +4,7 @@
 #include <QJsonObject>
 #include <QLayout>
 #include <QMainWindow>
+#include <QScopeGuard>
 #include <QScreen>
 #include <QTabBar>
 #include <algorithm>
@@ -76,7 +77,7 @@ QDockWidget* seenOf(const QMainWindow& window, const Tabs& tabs) {
 /// Returns the docks of an area from its beginning to its end. Docks that are not seen have no place of their own
 /// there, and stay where they are in the order of the window's children.
 std::vector<Tabs> docksIn(const QMainWindow& window, Qt::DockWidgetArea area) {
-  // Qt tells the tabs of visible docks only, so those come first.
+  // Qt lists the tabs of visible docks only, so those come first.
   QList<QDockWidget*> docks = docksOf(window);
   std::ranges::stable_partition(docks, [](const QDockWidget* dock) { return !dock->isHidden(); });
   std::vector<Tabs> places;
@@ -249,11 +250,15 @@ void applyDockLayout(QMainWindow& window, const QJsonArray& layout) {
   if (places.empty()) {
     return;
   }
-  // A layout that reacts to each dock alone moves the others to and fro.
-  window.layout()->setEnabled(false);
-  dockAll(window, places);
-  window.layout()->setEnabled(true);
-  window.layout()->activate();
+  {
+    // A layout that reacts to each dock alone moves the others several times.
+    window.layout()->setEnabled(false);
+    const auto enable = qScopeGuard([&window] {
+      window.layout()->setEnabled(true);
+      window.layout()->activate();
+    });
+    dockAll(window, places);
+  }
   resizeAll(window, places);
   for (const Place& place : places) {
     if (place.front && place.visible) {

@@ -472,7 +472,7 @@ void MainWindow::showTitle() {
 void MainWindow::closeEvent(QCloseEvent* event) {
   lecture_->leave();
   jobs_.close();
-  document_.abandonMoves(lastMovePatience);
+  Application::guarded([this] { document_.abandonMoves(lastMovePatience); });  // then the work is kept in any case
   sessions_->keep();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/text/limits.h"
@@ -131,7 +132,9 @@ void take_densities(Volume& volume, const std::string& where, Number number,
   merge_voxels(volume, boxes);
   volume.densities.reserve(volume.voxel_count());
   for_each_box<double>(boxes, number, [&volume](double sum, std::uint64_t voxels) {
-    volume.densities.push_back(static_cast<std::uint16_t>((sum / double(voxels) - volume.lowest) / volume.step + 0.5));
+    // The rounded mean of huge numbers may lie outside their range.
+    const double steps = (sum / double(voxels) - volume.lowest) / volume.step + 0.5;
+    volume.densities.push_back(static_cast<std::uint16_t>(std::clamp(steps, 0.0, most_density_steps)));
   });
 }
 

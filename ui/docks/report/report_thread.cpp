@@ -1,6 +1,7 @@
 #include "docks/report/report_thread.h"
 
 #include <new>
+#include <utility>
 
 #include "common/announce.h"
 #include "mesh/failure.h"
@@ -57,8 +58,14 @@ void ReportThread::post(News news, const std::stop_token& stop) {
     return;
   }
   news_ = std::move(news);
-  if (!announced_.exchange(true)) {
+  if (announced_.exchange(true)) {
+    return;
+  }
+  try {
     announce(this, &ReportThread::receive);
+  } catch (...) {
+    announced_ = false;  // the next news tries it again
+    throw;
   }
 }
 
