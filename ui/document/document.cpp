@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <memory>
 
 #include "common/announce.h"
 #include "common/application.h"
