@@ -36,6 +36,7 @@ constexpr std::uint32_t width = 1000;  // elements: a million
 constexpr ElementId pinned = 4242, grabbed = 500'500;
 constexpr LinkId firstCut = 300'000, cuts = 100;
 constexpr int patience = 60'000;  // milliseconds for one step of the child
+constexpr int patienceForPicture = 2'000;
 constexpr quint64 megabyte = 1024 * 1024;
 
 void say(const char* kind, const QString& text = {}) {
@@ -107,8 +108,18 @@ class Child {
       act();
     });
     const bool ended = QTest::qWaitFor([&] { return begun && (isDone ? isDone() : document().idle()); }, patience);
-    QTest::qWait(100);  // pictures and figures; nothing is expected of them
+    awaitPicture();
     say(ended ? "did" : "waited", QStringLiteral("%1 (%2 MB)").arg(QLatin1String(name)).arg(largestSpace()));
+  }
+
+  /// Lets the window paint. Without memory, the picture may never come, and then nothing waits for it.
+  void awaitPicture() {
+    View& view = window_.panel(0).view();
+    bool isShown = false;
+    QObject context;
+    QObject::connect(&view, &QOpenGLWidget::frameSwapped, &context, [&] { isShown = true; });
+    view.update();
+    static_cast<void>(QTest::qWaitFor([&] { return isShown; }, patienceForPicture));
   }
 
   void build() {
