@@ -26,7 +26,7 @@ class HostileFilesTest : public QObject {
   void known_attacks_end_soon_data();
   void known_attacks_end_soon();
   void a_small_file_of_many_voxels_takes_little_memory();
-  void without_threads_it_says_what_to_do();
+  void without_threads_it_works_all_the_same();
   void a_limit_of_file_size_is_as_a_full_disk_data();
   void a_limit_of_file_size_is_as_a_full_disk();
 
@@ -196,8 +196,8 @@ void HostileFilesTest::a_small_file_of_many_voxels_takes_little_memory() {
   QVERIFY2(outcome.out.contains("\nread as           voxels from a density of "), outcome.out);
 }
 
-/// Acts like a system on which no more threads may be started.
-void HostileFilesTest::without_threads_it_says_what_to_do() {
+/// Acts like a system on which no more threads may be started: the work is then done by the only one.
+void HostileFilesTest::without_threads_it_works_all_the_same() {
 #ifdef __SANITIZE_THREAD__
   QSKIP("this sanitizer needs a thread of its own");
 #endif
@@ -209,11 +209,8 @@ void HostileFilesTest::without_threads_it_says_what_to_do() {
   const QString line = "calibrate t.msh --young 3000 --poisson 0.45 --pins bottom --relaxation equilibrium -o new.json";
   const auto outcome = program_->run(line.split(' '), [filter] { seccomp_load(filter); });
   seccomp_release(filter);
-  QCOMPARE(outcome.code, 1);
-  QVERIFY2(is_one_sentence(outcome), outcome.error);
-  QCOMPARE(outcome.error,
-           QByteArray("chainmail: threads: none can be started (Resource temporarily unavailable); close "
-                      "other programs, or raise the limits of this user (ulimit)\n"));
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QVERIFY(program_->files().contains("new.json"));
 }
 
 void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk_data() {
