@@ -79,7 +79,7 @@ QDockWidget* seenOf(const QMainWindow& window, const Tabs& tabs) {
 std::vector<Tabs> docksIn(const QMainWindow& window, Qt::DockWidgetArea area) {
   // Qt lists the tabs of visible docks only, so those come first.
   QList<QDockWidget*> docks = docksOf(window);
-  std::ranges::stable_partition(docks, [](const QDockWidget* dock) { return !dock->isHidden(); });
+  std::stable_partition(docks.begin(), docks.end(), [](const QDockWidget* dock) { return !dock->isHidden(); });
   std::vector<Tabs> places;
   QList<QDockWidget*> taken;
   for (QDockWidget* dock : docks) {
@@ -171,7 +171,7 @@ std::optional<Place> placeOf(const QJsonObject& entry, const QList<QDockWidget*>
 /// Returns the entries that name a dock and an area. Of two entries for one dock, the first counts.
 std::vector<Place> placesOf(const QJsonArray& layout, QList<QDockWidget*> docks) {
   std::vector<Place> places;
-  for (const QJsonValue& entry : layout) {
+  for (const auto& entry : layout) {
     if (docks.isEmpty()) {
       break;  // a file may have millions of entries
     }
