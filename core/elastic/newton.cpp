@@ -100,10 +100,12 @@ bool Newton::factor(const std::vector<double>& displacements, const Progress& pr
 }
 
 /// Moves the prescribed elements by `increment`, and the others as the tangent stiffness predicts: so cells next to the
-/// prescribed elements do not invert at once. Returns false if a cell inverts, or if there is no factor.
+/// prescribed elements do not invert at once. Returns false if a cell is inverted before or after, or if there is no
+/// factor.
 bool Newton::predict(std::vector<double>& displacements, const std::vector<double>& increment,
                      const Progress& progress) {
-  if (!factor(displacements, progress)) {
+  // An inverted cell has no stiffness. Those who hand over displacements, such as pickles, may have such cells.
+  if (!energy(displacements) || !factor(displacements, progress)) {
     return false;
   }
   // Right side of K_ff u_f = −K_fp u_p, cell by cell.
