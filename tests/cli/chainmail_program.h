@@ -10,6 +10,8 @@
 #include <QtTest>
 #include <functional>
 
+#include "folders.h"
+
 namespace chainmail::test {
 
 /// The result of a run of the program.
@@ -27,7 +29,7 @@ class Program {
     QProcess process;
     process.setChildProcessModifier(prepare);
     process.setWorkingDirectory(folder_.path());
-    process.start(QStringLiteral(CHAINMAIL_PROGRAM), arguments);
+    process.start(builtFile("bin/chainmail"), arguments);
     process.waitForFinished(60'000);
     const bool ended = process.exitStatus() == QProcess::NormalExit && process.state() == QProcess::NotRunning;
     return {ended ? process.exitCode() : -1, process.readAllStandardOutput(), process.readAllStandardError()};

@@ -6,6 +6,8 @@
 #include <QProcess>
 #include <QtTest>
 
+#include "folders.h"
+
 namespace chainmail::test {
 
 /// A document, and the name of its schema in resources/schemas.
@@ -21,12 +23,12 @@ struct SchemaCheck {
 };
 
 inline QString schema_path(const QString& name) {
-  return QStringLiteral(PROJECT_SOURCE_DIR "/resources/schemas/") + name + QStringLiteral(".schema.json");
+  return sourceFile("resources/schemas") + QLatin1Char('/') + name + QStringLiteral(".schema.json");
 }
 
 /// Checks documents with an independent reader of JSON Schema, all in one process.
 inline QList<SchemaCheck> check_schemas(const QList<SchemaDocument>& documents) {
-  QStringList arguments{QStringLiteral(PROJECT_SOURCE_DIR "/tests/cli/check_schemas.py")};
+  QStringList arguments{sourceFile("tests/cli/check_schemas.py")};
   for (const SchemaDocument& document : documents) {
     arguments << schema_path(document.schema) << document.path;
   }

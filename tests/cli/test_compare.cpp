@@ -1,6 +1,9 @@
 #include <QXmlStreamReader>
 
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_compare {
 
 using namespace chainmail::test;
 
@@ -223,5 +226,8 @@ void CompareCommandTest::nothing_is_left_where_a_file_cannot_be_written() {
   QCOMPARE(report_files(), QStringList{"report.csv"});
 }
 
-QTEST_GUILESS_MAIN(CompareCommandTest)
+CHAINMAIL_TEST(CompareCommandTest)
+
+}  // namespace chainmail::test_compare
+
 #include "test_compare.moc"

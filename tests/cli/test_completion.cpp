@@ -1,6 +1,9 @@
 #include <QStandardPaths>
 
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_completion {
 
 using namespace chainmail::test;
 
@@ -107,5 +110,8 @@ void CompletionCommandTest::refused() {
   check_refused(program, "completion", "SHELL: it is missing");
 }
 
-QTEST_GUILESS_MAIN(CompletionCommandTest)
+CHAINMAIL_TEST(CompletionCommandTest)
+
+}  // namespace chainmail::test_completion
+
 #include "test_completion.moc"

@@ -2,8 +2,10 @@
 
 #include "cli/chainmail_program.h"
 #include "files/mesh/mesh_file.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_convert {
+
 using namespace chainmail::test;
 
 /// Tests `chainmail convert`, which writes other formats, `chainmail fill`, which converts surfaces to volumes, and
@@ -171,5 +173,8 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file() {
   QCOMPARE(program.files(), (QStringList{"a.mha", "a.off", "open.off"}));
 }
 
-QTEST_GUILESS_MAIN(ConvertCommandTest)
+CHAINMAIL_TEST(ConvertCommandTest)
+
+}  // namespace chainmail::test_convert
+
 #include "test_convert.moc"

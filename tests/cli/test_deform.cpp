@@ -2,7 +2,11 @@
 #include <csignal>
 
 #include "cli/chainmail_program.h"
+#include "folders.h"
+#include "program.h"
 #include "solve/algorithms.h"
+
+namespace chainmail::test_deform {
 
 using namespace chainmail::test;
 
@@ -249,7 +253,7 @@ void DeformCommandTest::sweeps_are_interrupted_at_once() {
   const auto before = program_->files();
   QProcess process;
   process.setWorkingDirectory(program_->path({}));
-  process.start(QStringLiteral(CHAINMAIL_PROGRAM),
+  process.start(builtFile("bin/chainmail"),
                 QString::fromUtf8("deform large.obj --algorithm natural-queue --json out.json " + options).split(' '));
   QVERIFY(!process.waitForFinished(3000));  // by then it has read the mesh and relaxes
   QCOMPARE(::kill(pid_t(process.processId()), SIGINT), 0);
@@ -312,5 +316,8 @@ void DeformCommandTest::acts_that_do_not_fit_are_refused() {
   QCOMPARE(program_->files(), before);
 }
 
-QTEST_GUILESS_MAIN(DeformCommandTest)
+CHAINMAIL_TEST(DeformCommandTest)
+
+}  // namespace chainmail::test_deform
+
 #include "test_deform.moc"

@@ -1,5 +1,8 @@
 #include "cli/chainmail_program.h"
+#include "program.h"
 #include "solve/algorithms.h"
+
+namespace chainmail::test_deform_model {
 
 using namespace chainmail::test;
 
@@ -187,5 +190,8 @@ void DeformModelTest::what_does_not_fit_is_refused() {
   QCOMPARE(program_->files(), before);
 }
 
-QTEST_GUILESS_MAIN(DeformModelTest)
+CHAINMAIL_TEST(DeformModelTest)
+
+}  // namespace chainmail::test_deform_model
+
 #include "test_deform_model.moc"

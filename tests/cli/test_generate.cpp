@@ -1,4 +1,7 @@
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_generate {
 
 using namespace chainmail::test;
 
@@ -97,5 +100,8 @@ void GenerateCommandTest::refused() {
   QCOMPARE(program.files(), QStringList{"a.dat"});
 }
 
-QTEST_GUILESS_MAIN(GenerateCommandTest)
+CHAINMAIL_TEST(GenerateCommandTest)
+
+}  // namespace chainmail::test_generate
+
 #include "test_generate.moc"

@@ -6,7 +6,11 @@
 #include <cerrno>
 
 #include "cli/chainmail_program.h"
+#include "folders.h"
 #include "packed_voxels.h"
+#include "program.h"
+
+namespace chainmail::test_hostile_files {
 
 using namespace chainmail::test;
 
@@ -165,7 +169,7 @@ void HostileFilesTest::a_temporary_folder_that_is_none_gets_a_sentence() {
 
 void HostileFilesTest::known_attacks_end_soon_data() {
   QTest::addColumn<QByteArray>("text");
-  const QDir folder(QStringLiteral(HOSTILE));
+  const QDir folder(sourceFile("tests/cli/hostile"));
   for (const QString& name : folder.entryList(QDir::Files)) {
     QFile file(folder.filePath(name));
     QVERIFY(file.open(QIODevice::ReadOnly));
@@ -248,5 +252,8 @@ void HostileFilesTest::a_limit_of_file_size_is_as_a_full_disk() {
   QCOMPARE(program_->read("out.msh"), QByteArray("old"));
 }
 
-QTEST_GUILESS_MAIN(HostileFilesTest)
+CHAINMAIL_TEST(HostileFilesTest)
+
+}  // namespace chainmail::test_hostile_files
+
 #include "test_hostile_files.moc"

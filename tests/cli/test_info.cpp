@@ -1,4 +1,7 @@
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_info {
 
 using namespace chainmail::test;
 
@@ -85,5 +88,8 @@ void InfoCommandTest::bad_files_are_refused() {
   QCOMPARE(program.files(), QStringList{name});
 }
 
-QTEST_GUILESS_MAIN(InfoCommandTest)
+CHAINMAIL_TEST(InfoCommandTest)
+
+}  // namespace chainmail::test_info
+
 #include "test_info.moc"

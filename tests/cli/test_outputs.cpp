@@ -1,8 +1,10 @@
 #include "cli/chainmail_program.h"
 #include "files/mesh/mesh_file.h"
+#include "program.h"
 #include "simulate/simulation.h"
 
-using namespace chainmail;
+namespace chainmail::test_outputs {
+
 using namespace chainmail::test;
 
 /// Tests the outputs of `chainmail deform`. It writes all of them or none.
@@ -191,5 +193,8 @@ void OutputsCommandTest::options_stand_anywhere() {
   QCOMPARE(before.out, after.out);
 }
 
-QTEST_GUILESS_MAIN(OutputsCommandTest)
+CHAINMAIL_TEST(OutputsCommandTest)
+
+}  // namespace chainmail::test_outputs
+
 #include "test_outputs.moc"

@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_physics {
 
 using namespace chainmail::test;
 
@@ -250,5 +253,8 @@ void PhysicsCommandTest::wrong_usage() {
   check_refused(*program_, QTest::currentDataTag(), where);
 }
 
-QTEST_GUILESS_MAIN(PhysicsCommandTest)
+CHAINMAIL_TEST(PhysicsCommandTest)
+
+}  // namespace chainmail::test_physics
+
 #include "test_physics.moc"

@@ -1,4 +1,7 @@
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_ramp {
 
 using namespace chainmail::test;
 
@@ -122,5 +125,8 @@ void RampCommandTest::wrong_arguments() {
   QVERIFY(timer.elapsed() < 5000);
 }
 
-QTEST_GUILESS_MAIN(RampCommandTest)
+CHAINMAIL_TEST(RampCommandTest)
+
+}  // namespace chainmail::test_ramp
+
 #include "test_ramp.moc"

@@ -12,9 +12,12 @@
 #include "files/session/moves.h"
 #include "files/session/softness_presets.h"
 #include "files/session_support.h"
+#include "folders.h"
 #include "mesh/cells.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_schemas {
+
 using namespace chainmail::test;
 
 /// Tests that all JSON of the programs follows resources/schemas, and that the schemas refuse anything else.
@@ -245,7 +248,7 @@ void SchemasTest::add_rare_outputs() {
 }
 
 void SchemasTest::add_sessions() {
-  const QDir root(PROJECT_SOURCE_DIR);
+  const QDir root(sourceFile());
   int found = 0;
   for (const char* folder : {"meshes", "resources/lessons", "tests/files/sessions"}) {
     for (const QFileInfo& info : QDir(root.filePath(folder)).entryInfoList({"*.chainmail"})) {
@@ -476,5 +479,8 @@ void SchemasTest::parts_with_the_same_name_are_the_same() {
   QVERIFY(shared > 20);  // of moves alone, in sessions
 }
 
-QTEST_GUILESS_MAIN(SchemasTest)
+CHAINMAIL_TEST(SchemasTest)
+
+}  // namespace chainmail::test_schemas
+
 #include "test_schemas.moc"

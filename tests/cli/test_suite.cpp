@@ -4,6 +4,10 @@
 
 #include "cli/chainmail_program.h"
 #include "cli/json_schemas.h"
+#include "folders.h"
+#include "program.h"
+
+namespace chainmail::test_suite {
 
 using namespace chainmail::test;
 
@@ -36,7 +40,7 @@ QByteArray SuiteCommandTest::shell(const QString& script) const {
   QProcess process;
   process.setWorkingDirectory(program_->path(""));
   auto environment = QProcessEnvironment::systemEnvironment();
-  const QString folder = QFileInfo(QStringLiteral(CHAINMAIL_PROGRAM)).path();
+  const QString folder = QFileInfo(builtFile("bin/chainmail")).path();
   environment.insert("PATH", folder + ":/usr/bin:/bin");
   process.setProcessEnvironment(environment);
   process.setProcessChannelMode(QProcess::MergedChannels);
@@ -98,7 +102,7 @@ void SuiteCommandTest::the_whole_is_the_sum_of_its_parts() {
 
 /// The lines for GNU parallel, with two short experiments in two parts.
 void SuiteCommandTest::the_example_of_the_manual_runs() {
-  QFile manual(PROJECT_SOURCE_DIR "/resources/manual/suite.md");
+  QFile manual(source_file("resources/manual/suite.md"));
   QVERIFY(manual.open(QIODevice::ReadOnly));
   const QString page = QString::fromUtf8(manual.readAll());
   const auto match =
@@ -161,5 +165,8 @@ void SuiteCommandTest::wrong_usage() {
   check_refused(*program_, QTest::currentDataTag(), where);
 }
 
-QTEST_GUILESS_MAIN(SuiteCommandTest)
+CHAINMAIL_TEST(SuiteCommandTest)
+
+}  // namespace chainmail::test_suite
+
 #include "test_suite.moc"

@@ -7,6 +7,9 @@
 
 #include "cli/chainmail_program.h"
 #include "packed_voxels.h"
+#include "program.h"
+
+namespace chainmail::test_thumbnail {
 
 using namespace chainmail::test;
 
@@ -212,5 +215,8 @@ void ThumbnailCommandTest::refused() {
   check_refused(program, QTest::currentDataTag(), where);
 }
 
-QTEST_GUILESS_MAIN(ThumbnailCommandTest)
+CHAINMAIL_TEST(ThumbnailCommandTest)
+
+}  // namespace chainmail::test_thumbnail
+
 #include "test_thumbnail.moc"

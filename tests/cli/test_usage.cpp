@@ -1,4 +1,7 @@
 #include "cli/chainmail_program.h"
+#include "program.h"
+
+namespace chainmail::test_usage {
 
 using namespace chainmail::test;
 
@@ -117,5 +120,8 @@ void UsageTest::odd_names_stay_one_line() {
   }
 }
 
-QTEST_GUILESS_MAIN(UsageTest)
+CHAINMAIL_TEST(UsageTest)
+
+}  // namespace chainmail::test_usage
+
 #include "test_usage.moc"

@@ -4,8 +4,10 @@
 #include <fstream>
 
 #include "core/api_support.h"
+#include "folders.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_api {
 
 /// The public interface: meshes, files and bodies. What goes in comes out, and bad input changes nothing.
 class ApiTest : public QObject {
@@ -149,13 +151,13 @@ void ApiTest::files_are_written_and_read() {
 }
 
 void ApiTest::foreign_files_are_read() {
-  const cm::Mesh mesh = cm::read_mesh(PROJECT_SOURCE_DIR "/meshes/organ.msh");
+  const cm::Mesh mesh = cm::read_mesh(source_file("meshes/organ.msh"));
   QCOMPARE(mesh.object_dimension(), 3);
   const auto formats = cm::file_formats();
   const auto gmsh = std::ranges::find(formats, "Gmsh", &cm::FileFormat::name);
   QVERIFY(gmsh != formats.end() && gmsh->reads && gmsh->writes && gmsh->endings == ".msh");
   // Dense voxels have stiffer links, and a body of the mesh has them.
-  const cm::Mesh voxels = cm::read_mesh(PROJECT_SOURCE_DIR "/meshes/phantom.nrrd", {.every = 4});
+  const cm::Mesh voxels = cm::read_mesh(source_file("meshes/phantom.nrrd"), {.every = 4});
   QVERIFY(has(voxels.remark(), "voxels from a density of"));
   const cm::Body body(voxels);
   bool differs = false;
@@ -176,7 +178,7 @@ void ApiTest::bad_files_are_refused() {
   QVERIFY(!refusal_of([&] { cm::write_mesh(path / "none" / "mesh.obj", grid); }).empty());
   const cm::Job cancelled;
   cancelled.cancel();
-  QVERIFY_EXCEPTION_THROWN(cm::read_mesh(PROJECT_SOURCE_DIR "/meshes/sphere.obj", {}, cancelled), cm::Cancelled);
+  QVERIFY_EXCEPTION_THROWN(cm::read_mesh(source_file("meshes/sphere.obj"), {}, cancelled), cm::Cancelled);
 }
 
 void ApiTest::positions_go_in_and_out() {
@@ -334,5 +336,8 @@ void ApiTest::bad_input_of_a_body_changes_nothing() {
   refused([&] { body.set_elasticity({.poisson = 0.5}); }, "poisson");
 }
 
-QTEST_APPLESS_MAIN(ApiTest)
+CHAINMAIL_TEST(ApiTest)
+
+}  // namespace chainmail::test_api
+
 #include "test_api.moc"

@@ -11,8 +11,9 @@
 #include "measure/violation.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_api_measures {
 
 namespace {
 
@@ -317,5 +318,8 @@ void ApiMeasuresTest::bad_calibrations_are_refused() {
   QVERIFY(!std::filesystem::exists(path));
 }
 
-QTEST_APPLESS_MAIN(ApiMeasuresTest)
+CHAINMAIL_TEST(ApiMeasuresTest)
+
+}  // namespace chainmail::test_api_measures
+
 #include "test_api_measures.moc"

@@ -3,8 +3,9 @@
 
 #include "api/state.h"
 #include "core/api_support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_api_methods {
 
 namespace {
 
@@ -251,5 +252,8 @@ void ApiMethodsTest::bad_registrations_are_refused() {
   QVERIFY(has(refusal_of([&] { deformer.move(0, {-1, 0, 0}); }), "its factory made none"));
 }
 
-QTEST_APPLESS_MAIN(ApiMethodsTest)
+CHAINMAIL_TEST(ApiMethodsTest)
+
+}  // namespace chainmail::test_api_methods
+
 #include "test_api_methods.moc"

@@ -5,10 +5,11 @@
 #include "core/allocations.h"
 #include "core/api_support.h"
 #include "mesh/generate.h"
+#include "program.h"
 #include "simulate/simulation.h"
 #include "solve/solver.h"
 
-using namespace chainmail;
+namespace chainmail::test_api_moves {
 
 namespace {
 
@@ -302,5 +303,8 @@ void ApiMovesTest::one_call_deforms() {
   QVERIFY(has(refusal_of([] { cm::deform(organ(), "natural-queue", {0}, {no_number, 0, 0}); }), "not a finite number"));
 }
 
-QTEST_APPLESS_MAIN(ApiMovesTest)
+CHAINMAIL_TEST(ApiMovesTest)
+
+}  // namespace chainmail::test_api_moves
+
 #include "test_api_moves.moc"

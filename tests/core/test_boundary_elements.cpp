@@ -5,8 +5,10 @@
 #include "core/spheres.h"
 #include "elastic/closed_surface.h"
 #include "elastic/pinned_solid.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_boundary_elements {
+
 using namespace chainmail::test;
 
 namespace {
@@ -361,5 +363,8 @@ void BoundaryElementsTest::loose_parts_are_refused() {
   QVERIFY(refused(block, pins).startsWith(QString("BEM: element %1 is pinned inside").arg(inside)));
 }
 
-QTEST_APPLESS_MAIN(BoundaryElementsTest)
+CHAINMAIL_TEST(BoundaryElementsTest)
+
+}  // namespace chainmail::test_boundary_elements
+
 #include "test_boundary_elements.moc"

@@ -5,8 +5,10 @@
 #include "core/pinned.h"
 #include "core/spheres.h"
 #include "elastic/boundary_system.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_boundary_system {
+
 using namespace chainmail::test;
 
 namespace {
@@ -232,5 +234,8 @@ void BoundarySystemTest::a_hollow_sphere_under_pressure_converges() {
   QVERIFY(order_of(sizes, errors) > 0.8);
 }
 
-QTEST_APPLESS_MAIN(BoundarySystemTest)
+CHAINMAIL_TEST(BoundarySystemTest)
+
+}  // namespace chainmail::test_boundary_system
+
 #include "test_boundary_system.moc"

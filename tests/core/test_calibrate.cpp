@@ -10,10 +10,12 @@
 #include "measure/physical_error.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
+#include "program.h"
 #include "report/run/runner.h"
 #include "simulate/simulation.h"
 
-using namespace chainmail;
+namespace chainmail::test_calibrate {
+
 using chainmail::test::make_mesh;
 
 /// Calibration: the search, and its result on a tiny sheet.
@@ -396,5 +398,8 @@ void CalibrateTest::what_makes_no_sense_is_refused() {
   QVERIFY(refused("algorithm", [](auto& options) { options.algorithm = Algorithm::linear_fem; }));
 }
 
-QTEST_APPLESS_MAIN(CalibrateTest)
+CHAINMAIL_TEST(CalibrateTest)
+
+}  // namespace chainmail::test_calibrate
+
 #include "test_calibrate.moc"

@@ -9,9 +9,11 @@
 #include "elastic/dissection.h"
 #include "elastic/elimination.h"
 #include "elastic/simplices.h"
+#include "program.h"
 #include "support.h"
 
-using namespace chainmail;
+namespace chainmail::test_cholesky {
+
 using namespace chainmail::test;
 
 /// Checks the factorization of stiffness matrices against a dense one, and the order of elimination.
@@ -203,5 +205,8 @@ void CholeskyTest::a_solid_takes_fewer_operations_than_by_minimum_degree() {
   QVERIFY(chosen < 0.8 * degrees);
 }
 
-QTEST_APPLESS_MAIN(CholeskyTest)
+CHAINMAIL_TEST(CholeskyTest)
+
+}  // namespace chainmail::test_cholesky
+
 #include "test_cholesky.moc"

@@ -1,9 +1,11 @@
 #include <QtTest>
 
 #include "core/threads.h"
+#include "program.h"
 #include "simulate/command_log.h"
 
-using namespace chainmail;
+namespace chainmail::test_command_log {
+
 using namespace chainmail::test;
 
 /// One log sends the same commands in the same order to both panels, and no solver falls behind the handle.
@@ -162,5 +164,8 @@ void CommandLogTest::while_one_solver_is_busy_neither_gets_a_move() {
   QVERIFY(panels.left.latest_frame().positions == panels.right.latest_frame().positions);
 }
 
-QTEST_APPLESS_MAIN(CommandLogTest)
+CHAINMAIL_TEST(CommandLogTest)
+
+}  // namespace chainmail::test_command_log
+
 #include "test_command_log.moc"

@@ -3,10 +3,12 @@
 
 #include "core/comparisons.h"
 #include "mesh/error.h"
+#include "program.h"
 #include "report/run/drags.h"
 #include "simulate/simulation.h"
 
-using namespace chainmail;
+namespace chainmail::test_compare {
+
 using namespace chainmail::report;
 using namespace chainmail::report::test;
 using chainmail::test::make_mesh;
@@ -187,5 +189,8 @@ void CompareTest::three_drags_reach_as_far_as_they_say() {
   QVERIFY(displaced(one.drags[2]) > 128);  // the object does not spring back by itself
 }
 
-QTEST_APPLESS_MAIN(CompareTest)
+CHAINMAIL_TEST(CompareTest)
+
+}  // namespace chainmail::test_compare
+
 #include "test_compare.moc"

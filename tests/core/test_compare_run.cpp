@@ -7,8 +7,10 @@
 #include "core/comparisons.h"
 #include "core/threads.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_compare_run {
+
 using namespace chainmail::report;
 using namespace chainmail::report::test;
 using chainmail::test::make_mesh;
@@ -148,5 +150,8 @@ void CompareRunTest::wrong_moves_and_numbers_are_refused() {
   QVERIFY_EXCEPTION_THROWN(compare({object(line, good)}, options), Error);
 }
 
-QTEST_APPLESS_MAIN(CompareRunTest)
+CHAINMAIL_TEST(CompareRunTest)
+
+}  // namespace chainmail::test_compare_run
+
 #include "test_compare_run.moc"

@@ -8,8 +8,10 @@
 #include "elastic_problems.h"
 #include "mesh/error.h"
 #include "plain_minimum.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_contestants {
+
 using namespace chainmail::test;
 
 /// Corotational FEM, ARAP, XPBD and Projective Dynamics, against their energies' minima and under rotations.
@@ -525,5 +527,8 @@ void ContestantsTest::cancelling_keeps_the_last_answer() {
   QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
 }
 
-QTEST_APPLESS_MAIN(ContestantsTest)
+CHAINMAIL_TEST(ContestantsTest)
+
+}  // namespace chainmail::test_contestants
+
 #include "test_contestants.moc"

@@ -3,8 +3,10 @@
 #include "elastic_problems.h"
 #include "measure/converging_reference.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_converging_reference {
+
 using namespace chainmail::test;
 
 /// A reference solution that is refined until it changes little.
@@ -117,5 +119,8 @@ void ConvergingReferenceTest::a_patch_is_the_same_on_every_mesh() {
   QVERIFY_THROWS_EXCEPTION(Error, reference.at({Point(50, 0, 0), 1}, way));
 }
 
-QTEST_APPLESS_MAIN(ConvergingReferenceTest)
+CHAINMAIL_TEST(ConvergingReferenceTest)
+
+}  // namespace chainmail::test_converging_reference
+
 #include "test_converging_reference.moc"

@@ -2,8 +2,10 @@
 
 #include "core/scenarios.h"
 #include "mesh/cuts.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_cuts {
+
 using namespace chainmail::test;
 
 /// Cutting, and that uncutting restores the object exactly.
@@ -134,5 +136,8 @@ void CutsTest::disconnected_parts_do_not_move() {
   QVERIFY(check_property("elements that no link joins to the handle stay", holds));
 }
 
-QTEST_APPLESS_MAIN(CutsTest)
+CHAINMAIL_TEST(CutsTest)
+
+}  // namespace chainmail::test_cuts
+
 #include "test_cuts.moc"

@@ -9,8 +9,10 @@
 #include "elastic_problems.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_elastic {
+
 using namespace chainmail::test;
 
 /// Checks finite elements against known solutions of mechanics.
@@ -436,5 +438,8 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
   }
 }
 
-QTEST_APPLESS_MAIN(ElasticTest)
+CHAINMAIL_TEST(ElasticTest)
+
+}  // namespace chainmail::test_elastic
+
 #include "test_elastic.moc"

@@ -4,8 +4,10 @@
 #include "elastic_problems.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_elastic_objects {
+
 using namespace chainmail::test;
 
 /// Which objects finite elements accept, and what the messages say about the others.
@@ -144,5 +146,8 @@ void ElasticObjectsTest::what_does_not_converge_is_told() {
   QCOMPARE(solver->displacements()[3 * middle], -0.3);
 }
 
-QTEST_APPLESS_MAIN(ElasticObjectsTest)
+CHAINMAIL_TEST(ElasticObjectsTest)
+
+}  // namespace chainmail::test_elastic_objects
+
 #include "test_elastic_objects.moc"

@@ -2,9 +2,11 @@
 
 #include "elastic_problems.h"
 #include "mesh/error.h"
+#include "program.h"
 #include "simulate/simulation.h"
 
-using namespace chainmail;
+namespace chainmail::test_elastic_simulation {
+
 using namespace chainmail::test;
 
 /// Methods of elasticity as algorithms of a panel: they support the same commands and the same undo.
@@ -307,5 +309,8 @@ void ElasticSimulationTest::a_pass_is_given_up() {
   QCOMPARE(bar.at(tip), drag.target);
 }
 
-QTEST_APPLESS_MAIN(ElasticSimulationTest)
+CHAINMAIL_TEST(ElasticSimulationTest)
+
+}  // namespace chainmail::test_elastic_simulation
+
 #include "test_elastic_simulation.moc"

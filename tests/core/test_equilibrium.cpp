@@ -4,8 +4,10 @@
 
 #include "core/simulations.h"
 #include "measure/equilibrium.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_equilibrium {
+
 using namespace chainmail::test;
 
 /// The relaxed equilibrium: known answers, left-out elements, and convergence of relaxation to it.
@@ -226,5 +228,8 @@ void EquilibriumTest::gradients_agree_with_cholesky() {
   QVERIFY(largest_coordinate(direct.displacements) > 5);
 }
 
-QTEST_APPLESS_MAIN(EquilibriumTest)
+CHAINMAIL_TEST(EquilibriumTest)
+
+}  // namespace chainmail::test_equilibrium
+
 #include "test_equilibrium.moc"

@@ -7,11 +7,13 @@
 #include "core/scenarios.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 #include "reference/quadratic_program.h"
 #include "solve/equilibrium_solver.h"
 #include "solve/link_energy.h"
 
-using namespace chainmail;
+namespace chainmail::test_equilibrium_solver {
+
 using namespace chainmail::test;
 
 /// The equilibrium inside valid regions, against solvers that share no code with it.
@@ -458,5 +460,8 @@ void EquilibriumSolverTest::links_share_the_material_of_their_cells() {
   QCOMPARE(grid_shares[*find_link(*grid, 3, 4)], 2 * grid_shares[*find_link(*grid, 0, 1)]);
 }
 
-QTEST_GUILESS_MAIN(EquilibriumSolverTest)
+CHAINMAIL_TEST(EquilibriumSolverTest)
+
+}  // namespace chainmail::test_equilibrium_solver
+
 #include "test_equilibrium_solver.moc"

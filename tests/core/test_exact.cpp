@@ -3,9 +3,11 @@
 #include "core/exact_oracle.h"
 #include "core/scenarios.h"
 #include "measure/violation.h"
+#include "program.h"
 #include "solve/exact.h"
 
-using namespace chainmail;
+namespace chainmail::test_exact {
+
 using namespace chainmail::test;
 
 namespace {
@@ -263,5 +265,8 @@ void ExactTest::a_far_origin_costs_no_digits() {
   }
 }
 
-QTEST_APPLESS_MAIN(ExactTest)
+CHAINMAIL_TEST(ExactTest)
+
+}  // namespace chainmail::test_exact
+
 #include "test_exact.moc"

@@ -7,11 +7,13 @@
 #include "core/threads.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
+#include "program.h"
 #include "simulate/frame_writer.h"
 #include "simulate/pass_recorder.h"
 #include "solve/thread_team.h"
 
-using namespace chainmail;
+namespace chainmail::test_failures {
+
 using namespace chainmail::test;
 
 /// Without memory, without threads, and after exceptions that nobody expects, a simulation and its thread go on.
@@ -258,5 +260,8 @@ void FailuresTest::a_team_without_threads_and_memory_works_alone() {
   }
 }
 
-QTEST_APPLESS_MAIN(FailuresTest)
+CHAINMAIL_TEST(FailuresTest)
+
+}  // namespace chainmail::test_failures
+
 #include "test_failures.moc"

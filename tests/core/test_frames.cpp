@@ -5,9 +5,11 @@
 #include "core/frame_reader.h"
 #include "core/threads.h"
 #include "mesh/error.h"
+#include "program.h"
 #include "simulate/frame_writer.h"
 
-using namespace chainmail;
+namespace chainmail::test_frames {
+
 using namespace chainmail::test;
 
 /// A frame of a simulation: all positions, and the blocks that changed.
@@ -141,5 +143,8 @@ void FramesTest::an_undone_reset_changes_what_it_brings_back() {
   QVERIFY(scene.changed().empty());
 }
 
-QTEST_APPLESS_MAIN(FramesTest)
+CHAINMAIL_TEST(FramesTest)
+
+}  // namespace chainmail::test_frames
+
 #include "test_frames.moc"

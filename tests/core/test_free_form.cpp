@@ -3,8 +3,10 @@
 #include "core/families.h"
 #include "elastic_problems.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_free_form {
+
 using namespace chainmail::test;
 
 /// Free-form deformation, and dragging elements by it.
@@ -170,5 +172,8 @@ void FreeFormTest::lattices_have_bounds() {
   }
 }
 
-QTEST_APPLESS_MAIN(FreeFormTest)
+CHAINMAIL_TEST(FreeFormTest)
+
+}  // namespace chainmail::test_free_form
+
 #include "test_free_form.moc"

@@ -5,8 +5,10 @@
 
 #include "core/support.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_generate {
+
 using namespace chainmail::test;
 
 /// Checks the numbers of elements, links, triangles and tetrahedra of generated meshes, counted by hand.
@@ -142,5 +144,8 @@ void GenerateTest::too_many_elements_are_refused_before_memory_is_taken() {
   QVERIFY_EXCEPTION_THROWN(make_mesh(MeshKind::tetra, {most, most, most}), Error);
 }
 
-QTEST_APPLESS_MAIN(GenerateTest)
+CHAINMAIL_TEST(GenerateTest)
+
+}  // namespace chainmail::test_generate
+
 #include "test_generate.moc"

@@ -9,8 +9,10 @@
 #include "elastic/bernstein.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_handle {
+
 using namespace chainmail::test;
 
 namespace {
@@ -549,5 +551,8 @@ void HandleTest::a_rotation_that_does_not_converge_keeps_its_pose() {
   QVERIFY(handle.pose().pivot.y() > target.pivot.y());
 }
 
-QTEST_APPLESS_MAIN(HandleTest)
+CHAINMAIL_TEST(HandleTest)
+
+}  // namespace chainmail::test_handle
+
 #include "test_handle.moc"

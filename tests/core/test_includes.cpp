@@ -4,6 +4,11 @@
 #include <QtTest>
 #include <algorithm>
 
+#include "folders.h"
+#include "program.h"
+
+namespace chainmail::test_includes {
+
 /// One rule of direction: app → ui → core. In each of them, every source belongs to a room, and a room may include only
 /// the rooms that the table lists for it. Qt and OpenGL stay in ui, and each library in the room that wraps it.
 class IncludesTest : public QObject {
@@ -20,7 +25,7 @@ class IncludesTest : public QObject {
 
 namespace {
 
-const QString root = QStringLiteral(PROJECT_SOURCE_DIR);
+const QString root = sourceFile();
 
 /// A folder of sources, and the rooms directly below it. It may include these and all that they may include. A folder
 /// in a room without a row of its own belongs to that room.
@@ -350,5 +355,8 @@ void IncludesTest::no_test_waits_for_a_fixed_time() {
   QVERIFY2(waits.isEmpty(), qPrintable("wait for an event (QTRY_…, a signal, wait_until):\n" + waits.join('\n')));
 }
 
-QTEST_APPLESS_MAIN(IncludesTest)
+CHAINMAIL_TEST(IncludesTest)
+
+}  // namespace chainmail::test_includes
+
 #include "test_includes.moc"

@@ -3,10 +3,12 @@
 #include "core/scenarios.h"
 #include "core/simulations.h"
 #include "measure/violation.h"
+#include "program.h"
 #include "reference/chainmail.h"
 #include "reference/relaxation.h"
 
-using namespace chainmail;
+namespace chainmail::test_jumps {
+
 using namespace chainmail::test;
 
 /// The jumps of thesis 4.4: with relaxation, "elements jump to different places when elements at the far side of the
@@ -137,5 +139,8 @@ void JumpsTest::nothing_outruns_the_hand_however_often_it_relaxes() {
   QVERIFY(check_property("on uncut grids relaxation never moves an element further than the handle", holds));
 }
 
-QTEST_APPLESS_MAIN(JumpsTest)
+CHAINMAIL_TEST(JumpsTest)
+
+}  // namespace chainmail::test_jumps
+
 #include "test_jumps.moc"

@@ -4,8 +4,10 @@
 #include "core/spheres.h"
 #include "core/support.h"
 #include "mesh/layers.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_layers {
+
 using namespace chainmail::test;
 
 namespace {
@@ -126,5 +128,8 @@ void LayersTest::a_grid_and_a_chain_end_at_their_rim() {
 
 void LayersTest::a_closed_surface_ends_nowhere() { QVERIFY(boundary(*sphere(3)).empty()); }
 
-QTEST_APPLESS_MAIN(LayersTest)
+CHAINMAIL_TEST(LayersTest)
+
+}  // namespace chainmail::test_layers
+
 #include "test_layers.moc"

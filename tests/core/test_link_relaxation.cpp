@@ -3,8 +3,10 @@
 #include "core/scenarios.h"
 #include "core/simulations.h"
 #include "measure/violation.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_link_relaxation {
+
 using namespace chainmail::test;
 
 namespace {
@@ -146,5 +148,8 @@ void LinkRelaxationTest::displacements_relax_like_positions() {
   }
 }
 
-QTEST_APPLESS_MAIN(LinkRelaxationTest)
+CHAINMAIL_TEST(LinkRelaxationTest)
+
+}  // namespace chainmail::test_link_relaxation
+
 #include "test_link_relaxation.moc"

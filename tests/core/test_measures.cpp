@@ -4,8 +4,10 @@
 #include "core/support.h"
 #include "measure/distance.h"
 #include "measure/time_spread.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_measures {
+
 using namespace chainmail::test;
 
 /// Distances between states, ratios, and the spread of times, compared with figures computed by hand.
@@ -100,5 +102,8 @@ void MeasuresTest::spread_of_few() {
   QVERIFY(spread_of({4, 8}) == (TimeSpread{6, 5, 7, 4, 8, 2}));
 }
 
-QTEST_APPLESS_MAIN(MeasuresTest)
+CHAINMAIL_TEST(MeasuresTest)
+
+}  // namespace chainmail::test_measures
+
 #include "test_measures.moc"

@@ -4,8 +4,10 @@
 #include "core/families.h"
 #include "mesh/error.h"
 #include "mesh/large_pages.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_mesh {
+
 using namespace chainmail::test;
 
 /// What a mesh guarantees: the neighbours of each element, their order, and the axes that exist.
@@ -281,5 +283,8 @@ void MeshTest::large_vectors_begin_a_large_page() {
   QVERIFY(std::ranges::count(moved, 9) == std::ptrdiff_t(moved.size()));
 }
 
-QTEST_APPLESS_MAIN(MeshTest)
+CHAINMAIL_TEST(MeshTest)
+
+}  // namespace chainmail::test_mesh
+
 #include "test_mesh.moc"

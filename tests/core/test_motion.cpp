@@ -3,8 +3,10 @@
 #include "core/scenarios.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_motion {
+
 using namespace chainmail::test;
 
 /// What must be true for any move of any mesh: no skew in the first deformation, and no element that moves further than
@@ -244,5 +246,8 @@ void MotionTest::a_target_that_is_no_number_is_refused() {
   solver->move(5, Point(1, 1, std::nan("")));  // a coordinate on an axis that does not exist is ignored
 }
 
-QTEST_APPLESS_MAIN(MotionTest)
+CHAINMAIL_TEST(MotionTest)
+
+}  // namespace chainmail::test_motion
+
 #include "test_motion.moc"

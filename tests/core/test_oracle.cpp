@@ -4,13 +4,13 @@
 #include <set>
 
 #include "core/families.h"
+#include "program.h"
 #include "reference/chainmail.h"
 #include "reference/variants.h"
 
-using namespace chainmail;
-using namespace chainmail::test;
+namespace chainmail::test_oracle {
 
-Q_DECLARE_METATYPE(chainmail::test::MeshFamily)
+using namespace chainmail::test;
 
 namespace {
 
@@ -240,5 +240,8 @@ void OracleTest::spiral_ends_where_natural_queue_does() {
   }
 }
 
-QTEST_APPLESS_MAIN(OracleTest)
+CHAINMAIL_TEST(OracleTest)
+
+}  // namespace chainmail::test_oracle
+
 #include "test_oracle.moc"

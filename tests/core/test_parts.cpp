@@ -2,8 +2,10 @@
 
 #include "core/scenarios.h"
 #include "mesh/parts.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_parts {
+
 using namespace chainmail::test;
 
 /// The number of parts of an object, updated while it is cut.
@@ -108,5 +110,8 @@ void PartsTest::a_loose_part_costs_its_own_size() {
   QVERIFY(parts.looked_at() < 400);
 }
 
-QTEST_APPLESS_MAIN(PartsTest)
+CHAINMAIL_TEST(PartsTest)
+
+}  // namespace chainmail::test_parts
+
 #include "test_parts.moc"

@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "measure/pass_times.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_pass_times {
+
 using namespace std::chrono_literals;
 
 /// The times of the passes of the last second, with a clock that the test controls.
@@ -56,5 +58,8 @@ void PassTimesTest::memory_is_bounded() {
   QCOMPARE(times.summary(start_ + 100ms).passes, 0);
 }
 
-QTEST_APPLESS_MAIN(PassTimesTest)
+CHAINMAIL_TEST(PassTimesTest)
+
+}  // namespace chainmail::test_pass_times
+
 #include "test_pass_times.moc"

@@ -8,6 +8,7 @@
 #include "core/comparisons.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
+#include "program.h"
 #include "report/page/physics_csv.h"
 #include "report/page/physics_html.h"
 #include "report/page/physics_means.h"
@@ -18,7 +19,8 @@
 #include "report/run/preparing.h"
 #include "report/run/runner.h"
 
-using namespace chainmail;
+namespace chainmail::test_physics {
+
 using namespace chainmail::report;
 using chainmail::report::test::drag;
 using chainmail::test::make_mesh;
@@ -576,5 +578,8 @@ void PhysicsTest::csv_and_text_have_a_row_for_each() {
   QVERIFY(printed.contains("\n  Linear FEM, on the same cells "));
 }
 
-QTEST_APPLESS_MAIN(PhysicsTest)
+CHAINMAIL_TEST(PhysicsTest)
+
+}  // namespace chainmail::test_physics
+
 #include "test_physics.moc"

@@ -3,8 +3,10 @@
 #include "core/pinned.h"
 #include "core/scenarios.h"
 #include "core/simulations.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_pins {
+
 using namespace chainmail::test;
 
 /// Pinned elements stay, whatever pulls at them.
@@ -165,5 +167,8 @@ void PinsTest::the_hand_is_not_pinned() {
   QVERIFY(refusal([&] { simulation.apply(commands::Unpin{{12}}); }).starts_with("element 12"));
 }
 
-QTEST_APPLESS_MAIN(PinsTest)
+CHAINMAIL_TEST(PinsTest)
+
+}  // namespace chainmail::test_pins
+
 #include "test_pins.moc"

@@ -3,8 +3,10 @@
 #include "core/scenarios.h"
 #include "core/threads.h"
 #include "mesh/progress.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_preparing {
+
 using namespace chainmail::test;
 
 namespace {
@@ -171,5 +173,8 @@ void PreparingTest::a_thread_prepares_what_it_is_told() {
   QCOMPARE(visits_of_a_drag(30, 4), std::uint64_t{0});  // a new softness is a pass too
 }
 
-QTEST_APPLESS_MAIN(PreparingTest)
+CHAINMAIL_TEST(PreparingTest)
+
+}  // namespace chainmail::test_preparing
+
 #include "test_preparing.moc"

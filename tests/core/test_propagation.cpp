@@ -4,8 +4,10 @@
 
 #include "core/scenarios.h"
 #include "measure/violation.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_propagation {
+
 using namespace chainmail::test;
 
 /// One pass in detail: the candidates, their order, and the state after the pass.
@@ -221,5 +223,8 @@ void PropagationTest::algorithms_are_found_by_name() {
   QVERIFY(!find_algorithm("natural queue") && !find_algorithm(""));
 }
 
-QTEST_APPLESS_MAIN(PropagationTest)
+CHAINMAIL_TEST(PropagationTest)
+
+}  // namespace chainmail::test_propagation
+
 #include "test_propagation.moc"

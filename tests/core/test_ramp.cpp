@@ -3,13 +3,15 @@
 #include <set>
 
 #include "core/families.h"
+#include "program.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
 #include "report/run/scripted_drags.h"
 
-using namespace chainmail;
+namespace chainmail::test_ramp {
+
 using namespace chainmail::report;
 using namespace chainmail::test;
 
@@ -345,5 +347,8 @@ void RampTest::it_stops() {
   QVERIFY(text.str().find("not measured") != std::string::npos);
 }
 
-QTEST_APPLESS_MAIN(RampTest)
+CHAINMAIL_TEST(RampTest)
+
+}  // namespace chainmail::test_ramp
+
 #include "test_ramp.moc"

@@ -3,8 +3,10 @@
 #include "core/any_command.h"
 #include "core/recorded.h"
 #include "core/threads.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_recorded_pass {
+
 using namespace chainmail::test;
 
 /// Recorded passes: their positions step by step, and the waiting list at each step.
@@ -217,5 +219,8 @@ void RecordedPassTest::another_thread_may_look_at_any_time() {
   QVERIFY(played(*last) == solver.latest_frame().positions);
 }
 
-QTEST_APPLESS_MAIN(RecordedPassTest)
+CHAINMAIL_TEST(RecordedPassTest)
+
+}  // namespace chainmail::test_recorded_pass
+
 #include "test_recorded_pass.moc"

@@ -7,8 +7,10 @@
 #include "mesh/cell_table.h"
 #include "mesh/error.h"
 #include "mesh/refine.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_refine {
+
 using namespace chainmail::test;
 
 /// Uniform refinement of triangles, tetrahedra and chains.
@@ -147,5 +149,8 @@ void RefineTest::hexahedra_are_refused() {
   QVERIFY_THROWS_EXCEPTION(Error, refine(*mesh));
 }
 
-QTEST_APPLESS_MAIN(RefineTest)
+CHAINMAIL_TEST(RefineTest)
+
+}  // namespace chainmail::test_refine
+
 #include "test_refine.moc"

@@ -8,9 +8,11 @@
 #include "core/simulations.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 #include "solve/region_frame.h"
 
-using namespace chainmail;
+namespace chainmail::test_region_frame {
+
 using namespace chainmail::test;
 
 namespace {
@@ -348,5 +350,8 @@ void RegionFrameTest::a_frame_that_leaves_the_plane_is_refused() {
   QVERIFY(simulation.body().frame().is_turned());
 }
 
-QTEST_GUILESS_MAIN(RegionFrameTest)
+CHAINMAIL_TEST(RegionFrameTest)
+
+}  // namespace chainmail::test_region_frame
+
 #include "test_region_frame.moc"

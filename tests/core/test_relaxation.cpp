@@ -5,8 +5,10 @@
 
 #include "core/scenarios.h"
 #include "measure/violation.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_relaxation {
+
 using namespace chainmail::test;
 
 /// Relaxation `mean`, limited to the valid regions of the neighbours.
@@ -486,5 +488,8 @@ void RelaxationTest::a_slice_goes_on_where_the_last_one_stopped() {
   }
 }
 
-QTEST_APPLESS_MAIN(RelaxationTest)
+CHAINMAIL_TEST(RelaxationTest)
+
+}  // namespace chainmail::test_relaxation
+
 #include "test_relaxation.moc"

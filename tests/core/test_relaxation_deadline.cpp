@@ -2,8 +2,10 @@
 #include <QtTest>
 
 #include "core/simulations.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_relaxation_deadline {
+
 using namespace chainmail::test;
 
 /// Relaxation stops after 10 s, because a large object would take minutes to come to rest.
@@ -28,5 +30,8 @@ void RelaxationDeadlineTest::relaxation_sleeps_after_ten_seconds() {
   QVERIFY2(timer.elapsed() >= 9'900, "it came to rest before the deadline: the object is too small for this test");
 }
 
-QTEST_APPLESS_MAIN(RelaxationDeadlineTest)
+CHAINMAIL_TEST(RelaxationDeadlineTest)
+
+}  // namespace chainmail::test_relaxation_deadline
+
 #include "test_relaxation_deadline.moc"

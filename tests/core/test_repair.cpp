@@ -5,8 +5,10 @@
 #include "core/scenarios.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_repair {
+
 using namespace chainmail::test;
 
 /// Exact ChainMail takes over from any state: it repairs an invalid one.
@@ -222,5 +224,8 @@ void RepairTest::an_uncut_link_is_mended() {
   QVERIFY(trace[0].sponsor == no_element && trace[1].sponsor == no_element);
 }
 
-QTEST_APPLESS_MAIN(RepairTest)
+CHAINMAIL_TEST(RepairTest)
+
+}  // namespace chainmail::test_repair
+
 #include "test_repair.moc"

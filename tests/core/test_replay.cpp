@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "core/scenarios.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_replay {
+
 using namespace chainmail::test;
 
 namespace {
@@ -124,5 +126,8 @@ void ReplayTest::an_algorithm_finds_nothing_of_another() {
   }
 }
 
-QTEST_APPLESS_MAIN(ReplayTest)
+CHAINMAIL_TEST(ReplayTest)
+
+}  // namespace chainmail::test_replay
+
 #include "test_replay.moc"

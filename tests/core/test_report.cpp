@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/support.h"
+#include "program.h"
 #include "report/page/axis.h"
 #include "report/page/csv.h"
 #include "report/page/format.h"
@@ -11,7 +12,8 @@
 #include "report/page/svg.h"
 #include "report/page/table.h"
 
-using namespace chainmail;
+namespace chainmail::test_report {
+
 using namespace chainmail::report;
 
 /// The output of a comparison: numbers, axes, plots, page and tables.
@@ -332,5 +334,8 @@ void ReportTest::csv_has_a_row_for_each() {
   QVERIFY(lines[3].endsWith(",original,0,\"it works, on grids, alone\"" + QString(20, ',') + ",0,,,,"));
 }
 
-QTEST_APPLESS_MAIN(ReportTest)
+CHAINMAIL_TEST(ReportTest)
+
+}  // namespace chainmail::test_report
+
 #include "test_report.moc"

@@ -5,8 +5,10 @@
 
 #include "core/scenarios.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_revisions {
+
 using namespace chainmail::test;
 
 namespace {
@@ -304,5 +306,8 @@ void RevisionsTest::each_elastic_move_is_that_of_a_new_solver() {
   QVERIFY(check_property("each elastic move is that of a new solver in the same state", holds));
 }
 
-QTEST_APPLESS_MAIN(RevisionsTest)
+CHAINMAIL_TEST(RevisionsTest)
+
+}  // namespace chainmail::test_revisions
+
 #include "test_revisions.moc"

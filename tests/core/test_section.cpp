@@ -5,8 +5,10 @@
 #include "core/hexahedra.h"
 #include "core/support.h"
 #include "mesh/section.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_section {
+
 using namespace chainmail::test;
 
 namespace {
@@ -113,5 +115,8 @@ void SectionTest::cells_that_are_cut_leave_holes() {
   QVERIFY(std::abs(area(section, surface) - area_across[0]) < rounding);
 }
 
-QTEST_APPLESS_MAIN(SectionTest)
+CHAINMAIL_TEST(SectionTest)
+
+}  // namespace chainmail::test_section
+
 #include "test_section.moc"

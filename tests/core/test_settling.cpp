@@ -3,8 +3,10 @@
 #include "core/threads.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_settling {
+
 using namespace chainmail::test;
 
 /// The relaxation scheme `equilibrium` in a simulation: the object settles, stays valid, and sleeps.
@@ -239,5 +241,8 @@ void SettlingTest::a_thread_settles_between_passes() {
   QVERIFY(wait_for_passes(solver, 31));
 }
 
-QTEST_APPLESS_MAIN(SettlingTest)
+CHAINMAIL_TEST(SettlingTest)
+
+}  // namespace chainmail::test_settling
+
 #include "test_settling.moc"

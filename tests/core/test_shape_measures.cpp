@@ -8,8 +8,10 @@
 #include "measure/inverted_cells.h"
 #include "measure/principal_stretch.h"
 #include "measure/volume_change.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_shape_measures {
+
 using namespace chainmail::test;
 
 namespace {
@@ -185,5 +187,8 @@ void ShapeMeasuresTest::hausdorff_agrees_with_all_pairs() {
   }
 }
 
-QTEST_GUILESS_MAIN(ShapeMeasuresTest)
+CHAINMAIL_TEST(ShapeMeasuresTest)
+
+}  // namespace chainmail::test_shape_measures
+
 #include "test_shape_measures.moc"

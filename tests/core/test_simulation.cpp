@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "core/simulations.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_simulation {
+
 using namespace chainmail::test;
 
 /// The effect of each command on an object.
@@ -353,5 +355,8 @@ void SimulationTest::what_passes_did_goes_with_them() {
   }
 }
 
-QTEST_APPLESS_MAIN(SimulationTest)
+CHAINMAIL_TEST(SimulationTest)
+
+}  // namespace chainmail::test_simulation
+
 #include "test_simulation.moc"

@@ -3,8 +3,10 @@
 
 #include "core/simulations.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_simulation_errors {
+
 using namespace chainmail::test;
 
 /// A command that does not fit is refused with a message, and nothing changes.
@@ -37,8 +39,6 @@ Command one_link(LinkId link, const LinkSoftness& of_link) {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(chainmail::Command)
 
 void SimulationErrorsTest::refused_without_a_trace_data() {
   QTest::addColumn<Command>("bad");
@@ -100,5 +100,8 @@ void SimulationErrorsTest::a_hand_that_holds_nothing_drags_nothing() {
   QVERIFY_EXCEPTION_THROWN(carry_out(simulation, commands::Drag{Point(1, 0, 0)}), Error);
 }
 
-QTEST_APPLESS_MAIN(SimulationErrorsTest)
+CHAINMAIL_TEST(SimulationErrorsTest)
+
+}  // namespace chainmail::test_simulation_errors
+
 #include "test_simulation_errors.moc"

@@ -3,8 +3,10 @@
 #include "core/simulations.h"
 #include "core/threads.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_snapshot {
+
 using namespace chainmail::test;
 
 /// Snapshots of positions, taken from one simulation and restored in another.
@@ -136,5 +138,8 @@ void SnapshotTest::a_solver_is_asked_in_turn() {
   QVERIFY(answers.back() == simulation.snapshot());
 }
 
-QTEST_APPLESS_MAIN(SnapshotTest)
+CHAINMAIL_TEST(SnapshotTest)
+
+}  // namespace chainmail::test_snapshot
+
 #include "test_snapshot.moc"

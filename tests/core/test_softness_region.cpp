@@ -5,8 +5,10 @@
 #include "core/scenarios.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_softness_region {
+
 using namespace chainmail::test;
 
 /// The valid region: values computed by hand, the rule of signs, and mirrored links.
@@ -174,5 +176,8 @@ void SoftnessRegionTest::softness_of_a_link_goes_before_the_global_one() {
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-4, -2.5, -1, 0, 1.5}));
 }
 
-QTEST_APPLESS_MAIN(SoftnessRegionTest)
+CHAINMAIL_TEST(SoftnessRegionTest)
+
+}  // namespace chainmail::test_softness_region
+
 #include "test_softness_region.moc"

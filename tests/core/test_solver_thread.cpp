@@ -3,11 +3,11 @@
 #include <future>
 
 #include "core/threads.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_solver_thread {
+
 using namespace chainmail::test;
-
-Q_DECLARE_METATYPE(chainmail::Command)
 
 /// Longest time that ending may take. Sanitizers make everything slower.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -380,5 +380,8 @@ void SolverThreadTest::a_frame_exchange_never_mixes_two_frames() {
   }
 }
 
-QTEST_APPLESS_MAIN(SolverThreadTest)
+CHAINMAIL_TEST(SolverThreadTest)
+
+}  // namespace chainmail::test_solver_thread
+
 #include "test_solver_thread.moc"

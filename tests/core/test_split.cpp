@@ -9,11 +9,13 @@
 #include "mesh/error.h"
 #include "mesh/parts.h"
 #include "mesh/split_along.h"
+#include "program.h"
 #include "property.h"
 #include "simulate/tape.h"
 #include "solve/split_state.h"
 
-using namespace chainmail;
+namespace chainmail::test_split {
+
 using namespace chainmail::test;
 
 /// Splits faces along strokes.
@@ -550,5 +552,8 @@ void SplitTest::edits_that_do_not_fit_are_refused() {
   QVERIFY_THROWS_EXCEPTION(Error, other.apply(commands::Split{}));
 }
 
-QTEST_APPLESS_MAIN(SplitTest)
+CHAINMAIL_TEST(SplitTest)
+
+}  // namespace chainmail::test_split
+
 #include "test_split.moc"

@@ -4,9 +4,11 @@
 #include "core/any_command.h"
 #include "core/frame_reader.h"
 #include "core/threads.h"
+#include "program.h"
 #include "simulate/command_log.h"
 
-using namespace chainmail;
+namespace chainmail::test_stress {
+
 using namespace chainmail::test;
 
 /// All kinds of commands in random order, as fast as possible. Mostly for the thread sanitizer.
@@ -128,5 +130,8 @@ void StressTest::shut_down_at_any_moment() {
   }
 }
 
-QTEST_APPLESS_MAIN(StressTest)
+CHAINMAIL_TEST(StressTest)
+
+}  // namespace chainmail::test_stress
+
 #include "test_stress.moc"

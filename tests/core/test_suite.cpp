@@ -8,6 +8,7 @@
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
+#include "program.h"
 #include "report/page/suite_csv.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
@@ -17,7 +18,8 @@
 #include "report/run/suite.h"
 #include "report/run/suite_experiments.h"
 
-using namespace chainmail;
+namespace chainmail::test_suite {
+
 using namespace chainmail::report;
 
 namespace {
@@ -253,5 +255,8 @@ void SuiteTest::unknown_experiments_are_refused() {
   }
 }
 
-QTEST_APPLESS_MAIN(SuiteTest)
+CHAINMAIL_TEST(SuiteTest)
+
+}  // namespace chainmail::test_suite
+
 #include "test_suite.moc"

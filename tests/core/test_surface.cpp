@@ -7,8 +7,10 @@
 #include "core/hexahedra.h"
 #include "core/support.h"
 #include "mesh/surface.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_surface {
+
 using namespace chainmail::test;
 
 namespace {
@@ -242,5 +244,8 @@ void SurfaceTest::a_side_is_parted_alike_from_both_cells() {
   QCOMPARE(inner, 2);
 }
 
-QTEST_APPLESS_MAIN(SurfaceTest)
+CHAINMAIL_TEST(SurfaceTest)
+
+}  // namespace chainmail::test_surface
+
 #include "test_surface.moc"

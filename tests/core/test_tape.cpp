@@ -1,9 +1,11 @@
 #include <QtTest>
 
 #include "core/simulations.h"
+#include "program.h"
 #include "simulate/tape.h"
 
-using namespace chainmail;
+namespace chainmail::test_tape {
+
 using namespace chainmail::test;
 
 /// The tape contains the commands that recreate the object, through undo and redo.
@@ -190,5 +192,8 @@ void TapeTest::its_commands_repeat_a_simulation_to_the_bit() {
   }
 }
 
-QTEST_APPLESS_MAIN(TapeTest)
+CHAINMAIL_TEST(TapeTest)
+
+}  // namespace chainmail::test_tape
+
 #include "test_tape.moc"

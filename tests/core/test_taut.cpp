@@ -3,8 +3,10 @@
 #include "core/pinned.h"
 #include "core/scenarios.h"
 #include "measure/violation.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_taut {
+
 using namespace chainmail::test;
 
 namespace {
@@ -194,5 +196,8 @@ void TautTest::the_hand_stops_where_the_chain_is_taut() {
   }
 }
 
-QTEST_APPLESS_MAIN(TautTest)
+CHAINMAIL_TEST(TautTest)
+
+}  // namespace chainmail::test_taut
+
 #include "test_taut.moc"

@@ -3,10 +3,12 @@
 #include <new>
 
 #include "core/scenarios.h"
+#include "program.h"
 #include "solve/exact.h"
 #include "solve/thread_team.h"
 
-using namespace chainmail;
+namespace chainmail::test_threads {
+
 using namespace chainmail::test;
 
 namespace {
@@ -158,5 +160,8 @@ void ThreadsTest::an_error_of_a_part_arrives() {
   QCOMPARE(done, 1);
 }
 
-QTEST_APPLESS_MAIN(ThreadsTest)
+CHAINMAIL_TEST(ThreadsTest)
+
+}  // namespace chainmail::test_threads
+
 #include "test_threads.moc"

@@ -3,8 +3,10 @@
 #include "core/scenarios.h"
 #include "core/simulations.h"
 #include "mesh/error.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_undo {
+
 using namespace chainmail::test;
 
 /// Keeps and exchanges states: undo and redo, exact to the bit.
@@ -255,5 +257,8 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   QVERIFY(SavedState(simulation).same_object(kept));
 }
 
-QTEST_APPLESS_MAIN(UndoTest)
+CHAINMAIL_TEST(UndoTest)
+
+}  // namespace chainmail::test_undo
+
 #include "test_undo.moc"

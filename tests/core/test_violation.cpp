@@ -5,9 +5,11 @@
 #include "core/families.h"
 #include "measure/neighbour_regions.h"
 #include "measure/violation.h"
+#include "program.h"
 #include "solve/link_energy.h"
 
-using namespace chainmail;
+namespace chainmail::test_violation {
+
 using namespace chainmail::test;
 
 /// Violation, energy and displacement, compared with figures computed by hand.
@@ -272,5 +274,8 @@ void ViolationTest::regions_agree_with_the_violation() {
   }
 }
 
-QTEST_APPLESS_MAIN(ViolationTest)
+CHAINMAIL_TEST(ViolationTest)
+
+}  // namespace chainmail::test_violation
+
 #include "test_violation.moc"

@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_dat {
+
 using namespace chainmail::test;
 
 namespace {
@@ -147,5 +149,8 @@ void DatTest::a_mesh_without_lattice_is_refused() {
   QVERIFY(!std::filesystem::exists(path));
 }
 
-QTEST_APPLESS_MAIN(DatTest)
+CHAINMAIL_TEST(DatTest)
+
+}  // namespace chainmail::test_dat
+
 #include "test_dat.moc"

@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_dat_errors {
+
 using namespace chainmail::test;
 
 /// Errors in a .dat file are reported with their line.
@@ -94,5 +96,8 @@ void DatErrorsTest::options_that_do_not_fit() {
           }).startsWith("space dimension 1: the object extends along 2 axes; "));
 }
 
-QTEST_APPLESS_MAIN(DatErrorsTest)
+CHAINMAIL_TEST(DatErrorsTest)
+
+}  // namespace chainmail::test_dat_errors
+
 #include "test_dat_errors.moc"

@@ -3,8 +3,10 @@
 
 #include "files/mesh/fill.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_fill {
+
 using namespace chainmail::test;
 
 namespace {
@@ -109,5 +111,8 @@ void FillTest::it_can_be_cancelled() {
   QVERIFY(error_of([] { fill(*obj(octahedron(8)), 0); }).startsWith("size: it must be a number above 0"));
 }
 
-QTEST_APPLESS_MAIN(FillTest)
+CHAINMAIL_TEST(FillTest)
+
+}  // namespace chainmail::test_fill
+
 #include "test_fill.moc"

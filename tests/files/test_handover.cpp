@@ -3,8 +3,10 @@
 
 #include "files/import/handover.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_handover {
+
 using namespace chainmail::test;
 
 namespace {
@@ -109,5 +111,8 @@ void HandoverTest::coordinates_must_be_finite() {
   }
 }
 
-QTEST_APPLESS_MAIN(HandoverTest)
+CHAINMAIL_TEST(HandoverTest)
+
+}  // namespace chainmail::test_handover
+
 #include "test_handover.moc"

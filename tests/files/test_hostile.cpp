@@ -2,8 +2,10 @@
 #include <random>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_hostile {
+
 using namespace chainmail::test;
 
 /// Paths that are no files, and files with false content: each gives one error sentence, without a crash and without
@@ -128,5 +130,8 @@ void HostileTest::names_need_not_be_utf8() {
   QVERIFY2(error.contains("\\xff\\x0a.obj:1: 'x' is not an OBJ"), qPrintable(error));
 }
 
-QTEST_APPLESS_MAIN(HostileTest)
+CHAINMAIL_TEST(HostileTest)
+
+}  // namespace chainmail::test_hostile
+
 #include "test_hostile.moc"

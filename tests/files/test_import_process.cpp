@@ -14,8 +14,11 @@
 #include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
+#include "folders.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_import_process {
+
 using namespace chainmail::test;
 
 namespace fs = std::filesystem;
@@ -235,7 +238,7 @@ void ImportProcessTest::other_files_are_hidden() {
 
 void ImportProcessTest::its_version_says_what_the_sandbox_has() {
   QProcess program;
-  program.start(IMPORT_PROGRAM, {"--version"});
+  program.start(builtFile("bin/chainmail-import"), {"--version"});
   QVERIFY(program.waitForFinished());
   const QByteArray line = import::sandbox_hides_files() ? "Sandbox: Landlock and seccomp." : "Sandbox: seccomp only.";
   const QByteArray said = program.readAllStandardOutput();
@@ -290,5 +293,8 @@ void ImportProcessTest::when_no_file_can_be_opened_it_says_so() {
   }
 }
 
-QTEST_APPLESS_MAIN(ImportProcessTest)
+CHAINMAIL_TEST(ImportProcessTest)
+
+}  // namespace chainmail::test_import_process
+
 #include "test_import_process.moc"

@@ -4,8 +4,11 @@
 #include "files/mesh/open_mesh.h"
 #include "files/session_support.h"
 #include "files/text/limits.h"
+#include "folders.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_lesson {
+
 using namespace chainmail::test;
 namespace fs = std::filesystem;
 
@@ -13,7 +16,7 @@ namespace {
 
 /// Opens the samples by name, as the window does.
 MeshPointer open_sample(const std::string& name, std::uint32_t /*across*/, const Progress& progress) {
-  return open_mesh(fs::path(SAMPLES) / name, {}, progress).mesh;
+  return open_mesh(source_file("meshes") / name, {}, progress).mesh;
 }
 
 /// Returns a session with five moves and a lesson that uses every member.
@@ -36,7 +39,7 @@ Session lesson_session() {
 
 /// Returns the complete example in the manual's page on sessions.
 std::string example() {
-  const std::string page = file_text(fs::path(MANUAL) / "sessions.md");
+  const std::string page = file_text(source_file("resources/manual/sessions.md"));
   const auto from = page.find("```json\n") + 8;
   return page.substr(from, page.find("```", from) - from);
 }
@@ -195,5 +198,8 @@ void LessonTest::a_lesson_goes_with_its_moves() {
   QVERIFY(again.lesson.steps.empty());
 }
 
-QTEST_APPLESS_MAIN(LessonTest)
+CHAINMAIL_TEST(LessonTest)
+
+}  // namespace chainmail::test_lesson
+
 #include "test_lesson.moc"

@@ -9,8 +9,10 @@
 #include "files/support.h"
 #include "mesh/cells.h"
 #include "mesh/sheet.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_mesh_repair {
+
 using namespace chainmail::test;
 
 namespace {
@@ -394,5 +396,8 @@ void MeshRepairTest::it_can_be_cancelled() {
   QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, Progress(job)));
 }
 
-QTEST_APPLESS_MAIN(MeshRepairTest)
+CHAINMAIL_TEST(MeshRepairTest)
+
+}  // namespace chainmail::test_mesh_repair
+
 #include "test_mesh_repair.moc"

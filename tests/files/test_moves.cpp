@@ -6,9 +6,11 @@
 #include "files/session/moves.h"
 #include "files/support.h"
 #include "mesh/cells.h"
+#include "program.h"
 #include "simulate/simulation.h"
 
-using namespace chainmail;
+namespace chainmail::test_moves {
+
 using namespace chainmail::test;
 
 /// Tests recorded moves as JSON. The grid of 3x2 has the links 0-1, 0-3, 1-2, 1-4, 2-5, 3-4, 4-5, in this order.
@@ -453,5 +455,8 @@ void MovesTest::files() {
   QCOMPARE(read_moves(path, mesh_).size(), std::size_t{9});
 }
 
-QTEST_APPLESS_MAIN(MovesTest)
+CHAINMAIL_TEST(MovesTest)
+
+}  // namespace chainmail::test_moves
+
 #include "test_moves.moc"

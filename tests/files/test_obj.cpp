@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_obj {
+
 using namespace chainmail::test;
 
 namespace {
@@ -124,5 +126,8 @@ void ObjTest::deformed_positions_are_written() {
   QCOMPARE(out.str(), std::string("v 0.1 0 0\nv 2 -0.5 0\nl 1 2\n"));
 }
 
-QTEST_APPLESS_MAIN(ObjTest)
+CHAINMAIL_TEST(ObjTest)
+
+}  // namespace chainmail::test_obj
+
 #include "test_obj.moc"

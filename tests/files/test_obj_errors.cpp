@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_obj_errors {
+
 using namespace chainmail::test;
 
 /// Errors in an OBJ file are reported with their line, and no wrong number is read as 0.
@@ -73,5 +75,8 @@ void ObjErrorsTest::a_face_may_have_many_corners() {
   QCOMPARE(mesh->polygons.size(), std::size_t{1001});
 }
 
-QTEST_APPLESS_MAIN(ObjErrorsTest)
+CHAINMAIL_TEST(ObjErrorsTest)
+
+}  // namespace chainmail::test_obj_errors
+
 #include "test_obj_errors.moc"

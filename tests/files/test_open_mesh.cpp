@@ -4,9 +4,12 @@
 
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
+#include "folders.h"
 #include "mesh/cells.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_open_mesh {
+
 using namespace chainmail::test;
 
 namespace {
@@ -107,7 +110,7 @@ void OpenMeshTest::files_of_other_programs_data() {
 }
 
 void OpenMeshTest::files_of_other_programs() {
-  const auto opened = open_mesh(std::filesystem::path(FOREIGN) / QTest::currentDataTag());
+  const auto opened = open_mesh(source_file("tests/files/foreign") / QTest::currentDataTag());
   const Mesh& mesh = *opened.mesh;
   QTEST(unsigned(mesh.element_count()), "elements");
   QTEST(unsigned(mesh.link_count()), "links");
@@ -146,7 +149,7 @@ void OpenMeshTest::ids_are_the_files_order() {
 }
 
 void OpenMeshTest::content_goes_before_the_name() {
-  const std::filesystem::path folder = FOREIGN;
+  const std::filesystem::path folder = source_file("tests/files/foreign");
   std::filesystem::copy(folder / "gmsh22.msh", path("box.obj"));
   std::filesystem::copy(folder / "meshio.off", path("box"));
   std::filesystem::copy(folder / "gmsh.mesh", path("box.vtk"));
@@ -182,7 +185,7 @@ void OpenMeshTest::what_we_write_comes_back_data() {
 
 void OpenMeshTest::what_we_write_comes_back() {
   QFETCH(QString, source);
-  const auto mesh = open_mesh(std::filesystem::path(FOREIGN) / source.toStdString()).mesh;
+  const auto mesh = open_mesh(source_file("tests/files/foreign") / source.toStdString()).mesh;
   const auto written = path(QTest::currentDataTag());
   save_mesh(written, {*mesh, {}, rest_positions(*mesh), {}});
   const auto again = open_mesh(written).mesh;
@@ -241,7 +244,7 @@ void OpenMeshTest::flaws_are_told() {
   QCOMPARE(QString::fromStdString(in_words(opened.flaws)),
            QString("1 face or cell with a point used twice, 1 duplicate face or cell left out; 1 face or cell is "
                    "flat, 1 element shares its position with another"));
-  QCOMPARE(in_words(open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh").flaws), std::string());
+  QCOMPARE(in_words(open_mesh(source_file("tests/files/foreign/gmsh22.msh")).flaws), std::string());
 }
 
 /// A square, the same starting at another corner, one with other points, and one that uses a point twice.
@@ -337,7 +340,7 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {
 /// A file cut off at any place gives an error sentence or a part of the mesh, even if a library crashes or hangs.
 void OpenMeshTest::damaged_files_give_one_sentence() {
   for (const char* name : {"gmsh41_binary.msh", "assimp_binary.ply", "gmsh_binary.stl", "gmsh.mesh", "teem.nrrd"}) {
-    const std::string whole = file_text(std::filesystem::path(FOREIGN) / name);
+    const std::string whole = file_text(source_file("tests/files/foreign") / name);
     for (const double share : {0.3, 0.9}) {
       const auto cut = path(std::string("cut_") + name);
       put_file(cut, whole.substr(0, std::size_t(share * double(whole.size()))));
@@ -348,7 +351,7 @@ void OpenMeshTest::damaged_files_give_one_sentence() {
 }
 
 void OpenMeshTest::halves_of_a_pair_are_missed() {
-  std::filesystem::copy(std::filesystem::path(FOREIGN) / "tetgen.node", path("half.node"));
+  std::filesystem::copy(source_file("tests/files/foreign/tetgen.node"), path("half.node"));
   QVERIFY(
       error_of([&] { open_mesh(path("half.node")); }).contains("the other file of the pair, half.ele, is missing; "));
 }
@@ -356,8 +359,11 @@ void OpenMeshTest::halves_of_a_pair_are_missed() {
 void OpenMeshTest::cancelling_ends_the_import_at_once() {
   JobState job;
   job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(std::filesystem::path(FOREIGN) / "gmsh22.msh", {}, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(source_file("tests/files/foreign/gmsh22.msh"), {}, Progress(job)));
 }
 
-QTEST_APPLESS_MAIN(OpenMeshTest)
+CHAINMAIL_TEST(OpenMeshTest)
+
+}  // namespace chainmail::test_open_mesh
+
 #include "test_open_mesh.moc"

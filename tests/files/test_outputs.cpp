@@ -5,8 +5,10 @@
 
 #include "files/support.h"
 #include "files/text/outputs.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_outputs {
+
 using namespace chainmail::test;
 
 namespace fs = std::filesystem;
@@ -157,5 +159,8 @@ void OutputsTest::endings_are_known_by_their_use() {
               .startsWith("a.dat: a .dat file contains no positions; write positions in one of these formats: "));
 }
 
-QTEST_APPLESS_MAIN(OutputsTest)
+CHAINMAIL_TEST(OutputsTest)
+
+}  // namespace chainmail::test_outputs
+
 #include "test_outputs.moc"

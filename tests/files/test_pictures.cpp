@@ -2,8 +2,10 @@
 
 #include "files/formats/bare_picture.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_pictures {
+
 using namespace chainmail::test;
 
 namespace {
@@ -107,5 +109,8 @@ void PicturesTest::what_ends_early_is_damaged() {
   }
 }
 
-QTEST_APPLESS_MAIN(PicturesTest)
+CHAINMAIL_TEST(PicturesTest)
+
+}  // namespace chainmail::test_pictures
+
 #include "test_pictures.moc"

@@ -2,8 +2,10 @@
 
 #include "files/formats/ply.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_ply {
+
 using namespace chainmail::test;
 
 namespace {
@@ -99,5 +101,8 @@ void PlyTest::wrong_files_are_refused() {
   QVERIFY2(error.contains(sentence), qPrintable(error));
 }
 
-QTEST_APPLESS_MAIN(PlyTest)
+CHAINMAIL_TEST(PlyTest)
+
+}  // namespace chainmail::test_ply
+
 #include "test_ply.moc"

@@ -6,8 +6,10 @@
 #include "files/session/softness_presets.h"
 #include "files/support.h"
 #include "files/text/limits.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_presets {
+
 using namespace chainmail::test;
 
 /// Tests presets of softness as JSON.
@@ -139,5 +141,8 @@ void PresetsTest::files() {
   QVERIFY(read_presets(path) == (std::vector<SoftnessPreset>{{"felt", {0.7, 1.1, 0.2}}}));
 }
 
-QTEST_APPLESS_MAIN(PresetsTest)
+CHAINMAIL_TEST(PresetsTest)
+
+}  // namespace chainmail::test_presets
+
 #include "test_presets.moc"

@@ -1,8 +1,10 @@
 #include <QtTest>
 
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_progress {
+
 using namespace chainmail::test;
 
 namespace fs = std::filesystem;
@@ -105,5 +107,8 @@ void ProgressTest::cancelled_saving_leaves_the_file_that_was_there() {
   QCOMPARE(files_in(folder.path().toStdString()), 1);
 }
 
-QTEST_APPLESS_MAIN(ProgressTest)
+CHAINMAIL_TEST(ProgressTest)
+
+}  // namespace chainmail::test_progress
+
 #include "test_progress.moc"

@@ -5,8 +5,10 @@
 #include <sstream>
 
 #include "files/results/report_json.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_report_json {
+
 using namespace chainmail::report;
 
 /// Tests the JSON of a comparison.
@@ -94,5 +96,8 @@ void ReportJsonTest::names_from_outside_do_no_harm() {
   QCOMPARE(written(one)["objects"][0]["name"].toString(), QString("a\"b\n\ufffd"));
 }
 
-QTEST_APPLESS_MAIN(ReportJsonTest)
+CHAINMAIL_TEST(ReportJsonTest)
+
+}  // namespace chainmail::test_report_json
+
 #include "test_report_json.moc"

@@ -5,8 +5,11 @@
 #include "files/results/summary.h"
 #include "files/session/session.h"
 #include "files/support.h"
+#include "folders.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_samples {
+
 using namespace chainmail::test;
 
 /// The sample meshes match the description in their README.
@@ -22,7 +25,7 @@ class SamplesTest : public QObject {
   void every_file_in_the_folder_opens();
 
  private:
-  static MeshPointer open(const char* name) { return open_mesh(std::filesystem::path(SAMPLES) / name).mesh; }
+  static MeshPointer open(const char* name) { return open_mesh(source_file("meshes") / name).mesh; }
 };
 
 void SamplesTest::samples_data() {
@@ -57,7 +60,7 @@ void SamplesTest::samples() {
 }
 
 void SamplesTest::the_inclusion_is_stiff_and_its_body_is_not() {
-  const Session session = read_session(std::filesystem::path(SAMPLES) / "inclusion.chainmail");
+  const Session session = read_session(source_file("meshes/inclusion.chainmail"));
   QCOMPARE(session.mesh->element_count(), 32U * 24);
   const LinkSoftness stiff{1, 1, 0};
   QVERIFY(session.softness->links.size() > 100 && session.softness->links.size() < session.mesh->link_count() / 10);
@@ -77,7 +80,7 @@ void SamplesTest::the_organ_is_filled_from_its_surface() {
 }
 
 void SamplesTest::the_phantom_is_stiff_where_it_is_dense() {
-  const OpenedMesh phantom = open_mesh(std::filesystem::path(SAMPLES) / "phantom.nrrd");
+  const OpenedMesh phantom = open_mesh(source_file("meshes/phantom.nrrd"));
   QCOMPARE(phantom.mesh->texture->size, (std::array<std::uint32_t, 3>{32, 28, 26}));
   const auto [softest, stiffest] =
       std::minmax_element(phantom.softness.begin(), phantom.softness.end(),
@@ -86,7 +89,7 @@ void SamplesTest::the_phantom_is_stiff_where_it_is_dense() {
 }
 
 void SamplesTest::every_file_in_the_folder_opens() {
-  for (const auto& entry : std::filesystem::directory_iterator(SAMPLES)) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_file("meshes"))) {
     const std::filesystem::path& path = entry.path();
     QVERIFY2(std::filesystem::file_size(path) < 400'000, path.c_str());
     if (is_session(path)) {
@@ -101,5 +104,8 @@ void SamplesTest::every_file_in_the_folder_opens() {
   }
 }
 
-QTEST_APPLESS_MAIN(SamplesTest)
+CHAINMAIL_TEST(SamplesTest)
+
+}  // namespace chainmail::test_samples
+
 #include "test_samples.moc"

@@ -19,6 +19,9 @@
 #include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
+#include "program.h"
+
+namespace chainmail::test_sandbox {
 
 using namespace chainmail::test;
 using chainmail::import::SandboxFiles;
@@ -121,7 +124,6 @@ bool opens_without_seccomp() {
 }  // namespace
 
 using Attempt = bool (*)();
-Q_DECLARE_METATYPE(Attempt)
 
 /// Tests the sandbox in which third-party readers run: everything that could leave a trace fails inside and works
 /// outside.
@@ -307,5 +309,8 @@ void SandboxTest::what_the_system_is_short_of_gets_a_sentence() {
            succeeded);
 }
 
-QTEST_APPLESS_MAIN(SandboxTest)
+CHAINMAIL_TEST(SandboxTest)
+
+}  // namespace chainmail::test_sandbox
+
 #include "test_sandbox.moc"

@@ -8,9 +8,12 @@
 #include "files/session_support.h"
 #include "files/text/base64.h"
 #include "files/text/limits.h"
+#include "folders.h"
 #include "mesh/cells.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_session {
+
 using namespace chainmail::test;
 
 namespace fs = std::filesystem;
@@ -176,7 +179,7 @@ void SessionTest::every_float_comes_back_to_the_bit() {
 
 /// This file must never be written again, because it is an example of version 1.
 void SessionTest::what_was_written_once_opens() {
-  const Session session = read_session(fs::path(SESSIONS) / "version1.chainmail");
+  const Session session = read_session(source_file("tests/files/sessions/version1.chainmail"));
   QCOMPARE(session.name, std::string("cloth 3 × 3"));
   QCOMPARE(session.mesh->element_count(), 9U);
   QCOMPARE(session.mesh->link_count(), 16U);
@@ -203,7 +206,7 @@ void SessionTest::what_was_written_once_opens() {
 
 /// Version 1 knew only isotropic energy, which its moves need in order to be replayed as they were.
 void SessionTest::moves_of_version_1_are_isotropic() {
-  std::string text = file_text(fs::path(SESSIONS) / "version1.chainmail");
+  std::string text = file_text(source_file("tests/files/sessions/version1.chainmail"));
   const std::string moves = R"("moves": {"version": 1, "commands": [{"do": "grab", "element": 4},
       {"do": "softness", "compression": 0.5, "stretch": 2, "shear": 0, "links": [[3, 4, 1, 1, 0]]}]},
       "moves_done": 1, )";
@@ -352,5 +355,8 @@ void SessionTest::endings_are_known_in_any_case() {
   QVERIFY(!is_session("a.obj") && !is_session("chainmail") && !is_session("a.chainmail.obj"));
 }
 
-QTEST_APPLESS_MAIN(SessionTest)
+CHAINMAIL_TEST(SessionTest)
+
+}  // namespace chainmail::test_session
+
 #include "test_session.moc"

@@ -3,8 +3,11 @@
 
 #include "files/session_support.h"
 #include "files/text/limits.h"
+#include "folders.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_session_errors {
+
 using namespace chainmail::test;
 
 /// Files that are not sessions, and sessions with wrong content: each gives an error sentence with the position, and
@@ -42,7 +45,7 @@ class SessionErrorsTest : public QObject {
 };
 
 void SessionErrorsTest::initTestCase() {
-  good_ = file_text(std::filesystem::path(SESSIONS) / "version1.chainmail");
+  good_ = file_text(source_file("tests/files/sessions/version1.chainmail"));
   QCOMPARE(read(good_), QString());
 }
 
@@ -295,5 +298,8 @@ void SessionErrorsTest::changed_bytes_never_do_worse() {
   }
 }
 
-QTEST_APPLESS_MAIN(SessionErrorsTest)
+CHAINMAIL_TEST(SessionErrorsTest)
+
+}  // namespace chainmail::test_session_errors
+
 #include "test_session_errors.moc"

@@ -3,8 +3,10 @@
 
 #include "files/session/softness_csv.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_softness {
+
 using namespace chainmail::test;
 
 /// Tests the softness of single links from CSV. The line of four elements has the links 0-1, 1-2 and 2-3, in this
@@ -104,5 +106,8 @@ void SoftnessFileTest::files() {
   QVERIFY(read_softness(path, *mesh_) == (Links{{1, {1, 2, 3}}}));
 }
 
-QTEST_APPLESS_MAIN(SoftnessFileTest)
+CHAINMAIL_TEST(SoftnessFileTest)
+
+}  // namespace chainmail::test_softness
+
 #include "test_softness.moc"

@@ -5,8 +5,10 @@
 
 #include "files/results/summary.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_summary {
+
 using namespace chainmail::test;
 
 /// Tests the summaries of a mesh and of a deformation, and their JSON.
@@ -68,5 +70,8 @@ void SummaryTest::json_of_a_deformation() {
   QCOMPARE(json["displacement"]["rms"].toDouble(), 1.0);
 }
 
-QTEST_APPLESS_MAIN(SummaryTest)
+CHAINMAIL_TEST(SummaryTest)
+
+}  // namespace chainmail::test_summary
+
 #include "test_summary.moc"

@@ -5,8 +5,10 @@
 #include "files/formats/positions_csv.h"
 #include "files/results/trace_csv.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_tables {
+
 using namespace chainmail::test;
 
 /// Tests positions and traces as CSV.
@@ -51,5 +53,8 @@ void TablesTest::traces() {
   QCOMPARE(out.str(), std::string("pass,order,element,sponsor,moved\n0,0,3,1,1\n0,1,4,3,0\n2,0,1,0,0\n2,1,2,-1,1\n"));
 }
 
-QTEST_APPLESS_MAIN(TablesTest)
+CHAINMAIL_TEST(TablesTest)
+
+}  // namespace chainmail::test_tables
+
 #include "test_tables.moc"

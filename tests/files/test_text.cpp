@@ -3,8 +3,9 @@
 #include <limits>
 
 #include "files/text/text.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_text {
 
 /// Tests words and numbers as they occur in files and command lines.
 class TextTest : public QObject {
@@ -124,5 +125,8 @@ void TextTest::statements_are_told_from_prose() {
   }
 }
 
-QTEST_APPLESS_MAIN(TextTest)
+CHAINMAIL_TEST(TextTest)
+
+}  // namespace chainmail::test_text
+
 #include "test_text.moc"

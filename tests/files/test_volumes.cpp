@@ -5,8 +5,10 @@
 #include "files/formats/nrrd_head.h"
 #include "files/mesh/open_mesh.h"
 #include "files/support.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_volumes {
+
 using namespace chainmail::test;
 
 namespace {
@@ -389,5 +391,8 @@ void VolumesTest::nothing_above_the_threshold_is_said() {
            QString("a.nrrd: no voxel has a density of 3.5 or more; choose a lower density"));
 }
 
-QTEST_APPLESS_MAIN(VolumesTest)
+CHAINMAIL_TEST(VolumesTest)
+
+}  // namespace chainmail::test_volumes
+
 #include "test_volumes.moc"

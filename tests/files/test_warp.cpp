@@ -7,8 +7,10 @@
 #include "files/mesh/warp.h"
 #include "mesh/error.h"
 #include "mesh/sheet.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_warp {
+
 using namespace chainmail::test;
 
 /// Tests pictures as sheets, and their warped pictures after the sheet is deformed.
@@ -200,5 +202,8 @@ void WarpTest::a_sheet_dragged_too_far_is_refused() {
   QVERIFY_THROWS_EXCEPTION(Error, gone.picture());
 }
 
-QTEST_APPLESS_MAIN(WarpTest)
+CHAINMAIL_TEST(WarpTest)
+
+}  // namespace chainmail::test_warp
+
 #include "test_warp.moc"

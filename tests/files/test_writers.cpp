@@ -7,8 +7,10 @@
 #include "files/text/outputs.h"
 #include "measure/violation.h"
 #include "mesh/cells.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::test_writers {
+
 using namespace chainmail::test;
 
 namespace fs = std::filesystem;
@@ -240,5 +242,8 @@ void WritersTest::a_full_disk_is_told() {
   QVERIFY2(error.contains("it cannot be written to its end"), qPrintable(error));
 }
 
-QTEST_APPLESS_MAIN(WritersTest)
+CHAINMAIL_TEST(WritersTest)
+
+}  // namespace chainmail::test_writers
+
 #include "test_writers.moc"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Puts random single-line faults ("mutants") into copies of the source and reports which of them the tests catch.
 
-`tests/run mutants` starts it after the release build with tests, and it uses the dependency log of that build. Each
+`tests/run mutants` starts it after the release build with tests, and it asks ctest of that build for the tests. Each
 worker has a copy of the source. It changes one line there, builds and runs the related tests one after another, and
 stops at the first one that fails. A mutant that does not compile is replaced by another one.
 
@@ -12,6 +12,7 @@ its room. A test counts as failing only if it fails twice.
 import argparse
 import collections
 import concurrent.futures
+import json
 import os
 import pathlib
 import random
@@ -132,30 +133,32 @@ def draw(root, wanted, generator):
         yield generator.choice(found)
 
 
+def included(root, source):
+    """Returns the files of the project that a source includes, directly or not."""
+    found, waiting = set(), [source]
+    while waiting:
+        file = waiting.pop()
+        for name in re.findall(r'^#include "([^"]+)"', (root / file).read_text(), re.M):
+            places = [str(pathlib.Path(file).parent), "tests", "core", "ui", "app"]
+            path = next((os.path.normpath(f"{place}/{name}") for place in places if (root / place / name).is_file()), None)
+            if path and path not in found:
+                found.add(path)
+                waiting.append(path)
+    return found
+
+
 class Tests:
     """The tests of the release build, with the files that each includes and the time that it takes."""
 
     def __init__(self, root, most):
         build = root / "build/release"
         self.most = most
-        self.includes = {}  # per test: the files of the project that its sources include
+        self.includes = {}  # per test: the files of the project that its source includes
         self.folder = {}
-        deps = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True, text=True).stdout
-        name = None
-        for line in deps.splitlines():
-            if match := re.match(r"tests/(\w+)/CMakeFiles/test_(\w+)\.dir/.*: #deps", line):
-                name = match.group(2)
-                self.folder[name] = match.group(1)
-                self.includes.setdefault(name, set())
-            elif not line.startswith(" "):
-                name = None
-            elif name:
-                path = os.path.relpath(os.path.normpath(build / line.strip()), root)
-                if not path.startswith((".", "build/")):
-                    self.includes[name].add(path)
-        known = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True).stdout
-        known = set(re.findall(r"Test +#\d+: (\S+)", known))
-        self.includes = {name: files for name, files in self.includes.items() if name in known}
+        self.program = {}  # per test: the target that contains it
+        shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True).stdout
+        for test in json.loads(shown)["tests"] if shown else []:
+            self.add(root, test)
         if not self.includes:
             sys.exit("mutants: the release build has no tests; start it with tests/run mutants")
         self.seconds = collections.defaultdict(lambda: 12.0)  # default until the time is known
@@ -164,6 +167,22 @@ class Tests:
             if match := re.match(r"(\S+) (\d+) ([\d.]+)$", line):
                 if int(match.group(2)):
                     self.seconds[match.group(1)] = float(match.group(3))
+
+    def add(self, root, test):
+        """Notes a test that is a class of Qt Test: ctest starts a program test_… with the name of the class, if it has
+        several."""
+        words = [pathlib.Path(word).name for word in test.get("command", [])]
+        program = next((word for word in words if word.startswith("test_")), None)
+        folder = next(pathlib.Path(p["value"]).name for p in test["properties"] if p["name"] == "WORKING_DIRECTORY")
+        if not program or folder == "python":
+            return
+        name = (words[words.index(program) + 1:] or [program.removeprefix("test_")])[0]
+        source = next((file for file in (f"tests/{folder}/test_{name}.cpp", f"tests/{folder}/{name}.cpp")
+                       if (root / file).exists()), None)
+        if source:
+            self.includes[test["name"]] = included(root, source)
+            self.folder[test["name"]] = folder
+            self.program[test["name"]] = program
 
     def related(self, path):
         """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room.
@@ -198,7 +217,8 @@ class Worker:
         self.update()
         # Uses the options of the release build, so that ccache knows the objects.
         cache = (root / "build/release/CMakeCache.txt").read_text()
-        options = ["-D" + line for line in re.findall(r"^(?:CHAINMAIL_TESTS|CMAKE_COMPILE_WARNING_AS_ERROR):.*", cache, re.M)]
+        options = ["-D" + line for line in re.findall(
+            r"^(?:CHAINMAIL_TESTS|CHAINMAIL_UNITY|CMAKE_COMPILE_WARNING_AS_ERROR|CMAKE_EXE_LINKER_FLAGS):.*", cache, re.M)]
         self.run(["cmake", "--preset", "release", *options], check=True)
 
     def update(self):
@@ -230,13 +250,6 @@ class Worker:
     def build(self, target):
         return self.run(["cmake", "--build", "build/release", "--target", target, "--", "-j1"])[0] == 0
 
-    def compiles(self, path):
-        """Builds the object files of a source, or, for a header, of the library that holds the templates."""
-        if path.endswith(".h"):
-            return self.build("chainmail_core")
-        # Ninja has absolute paths for the sources of the window, and relative paths for the others.
-        return self.build(f"../../{path}^") or self.build(f"{self.copy / path}^")
-
     def fails(self, test):
         limit = max(60, 5 * self.tests.seconds[test])
         command = ["ctest", "--test-dir", "build/release", "-R", f"^{test}$", "--timeout", int(limit)]
@@ -245,7 +258,7 @@ class Worker:
     def is_reliable(self, test):
         """Returns True if a test passes here without a fault. The source must be unchanged."""
         if test not in self.reliable:
-            self.reliable[test] = self.build(f"test_{test}") and not self.fails(test)
+            self.reliable[test] = self.build(self.tests.program[test]) and not self.fails(test)
             if not self.reliable[test]:
                 print(f"     {test} fails in {self.copy} without a fault: left out", flush=True)
         return self.reliable[test]
@@ -266,11 +279,9 @@ class Worker:
         lines[mutant.line] = mutant.after
         file.write_text("\n".join(lines))
         try:
-            if not self.compiles(mutant.path):
-                return None
             for test in tests:
-                if not self.build(f"test_{test}"):
-                    return None  # it is a header that only this test compiles
+                if not self.build(self.tests.program[test]):
+                    return None
                 if self.fails(test):
                     return test
             return ""
