@@ -6,8 +6,9 @@
 
 #include "drawing/picking.h"
 #include "mesh/generate.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::camera {
 
 class CameraTest : public QObject {
   Q_OBJECT
@@ -140,5 +141,8 @@ class CameraTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(CameraTest)
+CHAINMAIL_TEST(CameraTest)
+
+}  // namespace chainmail::camera
+
 #include "camera.moc"

@@ -8,8 +8,10 @@
 #include "common/colours.h"
 #include "drawing/colour_values.h"
 #include "mesh/generate.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::colour_map {
+
 using colours::Ground;
 
 namespace {
@@ -73,5 +75,8 @@ class ColourMap : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(ColourMap)
+CHAINMAIL_TEST(ColourMap)
+
+}  // namespace chainmail::colour_map
+
 #include "colour_map.moc"

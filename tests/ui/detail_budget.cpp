@@ -4,7 +4,9 @@
 
 #include <QTest>
 
-using namespace chainmail;
+#include "program.h"
+
+namespace chainmail::detail_budget {
 
 class DetailBudgetTest : public QObject {
   Q_OBJECT
@@ -40,5 +42,8 @@ class DetailBudgetTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DetailBudgetTest)
+CHAINMAIL_TEST(DetailBudgetTest)
+
+}  // namespace chainmail::detail_budget
+
 #include "detail_budget.moc"

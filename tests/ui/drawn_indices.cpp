@@ -10,8 +10,9 @@
 
 #include "drawing/coarse_level.h"
 #include "mesh/generate.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::drawn_indices {
 
 namespace {
 
@@ -175,5 +176,8 @@ class DrawnIndices : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(DrawnIndices)
+CHAINMAIL_TEST(DrawnIndices)
+
+}  // namespace chainmail::drawn_indices
+
 #include "drawn_indices.moc"

@@ -5,9 +5,10 @@
 #include <QTest>
 
 #include "core/families.h"
+#include "program.h"
 #include "scene.h"
 
-using namespace chainmail;
+namespace chainmail::front_links {
 
 namespace {
 
@@ -168,5 +169,8 @@ class FrontLinks : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(FrontLinks)
+CHAINMAIL_TEST(FrontLinks)
+
+}  // namespace chainmail::front_links
+
 #include "front_links.moc"

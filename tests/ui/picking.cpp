@@ -9,10 +9,11 @@
 #include "drawing/coarse_level.h"
 #include "drawing/mesh_levels.h"
 #include "drawing/prepared_levels.h"
+#include "program.h"
 #include "property.h"
 #include "scene.h"
 
-using namespace chainmail;
+namespace chainmail::picking {
 
 namespace {
 
@@ -234,5 +235,8 @@ class Picking : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(Picking)
+CHAINMAIL_TEST(Picking)
+
+}  // namespace chainmail::picking
+
 #include "picking.moc"

@@ -5,8 +5,9 @@
 #include <QTest>
 
 #include "mesh/generate.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::selection {
 
 class SelectionTest : public QObject {
   Q_OBJECT
@@ -43,5 +44,8 @@ class SelectionTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SelectionTest)
+CHAINMAIL_TEST(SelectionTest)
+
+}  // namespace chainmail::selection
+
 #include "selection.moc"

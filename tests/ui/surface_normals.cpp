@@ -7,8 +7,9 @@
 #include "core/families.h"
 #include "mesh/generate.h"
 #include "mesh/surface.h"
+#include "program.h"
 
-using namespace chainmail;
+namespace chainmail::surface_normals {
 
 namespace {
 
@@ -118,5 +119,8 @@ class SurfaceNormalsTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SurfaceNormalsTest)
+CHAINMAIL_TEST(SurfaceNormalsTest)
+
+}  // namespace chainmail::surface_normals
+
 #include "surface_normals.moc"

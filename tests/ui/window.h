@@ -20,6 +20,7 @@
 #include "common/theme.h"
 #include "mesh/generate.h"
 #include "panels/panel.h"
+#include "program.h"
 #include "window/main_window.h"
 #include "window/startup.h"
 
@@ -241,3 +242,6 @@ int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
 inline void failOnWarnings() { QTest::failOnWarning(QRegularExpression(QStringLiteral(".*"))); }
 
 }  // namespace chainmail
+
+/// Makes a test class known that needs a window.
+#define CHAINMAIL_WINDOW_TEST(Test) CHAINMAIL_TEST_RUN(Test, chainmail::runWindowTest<Test>)

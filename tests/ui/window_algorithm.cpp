@@ -6,7 +6,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_algorithm {
 
 namespace {
 
@@ -101,5 +101,8 @@ class WindowAlgorithm : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowAlgorithm>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowAlgorithm)
+
+}  // namespace chainmail::window_algorithm
+
 #include "window_algorithm.moc"

@@ -12,6 +12,7 @@
 #include "docks/replay/replay_dock.h"
 #include "docks/report/report_thread.h"
 #include "files/mesh/mesh_file.h"
+#include "folders.h"
 #include "io/file_actions.h"
 #include "io/film.h"
 #include "io/sessions.h"
@@ -20,7 +21,7 @@
 #include "panels/legend.h"
 #include "session_bench.h"
 
-using namespace chainmail;
+namespace chainmail::window_close {
 
 namespace {
 
@@ -104,7 +105,7 @@ void builds(Workbench& bench) {
 }
 
 void fills(Workbench& bench) {
-  bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+  bench.open(sourceFile("meshes/sphere.obj"));
   bench.trigger("fillSurface");
   auto* size = bench.find<QDoubleSpinBox>("fillSize");
   size->setValue(size->minimum());
@@ -145,9 +146,6 @@ void takesALongPass(Workbench& bench) {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(Begin)
-Q_DECLARE_METATYPE(chainmail::MeshPointer)
 
 class WindowClose : public QObject {
   Q_OBJECT
@@ -287,5 +285,8 @@ class WindowClose : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowClose>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowClose)
+
+}  // namespace chainmail::window_close
+
 #include "window_close.moc"

@@ -8,7 +8,7 @@
 #include "panels/legend.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_colour {
 
 namespace {
 
@@ -196,5 +196,8 @@ class WindowColour : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowColour>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowColour)
+
+}  // namespace chainmail::window_colour
+
 #include "window_colour.moc"

@@ -14,7 +14,8 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_comfort {
+
 using colours::Ground;
 
 namespace {
@@ -289,5 +290,8 @@ class WindowComfort : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowComfort>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowComfort)
+
+}  // namespace chainmail::window_comfort
+
 #include "window_comfort.moc"

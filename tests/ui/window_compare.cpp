@@ -12,7 +12,7 @@
 #include "panels/legend.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_compare {
 
 namespace {
 
@@ -184,5 +184,8 @@ class WindowCompare : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowCompare>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowCompare)
+
+}  // namespace chainmail::window_compare
+
 #include "window_compare.moc"

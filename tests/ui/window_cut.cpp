@@ -5,7 +5,7 @@
 
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_cut {
 
 namespace {
 
@@ -171,5 +171,8 @@ class WindowCut : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowCut>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowCut)
+
+}  // namespace chainmail::window_cut
+
 #include "window_cut.moc"

@@ -14,13 +14,14 @@
 
 #include "docks/preset_row.h"
 #include "docks/replay/replay_dock.h"
+#include "folders.h"
 #include "fuzz/damage.h"
 #include "io/sessions.h"
 #include "window.h"
 #include "window/lessons.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_damaged {
 
 namespace {
 
@@ -60,13 +61,13 @@ class WindowDamaged : public QObject {
   void initTestCase() {
     makeSessions();
     makePictures();
-    takeFiles(QStringLiteral(CORPUS "/session"));
-    takeFiles(QStringLiteral(CORPUS "/moves"), QStringLiteral("moves-"));
-    takeFiles(QStringLiteral(CORPUS "/presets"), QStringLiteral("presets-"));
-    takeFiles(QStringLiteral(CORPUS "/metaimage"));
-    takeFiles(QStringLiteral(CORPUS "/nrrd"));
-    takeFiles(QStringLiteral(CORPUS "/obj"));
-    takeFiles(QStringLiteral(LESSONS));
+    takeFiles(sourceFile("tests/fuzz/corpus/session"));
+    takeFiles(sourceFile("tests/fuzz/corpus/moves"), QStringLiteral("moves-"));
+    takeFiles(sourceFile("tests/fuzz/corpus/presets"), QStringLiteral("presets-"));
+    takeFiles(sourceFile("tests/fuzz/corpus/metaimage"));
+    takeFiles(sourceFile("tests/fuzz/corpus/nrrd"));
+    takeFiles(sourceFile("tests/fuzz/corpus/obj"));
+    takeFiles(sourceFile("resources/lessons"));
     QVERIFY(samples_.size() > 20);
   }
 
@@ -242,8 +243,17 @@ class WindowDamaged : public QObject {
   int opened_ = 0;
 };
 
-int main(int argc, char** argv) {
+namespace {
+
+int runClass(int argc, char** argv) {
   qputenv("QTEST_FUNCTION_TIMEOUT", "100000000");  // the number of files decides how long it takes
   return runWindowTest<WindowDamaged>(argc, argv);
 }
+
+}  // namespace
+
+CHAINMAIL_TEST_RUN(WindowDamaged, runClass)
+
+}  // namespace chainmail::window_damaged
+
 #include "window_damaged.moc"

@@ -5,7 +5,7 @@
 
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_drag {
 
 class WindowDrag : public QObject {
   Q_OBJECT
@@ -231,5 +231,8 @@ class WindowDrag : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowDrag>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowDrag)
+
+}  // namespace chainmail::window_drag
+
 #include "window_drag.moc"

@@ -12,7 +12,7 @@
 #include "document/element_facts.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_exact {
 
 namespace {
 
@@ -336,5 +336,8 @@ class WindowExact : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowExact>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowExact)
+
+}  // namespace chainmail::window_exact
+
 #include "window_exact.moc"

@@ -12,7 +12,8 @@
 #include "session_bench.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_failures {
+
 using test::Failure;
 using test::LittleMemory;
 using test::NoThreads;
@@ -295,5 +296,8 @@ class WindowFailures : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowFailures>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowFailures)
+
+}  // namespace chainmail::window_failures
+
 #include "window_failures.moc"

@@ -13,7 +13,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_files {
 
 class WindowFiles : public QObject {
   Q_OBJECT
@@ -197,5 +197,8 @@ class WindowFiles : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowFiles>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowFiles)
+
+}  // namespace chainmail::window_files
+
 #include "window_files.moc"

@@ -16,11 +16,12 @@
 #include <cmath>
 
 #include "common/plot_painting.h"
+#include "folders.h"
 #include "io/sessions.h"
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_foreign {
 
 namespace {
 
@@ -194,14 +195,14 @@ class WindowForeign : public QObject {
 
   void hostileFilesOpenOrGiveASentence_data() {
     QTest::addColumn<QString>("path");
-    for (const QFileInfo& file : QDir(QStringLiteral(HOSTILE)).entryInfoList(QDir::Files)) {
+    for (const QFileInfo& file : QDir(sourceFile("tests/cli/hostile")).entryInfoList(QDir::Files)) {
       QTest::newRow(qPrintable(file.fileName())) << file.filePath();
     }
   }
 
   void hostileFilesOpenOrGiveASentence() {
     QFETCH(const QString, path);
-    QVERIFY(QFile::copy(QStringLiteral(SAMPLES "/sphere.obj"), folder_.filePath(QStringLiteral("grid.obj"))) ||
+    QVERIFY(QFile::copy(sourceFile("meshes/sphere.obj"), folder_.filePath(QStringLiteral("grid.obj"))) ||
             QFile::exists(folder_.filePath(QStringLiteral("grid.obj"))));
     const QString copy = folder_.filePath(QFileInfo(path).fileName());
     QVERIFY(QFile::copy(path, copy));
@@ -291,12 +292,12 @@ class WindowForeign : public QObject {
     static const QRegularExpression rich(
         QStringLiteral(R"(RichText\)|AutoText\)|MarkdownText|setHtml\(|setMarkdown\(|insertHtml\(|appendHtml\()"
                        R"(|setWhatsThis\(|QWhatsThis|QTextBrowser|QTextEdit|QErrorMessage|convertFromPlainText)"));
-    QDirIterator files(QStringLiteral(UI_SOURCES), {"*.cpp", "*.h"}, QDir::Files, QDirIterator::Subdirectories);
+    QDirIterator files(sourceFile("ui"), {"*.cpp", "*.h"}, QDir::Files, QDirIterator::Subdirectories);
     int checked = 0;
     while (files.hasNext()) {
       QFile file(files.next());
       QVERIFY(file.open(QIODevice::ReadOnly));
-      const QString name = QDir(QStringLiteral(UI_SOURCES)).relativeFilePath(file.fileName());
+      const QString name = QDir(sourceFile("ui")).relativeFilePath(file.fileName());
       if (!known.contains(name)) {
         const auto found = rich.match(QString::fromUtf8(file.readAll()));
         QVERIFY2(!found.hasMatch(), qPrintable(name + QStringLiteral(": ") + found.captured()));
@@ -357,5 +358,8 @@ class WindowForeign : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowForeign>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowForeign)
+
+}  // namespace chainmail::window_foreign
+
 #include "window_foreign.moc"

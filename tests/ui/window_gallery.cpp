@@ -9,7 +9,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_gallery {
 
 class WindowGallery : public QObject {
   Q_OBJECT
@@ -81,5 +81,8 @@ class WindowGallery : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowGallery>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowGallery)
+
+}  // namespace chainmail::window_gallery
+
 #include "window_gallery.moc"

@@ -17,7 +17,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_handle {
 
 namespace {
 
@@ -646,5 +646,8 @@ class WindowHandle : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowHandle>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowHandle)
+
+}  // namespace chainmail::window_handle
+
 #include "window_handle.moc"

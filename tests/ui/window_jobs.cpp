@@ -12,7 +12,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_jobs {
 
 namespace {
 
@@ -195,5 +195,8 @@ class WindowJobs : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowJobs>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowJobs)
+
+}  // namespace chainmail::window_jobs
+
 #include "window_jobs.moc"

@@ -16,7 +16,7 @@
 #include "window.h"
 #include "window/shortcuts.h"
 
-using namespace chainmail;
+namespace chainmail::window_keyboard {
 
 namespace {
 
@@ -246,5 +246,8 @@ class WindowKeyboard : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowKeyboard>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowKeyboard)
+
+}  // namespace chainmail::window_keyboard
+
 #include "window_keyboard.moc"

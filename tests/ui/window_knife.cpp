@@ -8,7 +8,7 @@
 #include "docks/replay/replay_dock.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_knife {
 
 namespace {
 
@@ -295,5 +295,8 @@ class WindowKnife : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowKnife>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowKnife)
+
+}  // namespace chainmail::window_knife
+
 #include "window_knife.moc"

@@ -10,7 +10,7 @@
 
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_layout {
 
 namespace {
 
@@ -277,5 +277,8 @@ class WindowLayout : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowLayout>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowLayout)
+
+}  // namespace chainmail::window_layout
+
 #include "window_layout.moc"

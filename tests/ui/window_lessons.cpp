@@ -21,7 +21,7 @@
 #include "window/lessons.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_lessons {
 
 namespace {
 
@@ -657,6 +657,8 @@ void WindowLessons::theHintsLeadToTheFirstLesson() {
   awaitStep(bench);
 }
 
-int main(int argc, char** argv) { return runWindowTest<WindowLessons>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowLessons)
+
+}  // namespace chainmail::window_lessons
 
 #include "window_lessons.moc"

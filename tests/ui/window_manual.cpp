@@ -13,14 +13,15 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
+#include "folders.h"
 #include "window.h"
 #include "window/manual_window.h"
 
-using namespace chainmail;
+namespace chainmail::window_manual {
 
 namespace {
 
-const QString root = QStringLiteral(PROJECT_SOURCE_DIR);
+const QString root = sourceFile();
 const QString manual = QStringLiteral("resources/manual/");
 
 QString textOf(const QString& file) {
@@ -330,5 +331,8 @@ class WindowManual : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowManual>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowManual)
+
+}  // namespace chainmail::window_manual
+
 #include "window_manual.moc"

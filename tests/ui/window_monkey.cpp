@@ -8,7 +8,7 @@
 #include "monkey.h"
 #include "panels/panel.h"
 
-using namespace chainmail;
+namespace chainmail::window_monkey {
 
 namespace {
 
@@ -153,8 +153,17 @@ class WindowMonkey : public QObject {
   const Witness& witness_;
 };
 
-int main(int argc, char** argv) {
+namespace {
+
+int runClass(int argc, char** argv) {
   qputenv("QTEST_FUNCTION_TIMEOUT", "100000000");  // the witness notices if the test hangs
   return Witness::watch([&](const Witness& witness) { return runWindowTest<WindowMonkey>(argc, argv, witness); });
 }
+
+}  // namespace
+
+CHAINMAIL_TEST_RUN(WindowMonkey, runClass)
+
+}  // namespace chainmail::window_monkey
+
 #include "window_monkey.moc"

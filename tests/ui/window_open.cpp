@@ -13,13 +13,14 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "folders.h"
 #include "io/file_actions.h"
 #include "io/volume_bar.h"
 #include "io/volumes.h"
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_open {
 
 class WindowOpen : public QObject {
   Q_OBJECT
@@ -46,7 +47,7 @@ class WindowOpen : public QObject {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
     const QString path = folder_.filePath(QStringLiteral("damaged.msh"));
-    QFile whole(QStringLiteral(FOREIGN "/gmsh41_binary.msh")), file(path);
+    QFile whole(sourceFile("tests/files/foreign/gmsh41_binary.msh")), file(path);
     QVERIFY(whole.open(QIODevice::ReadOnly) && file.open(QIODevice::WriteOnly));
     file.write(whole.read(4000));
     file.close();
@@ -80,14 +81,14 @@ class WindowOpen : public QObject {
       QCOMPARE(messages(bench).sentence(),
                path + QStringLiteral(": it is a pipe; save its content as a file, and use that"));
     }
-    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.open(sourceFile("meshes/sphere.obj"));
     QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));
   }
 
   void aVolumeAsksForItsThresholdAndBecomesABlock() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    bench.open(QStringLiteral(FOREIGN "/vtk.mha"));
+    bench.open(sourceFile("tests/files/foreign/vtk.mha"));
     auto& bar = bench.window.findChild<FileActions*>()->volumes().bar();
     QVERIFY(bar.isVisible());
     QCOMPARE(bench.find<QLabel>("volumeAbout")->text(), QStringLiteral("vtk.mha: 6 × 5 × 4 voxels"));
@@ -114,7 +115,7 @@ class WindowOpen : public QObject {
 
   void nothingDenseEnoughIsNoAnswer() {
     Workbench bench;
-    bench.open(QStringLiteral(FOREIGN "/vtk.mha"));
+    bench.open(sourceFile("tests/files/foreign/vtk.mha"));
     auto* every = bench.find<QSpinBox>("volumeEvery");
     every->setValue(2);
     QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("24 voxels, about 3 elements"));
@@ -128,7 +129,7 @@ class WindowOpen : public QObject {
     Workbench bench;
     auto* fill = bench.window.findChild<QAction*>(QStringLiteral("fillSurface"));
     QVERIFY(!fill->isEnabled());  // disabled for a plane grid
-    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.open(sourceFile("meshes/sphere.obj"));
     QVERIFY(fill->isEnabled());
     fill->trigger();
     auto* size = bench.find<QDoubleSpinBox>("fillSize");
@@ -215,7 +216,7 @@ class WindowOpen : public QObject {
     }
     bench.find<QToolButton>("repairClose")->click();
     QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
-    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.open(sourceFile("meshes/sphere.obj"));
     bench.trigger("undo");
     bench.settle();
     QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());  // it stays closed for this object
@@ -227,7 +228,7 @@ class WindowOpen : public QObject {
   void anObjectWithoutDefectsHasNoBar() {
     Workbench bench;
     bench.open(brokenCube());
-    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.open(sourceFile("meshes/sphere.obj"));
     QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
     bench.trigger("repairMesh");
     bench.settle();
@@ -243,7 +244,7 @@ class WindowOpen : public QObject {
 
   void theFillOfferedSuitsLinearFem() {
     Workbench bench;
-    bench.open(QStringLiteral(SAMPLES "/sphere.obj"));
+    bench.open(sourceFile("meshes/sphere.obj"));
     const double mean = bench.document().mesh()->mean_link_length;
     bench.trigger("fillSurface");
     QVERIFY(std::abs(bench.find<QDoubleSpinBox>("fillSize")->value() - mean) < 0.01 * mean);
@@ -326,5 +327,8 @@ class WindowOpen : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowOpen>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowOpen)
+
+}  // namespace chainmail::window_open
+
 #include "window_open.moc"

@@ -7,7 +7,7 @@
 #include "panels/legend.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_panels {
 
 class WindowPanels : public QObject {
   Q_OBJECT
@@ -198,5 +198,8 @@ class WindowPanels : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPanels>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPanels)
+
+}  // namespace chainmail::window_panels
+
 #include "window_panels.moc"

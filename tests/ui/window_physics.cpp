@@ -13,7 +13,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_physics {
 
 namespace {
 
@@ -313,5 +313,8 @@ class WindowPhysics : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPhysics>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPhysics)
+
+}  // namespace chainmail::window_physics
+
 #include "window_physics.moc"

@@ -10,7 +10,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_pictures {
 
 namespace {
 
@@ -239,5 +239,8 @@ class WindowPictures : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPictures>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPictures)
+
+}  // namespace chainmail::window_pictures
+
 #include "window_pictures.moc"

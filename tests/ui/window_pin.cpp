@@ -6,7 +6,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_pin {
 
 namespace {
 
@@ -134,5 +134,8 @@ class WindowPin : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPin>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPin)
+
+}  // namespace chainmail::window_pin
+
 #include "window_pin.moc"

@@ -9,7 +9,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_presets {
 
 namespace {
 
@@ -200,5 +200,8 @@ class WindowPresets : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPresets>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPresets)
+
+}  // namespace chainmail::window_presets
+
 #include "window_presets.moc"

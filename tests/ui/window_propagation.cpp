@@ -13,7 +13,7 @@
 #include "drawing/colour_map.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_propagation {
 
 namespace {
 
@@ -311,5 +311,8 @@ class WindowPropagation : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowPropagation>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowPropagation)
+
+}  // namespace chainmail::window_propagation
+
 #include "window_propagation.moc"

@@ -15,7 +15,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_rate {
 
 namespace {
 
@@ -297,5 +297,8 @@ class WindowRate : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowRate>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowRate)
+
+}  // namespace chainmail::window_rate
+
 #include "window_rate.moc"

@@ -21,7 +21,7 @@
 #include "session_bench.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_recovery {
 
 namespace {
 
@@ -130,7 +130,8 @@ class WindowRecovery : public QObject {
   void whatACrashLeftIsOffered() {
     const QString expected = folder_.filePath(QStringLiteral("expected.chainmail"));
     QProcess program;
-    program.start(QApplication::applicationFilePath(), {QStringLiteral("--crash"), expected});
+    program.start(QApplication::applicationFilePath(),
+                  {QStringLiteral("window_recovery"), QStringLiteral("--crash"), expected});
     QByteArray said;
     QTRY_VERIFY_WITH_TIMEOUT((said += program.readAllStandardOutput()).contains("worked"), 30000);
     const std::string worked = written(read_session(expected.toStdString()));
@@ -409,10 +410,19 @@ class WindowRecovery : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) {
+namespace {
+
+int runClass(int argc, char** argv) {
   if (argc > 2 && std::string_view(argv[1]) == "--crash") {
     return crashingProgram(argc, argv);
   }
   return runWindowTest<WindowRecovery>(argc, argv);
 }
+
+}  // namespace
+
+CHAINMAIL_TEST_RUN(WindowRecovery, runClass)
+
+}  // namespace chainmail::window_recovery
+
 #include "window_recovery.moc"

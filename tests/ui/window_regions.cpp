@@ -7,7 +7,7 @@
 #include "measure/neighbour_regions.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_regions {
 
 namespace {
 
@@ -124,5 +124,8 @@ class WindowRegions : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowRegions>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowRegions)
+
+}  // namespace chainmail::window_regions
+
 #include "window_regions.moc"

@@ -17,7 +17,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_replay {
 
 namespace {
 
@@ -496,5 +496,8 @@ class WindowReplay : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowReplay>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowReplay)
+
+}  // namespace chainmail::window_replay
+
 #include "window_replay.moc"

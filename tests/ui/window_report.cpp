@@ -9,7 +9,7 @@
 
 #include "report_bench.h"
 
-using namespace chainmail;
+namespace chainmail::window_report {
 
 class WindowReport : public QObject {
   Q_OBJECT
@@ -223,5 +223,8 @@ class WindowReport : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowReport>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowReport)
+
+}  // namespace chainmail::window_report
+
 #include "window_report.moc"

@@ -5,7 +5,7 @@
 #include "report/page/format.h"
 #include "report_bench.h"
 
-using namespace chainmail;
+namespace chainmail::window_report_run {
 
 class WindowReportRun : public QObject {
   Q_OBJECT
@@ -152,5 +152,8 @@ class WindowReportRun : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowReportRun>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowReportRun)
+
+}  // namespace chainmail::window_report_run
+
 #include "window_report_run.moc"

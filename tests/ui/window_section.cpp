@@ -9,7 +9,7 @@
 #include "io/sessions.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_section {
 
 namespace {
 
@@ -407,5 +407,8 @@ class WindowSection : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSection>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSection)
+
+}  // namespace chainmail::window_section
+
 #include "window_section.moc"

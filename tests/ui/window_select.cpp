@@ -11,7 +11,7 @@
 #include "mesh/parameters.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_select {
 
 namespace {
 
@@ -279,5 +279,8 @@ class WindowSelect : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSelect>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSelect)
+
+}  // namespace chainmail::window_select
+
 #include "window_select.moc"

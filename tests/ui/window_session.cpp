@@ -9,7 +9,7 @@
 #include "session_bench.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_session {
 
 class WindowSession : public QObject {
   Q_OBJECT
@@ -257,5 +257,8 @@ class WindowSession : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSession>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSession)
+
+}  // namespace chainmail::window_session
+
 #include "window_session.moc"

@@ -16,7 +16,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_sheet {
 
 class WindowSheet : public QObject {
   Q_OBJECT
@@ -338,5 +338,8 @@ class WindowSheet : public QObject {
   QTemporaryDir folder_;
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSheet>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSheet)
+
+}  // namespace chainmail::window_sheet
+
 #include "window_sheet.moc"

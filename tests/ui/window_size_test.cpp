@@ -16,7 +16,7 @@
 #include "window.h"
 #include "window/message_bar.h"
 
-using namespace chainmail;
+namespace chainmail::window_size_test {
 
 namespace {
 
@@ -221,5 +221,8 @@ class WindowSizeTest : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSizeTest>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSizeTest)
+
+}  // namespace chainmail::window_size_test
+
 #include "window_size_test.moc"

@@ -4,7 +4,7 @@
 #include "io/sessions.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_surface {
 
 namespace {
 
@@ -209,5 +209,8 @@ class WindowSurface : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowSurface>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowSurface)
+
+}  // namespace chainmail::window_surface
+
 #include "window_surface.moc"

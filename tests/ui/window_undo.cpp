@@ -7,7 +7,7 @@
 #include "common/parameter_row.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_undo {
 
 namespace {
 
@@ -42,9 +42,6 @@ void drag(Workbench& bench, ElementId element, QPoint by, bool release = true) {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(chainmail::SolverSettings)
-Q_DECLARE_METATYPE(chainmail::Algorithm)
 
 class WindowUndo : public QObject {
   Q_OBJECT
@@ -395,5 +392,8 @@ class WindowUndo : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowUndo>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowUndo)
+
+}  // namespace chainmail::window_undo
+
 #include "window_undo.moc"

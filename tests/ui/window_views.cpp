@@ -3,10 +3,11 @@
 #include <QDir>
 #include <QFileInfo>
 
+#include "folders.h"
 #include "io/pictures.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_views {
 
 namespace {
 
@@ -39,9 +40,9 @@ std::pair<double, QImage> compared(const QImage& now, const QImage& looked) {
 /// Saves a missing reference picture, which a person then checks.
 QString differs(const QImage& picture, const QString& name) {
   const QImage now = picture.convertToFormat(QImage::Format_RGB32);
-  const QString path = QDir(QStringLiteral(PICTURES)).filePath(name + QStringLiteral(".png"));
+  const QString path = QDir(sourceFile("tests/ui/pictures")).filePath(name + QStringLiteral(".png"));
   if (!QFile::exists(path)) {
-    QDir().mkpath(QStringLiteral(PICTURES));
+    QDir().mkpath(sourceFile("tests/ui/pictures"));
     now.save(path);
     return QStringLiteral("there was no %1: look at the one that was saved there now, and keep it if it is right")
         .arg(path);
@@ -54,8 +55,8 @@ QString differs(const QImage& picture, const QString& name) {
   if (share <= mostDifferent) {
     return {};
   }
-  QDir().mkpath(QStringLiteral(PICTURES_NOW));
-  const QString here = QDir(QStringLiteral(PICTURES_NOW)).filePath(name);
+  QDir().mkpath(builtFile("pictures"));
+  const QString here = QDir(builtFile("pictures")).filePath(name);
   now.save(here + QStringLiteral(".png"));
   marked.save(here + QStringLiteral("-differs.png"));
   return QStringLiteral(
@@ -164,5 +165,8 @@ class WindowViews : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowViews>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowViews)
+
+}  // namespace chainmail::window_views
+
 #include "window_views.moc"

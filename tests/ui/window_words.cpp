@@ -14,7 +14,7 @@
 #include "panels/violation_line.h"
 #include "window.h"
 
-using namespace chainmail;
+namespace chainmail::window_words {
 
 namespace {
 
@@ -198,5 +198,8 @@ class WindowWords : public QObject {
   }
 };
 
-int main(int argc, char** argv) { return runWindowTest<WindowWords>(argc, argv); }
+CHAINMAIL_WINDOW_TEST(WindowWords)
+
+}  // namespace chainmail::window_words
+
 #include "window_words.moc"
