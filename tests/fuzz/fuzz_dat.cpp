@@ -2,9 +2,10 @@
 #include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_dat {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::text_of(data, size);
   fuzz::read_or_refuse([&] {
     const auto read = [](std::string_view from) { return opened(read_dat(from, "fuzz.dat", {}), "fuzz.dat", {}).mesh; };
@@ -18,3 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("dat", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_dat

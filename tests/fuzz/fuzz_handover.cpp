@@ -7,9 +7,10 @@
 #include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_handover {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   fuzz::read_or_refuse([&] {
     Imported imported = decode_imported(std::as_bytes(std::span(data, size)), "fuzz");
     const auto again = encode_imported(imported);
@@ -22,3 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("handover", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_handover

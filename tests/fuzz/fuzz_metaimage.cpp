@@ -2,9 +2,10 @@
 #include "files/formats/voxel_block.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_metaimage {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   fuzz::read_or_refuse([&] {
     const std::string_view file = fuzz::text_of(data, size);
     const MetaImageHead head = read_metaimage_head(file, "fuzz.mha");
@@ -15,3 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("metaimage", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_metaimage

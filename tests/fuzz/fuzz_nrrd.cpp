@@ -1,9 +1,10 @@
 #include "files/formats/nrrd_head.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_nrrd {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   fuzz::read_or_refuse([&] {
     const NrrdHead head = read_nrrd_head(fuzz::text_of(data, size), "fuzz.nhdr");
     // The header for teem names the link next to it, or no file.
@@ -13,3 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("nrrd", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_nrrd

@@ -1,9 +1,10 @@
 #include "files/formats/bare_picture.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_picture {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   fuzz::read_or_refuse([&] {
     const BarePicture picture = bare_picture(std::string(fuzz::text_of(data, size)), "fuzz.png");
     fuzz::expect(picture.bytes.size() <= size, "a picture that grew");
@@ -12,3 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("picture", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_picture

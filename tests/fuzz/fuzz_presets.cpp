@@ -1,9 +1,10 @@
 #include "files/session/softness_presets.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_presets {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::text_of(data, size);
   fuzz::read_or_refuse([&] {
     const auto presets = read_presets(text, "fuzz.json");
@@ -12,3 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("presets", read_once, fuzz::Kind::json);
+
+}  // namespace
+}  // namespace chainmail::fuzz_presets

@@ -2,9 +2,10 @@
 #include "fuzz/target.h"
 #include "mesh/generate.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_softness {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::text_of(data, size);
   static const MeshPointer mesh = generate({MeshKind::cloth, {3, 3, 1}, 1, {}});
   fuzz::read_or_refuse([&] {
@@ -15,3 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("softness", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_softness

@@ -2,9 +2,10 @@
 #include "files/mesh/open_mesh.h"
 #include "fuzz/target.h"
 
-using namespace chainmail;
+namespace chainmail::fuzz_tetgen {
+namespace {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int read_once(const std::uint8_t* data, std::size_t size) {
   // Two files in one: a line of three dashes separates them.
   const std::string_view text = fuzz::text_of(data, size);
   constexpr std::string_view between = "---\n";
@@ -17,3 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+const fuzz::Target target("tetgen", read_once);
+
+}  // namespace
+}  // namespace chainmail::fuzz_tetgen

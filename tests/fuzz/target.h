@@ -15,6 +15,21 @@
 
 namespace chainmail::fuzz {
 
+/// Half of the inputs of a JSON reader stay JSON: bytes alone would hardly ever get past the parser.
+enum class Kind { bytes, json };
+
+/// A reader of this program.
+struct Target {
+  using Read = int (*)(const std::uint8_t* data, std::size_t size);
+
+  Target(const char* its_name, Read its_read, Kind its_kind = Kind::bytes);
+
+  const char* name;
+  Read read;
+  Kind kind;
+  const Target* next;
+};
+
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }

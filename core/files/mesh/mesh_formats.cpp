@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "files/formats/dat.h"
+#include "files/formats/medit.h"
 #include "files/formats/metaimage.h"
 #include "files/formats/msh.h"
 #include "files/formats/obj.h"
@@ -24,8 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t sign_bytes = 512;  // bytes at the beginning of a file that are read to recognise its format
 
-ImportedMesh read_obj_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
-  return read_obj(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+template <auto Read>
+ImportedMesh read_text_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
+  return Read(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
 }
 
 ImportedMesh read_dat_file(const fs::path& path, const ReadOptions& options, const Progress& progress) {
@@ -42,7 +44,7 @@ constexpr std::array formats{
     MeshFormat{.name = "Wavefront OBJ",
                .endings = ".obj",
                .help = "surfaces and lines",
-               .read_mesh = read_obj_file,
+               .read_mesh = read_text_file<read_obj>,
                .write = write_obj},
     MeshFormat{.name = "Stanford PLY",
                .endings = ".ply",
@@ -72,10 +74,7 @@ constexpr std::array formats{
                .endings = ".mesh",
                .help = "lines, surfaces and volumes",
                .signs = {"MeshVersionFormatted"},
-               .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("mesh", path, 2, progress, options.import_program);
-                   }},
+               .read_mesh = read_text_file<read_medit>},
     MeshFormat{.name = "OFF",
                .endings = ".off",
                .help = "surfaces",

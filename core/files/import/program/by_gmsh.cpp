@@ -98,8 +98,8 @@ void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes
 
 }  // namespace
 
-ImportedMesh read_by_gmsh(const std::string& name, const std::filesystem::path& path) {
-  check_beginning(name, path);
+ImportedMesh read_by_gmsh(const std::filesystem::path& path) {
+  check_beginning(path);
   GmshSession session;
   session.open(path);
   ImportedMesh mesh;
@@ -112,7 +112,7 @@ ImportedMesh read_by_gmsh(const std::string& name, const std::filesystem::path& 
     take_type(mesh.parts, types[i], nodes[i], points);
     taken += tags[i].size();
   }
-  const FileCounts stated = count_in(name, path);
+  const FileCounts stated = count_in(path);
   if (stated.elements > taken) {
     refuse("Gmsh reads only " + std::to_string(taken) + " of its " + std::to_string(stated.elements) +
                " lines, faces and cells",

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 
 namespace chainmail::import {
 
@@ -12,7 +11,7 @@ struct FileCounts {
   std::uint64_t elements = 0;  // lines, faces, cells and anything else that it counts with them
 };
 
-/// Finds the counts of a .msh or .mesh file (`name`), because libraries silently skip what they do not know.
-FileCounts count_in(const std::string& name, const std::filesystem::path& path);
+/// Finds the counts of a .msh file, because libraries silently skip what they do not know.
+FileCounts count_in(const std::filesystem::path& path);
 
 }  // namespace chainmail::import

@@ -25,7 +25,7 @@ ImportedMesh read_polygons(const std::string& name, const std::filesystem::path&
 
 /// Reads formats 2 and 4 of Gmsh, and Medit, by Gmsh: lines, triangles, quadrangles, tetrahedra and hexahedra; points
 /// in the order of their tags. `name` is the ending of the path, by which Gmsh chooses the format.
-ImportedMesh read_by_gmsh(const std::string& name, const std::filesystem::path& path);
+ImportedMesh read_by_gmsh(const std::filesystem::path& path);
 
 /// Reads NRRD by teem: three axes of numbers.
 Volume read_nrrd(const std::filesystem::path& path);
