@@ -10,6 +10,8 @@ build_packages=(
   libcgal-dev libgmsh-dev libteem-dev zlib1g-dev libpng-dev libnlopt-dev libbullet-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
+# The version of clang-format that the sources follow: that of Debian 12.
+format_version=14
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb ffmpeg clang-format doxygen parallel python3 python3-jsonschema zsh fish)
@@ -20,10 +22,10 @@ python_test_packages=(python3-pytest python3-distributed mypy python3-sphinx)
 # The technical report as HTML and PDF.
 report_packages=(pandoc texlive-latex-recommended lmodern librsvg2-bin)
 # For packages: made by tests/package/check, and checked.
-package_packages=(help2man dpkg-dev lintian desktop-file-utils appstream libxml2-utils debootstrap)
+package_packages=(help2man dpkg-dev debhelper dh-python lintian desktop-file-utils appstream libxml2-utils debootstrap)
 mutant_packages=(python3)
 bench_packages=(libbenchmark-dev)
-fuzz_packages=(clang libclang-rt-14-dev)
+fuzz_packages=(clang libclang-rt-dev)
 
 # Lets ccache reuse objects of other checkouts and earlier builds. The last two are needed for precompiled headers.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1
@@ -36,10 +38,14 @@ fail() {
 
 # Installs those of the given packages that are missing.
 need_packages() {
-  local installed package missing=()
-  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null) || true
+  local present='' package missing=()
+  if command -v dpkg-query >/dev/null; then
+    # An installed package may provide a name that has become virtual, such as libqt6opengl6-dev on Debian 13.
+    present=" $(dpkg-query -W -f '${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' |
+      sed 's/ *([^)]*)//g' | tr -s ',\n' '  ') "
+  fi
   for package in "$@"; do
-    [[ $'\n'$installed$'\n' == *$'\n'"$package installed"$'\n'* ]] || missing+=("$package")
+    [[ $present == *" $package "* ]] || missing+=("$package")
   done
   [[ ${#missing[@]} -gt 0 ]] || return 0
   if ! command -v apt-get >/dev/null; then

@@ -4,7 +4,14 @@
 include(CMakePackageConfigHelpers)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chainmail)
 
-install(TARGETS chainmail_api chainmail_calibrate chainmail_core chainmail_files EXPORT chainmail
+set(installed chainmail_api chainmail_core chainmail_mesh_files)
+if(CHAINMAIL_JSON)
+  list(APPEND installed chainmail_files)
+endif()
+if(CHAINMAIL_CALIBRATE)
+  list(APPEND installed chainmail_calibrate)
+endif()
+install(TARGETS ${installed} EXPORT chainmail
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
 install(DIRECTORY api/chainmail DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core FILES_MATCHING PATTERN "*.h")

@@ -253,7 +253,8 @@ void say_flaws(const OpenedMesh& opened) {
 
 void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const Mesh& mesh,
                    const OwnSoftness& softness) {
-  const MeshFormat& format = mesh_format(target, FormatUse::write);
+  const std::filesystem::path path = target;
+  const MeshFormat& format = mesh_format(path, FormatUse::write);
   outputs.keep(*value_of(read.path));
   outputs.add(target, [&format, &mesh, &softness](std::ostream& out) {
     write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});

@@ -43,7 +43,8 @@ const MeshKindInfo& find_kind(const std::string& name) {
 }
 
 MeshRecipe read_recipe(const GenerateArguments& options) {
-  const MeshKindInfo& info = find_kind(*value_of(options.kind));
+  const std::string kind = *value_of(options.kind);
+  const MeshKindInfo& info = find_kind(kind);
   MeshRecipe recipe;
   recipe.kind = info.kind;
   const std::string text = *value_of(options.size);
@@ -61,7 +62,8 @@ MeshRecipe read_recipe(const GenerateArguments& options) {
 void generate_to_file(const GenerateArguments& options) {
   const MeshRecipe recipe = read_recipe(options);
   const std::filesystem::path path = *value_of(options.output);
-  const MeshFormat& format = mesh_format(path == "-" ? "standard_output.dat" : path, FormatUse::write);
+  const std::filesystem::path named = path == "-" ? "standard_output.dat" : path;
+  const MeshFormat& format = mesh_format(named, FormatUse::write);
   const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
                                       [&] { return generate(recipe); });
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, {*mesh, {}, rest_positions(*mesh), {}}); });

@@ -222,7 +222,9 @@ void add_mesh(py::module_& module) {
   add_content(mesh);
   add_connectivity(mesh);
   add_facts(mesh);
+#ifdef CHAINMAIL_HAS_JSON  // its checks are those of sessions
   add_mesh_state(mesh);
+#endif
   add_generators(module);
   module.def(
       "make_mesh", &mesh_from, py::arg("positions"), py::arg("links") = py::none(), py::kw_only(),

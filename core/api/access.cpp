@@ -27,6 +27,10 @@ void Job::cancel() const {
 
 bool Job::is_cancelled() const { return inside_->state.cancelled; }
 
+void refuse_without(const std::string& libraries, const std::string& where) {
+  throw Error(where, "the library was built without " + libraries, "install them, and build it again");
+}
+
 std::string_view version() { return CHAINMAIL_VERSION; }
 
 void check_id(const inner::Mesh& mesh, ElementId element) {

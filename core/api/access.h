@@ -140,6 +140,9 @@ inline inner::EnergyKind energy_of(EnergyKind kind) { return static_cast<inner::
 inline EnergyKind energy_of(inner::EnergyKind kind) { return static_cast<EnergyKind>(kind); }
 inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
 
+/// Throws Error: a part of the library was not built, for want of these libraries.
+[[noreturn]] void refuse_without(const std::string& libraries, const std::string& where);
+
 // These functions throw Error about an argument.
 void check_id(const inner::Mesh& mesh, ElementId element);
 void check_ids(const inner::Mesh& mesh, std::span<const ElementId> elements);

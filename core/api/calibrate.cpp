@@ -1,8 +1,11 @@
 #include "chainmail/calibrate.h"
 
+#include "api/access.h"
+
+#ifdef CHAINMAIL_HAS_CALIBRATE
+
 #include <sstream>
 
-#include "api/access.h"
 #include "calibrate/calibrate.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
@@ -72,3 +75,19 @@ void write_preset(const std::filesystem::path& path, const std::string& name, co
 }
 
 }  // namespace chainmail::api
+
+#else
+
+namespace chainmail::api {
+
+Calibration calibrate(const Body& /*body*/, const CalibrateOptions& /*options*/, const Job& /*job*/) {
+  refuse_without("NLopt and nlohmann/json", "calibrate");
+}
+
+void write_preset(const std::filesystem::path& path, const std::string& /*name*/, const LinkSoftness& /*softness*/) {
+  refuse_without("NLopt and nlohmann/json", path.string());
+}
+
+}  // namespace chainmail::api
+
+#endif

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "api/access.h"
-#include "files/results/report_json.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "report/page/csv.h"
@@ -20,6 +19,9 @@
 #include "report/run/machine.h"
 #include "report/run/physics.h"
 #include "report/run/physics_cases.h"
+#ifdef CHAINMAIL_HAS_JSON
+#include "files/results/report_json.h"
+#endif
 
 namespace chainmail::api {
 
@@ -211,11 +213,15 @@ std::string Comparison::html() const {
   });
 }
 
+#ifdef CHAINMAIL_HAS_JSON
 std::string Comparison::json() const {
   return text_of([&](std::ostream& out) {
     std::visit([&](const auto& one) { write_json(out, one, inside_->origin); }, inside_->report);
   });
 }
+#else
+std::string Comparison::json() const { refuse_without("nlohmann/json", "comparison"); }
+#endif
 
 std::string Comparison::csv() const {
   return text_of(
@@ -231,7 +237,9 @@ void Comparison::write(const std::filesystem::path& folder) const {
     }
     Outputs outputs;
     outputs.add(folder / "report.html", [&](std::ostream& out) { out << html(); });
+#ifdef CHAINMAIL_HAS_JSON
     outputs.add(folder / "report.json", [&](std::ostream& out) { out << json(); });
+#endif
     outputs.add(folder / "report.csv", [&](std::ostream& out) { out << csv(); });
     outputs.commit();
   });

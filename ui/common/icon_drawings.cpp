@@ -52,6 +52,7 @@ constexpr std::array drawings{
     IconDrawing{"unpin", "M 8 9.5 L 8 15 M 8 0.8 L 13 5.8 L 8 10.8 L 3 5.8 Z M 1.5 13.5 L 14.5 1"},
     IconDrawing{"preset", "M 4 2 L 12 2 L 12 14 L 8 10.8 L 4 14 Z"}, IconDrawing{"plus", "M 8 3 L 8 13 M 3 8 L 13 8"},
     IconDrawing{"minus", "M 3 8 L 13 8"}, IconDrawing{"close", "M 4 4 L 12 12 M 12 4 L 4 12"},
+    IconDrawing{"float", "R 3 6 7 7 M 6 6 L 6 3 L 13 3 L 13 10 L 10 10"},
     IconDrawing{"element", "M 6 2 L 5 14 M 11 2 L 10 14 M 2.5 5.5 L 14 5.5 M 2 10.5 L 13.5 10.5"},
     // Views.
     IconDrawing{"fit",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QLocale>
 #include <QString>
 #include <string_view>
 
@@ -16,6 +17,14 @@ inline QString counted(std::size_t count, const QString& noun) {
 /// Returns 'cut 1 link', 'cut 2 links'.
 inline QString counted(const QString& verb, std::size_t count, const QString& noun) {
   return QStringLiteral("%1 %2").arg(verb, counted(count, noun));
+}
+
+/// Returns a time of `milliseconds` with three digits, in ms or, if it is short, in µs.
+inline QString shownTime(double milliseconds) {
+  const bool isShort = milliseconds < 0.1;
+  const double time = isShort ? 1000 * milliseconds : milliseconds;
+  return QLocale().toString(time, time < 1000 ? 'g' : 'f', time < 1000 ? 3 : 0) +
+         (isShort ? QStringLiteral(" µs") : QStringLiteral(" ms"));
 }
 
 }  // namespace chainmail

@@ -41,8 +41,16 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
 }
 
 QIcon WorkbenchStyle::standardIcon(StandardPixmap picture, const QStyleOption* option, const QWidget* widget) const {
-  return picture == SP_ToolBarHorizontalExtensionButton ? icon("more")
-                                                        : QProxyStyle::standardIcon(picture, option, widget);
+  switch (picture) {
+    case SP_ToolBarHorizontalExtensionButton:
+      return icon("more");
+    case SP_TitleBarCloseButton:
+      return icon("close");
+    case SP_TitleBarNormalButton:
+      return icon("float");
+    default:
+      return QProxyStyle::standardIcon(picture, option, widget);
+  }
 }
 
 int WorkbenchStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {

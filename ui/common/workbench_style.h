@@ -20,7 +20,8 @@ class WorkbenchStyle : public QProxyStyle {
   using QProxyStyle::polish;
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
-  /// Draws the button that opens the rest of a tool bar like our other icons; Fusion's arrow is small and dark.
+  /// Draws the button that opens the rest of a tool bar, and those of docks, like our other icons: Fusion's are small
+  /// and have little contrast.
   QIcon standardIcon(StandardPixmap picture, const QStyleOption* option, const QWidget* widget) const override;
   int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
   /// Makes combo boxes open lists. Drawn as menus, they would get the background that menus need for visible check

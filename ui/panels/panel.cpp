@@ -161,10 +161,10 @@ QString Panel::describePass(const Statistics& statistics, bool briefly) {
   const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> elements")
                           : briefly ? QStringLiteral("<b>%2</b> checked")
                                     : QStringLiteral("<b>%2</b> links checked");
-  return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b> ms") +
+  return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b>") +
           (briefly ? QString() : QStringLiteral(" per pass")))
       .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
-           locale.toString(qulonglong(statistics.last_pass.checked)), locale.toString(statistics.last_pass_ms, 'f', 3));
+           locale.toString(qulonglong(statistics.last_pass.checked)), shownTime(statistics.last_pass_ms));
 }
 
 QString Panel::describeViolation(const Statistics& statistics, bool briefly) {

@@ -4,14 +4,12 @@
 #include <QObject>
 
 #include "common/theme.h"
-
-class QDBusPendingCallWatcher;
-class QDBusVariant;
+#include "window/desktop_theme.h"
 
 namespace chainmail {
 
-/// The View menu's choice of theme: dark, light, or the desktop's. Reads the desktop's theme from the XDG settings
-/// portal, if there is one, and follows its changes.
+/// The View menu's choice of theme: dark, light, or the desktop's. The desktop's is offered when the desktop
+/// reports it.
 class ThemeMenu : public QObject {
   Q_OBJECT
 
@@ -19,14 +17,11 @@ class ThemeMenu : public QObject {
   explicit ThemeMenu(QObject* parent) : QObject(parent) {}
   void fill(QMenu& menu);
 
- private slots:
-  void settingChanged(const QString& space, const QString& key, const QDBusVariant& value);
-
  private:
   void choose(Theme theme);
-  void askSystem();
   void heardOfSystem(unsigned scheme);
 
+  DesktopTheme desktop_;
   QAction* system_ = nullptr;
 };
 

@@ -15,11 +15,13 @@ __all__ = ["read_mesh"]
 def _import_program() -> str:
     """Returns the path of chainmail-import, or an empty text if it is not found.
 
-    A wheel has it next to this file. From Debian's folder of packages, and from that of a build, it is in bin.
+    A wheel has it next to this file, a build in its folder bin, and Debian in libexec.
     """
     package = Path(__file__).absolute().parent
-    beside = [package, package.parents[2] / "bin", package.parents[1] / "bin"]
-    programs = [folder / "chainmail-import" for folder in beside]
+    folders = [package, package.parents[1] / "bin"]
+    if len(package.parents) > 3:
+        folders.append(package.parents[3] / "libexec/chainmail")
+    programs = [folder / "chainmail-import" for folder in folders]
     found = [str(program) for program in programs if program.is_file()]
     return found[0] if found else shutil.which("chainmail-import") or ""
 

@@ -1,7 +1,5 @@
 #include "files/formats/metaimage.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,10 @@
 #include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+
+#ifdef CHAINMAIL_HAS_ZLIB
+#include <zlib.h>
+#endif
 
 namespace chainmail {
 namespace {
@@ -211,6 +213,7 @@ class PlainBytes : public VoxelBytes {
   std::uint64_t taken_ = 0;
 };
 
+#ifdef CHAINMAIL_HAS_ZLIB
 /// Bytes compressed by zlib (Gailly and Adler). Each reading decompresses them again in pieces, because the data of a
 /// small file may exceed the memory.
 class PackedBytes : public VoxelBytes {
@@ -254,6 +257,7 @@ class PackedBytes : public VoxelBytes {
   z_stream stream_{};
   std::uint64_t taken_ = 0;
 };
+#endif
 
 /// Throws Error if the data cannot contain this many bytes, before they are read.
 void check_size(const VoxelData& data, bool compressed, std::uint64_t bytes) {
@@ -271,7 +275,12 @@ void check_size(const VoxelData& data, bool compressed, std::uint64_t bytes) {
 
 std::unique_ptr<VoxelBytes> bytes_of(const VoxelData& data, bool compressed) {
   if (compressed) {
+#ifdef CHAINMAIL_HAS_ZLIB
     return std::make_unique<PackedBytes>(data);
+#else
+    throw Error(shown(data.path), "its data are compressed, and this program was built without zlib",
+                "save it uncompressed, or build the program with zlib");
+#endif
   }
   return std::make_unique<PlainBytes>(data);
 }

@@ -49,7 +49,8 @@ std::filesystem::path import_program(const std::filesystem::path& given) {
 std::vector<std::string> environment_in(const std::string& folder) {
   std::vector<std::string> variables{"HOME=" + folder, "TMPDIR=" + folder, "LC_ALL=C", "OMP_NUM_THREADS=1",
                                      "OPENBLAS_NUM_THREADS=1"};
-  for (const char* kept : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
+  for (const char* kept : {"LD_LIBRARY_PATH", "CHAINMAIL_WITHOUT_SANDBOX", "ASAN_OPTIONS", "LSAN_OPTIONS",
+                           "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
     if (const char* value = std::getenv(kept)) {
       variables.push_back(std::string(kept) + "=" + value);
     }
@@ -101,7 +102,12 @@ class Pipe {
  public:
   Pipe() {
     std::array<int, 2> ends{-1, -1};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+#ifdef __linux__
+    const bool opened = pipe2(ends.data(), O_CLOEXEC) == 0;  // no child of another thread inherits it
+#else
+    const bool opened = pipe(ends.data()) == 0;
+#endif
+    if (!opened) {
       fail_start("a pipe cannot be created");
     }
     const Closed guard{ends};

@@ -1,5 +1,7 @@
 #include "files/import/landlock.h"
 
+#ifdef __linux__
+
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -75,3 +77,5 @@ bool give_up_files(const std::filesystem::path& folder, std::span<const int> fil
 }
 
 }  // namespace chainmail::import
+
+#endif

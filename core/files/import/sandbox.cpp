@@ -1,5 +1,7 @@
 #include "files/import/sandbox.h"
 
+#ifdef CHAINMAIL_HAS_SANDBOX
+
 #include <fcntl.h>
 #include <seccomp.h>
 #include <sys/prctl.h>
@@ -105,3 +107,15 @@ bool enter_sandbox(const SandboxFiles& files) {
 bool sandbox_hides_files() { return landlock_version() > 0; }
 
 }  // namespace chainmail::import
+
+#else
+
+namespace chainmail::import {
+
+bool enter_sandbox(const SandboxFiles& /*files*/) { return false; }
+
+bool sandbox_hides_files() { return false; }
+
+}  // namespace chainmail::import
+
+#endif

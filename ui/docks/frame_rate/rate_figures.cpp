@@ -13,7 +13,7 @@ namespace chainmail {
 namespace {
 
 constexpr int rateColumns = 4;
-constexpr std::array rateWidths{58, 62, 44, 44};  // logical pixels; wide enough for the headers and for 1,000,000
+constexpr std::array rateWidths{54, 58, 52, 52};  // logical pixels; wide enough for the headers and for 1,000,000
 
 }  // namespace
 
@@ -46,8 +46,8 @@ void RateFigures::addHead(QGridLayout& grid) {
   add(0, QStringLiteral("painted/s"), QStringLiteral("Frames that reached the screen in the last second"));
   add(1, QStringLiteral("passes/s"),
       QStringLiteral("1 over the median time of a pass: the rate of the algorithm without drawing"));
-  add(2, QStringLiteral("ms"), QStringLiteral("Median time of a pass over the last second (ms)"));
-  add(3, QStringLiteral("worst"), QStringLiteral("Longest pass of the last second (ms)"));
+  add(2, QStringLiteral("median"), QStringLiteral("Median time of a pass over the last second"));
+  add(3, QStringLiteral("worst"), QStringLiteral("Longest pass of the last second"));
 }
 
 /// Adds the row of a panel. The panel's name has its own line, because the four figures need the width.
@@ -64,8 +64,8 @@ void RateFigures::addRow(QGridLayout& grid) {
   row.name->setObjectName(QStringLiteral("rateName%1").arg(panel));
   row.painted = figure("painted", QStringLiteral("Painted frames per second"));
   row.passes = figure("passes", QStringLiteral("Passes per second"));
-  row.median = figure("median", QStringLiteral("Median time of a pass, ms"));
-  row.worst = figure("worst", QStringLiteral("Longest pass, ms"));
+  row.median = figure("median", QStringLiteral("Median time of a pass"));
+  row.worst = figure("worst", QStringLiteral("Longest pass"));
   row.name->setTextFormat(Qt::RichText);
   row.name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   const int line = 2 * panel + 1;
@@ -115,8 +115,8 @@ void RateFigures::show(int panel, const RateSample& sample) {
   const QLocale locale;
   const double passes = sample.passesPerSecond();
   row.passes->setText(std::isnan(passes) ? QStringLiteral("–") : locale.toString(passes, 'f', 0));
-  row.median->setText(locale.toString(sample.medianMs, 'f', 3));
-  row.worst->setText(locale.toString(sample.worstMs, 'f', 3));
+  row.median->setText(shownTime(sample.medianMs));
+  row.worst->setText(shownTime(sample.worstMs));
 }
 
 }  // namespace chainmail

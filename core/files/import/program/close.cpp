@@ -178,8 +178,15 @@ bool close_hole(Halfedges& surface, Halfedge border) {
   namespace processing = CGAL::Polygon_mesh_processing;
   std::vector<Halfedges::Face_index> faces;
   std::vector<Halfedges::Vertex_index> vertices;
+#if CGAL_VERSION_NR >= 1060000000
+  processing::triangulate_refine_and_fair_hole(surface, border,
+                                               CGAL::parameters::fairing_continuity(0)
+                                                   .face_output_iterator(std::back_inserter(faces))
+                                                   .vertex_output_iterator(std::back_inserter(vertices)));
+#else
   processing::triangulate_refine_and_fair_hole(surface, border, std::back_inserter(faces), std::back_inserter(vertices),
                                                CGAL::parameters::fairing_continuity(0));
+#endif
   return !faces.empty();
 }
 
