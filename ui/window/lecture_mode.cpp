@@ -39,6 +39,7 @@ void LectureMode::enter() {
   layout_ = window_.saveState(layoutVersion_);
   places_ = dockLayout(window_);
   geometry_ = window_.saveGeometry();
+  at_ = window_.geometry();
   propagation_.setHeld(propagation_.isShown());
   for (auto* dock : window_.findChildren<QDockWidget*>()) {
     dock->hide();
@@ -57,6 +58,9 @@ void LectureMode::enter() {
 void LectureMode::restore() {
   window_.showNormal();
   window_.restoreGeometry(geometry_);
+  if (!window_.isMaximized()) {
+    window_.setGeometry(at_);  // Qt 6.8 makes a window that fills the screen two pixels smaller
+  }
   tool_->hide();
   // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
   window_.layout()->setEnabled(false);

@@ -4,6 +4,7 @@
 #include <QJsonArray>
 #include <QLabel>
 #include <QMainWindow>
+#include <QRect>
 #include <vector>
 
 namespace chainmail {
@@ -45,6 +46,7 @@ class LectureMode : public QObject {
   int layoutVersion_;
   QAction* action_;
   QByteArray layout_, geometry_;
+  QRect at_;  // of the window before
   QJsonArray places_;
 };
 
