@@ -24,8 +24,27 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Deformation = CGAL::Surface_mesh_deformation<CgalMesh, CGAL::Default, CGAL::Default, CGAL::ORIGINAL_ARAP>;
 using Vertex = CgalMesh::Vertex_index;
+
+/// Half the sum of the two cotangents opposite an edge, where each counts as 0 if it is negative: CGAL 5's weights of
+/// the original method. Those of CGAL 6 differ.
+struct ClampedCotangents {
+  template <class Positions>
+  double operator()(CgalMesh::Halfedge_index edge, const CgalMesh& mesh, const Positions& at) const {
+    double sum = 0;
+    for (const auto side : {edge, mesh.opposite(edge)}) {
+      if (!mesh.is_border(side)) {
+        const auto apex = get(at, mesh.target(mesh.next(side)));
+        const auto u = get(at, mesh.source(side)) - apex, v = get(at, mesh.target(side)) - apex;
+        sum += std::max(0.0, u * v / std::sqrt(CGAL::cross_product(u, v).squared_length()));
+      }
+    }
+    return sum / 2;
+  }
+};
+
+using Deformation =
+    CGAL::Surface_mesh_deformation<CgalMesh, CGAL::Default, CGAL::Default, CGAL::ORIGINAL_ARAP, ClampedCotangents>;
 
 /// A curved sheet of triangles, some of which are obtuse.
 MeshPointer curved_sheet() {

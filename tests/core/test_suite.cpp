@@ -24,7 +24,7 @@ using namespace chainmail::report;
 
 namespace {
 
-const SuiteRow& row_of(const Suite& suite, const std::string& algorithm) {
+const SuiteRow& row_of(const Suite& suite, std::string_view algorithm) {
   return *std::ranges::find(suite.results.front().rows, algorithm, &SuiteRow::algorithm);
 }
 

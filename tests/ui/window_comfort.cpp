@@ -1,5 +1,7 @@
 // Tests themes, icons, messages and hints in a real window.
 
+#include <QAbstractButton>
+#include <QDockWidget>
 #include <QPushButton>
 #include <QTest>
 #include <QToolButton>
@@ -85,6 +87,19 @@ class WindowComfort : public QObject {
       for (const auto& one : algorithms()) {
         const QImage mark = plotMark(one.algorithm, false, 16, 1, palette).toImage();
         QVERIFY(contrastOf(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
+      }
+    }
+  }
+
+  /// The style's own have a contrast of 2.7.
+  void buttonsOfDocksHaveOurIcons() {
+    Workbench bench;
+    const auto docks = bench.window.findChildren<QDockWidget*>();
+    QVERIFY(!docks.isEmpty());
+    for (const QDockWidget* dock : docks) {
+      for (const auto& [button, name] :
+           {std::pair("qt_dockwidget_closebutton", "close"), {"qt_dockwidget_floatbutton", "float"}}) {
+        QCOMPARE(dock->findChild<QAbstractButton*>(QLatin1String(button))->icon().name(), QLatin1String(name));
       }
     }
   }

@@ -62,6 +62,7 @@ class Page : public QTextBrowser {
   Page() {
     setOpenExternalLinks(true);
     setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // so that the width does not depend on the page
+    document()->setDocumentMargin(pageMargin);
   }
 
   /// Loads the page again at the same position, after a change of its width or colours.
@@ -72,18 +73,9 @@ class Page : public QTextBrowser {
   }
 
  protected:
-  /// Builds the page in a document that is not shown yet. Qt would lay out the shown one again after each word.
   void doSetSource(const QUrl& url, QTextDocument::ResourceType type) override {
-    text_.clear();
     QTextBrowser::doSetSource(url, type);
-    if (!text_.isEmpty()) {
-      auto* page = new QTextDocument(this);
-      page->setDefaultFont(document()->defaultFont());
-      page->setDocumentMargin(pageMargin);
-      page->setMarkdown(text_);
-      format(*page);
-      setDocument(page);
-    }
+    format();
     if (!url.fragment().isEmpty()) {
       scrollToAnchor(url.fragment());
     }
@@ -91,10 +83,6 @@ class Page : public QTextBrowser {
 
   QVariant loadResource(int type, const QUrl& name) override {
     const QUrl url = source().resolved(name);
-    if (type == QTextDocument::MarkdownResource) {
-      text_ = QString::fromUtf8(QTextBrowser::loadResource(type, name).toByteArray());
-      return QStringLiteral(" ");  // doSetSource shows the text
-    }
     if (type != QTextDocument::ImageResource || url.scheme() != QLatin1String("qrc")) {
       return QTextBrowser::loadResource(type, name);
     }
@@ -115,8 +103,10 @@ class Page : public QTextBrowser {
   }
 
  private:
-  void format(QTextDocument& page) {
-    for (QTextBlock block = page.begin(); block.isValid(); block = block.next()) {
+  void format() {
+    QTextCursor edit(document());
+    edit.beginEditBlock();  // Qt lays the page out once, and not after each change
+    for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
       if (block.blockFormat().headingLevel() > 0) {
         makeAnchor(block);
       } else if (isCode(block)) {
@@ -127,12 +117,13 @@ class Page : public QTextBrowser {
         QTextCursor(block).mergeBlockFormat(format);
       }
     }
-    for (QTextFrame* frame : page.rootFrame()->childFrames()) {
+    for (QTextFrame* frame : document()->rootFrame()->childFrames()) {
       if (auto* table = qobject_cast<QTextTable*>(frame)) {
         splitCells(*table);
         formatTable(*table);
       }
     }
+    edit.endEditBlock();
   }
 
   static bool isCode(const QTextBlock& block) {
@@ -196,7 +187,6 @@ class Page : public QTextBrowser {
     }
   }
 
-  QString text_;           // of the page that is loaded
   bool pictures_ = false;  // true after a page with pictures was shown
 };
 

@@ -43,9 +43,10 @@ std::vector<bool> left_out(std::size_t count, Corners corners, MeshFlaws& flaws)
       order.push_back(i);
     }
   }
-  std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return corners(i) < corners(j); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto i, auto j) { return std::ranges::lexicographical_compare(corners(i), corners(j)); });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (corners(order[i]) == corners(order[i - 1])) {
+    if (std::ranges::equal(corners(order[i]), corners(order[i - 1]))) {
       out[order[i]] = true;
       ++flaws.doubled;
     }
@@ -63,14 +64,14 @@ void leave_out(std::vector<std::array<ElementId, Size>>& groups, MeshFlaws& flaw
 
 void leave_out_polygons(std::vector<ElementId>& polygons, MeshFlaws& flaws) {
   std::vector<std::size_t> begins;
+  std::vector<ElementId> ascending = polygons;  // the corners of each polygon after its count
   for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1) {
     begins.push_back(i);
+    const auto first = ascending.begin() + std::ptrdiff_t(i) + 1;
+    std::sort(first, first + polygons[i]);
   }
   const auto corners = [&](std::size_t i) {
-    const auto first = polygons.begin() + std::ptrdiff_t(begins[i]) + 1;
-    std::vector<ElementId> group(first, first + polygons[begins[i]]);
-    std::sort(group.begin(), group.end());
-    return group;
+    return std::span<const ElementId>(ascending).subspan(begins[i] + 1, polygons[begins[i]]);
   };
   const auto out = left_out(begins.size(), corners, flaws);
   std::vector<ElementId> kept;
