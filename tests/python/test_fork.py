@@ -36,6 +36,8 @@ def fork_and(work):
 
 """
 
+# Python 3.12 and later warn of any fork in a process with threads.
+QUIET = ["-W", "ignore::DeprecationWarning"]
 CHILDREN = {
     "ends": "lambda: None",
     "moves": "lambda: same() or sys.exit(1)",
@@ -46,7 +48,7 @@ CHILDREN = {
 @pytest.mark.parametrize("child", CHILDREN)
 def test_a_child_of_a_process_with_helpers(child):
     program = f"{LARGE_DRAG}\nstatus = fork_and({CHILDREN[child]})\nassert same()\nprint(started, status)"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, *QUIET, "-c", program], capture_output=True, text=True, timeout=120)
     started, status = done.stdout.split()[-2:]
     assert (status, done.returncode, done.stderr) == ("0", 0, "")
     if started == "False":
@@ -55,7 +57,7 @@ def test_a_child_of_a_process_with_helpers(child):
 
 def test_a_child_starts_helpers_of_its_own():
     program = f"{LARGE_DRAG}\nalone = 1\nprint(started, fork_and(lambda: sys.exit(not (same() and threads() > 1))))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, *QUIET, "-c", program], capture_output=True, text=True, timeout=120)
     started, status = done.stdout.split()[-2:]
     if started == "False":
         pytest.skip("this machine has no core for a helper")
