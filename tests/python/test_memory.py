@@ -19,7 +19,7 @@ def attempt(work):
 used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 limit = used + int(sys.argv[1]) * 2**20
 resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
-for make in (lambda: chainmail.make_cloth(200, 200), lambda: chainmail.make_tetra(9, 9, 9)):
+for make in (lambda: chainmail.make_cloth(80, 80), lambda: chainmail.make_tetra(8, 8, 8)):
     mesh = attempt(make)
     if mesh is None:
         continue
