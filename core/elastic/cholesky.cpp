@@ -13,6 +13,7 @@ constexpr int most_zeros = 8;
 
 // Columns of a front between two progress reports: a few tenths of a second at most.
 constexpr Eigen::Index columns_at_once = 128;
+constexpr Eigen::Index columns_subtracted = 512;  // of what remains of a front, between two progress reports
 
 constexpr int none = -1;
 
@@ -131,6 +132,20 @@ Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& low
 
 namespace {
 
+/// Subtracts below · belowᵀ from the lower triangle of a matrix, some columns at a time: on a slow machine, all of a
+/// large front would take seconds, in which nobody could cancel. Reports `share` in between.
+void subtract_square(Eigen::Block<Eigen::MatrixXd> from, const Eigen::Block<Eigen::MatrixXd>& below,
+                     const Progress& progress, double share) {
+  for (Eigen::Index first = 0; first < from.cols(); first += columns_subtracted) {
+    progress.report(share);
+    const Eigen::Index columns = std::min(columns_subtracted, from.cols() - first);
+    const Eigen::Index rest = from.rows() - first - columns;
+    const auto own = below.middleRows(first, columns);
+    from.block(first, first, columns, columns).selfadjointView<Eigen::Lower>().rankUpdate(own, -1);
+    from.block(first + columns, first, rest, columns).noalias() -= below.bottomRows(rest) * own.transpose();
+  }
+}
+
 /// Eliminates the first `width` columns of a front. Only the lower triangle is used. Returns false if it is not
 /// positive definite.
 bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progress) {
@@ -145,7 +160,7 @@ bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progr
     }
     if (rest > 0) {
       own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-      front.bottomRightCorner(rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+      subtract_square(front.bottomRightCorner(rest, rest), below, progress, double(first) / double(width));
     }
   }
   return true;
