@@ -33,10 +33,10 @@ class LinearFem final : public LinearResponse {
 
   /// Factors the stiffness matrix of the unknowns, and computes them in each field from the prescribed displacements.
   void solve(const Unknowns& unknowns, Cholesky& factor, Fields fields, const Progress& progress) const {
-    Stiffness stiffness(simplices_, unknowns);
+    Stiffness stiffness(simplices_, unknowns, progress.part(0, 0.05));
     Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(unknowns.count(), fields.cols());
     for (std::size_t s = 0; s < simplices_.count(); ++s) {
-      progress.part(0, 0.1).report(s, simplices_.count());
+      progress.part(0.05, 0.1).report(s, simplices_.count());
       const CornerMatrix of_simplex = chainmail::stiffness(simplices_, s, lame_);
       stiffness.add(s, of_simplex);
       for (Eigen::Index column = 0; column < fields.cols(); ++column) {

@@ -78,16 +78,22 @@ void for_each_entry(const Simplices& simplices, const Unknowns& unknowns, Visit 
 
 }  // namespace
 
-Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns)
+Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns, const Progress& progress)
     : simplices_(simplices), matrix_(unknowns.count(), unknowns.count()) {
   std::vector<Eigen::Triplet<double>> entries;
-  for_each_entry(simplices, unknowns,
-                 [&](std::size_t, std::int32_t row, std::int32_t column) { entries.emplace_back(row, column, 0); });
+  const auto n = static_cast<std::size_t>(simplices.dimension);
+  const std::size_t count = simplices.count() * n * (n + 1) * n * (n + 1);
+  const Progress collecting = progress.part(0, 0.3), finding = progress.part(0.6, 1);
+  for_each_entry(simplices, unknowns, [&](std::size_t entry, std::int32_t row, std::int32_t column) {
+    collecting.report(entry, count);
+    entries.emplace_back(row, column, 0);
+  });
+  progress.report(0.3);
   matrix_.setFromTriplets(entries.begin(), entries.end());
   entries = {};
-  const auto n = static_cast<std::size_t>(simplices.dimension);
-  indices_.assign(simplices.count() * n * (n + 1) * n * (n + 1), Unknowns::none);
+  indices_.assign(count, Unknowns::none);
   for_each_entry(simplices, unknowns, [&](std::size_t entry, std::int32_t row, std::int32_t column) {
+    finding.report(entry, count);
     const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
     const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
     indices_[entry] = static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());

@@ -8,6 +8,7 @@
 
 #include "elastic/energy.h"
 #include "elastic/simplices.h"
+#include "mesh/progress.h"
 
 namespace chainmail {
 
@@ -41,7 +42,8 @@ class Stiffness {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
 
-  Stiffness(const Simplices& simplices, const Unknowns& unknowns);
+  /// Throws Cancelled.
+  Stiffness(const Simplices& simplices, const Unknowns& unknowns, const Progress& progress = {});
 
   const Sparse& matrix() const { return matrix_; }
   void clear();
