@@ -5,6 +5,7 @@
 
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "mesh/mesh.h"
 
 namespace chainmail {
 namespace {

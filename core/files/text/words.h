@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
