@@ -140,8 +140,8 @@ std::vector<double> ElasticDeformation::hand_over(const Body& body) {
   return memory;
 }
 
-void ElasticDeformation::take_over(const Body& body, std::vector<double> memory) {
-  memory_ = std::move(memory);
+void ElasticDeformation::take_over(const Body& body, const std::vector<double>& memory) {
+  memory_ = memory;
   made_for_ = conditions_of(body);
   positions_ = positions_of(body);
 }

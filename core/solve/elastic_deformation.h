@@ -19,7 +19,7 @@ class ElasticDeformation final : public Method {
   std::span<const double> control_points(Body& body, const Progress& progress) override;
   PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
   std::vector<double> hand_over(const Body& body) override;
-  void take_over(const Body& body, std::vector<double> memory) override;
+  void take_over(const Body& body, const std::vector<double>& memory) override;
 
  private:
   /// What a preparation is valid for.

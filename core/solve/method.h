@@ -44,7 +44,7 @@ class Method {
   /// for bit. This one forgets everything else that its coming answers may depend on, in their last bits.
   virtual std::vector<double> hand_over(const Body& /*body*/) { return {}; }
   /// Continues as the method that handed this over. Throws Error, at the next move, if it does not fit.
-  virtual void take_over(const Body& /*body*/, std::vector<double> /*memory*/) {}
+  virtual void take_over(const Body& /*body*/, const std::vector<double>& /*memory*/) {}
 
   /// Returns the current positions of control points that a user may drag, space_dimension coordinates each (mesh
   /// units), and prepares them; empty for most methods.
