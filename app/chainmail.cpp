@@ -8,6 +8,7 @@
 
 #include "command_line/common.h"
 #include "files/text/outputs.h"
+#include "files/text/temporary_folder.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -26,6 +27,7 @@ ExitCode complain(std::string_view message, ExitCode code) {
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
+  chainmail::remove_folders_on_signals();
   try {
     chainmail::command_line::run(argc, argv);
     return done;

@@ -9,6 +9,7 @@
 #include "common/application.h"
 #include "common/last_words.h"
 #include "docks/mesh_dock.h"
+#include "files/text/temporary_folder.h"
 #include "io/sessions.h"
 #include "mesh/failure.h"
 #include "version/version.h"
@@ -97,6 +98,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
+  chainmail::remove_folders_on_signals();
   chainmail::prepareLastWords();
   try {
     return run(argc, argv);

@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include "cli/chainmail_program.h"
 #include "files/mesh/mesh_file.h"
 #include "program.h"
@@ -27,6 +29,7 @@ class OutputsCommandTest : public QObject {
   void the_place_where_pins_stop_the_hand_is_told();
   void a_full_device_is_status_1();
   void options_stand_anywhere();
+  void a_signal_leaves_no_temporary_folder();
 
  private:
   std::unique_ptr<Program> program_;
@@ -191,6 +194,30 @@ void OutputsCommandTest::options_stand_anywhere() {
   const auto after = program_->run("deform cloth.obj --positions=- --by=14:2,1 --algorithm=spiral");
   QCOMPARE(before.code, 0);
   QCOMPARE(before.out, after.out);
+}
+
+/// Ends an import at different times after its folder is there.
+void OutputsCommandTest::a_signal_leaves_no_temporary_folder() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (int wait = 0; wait < 5; ++wait) {
+      QProcess process;
+      auto environment = QProcessEnvironment::systemEnvironment();
+      environment.insert("TMPDIR", program_->path("."));
+      process.setProcessEnvironment(environment);
+      process.start(builtFile("bin/chainmail"), {"info", source_file("meshes/organ.msh").c_str()});
+      const QDir folder(program_->path("."));
+      const auto folders = [&folder] { return folder.entryList({"chainmail-*"}, QDir::Dirs | QDir::NoDotAndDotDot); };
+      QVERIFY(process.waitForStarted());
+      while (folders().isEmpty() && process.state() != QProcess::NotRunning) {
+        process.waitForFinished(1);
+      }
+      process.waitForFinished(2 * wait);
+      ::kill(pid_t(process.processId()), signal);
+      QVERIFY(process.waitForFinished());
+      QVERIFY2(wait > 0 || process.exitStatus() == QProcess::CrashExit, "the signal came too late");
+      QCOMPARE(folders(), QStringList());
+    }
+  }
 }
 
 CHAINMAIL_TEST(OutputsCommandTest)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/session/lesson.h"
+#include "files/text/replacement.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
@@ -98,7 +99,8 @@ bool is_session(const std::filesystem::path& path);
 void write_session(std::ostream& out, const Session& session, const Progress& progress = {});
 
 /// Writes a session into a file. A failed write leaves the file as it was.
-void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress = {});
+void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress = {},
+                  Readers readers = Readers::as_usual);
 
 /// Opens the mesh that a session names, in the folder of the session or elsewhere. The name has no folder. `across` is
 /// the number of elements along the width of a picture; 0 if the session does not say it.

@@ -309,8 +309,10 @@ void write_session(std::ostream& out, const Session& session, const Progress& pr
   SessionWriter(out, session).write(progress);
 }
 
-void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress) {
-  write_file(path, [&](std::ostream& out) { write_session(out, session, progress); });
+void save_session(const std::filesystem::path& path, const Session& session, const Progress& progress,
+                  Readers readers) {
+  write_file(
+      path, [&](std::ostream& out) { write_session(out, session, progress); }, readers);
 }
 
 }  // namespace chainmail

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <fstream>
 #include <iostream>
-#include <random>
 #include <string>
 #include <system_error>
 
@@ -30,18 +29,6 @@ void refuse_unwritable(const fs::path& path, const fs::path& target, const fs::f
   }
 }
 
-fs::path temporary_for(const fs::path& target) {
-  // The name is short and does not contain the target's name, which may already have the largest possible length.
-  static std::random_device random;
-  std::error_code error;
-  for (;;) {
-    fs::path temporary = target.parent_path() / (".chainmail-" + std::to_string(random()) + ".tmp");
-    if (!fs::exists(fs::symlink_status(temporary, error))) {
-      return temporary;
-    }
-  }
-}
-
 void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer& writer) {
   errno = 0;
   writer(out);
@@ -55,16 +42,9 @@ void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer
 
 }  // namespace
 
-Outputs::~Outputs() {
-  for (const File& file : files_) {
-    std::error_code ignored;
-    fs::remove(file.temporary, ignored);
-  }
-}
-
 void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
   const bool twice =
-      std::any_of(files_.begin(), files_.end(), [&](const File& file) { return file.target == target; }) ||
+      std::any_of(files_.begin(), files_.end(), [&](const auto& file) { return file->target() == target; }) ||
       std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) { return stream.path == path; });
   if (twice) {
     throw Error(path == "-" ? "standard output" : shown(path), "two outputs have this name",
@@ -74,13 +54,16 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
 
 void Outputs::keep(const fs::path& input) { inputs_.push_back(resolved(input)); }
 
-void Outputs::add(const fs::path& path, Writer writer) {
+void Outputs::add(const fs::path& path, Writer writer, Readers readers) {
   if (path.empty()) {
     throw Error("file name", "it is empty", "use the name of a file, or - for standard output");
   }
   std::error_code error;
   const fs::path target = resolved(path);  // keeps a symbolic link, and replaces the file that it points to
   const auto status = fs::status(path, error);
+  if (path != "-" && status.type() == fs::file_type::none) {  // for example a link that leads to itself
+    throw Error(shown(path), "it cannot be written (" + error.message() + ")", "check the name");
+  }
   refuse_twice(path, target);
   if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
     throw Error(shown(path), "it is an input, and this output would replace it", "choose another name for the output");
@@ -90,20 +73,13 @@ void Outputs::add(const fs::path& path, Writer writer) {
     return;
   }
   refuse_unwritable(path, target, status);
-  const fs::path temporary = temporary_for(target);
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out) {
-    throw Error(shown(path), "it cannot be written (" + system_reason() + ")",
-                "check the name and its folder's permissions");
-  }
-  files_.push_back({path, target, temporary});
-  if (fs::exists(status)) {
-    fs::permissions(temporary, status.permissions(), error);
-  }
-  write_stream(out, path, writer);
+  auto file = std::make_unique<Replacement>(path, target, readers);
+  writer(file->stream());
+  file->finish();
+  files_.push_back(std::move(file));
 }
 
-void Outputs::commit() {
+void Outputs::write_streams() {
   for (const Stream& stream : streams_) {
     if (stream.path == "-") {
       write_stream(std::cout, stream.path, stream.writer);
@@ -113,19 +89,37 @@ void Outputs::commit() {
     }
   }
   streams_.clear();
-  for (const File& file : files_) {
-    std::error_code error;
-    fs::rename(file.temporary, file.target, error);
-    if (error) {
-      throw WriteFailure(shown(file.path), "it cannot be replaced (" + error.message() + ")", "check its permissions");
+}
+
+void Outputs::replace_all() {
+  for (const auto& file : files_) {
+    file->name();
+  }
+  auto next = files_.begin();
+  try {
+    for (; next != files_.end(); ++next) {
+      (*next)->put(files_.size() > 1);
     }
+  } catch (...) {
+    while (next != files_.begin()) {
+      (*--next)->take_back();
+    }
+    throw;
+  }
+}
+
+void Outputs::commit() {
+  write_streams();
+  replace_all();
+  for (const auto& file : files_) {
+    file->sync_folder();
   }
   files_.clear();
 }
 
-void write_file(const fs::path& path, const Outputs::Writer& writer) {
+void write_file(const fs::path& path, const Outputs::Writer& writer, Readers readers) {
   Outputs outputs;
-  outputs.add(path, writer);
+  outputs.add(path, writer, readers);
   outputs.commit();
 }
 

@@ -2,24 +2,20 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <vector>
 
-#include "mesh/error.h"
+#include "files/text/replacement.h"
 
 namespace chainmail {
 
-/// The error for a write that started and could not be finished, for example on a full disk.
-class WriteFailure : public Error {
- public:
-  using Error::Error;
-};
-
 /// Writes several files together: all of them or none.
 ///
-/// Each text is first written to a temporary file in the folder of its target. Then commit() renames all temporary
-/// files. The path `-` means standard output. Standard output, devices and pipes receive their text in commit(), before
-/// the first rename.
+/// add() writes the content of each file beside its target, and waits until the disk has it (see Replacement). commit()
+/// then replaces all targets; if one cannot be replaced, the others get their old content back. Only if the machine
+/// stops between two replacements, some files are new and others old, each of them whole. The path `-` means standard
+/// output. Standard output, devices and pipes receive their text in commit(), before the first replacement.
 class Outputs {
  public:
   using Writer = std::function<void(std::ostream&)>;
@@ -27,34 +23,30 @@ class Outputs {
   Outputs() = default;
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
-  /// Removes temporary files that were not committed.
-  ~Outputs();
 
   /// Protects an input file: no output may replace it. Call this before add().
   void keep(const std::filesystem::path& input);
-  /// Writes the text of a file to its temporary file. Throws Error if the target cannot be written.
-  void add(const std::filesystem::path& path, Writer writer);
+  /// Writes the content of a file. Throws Error if the target cannot be written, NotReplaceable if it cannot be
+  /// replaced.
+  void add(const std::filesystem::path& path, Writer writer, Readers readers = Readers::as_usual);
   void commit();
 
  private:
-  struct File {
-    std::filesystem::path path;  // the path that the user entered
-    std::filesystem::path target;
-    std::filesystem::path temporary;
-  };
   struct Stream {
     std::filesystem::path path;
     Writer writer;
   };
 
+  void write_streams();
+  void replace_all();
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target) const;
 
   std::vector<std::filesystem::path> inputs_;  // with symbolic links resolved
-  std::vector<File> files_;
+  std::vector<std::unique_ptr<Replacement>> files_;
   std::vector<Stream> streams_;
 };
 
 /// Writes one file. If writing fails, the old file stays.
-void write_file(const std::filesystem::path& path, const Outputs::Writer& writer);
+void write_file(const std::filesystem::path& path, const Outputs::Writer& writer, Readers readers = Readers::as_usual);
 
 }  // namespace chainmail

@@ -18,4 +18,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// From now on, a signal that ends the program (SIGINT, SIGTERM, SIGHUP) removes its temporary folders first. For the
+/// main function of a program; a library must leave signals alone.
+void remove_folders_on_signals();
+
 }  // namespace chainmail
