@@ -119,6 +119,11 @@ void SolverThread::abandon() {
   abandoned_ = work_.cancelled = true;
 }
 
+void SolverThread::go_on() {
+  const std::lock_guard lock(mutex_);
+  abandoned_ = false;
+}
+
 std::string SolverThread::take_error() {
   const std::lock_guard lock(mutex_);
   return std::exchange(error_, {});

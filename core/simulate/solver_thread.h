@@ -42,6 +42,8 @@ class SolverThread {
   /// Ends the running pass or sweep as soon as possible, and drops posted ones. Remaining questions are answered for
   /// the object in that state. Call this when the window closes.
   void abandon();
+  /// Takes abandon() back, because the window stays open.
+  void go_on();
   /// Names the element that the next drag will probably grab, if any. Its drag is prepared when the solver has had
   /// nothing to do for a while, and again after commands. A command, a question or another element ends a preparation
   /// at once.

@@ -12,6 +12,7 @@ struct Jobs::Job {
   Kind kind;
   std::string text;
   JobState state;
+  QString replaces;  // a sentence about the computation that it has cancelled
   // Written by the thread before it sets `done`; read by the window after that.
   Finish finish;
   std::string error;
@@ -27,10 +28,14 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
         QStringLiteral("%1: another job, '%2', is still running; wait until it ends, or cancel it").arg(text, text_));
     return;
   }
+  const QString replaces = running() && current_->kind == Kind::compute
+                               ? QStringLiteral("'%1' ended without a result, because '%2' began").arg(text_, text)
+                               : QString();
   cancel();
   try {
     const auto job = std::make_shared<Job>();
     job->kind = kind;
+    job->replaces = replaces;
     job->text = text.toStdString();
     // A cancelled job may still run: two at a time would slow each other down. The thread waits for it, the window does
     // not.
@@ -47,13 +52,14 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
 void Jobs::cancel() {
   if (running()) {
     current_->state.cancelled = true;
-    current_.reset();
+    const auto job = std::exchange(current_, nullptr);
     emit changed();
+    announceReplaced(*job);
   }
 }
 
 void Jobs::close() {
-  if (running() && current_->kind == Kind::load) {
+  if (running() && current_->kind != Kind::save) {
     cancel();
   }
 }
@@ -87,6 +93,14 @@ void Jobs::receive() {
   }
   if (!job->error.empty()) {
     emit failed(QString::fromStdString(job->error));
+  }
+  announceReplaced(*job);
+}
+
+/// Says which computation a job has cancelled. Called at its end: opening an object removes older messages.
+void Jobs::announceReplaced(const Job& job) {
+  if (!job.replaces.isEmpty()) {
+    emit replaced(job.replaces);
   }
 }
 

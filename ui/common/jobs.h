@@ -17,7 +17,8 @@ class Jobs : public QObject {
   Q_OBJECT
 
  public:
-  enum class Kind { load, save };
+  /// A job that opens something; one whose result took long to compute; one that writes a file.
+  enum class Kind { load, compute, save };
   /// Runs in the GUI thread when the work is done. If it throws, the job has failed.
   using Finish = std::function<void()>;
   /// Runs on the thread of the jobs and must not access the window. Its exceptions become the sentence of
@@ -27,11 +28,12 @@ class Jobs : public QObject {
   Jobs() = default;
   ~Jobs() override;
 
-  /// Starts a job. A load job cancels a running load job. If the new or the running job is a save job, the new
-  /// job is refused and failed() is emitted, so that no work is lost. The same if the system starts no thread for it.
+  /// Starts a job. It cancels a running job, and replaced() says so if that was to compute something. If the new or the
+  /// running job is a save job, the new job is refused and failed() is emitted, so that no work is lost. The same if
+  /// the system starts no thread for it.
   void start(Kind kind, const QString& text, Work work);
   void cancel();
-  /// Call this when the window closes. Cancels a load job; a save job still finishes.
+  /// Call this when the window closes. Cancels a job; a save job still finishes.
   void close();
 
   bool running() const { return current_ != nullptr; }
@@ -44,12 +46,15 @@ class Jobs : public QObject {
   void changed();
   /// Emitted when a job fails; `sentence` says why.
   void failed(const QString& sentence);
+  /// Emitted when a job has ended that had cancelled a computation; `sentence` names both.
+  void replaced(const QString& sentence);
 
  private:
   struct Job;
 
   void run(Job& job, const Work& work);
   void receive();
+  void announceReplaced(const Job& job);
 
   QString text_;
   std::shared_ptr<Job> current_;  // shared with the thread

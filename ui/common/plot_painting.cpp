@@ -1,7 +1,7 @@
 #include "common/plot_painting.h"
 
+#include <QBuffer>
 #include <QPdfWriter>
-#include <QSaveFile>
 #include <QSvgGenerator>
 #include <QSvgRenderer>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "common/colours.h"
 #include "common/text.h"
 #include "common/theme.h"
-#include "mesh/error.h"
+#include "common/write_bytes.h"
 #include "report/page/looks.h"
 
 namespace chainmail {
@@ -387,13 +387,11 @@ QStringList plotFilters() {
 }
 
 void savePlot(const report::Plot& plot, const QString& path) {
-  QSaveFile file(path);
   const auto endsIn = [&path](const char* ending) { return path.endsWith(QLatin1String(ending), Qt::CaseInsensitive); };
   const auto write = endsIn(".pdf") ? writePdf : endsIn(".svg") ? writeSvg : writePng;
-  if (!file.open(QIODevice::WriteOnly) || !write(file, plot) || !file.commit()) {
-    throw Error(path.toStdString(), "the picture could not be written (" + file.errorString().toStdString() + ")",
-                "choose another folder");
-  }
+  QBuffer buffer;
+  buffer.open(QIODevice::WriteOnly);
+  writeBytes(path, write(buffer, plot) ? buffer.data() : QByteArray());
 }
 
 }  // namespace chainmail

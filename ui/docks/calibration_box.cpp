@@ -109,7 +109,7 @@ void CalibrationBox::start() {
   options.scheme = document_.relaxation().scheme;
   options.energy = document_.wholeSoftness()->energy;
   jobs_.start(
-      Jobs::Kind::load, QStringLiteral("Calibrating softness"),
+      Jobs::Kind::compute, QStringLiteral("Calibrating softness"),
       [this, options, mesh = document_.mesh(), cuts = document_.cuts()](const Progress& progress) -> Jobs::Finish {
         const CalibrationResult result = calibrate(mesh, cuts, options, progress);
         return [this, result, options, mesh] {

@@ -1,5 +1,6 @@
 #include "docks/preset_store.h"
 
+#include <QLockFile>
 #include <QSettings>
 #include <algorithm>
 #include <sstream>
@@ -12,7 +13,18 @@
 namespace chainmail {
 namespace {
 
+constexpr int lockMilliseconds = 5000;
+
 QString key() { return QStringLiteral("softnessPresets"); }
+
+/// Returns a key for text that cannot be read, which no text has.
+QString keyOfDamaged(const QSettings& settings) {
+  int number = 1;
+  while (settings.contains(key() + QStringLiteral("Damaged%1").arg(number))) {
+    ++number;
+  }
+  return key() + QStringLiteral("Damaged%1").arg(number);
+}
 
 bool isBuiltIn(const std::string& name) {
   return std::ranges::any_of(built_in_presets(), [&](const BuiltInPreset& one) { return one.name == name; });
@@ -46,6 +58,29 @@ void PresetStore::load() {
   }
 }
 
+/// Changes the presets while no other window does.
+template <class Edit>
+void PresetStore::change(Edit edit) {
+  QLockFile lock(QSettings().fileName() + QStringLiteral(".presets.lock"));
+  if (!lock.tryLock(lockMilliseconds)) {
+    throw Error("presets", "another window is changing them", "try again");
+  }
+  refresh();
+  edit();
+  keep();
+}
+
+/// Reads what another window may have changed.
+void PresetStore::refresh() {
+  QSettings settings;
+  settings.sync();
+  try {
+    load();
+  } catch (const Error&) {
+    settings.setValue(keyOfDamaged(settings), settings.value(key()));
+  }
+}
+
 void PresetStore::check(const std::string& name) const {
   const std::string where = "preset '" + name + "'";
   if (const std::string fault = fault_of_name(name); !fault.empty()) {
@@ -64,13 +99,14 @@ void PresetStore::checkRoom(std::size_t present) {
 
 void PresetStore::save(const SoftnessPreset& preset) {
   check(preset.name);
-  if (const auto there = find(own_, preset.name); there != own_.end()) {
-    *there = preset;
-  } else {
-    checkRoom(own_.size());
-    own_.push_back(preset);
-  }
-  keep();
+  change([&] {
+    if (const auto there = find(own_, preset.name); there != own_.end()) {
+      *there = preset;
+    } else {
+      checkRoom(own_.size());
+      own_.push_back(preset);
+    }
+  });
 }
 
 void PresetStore::rename(const std::string& name, const std::string& to) {
@@ -78,30 +114,37 @@ void PresetStore::rename(const std::string& name, const std::string& to) {
     return;
   }
   check(to);
-  if (find(own_, to) != own_.end()) {
-    throw Error("preset '" + to + "'", "another preset has this name", "choose another name");
-  }
-  find(own_, name)->name = to;
-  keep();
+  change([&] {
+    if (find(own_, to) != own_.end()) {
+      throw Error("preset '" + to + "'", "another preset has this name", "choose another name");
+    }
+    const auto there = find(own_, name);
+    if (there == own_.end()) {
+      throw Error("preset '" + name + "'", "another window has removed it", "save it again under the new name");
+    }
+    there->name = to;
+  });
 }
 
 void PresetStore::remove(const std::string& name) {
-  own_.erase(find(own_, name));
-  keep();
+  change([&] { std::erase_if(own_, [&](const SoftnessPreset& preset) { return preset.name == name; }); });
 }
 
 std::size_t PresetStore::addFrom(const QString& path) {
-  std::vector<SoftnessPreset> all = own_;
-  for (SoftnessPreset& preset : read_presets(asPath(path))) {
-    if (std::ranges::find(all, preset) == all.end()) {
-      checkRoom(all.size());
-      preset.name = freeName(all, preset.name);
-      all.push_back(std::move(preset));
+  std::vector<SoftnessPreset> presets = read_presets(asPath(path));
+  std::size_t added = 0;
+  change([&] {
+    std::vector<SoftnessPreset> all = own_;
+    for (SoftnessPreset& preset : presets) {
+      if (std::ranges::find(all, preset) == all.end()) {
+        checkRoom(all.size());
+        preset.name = freeName(all, preset.name);
+        all.push_back(std::move(preset));
+      }
     }
-  }
-  const std::size_t added = all.size() - own_.size();
-  own_ = std::move(all);
-  keep();
+    added = all.size() - own_.size();
+    own_ = std::move(all);
+  });
   return added;
 }
 

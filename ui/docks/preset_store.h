@@ -7,13 +7,15 @@
 
 namespace chainmail {
 
-/// The user's softness presets, stored in the settings. Names are unique and differ from those of built-in presets.
-/// Functions throw Error if they fail.
+/// The user's softness presets, stored in the settings, which all windows share: each change is made to the presets as
+/// another window has left them. Names are unique and differ from those of built-in presets. Functions throw Error if
+/// they fail.
 class PresetStore {
  public:
   const std::vector<SoftnessPreset>& own() const { return own_; }
 
-  /// Reads the settings. Throws if they are damaged; then there are no presets.
+  /// Reads the settings. Throws if they are damaged; then there are no presets. The next change keeps the damaged text
+  /// in the settings beside the new one.
   void load();
   /// Adds a preset, or replaces the user's preset of this name.
   void save(const SoftnessPreset& preset);
@@ -26,6 +28,9 @@ class PresetStore {
   void writeTo(const QString& path) const;
 
  private:
+  template <class Edit>
+  void change(Edit edit);
+  void refresh();
   void check(const std::string& name) const;
   /// Throws Error if there are limits::presets already.
   static void checkRoom(std::size_t present);

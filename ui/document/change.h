@@ -14,6 +14,14 @@ namespace chainmail {
 
 struct Session;
 
+/// The settings that a lesson replaces while it is open.
+struct SettingsBefore {
+  std::shared_ptr<const Softness> softness;
+  commands::SetRelaxation relaxation;
+  ElasticOptions elastic;
+  std::vector<Algorithm> algorithms;  // one per panel
+};
+
 /// The object of a document without its positions. Cuts and pins change in place, so the time for a change depends on
 /// the size of the change, not of the object.
 struct DocumentObject {
@@ -24,9 +32,10 @@ struct DocumentObject {
   MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
   Cuts cuts;
-  Parts parts;                                 // connected parts of the object with these cuts
-  std::vector<ElementId> pins;                 // ascending
-  std::shared_ptr<const Session> lesson = {};  // the session that it was opened from, if that is a lesson
+  Parts parts;                                        // connected parts of the object with these cuts
+  std::vector<ElementId> pins;                        // ascending
+  std::shared_ptr<const Session> lesson = {};         // the session that it was opened from, if that is a lesson
+  std::shared_ptr<const SettingsBefore> before = {};  // of a lesson
 };
 
 /// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not

@@ -485,16 +485,49 @@ void Document::resetObject() {
   apply(std::move(edit));
 }
 
-void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
+/// Returns the user's settings: during a lesson, those from before it.
+std::shared_ptr<const SettingsBefore> Document::ownSettings() const {
+  if (contents_.object->before) {
+    return contents_.object->before;
+  }
+  const auto& algorithms = contents_.algorithms;
+  return std::make_shared<const SettingsBefore>(
+      SettingsBefore{contents_.softness, contents_.relaxation, contents_.elastic,
+                     std::vector(algorithms.begin(), algorithms.begin() + panels())});
+}
+
+/// The object after a lesson gets the user's settings, not those of the lesson.
+void Document::takeOwnSettings(Contents& after) const {
+  const auto own = ownSettings();
+  after.softness = own->softness;
+  after.relaxation = own->relaxation;
+  after.elastic = own->elastic;
+  for (std::size_t panel = 0; panel < std::min(own->algorithms.size(), solvers_.size()); ++panel) {
+    after.algorithms[panel] = own->algorithms[panel];
+  }
+}
+
+Change Document::meshChange(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) const {
   requireMemoryFor(*mesh);
   Change edit = change(text);
+  takeOwnSettings(edit.after);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
-  Softness carried = kept_for(*mesh, *wholeSoftness());
+  Softness carried = kept_for(*mesh, *edit.after.softness);
   carried.links = std::move(own);
-  if (carried != *wholeSoftness()) {
+  if (carried != *edit.after.softness) {
     edit.after.softness = std::make_shared<const Softness>(std::move(carried));
   }
+  return edit;
+}
+
+void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
+  Change edit = meshChange(mesh, name, text, std::move(own));
+  edit.sessionFile = QString();
   apply(std::move(edit));
+}
+
+void Document::reworkMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
+  apply(meshChange(mesh, name, text, std::move(own)));
 }
 
 void Document::restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text) {
@@ -503,7 +536,10 @@ void Document::restore(const std::shared_ptr<const Session>& session, const QStr
   auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
   object->parts.cut(object->cuts, session->cuts);
   object->pins = session->pins;
-  object->lesson = session->lesson.steps.empty() ? nullptr : session;
+  if (!session->lesson.steps.empty()) {
+    object->lesson = session;
+    object->before = ownSettings();
+  }
   object->unsplit = first_mesh(*session);
   edit.after.object = std::move(object);
   edit.after.softness = session->softness;
@@ -705,6 +741,12 @@ void Document::abandonMoves(std::chrono::milliseconds patience) {
   }
   for (const auto& solver : solvers_) {
     solver->abandon();
+  }
+}
+
+void Document::goOn() {
+  for (const auto& solver : solvers_) {
+    solver->go_on();
   }
 }
 

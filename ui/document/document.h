@@ -101,6 +101,8 @@ class Document : public QObject {
   bool settled() const;
   /// Call this when the window closes. Waits up to `patience` for posted moves, then skips the rest.
   void abandonMoves(std::chrono::milliseconds patience = {});
+  /// Call this if the window stays open after all.
+  void goOn();
 
   // The handle. Targets are in mesh units. A drag, from grab() to release(), becomes one undo step if anything moved.
 
@@ -180,9 +182,11 @@ class Document : public QObject {
   /// Splits faces of the object, and cuts links of the object before the split.
   void split(const SplitPointer& split, const std::vector<LinkId>& cut = {});
   void resetObject();
-  /// Replaces the object. `own` contains the softness of links that have their own. Throws Error if there is too little
-  /// memory to work with it; nothing has changed then.
+  /// Opens another object: a new document, which has no file yet. `own` contains the softness of links that have their
+  /// own. Throws Error if there is too little memory to work with it; nothing has changed then.
   void replaceMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});
+  /// Replaces the mesh of the same object, for example with a repaired one. Otherwise as replaceMesh().
+  void reworkMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own = {});
   /// Opens a session, unless there is too little memory as for replaceMesh(). A panel that the session does not have
   /// shows the object of the session's first panel and keeps its algorithm if possible.
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
@@ -237,6 +241,9 @@ class Document : public QObject {
   class Edit;  // a command of the undo stack
 
   // Apply changes to the solvers and the contents.
+  std::shared_ptr<const SettingsBefore> ownSettings() const;
+  void takeOwnSettings(Contents& after) const;
+  Change meshChange(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) const;
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
   void carryOut(const Change& change, const Contents& before);
   void postSettings(const Contents& from, const Contents& to, bool neutral);

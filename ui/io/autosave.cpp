@@ -4,6 +4,8 @@
 #include <QFile>
 #include <algorithm>
 #include <atomic>
+#include <future>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +25,7 @@ using std::chrono::milliseconds;
 
 // Longest time from a change to the written file: the wait and, at worst, two writes.
 constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
-constexpr milliseconds waitAfterFailure(10'000);
+constexpr milliseconds shortestRetry(10'000), longestRetry(300'000);
 
 /// Returns the memory that writing the work takes at most: the positions of all panels, those of one panel up to four
 /// times as they are collected for the file, and some for the rest.
@@ -87,11 +89,18 @@ Autosave::~Autosave() {
   }
 }
 
-void Autosave::discardAll(std::vector<Adopted>& adopted) {
-  for (const Adopted& work : adopted) {
+std::vector<Autosave::Adopted> Autosave::takeAdopted(const MeshPointer& mesh) {
+  const auto taken =
+      std::ranges::stable_partition(adopted_, [&](const Adopted& work) { return work.mesh.lock() != mesh; });
+  std::vector<Adopted> result(std::make_move_iterator(taken.begin()), std::make_move_iterator(taken.end()));
+  adopted_.erase(taken.begin(), taken.end());
+  return result;
+}
+
+void Autosave::discardAdopted(const MeshPointer& mesh) {
+  for (const Adopted& work : takeAdopted(mesh)) {
     unsaved_work::discard(work.path);
   }
-  adopted.clear();
 }
 
 void Autosave::cancelWriting() {
@@ -115,29 +124,52 @@ void Autosave::run(TaskThread::Task task) {
   }
 }
 
-void Autosave::keep() {
-  closed_ = true;
+QString Autosave::keep() {
+  const bool isKept = std::exchange(closed_, true);
   timer_.stop();
-  if (!document_.isModified()) {
-    return;
+  if (isKept || !document_.isModified()) {
+    return {};
   }
   keeps_ = true;  // before anything can fail: then the files of the last writing stay
   cancelWriting();
   memory_.release();
-  const auto adopted = std::make_shared<std::vector<Adopted>>(std::move(adopted_));
-  run([path = path_, adopted, draft = SessionDraft(document_, look_.read())] {
-    try {
-      save_session(asPath(path), draft.finished({}), {});
-      unsaved_work::discardObjects(path);
-      discardAll(*adopted);
-    } catch (...) {
-      // The window is gone, so nothing can be reported. The files of the last writing stay.
-    }
-    if (QFile::exists(path)) {
-      QFile::rename(path, unsaved_work::closedPath(path));
-      unsaved_work::discardOldest();
-    }
-  });
+  std::promise<std::string> failure;
+  std::future<std::string> known = failure.get_future();
+  try {
+    run([&failure, path = path_, draft = SessionDraft(document_, look_.read())] {
+      failure.set_value(keepAs(path, draft));
+    });
+  } catch (...) {  // no memory for the draft
+    failure.set_value(failure_sentence("unsaved work"));
+  }
+  const QString sentence = QString::fromStdString(known.get());
+  if (sentence.isEmpty()) {
+    discardAdopted(document_.unsplitMesh());
+  } else {
+    goOn();
+  }
+  return sentence;
+}
+
+/// Writes the work of a closed window. Returns why it failed, or an empty text.
+std::string Autosave::keepAs(const QString& path, const SessionDraft& draft) {
+  try {
+    save_session(asPath(path), draft.finished({}), {}, Readers::owner);
+    unsaved_work::discardObjects(path);
+    QFile::rename(path, unsaved_work::closedPath(path));
+    return {};
+  } catch (...) {
+    return failure_sentence("unsaved work");
+  }
+}
+
+/// Saves automatically again, because the window stays open.
+void Autosave::goOn() {
+  closed_ = keeps_ = false;
+  writing_.reset();
+  saved_ = {};
+  holdMemory();
+  timer_.start();
 }
 
 bool Autosave::setAside() {
@@ -147,7 +179,7 @@ bool Autosave::setAside() {
   const QString path = unsaved_work::closedPath(unsaved_work::newPath());
   run([path, draft = SessionDraft(document_, look_.read())] {
     try {
-      save_session(asPath(path), draft.finished({}), {});
+      save_session(asPath(path), draft.finished({}), {}, Readers::owner);
       unsaved_work::discardOldest();
     } catch (...) {
       // The work can still be undone; automatic saving reports a full disk.
@@ -186,9 +218,20 @@ void Autosave::holdMemory() {
   lacksMemory_ = !isHeld;
 }
 
-void Autosave::reportFailure(const QString& sentence) {
-  if (std::exchange(failure_, sentence) != sentence) {
+void Autosave::retryLater(const QString& sentence) {
+  saved_ = {};
+  timer_.start(std::min(longestRetry, shortestRetry * (1 << std::min(failures_++, 10))));
+  if (!sentence.isEmpty() && failure_ != sentence) {
+    reportSuccess();
+    failure_ = sentence;
     emit failed(sentence);
+  }
+  holdMemory();
+}
+
+void Autosave::reportSuccess() {
+  if (const QString over = std::exchange(failure_, {}); !over.isEmpty()) {
+    emit recovered(over);
   }
 }
 
@@ -203,7 +246,7 @@ Autosave::Object Autosave::withObject(const QString& path, const Session& sessio
     alone.mesh = mesh;
     alone.panels.emplace_back();
     save_session(asPath(QDir(unsaved_work::folder()).filePath(unsaved_work::objectName(path, object.number))), alone,
-                 progress);
+                 progress, Readers::owner);
   }
   return object;
 }
@@ -256,10 +299,7 @@ void Autosave::save() {
   try {
     startWriting();
   } catch (...) {  // no memory for the draft
-    saved_ = {};
-    timer_.start(waitAfterFailure);
-    reportFailure(QString::fromStdString(failedSentence()));
-    holdMemory();
+    retryLater(QString::fromStdString(failedSentence()));
   }
 }
 
@@ -300,7 +340,7 @@ Autosave::Object Autosave::writeFiles(Session session, const Object& object, con
   Object written = withObject(path_, session, object, progress.part(0, 0.5));
   const QString name = unsaved_work::objectName(path_, written.number);
   session.mesh_file = name.toStdString();
-  save_session(asPath(path_), session, progress.part(0.5, 1));
+  save_session(asPath(path_), session, progress.part(0.5, 1), Readers::owner);
   unsaved_work::discardObjects(path_, name);
   return written;
 }
@@ -329,17 +369,12 @@ void Autosave::receive() {
   const auto written = std::exchange(writing_, nullptr);
   object_ = written->object;
   if (!written->isWritten) {
-    saved_ = {};
-    timer_.start(waitAfterFailure);
-    if (!written->error.empty()) {
-      reportFailure(QString::fromStdString(written->error));
-    }
-    holdMemory();
+    retryLater(QString::fromStdString(written->error));
     return;
   }
-  failure_.clear();
+  failures_ = 0;
+  reportSuccess();
   hasPositions_ = true;
-  discardAll(adopted_);
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
   timer_.setInterval(std::clamp(mostBehind - 2 * took, shortestWait, longestWait));
   if (changed_) {
@@ -348,8 +383,8 @@ void Autosave::receive() {
   holdMemory();
 }
 
-void Autosave::adopt(const QString& path, std::unique_ptr<QLockFile> lock) {
-  adopted_.push_back({path, std::move(lock)});
+void Autosave::adopt(const QString& path, std::unique_ptr<QLockFile> lock, const MeshPointer& mesh) {
+  adopted_.push_back({path, std::move(lock), mesh});
 }
 
 void Autosave::remove() {
@@ -357,7 +392,8 @@ void Autosave::remove() {
   saved_ = {};
   object_ = {};
   hasPositions_ = false;
-  discardAll(adopted_);
+  failures_ = 0;
+  reportSuccess();
 }
 
 }  // namespace chainmail

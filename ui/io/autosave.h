@@ -27,13 +27,14 @@ struct LookAccess {
 };
 
 /// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file
-/// of its own, which stays until another object is open. Each file is written completely or not at all. A lock shows
-/// whether the program still runs or has crashed. The files are removed once the user has saved the work. The window's
-/// look is part of the work, but a change of the look alone is not saved.
+/// of its own, which stays until another object is open. Each file is written completely or not at all, and only the
+/// user may read it. A lock shows whether the program still runs or has crashed. The files are removed once the user
+/// has saved the work. The window's look is part of the work, but a change of the look alone is not saved.
 ///
 /// One thread writes, from the start to the end: when the system has no more threads, this one is there. The memory
-/// that a writing takes is held in between. If a writing fails nevertheless, it is tried again some seconds later, and
-/// earlier files stay. After each failure that the application reports, the work is written at once.
+/// that a writing takes is held in between. If a writing fails nevertheless, earlier files stay, and it is tried again
+/// after 10 s, 20 s and so on, up to five minutes. After each failure that the application reports, the work is written
+/// at once.
 class Autosave : public QObject {
   Q_OBJECT
 
@@ -42,20 +43,26 @@ class Autosave : public QObject {
   /// Removes the files, unless keep() was called.
   ~Autosave() override;
 
-  /// Keeps unsaved work for the next start. Call it when the window closes; later changes are not saved. Writing runs
-  /// in the background, and the destructor waits for it.
-  void keep();
+  /// Keeps unsaved work for the next start, and waits until it is written. Call it when the window closes; later
+  /// changes are not saved. Returns why the work could not be written, as a sentence; otherwise an empty text. After a
+  /// failure the window may stay open, and saving goes on.
+  QString keep();
 
   /// Keeps unsaved work for the next start, because another object is about to replace it. Writing runs in the
   /// background. Returns false if there is none.
   bool setAside();
 
-  /// Takes over work that this window has restored. Its files are removed when this window has saved it again.
-  void adopt(const QString& path, std::unique_ptr<QLockFile> lock);
+  /// Takes over the lock of work that this window has restored. Its files stay, whatever happens to this window, until
+  /// the user has saved an object that comes from `mesh`, or the window keeps one when it closes.
+  void adopt(const QString& path, std::unique_ptr<QLockFile> lock, const MeshPointer& mesh);
+  /// Removes restored work whose object comes from `mesh`, because the user has saved it.
+  void discardAdopted(const MeshPointer& mesh);
 
  signals:
   /// Emitted when saving fails; `sentence` says why. While it fails again for the same reason, there is no other.
   void failed(const QString& sentence);
+  /// Emitted when `sentence` of failed() is no longer true: saving works again.
+  void recovered(const QString& sentence);
 
  private:
   struct Writing;
@@ -67,6 +74,7 @@ class Autosave : public QObject {
   struct Adopted {
     QString path;
     std::unique_ptr<QLockFile> lock;
+    std::weak_ptr<const Mesh> mesh;
   };
   /// Identifies a state of the work.
   struct Mark {
@@ -78,7 +86,7 @@ class Autosave : public QObject {
   };
 
   static Object withObject(const QString& path, const Session& session, Object object, const Progress& progress);
-  static void discardAll(std::vector<Adopted>& adopted);
+  std::vector<Adopted> takeAdopted(const MeshPointer& mesh);
   void listen();
   void noticeChange();
   void save();
@@ -86,7 +94,8 @@ class Autosave : public QObject {
   void takeUnannounced();
   void saveSoon();
   void receive();
-  void reportFailure(const QString& sentence);
+  void retryLater(const QString& sentence);
+  void reportSuccess();
   void remove();
   void cancelWriting();
   void run(TaskThread::Task task);
@@ -94,6 +103,8 @@ class Autosave : public QObject {
   Object writeFiles(Session session, const Object& object, const Progress& progress) const;
   std::string writeMoves(Writing& writing, const SessionDraft& draft, const Progress& progress) const;
   void holdMemory();
+  static std::string keepAs(const QString& path, const SessionDraft& draft);
+  void goOn();
   Mark mark() const;
 
   Document& document_;
@@ -109,6 +120,7 @@ class Autosave : public QObject {
   bool keeps_ = false;         // the files stay when this ends
   bool changed_ = false;       // true if the work changed during writing
   QString failure_;            // the last sentence of failed(); empty after a writing that did not fail
+  int failures_ = 0;           // in a row
   bool closed_ = false;        // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread

@@ -19,6 +19,7 @@
 #include "files/session/session.h"
 #include "io/mesh_repair.h"
 #include "io/picture_file.h"
+#include "io/questions.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
@@ -109,7 +110,16 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::saved, this, &FileActions::saved);
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
+  connect(&sessions_, &Sessions::recovered, this, &FileActions::recovered);
   connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
+  connect(&sessions_, &Sessions::notReplaceable, this, [this](const QString& path, const QString& why) {
+    const OverwriteAnswer answer = askToWriteInPlace(window_, path, why);
+    if (answer == OverwriteAnswer::overwrite) {
+      sessions_.savePath(path, true);
+    } else if (answer == OverwriteAnswer::save_as) {
+      saveSessionAs();
+    }
+  });
   connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
   connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
     remember(path);
@@ -136,8 +146,8 @@ void FileActions::fill(QMenu& menu) {
 void FileActions::fill(QToolBar& bar) const { bar.addActions({open_, save_}); }
 
 void FileActions::addSaveActions(QMenu& menu) {
-  const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key,
-                                 void (FileActions::*act)(), const QString& help) {
+  const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key, auto act,
+                                 const QString& help) {
     auto* action = menu.addAction(text, key, this, act);
     action->setObjectName(QLatin1String(name));
     action->setStatusTip(help);
@@ -156,20 +166,26 @@ void FileActions::addSaveActions(QMenu& menu) {
 }
 
 void FileActions::saveSession() {
-  if (document_.sessionFile().isEmpty()) {
+  const QString path = document_.sessionFile();
+  OverwriteAnswer answer = path.isEmpty() ? OverwriteAnswer::save_as : OverwriteAnswer::overwrite;
+  if (!path.isEmpty() && sessions_.isChangedOutside(path)) {
+    answer = askBeforeOverwriting(window_, path);
+  }
+  if (answer == OverwriteAnswer::overwrite) {
+    sessions_.savePath(path);
+  } else if (answer == OverwriteAnswer::save_as) {
     saveSessionAs();
-  } else {
-    sessions_.savePath(document_.sessionFile());
   }
 }
 
-void FileActions::saveSessionAs() {
+bool FileActions::saveSessionAs() {
   const QString path = askWhere(
       window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
       asFileName(document_.sessionFile().isEmpty() ? document_.name() : QFileInfo(document_.sessionFile()).fileName()));
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
+  return !path.isEmpty();
 }
 
 void FileActions::addShapeActions(QMenu& menu) {

@@ -32,9 +32,11 @@ class FileActions : public QObject {
   Volumes& volumes() { return *volumes_; }
   MeshRepair& repair() { return *repair_; }
   void open();
-  /// Saves the session to its file; asks for one if there is none yet.
+  /// Saves the session to its file. Asks for one if there is none yet, and before it overwrites what another program
+  /// has written to it.
   void saveSession();
-  void saveSessionAs();
+  /// Asks for a file, and saves the session to it. Returns false if the user cancels.
+  bool saveSessionAs();
   /// Opens a session (recognized by its extension), or a mesh, volume or picture (recognized by content). The first
   /// object of a window is not an undo step.
   void openPath(const QString& path, bool first = false);
@@ -48,6 +50,8 @@ class FileActions : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  /// Emitted when `sentence` of failed() is no longer true.
+  void recovered(const QString& sentence);
   /// Emitted with a sentence that describes the opened object.
   void noted(const QString& sentence);
   void saved(const QString& path);

@@ -5,7 +5,10 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QWidget>
+#include <filesystem>
+#include <system_error>
 
+#include "common/as_path.h"
 #include "io/pictures.h"
 #include "mesh/failure.h"
 
@@ -20,6 +23,13 @@ QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffm
 
 QString pictureName(std::size_t number) {
   return QStringLiteral("move-%1.png").arg(qulonglong(number), 6, 10, QLatin1Char('0'));
+}
+
+/// Moves a whole file to its place. The file that is there stays if this fails.
+bool replaces(const QString& made, const QString& target) {
+  std::error_code error;
+  std::filesystem::rename(asPath(made), asPath(target), error);
+  return !error;
 }
 
 }  // namespace
@@ -153,9 +163,8 @@ void Film::finish() {
 /// Moves all pictures into the folder. Replaces the pictures of an earlier film.
 void Film::finishPictures() {
   for (std::size_t number = 1; number <= positions_.size() && !unwritten_; ++number) {
-    const QString name = pictureName(number), target = QDir(path_).filePath(name);
-    QFile::remove(target);
-    unwritten_ = !QFile::rename(folder_->filePath(name), target);
+    const QString name = pictureName(number);
+    unwritten_ = !replaces(folder_->filePath(name), QDir(path_).filePath(name));
   }
   if (unwritten_) {
     fail(QStringLiteral("%1: a picture could not be written; check the free disk space").arg(path_));
@@ -172,7 +181,7 @@ void Film::endVideo() {
   const QString made = folder_->filePath(QFileInfo(path_).fileName());
   const bool whole =
       next_ == positions_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0;
-  if (whole && (!QFile::exists(path_) || QFile::remove(path_)) && QFile::rename(made, path_)) {
+  if (whole && replaces(made, path_)) {
     end();
     emit saved(path_);
     return;

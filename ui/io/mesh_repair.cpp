@@ -127,7 +127,7 @@ void MeshRepair::showNext() {
 void MeshRepair::start(const QString& doing, const QString& step, const Repair& repair) {
   const QString name = document_.name();
   jobs_.start(
-      Jobs::Kind::load, QStringLiteral("%1 of %2").arg(doing, name),
+      Jobs::Kind::compute, QStringLiteral("%1 of %2").arg(doing, name),
       [this, name, step, repair, mesh = document_.mesh(),
        softness = document_.wholeSoftness()](const Progress& progress) -> Jobs::Finish {
         try {
@@ -141,7 +141,7 @@ void MeshRepair::start(const QString& doing, const QString& step, const Repair& 
               return;
             }
             remember(repaired.mesh, defects);
-            document_.replaceMesh(repaired.mesh, name, step, own);
+            document_.reworkMesh(repaired.mesh, name, step, own);
           };
         } catch (const Error& error) {
           throw error.at(name.toStdString());

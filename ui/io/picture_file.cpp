@@ -5,10 +5,10 @@
 #include <QImageReader>
 #include <QImageWriter>
 #include <QPainter>
-#include <QSaveFile>
 #include <array>
 
 #include "common/as_path.h"
+#include "common/write_bytes.h"
 #include "files/formats/bare_picture.h"
 #include "files/mesh/warp.h"
 #include "files/text/regular_file.h"
@@ -147,22 +147,18 @@ void writePictureFile(const QString& path, const Texture& picture, const Progres
     failPicture(path, QStringLiteral("its ending is unknown"), "use .png or .jpg");
   }
   const QImage image = asImage(picture);
-  QSaveFile file(path);
-  QImageWriter writer(&file, jpeg ? "jpeg" : "png");
+  QBuffer buffer;
+  buffer.open(QIODevice::WriteOnly);
+  QImageWriter writer(&buffer, jpeg ? "jpeg" : "png");
   if (jpeg) {
     writer.setQuality(jpegQuality);
   }
   progress.report(0.2);
-  if (!file.open(QIODevice::WriteOnly) || !writer.write(jpeg ? opaque(image) : image)) {
-    const QString why = file.error() != QFileDevice::NoError ? file.errorString() : writer.errorString();
-    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(why),
-                "choose another folder, or PNG");
+  if (!writer.write(jpeg ? opaque(image) : image)) {
+    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(writer.errorString()), "choose PNG");
   }
   progress.report(1);
-  if (!file.commit()) {
-    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(file.errorString()),
-                "choose another folder");
-  }
+  writeBytes(path, buffer.data());
 }
 
 }  // namespace chainmail

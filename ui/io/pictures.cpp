@@ -3,11 +3,11 @@
 #include <QBuffer>
 #include <QPainter>
 #include <QPdfWriter>
-#include <QSaveFile>
 #include <QSvgGenerator>
 #include <QWidget>
 
 #include "common/colours.h"
+#include "common/write_bytes.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
@@ -77,15 +77,6 @@ QByteArray asPdf(const Drawing& drawing) {
   return buffer.data();
 }
 
-void writeBytes(const QString& path, const QByteArray& bytes) {
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
-    throw Error(path.toStdString(),
-                QStringLiteral("the picture could not be written (%1)").arg(file.errorString()).toStdString(),
-                "choose another folder");
-  }
-}
-
 }  // namespace
 
 QImage pictureOf(QWidget& widget, double scale, bool transparent) {
@@ -142,8 +133,7 @@ bool isDrawing(const QString& path) {
 void writePicture(const QString& path, const QImage& image) {
   QBuffer buffer;
   buffer.open(QIODevice::WriteOnly);
-  image.save(&buffer, "PNG");
-  writeBytes(path, buffer.data());
+  writeBytes(path, image.save(&buffer, "PNG") ? buffer.data() : QByteArray());
 }
 
 void writeDrawing(const QString& path, const Drawing& drawing) {

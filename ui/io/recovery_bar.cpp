@@ -1,7 +1,7 @@
 #include "io/recovery_bar.h"
 
 #include <QDateTime>
-#include <QDir>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QPushButton>
@@ -47,14 +47,12 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
 }
 
 void RecoveryBar::offer() {
-  const QDir folder(unsaved_work::folder());
   unsaved_work::discardLeftovers();
-  for (const QFileInfo& file :
-       folder.entryInfoList({QStringLiteral("*.chainmail")}, QDir::Files, QDir::Time | QDir::Reversed)) {
-    auto lock = std::make_unique<QLockFile>(unsaved_work::lockOf(file.filePath()));
+  for (const QString& path : unsaved_work::all()) {
+    auto lock = std::make_unique<QLockFile>(unsaved_work::lockOf(path));
     lock->setStaleLockTime(0);  // locks of running programs never become stale
     if (lock->tryLock()) {
-      found_.push_back({file.filePath(), std::move(lock)});
+      found_.push_back({path, std::move(lock)});
     }
   }
   show();
@@ -76,6 +74,11 @@ void RecoveryBar::show() {
 void RecoveryBar::discard() {
   unsaved_work::discard(found_.back().path);
   take();
+}
+
+void RecoveryBar::release() {
+  found_.clear();
+  show();
 }
 
 std::unique_ptr<QLockFile> RecoveryBar::take() {

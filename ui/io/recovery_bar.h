@@ -19,6 +19,8 @@ class RecoveryBar : public QFrame {
 
   /// Finds files that no running program has locked, and offers them.
   void offer();
+  /// Offers nothing any more, because the window closes.
+  void release();
   /// Offers the next file. Returns the lock of this one, which belongs to another owner now.
   std::unique_ptr<QLockFile> take();
 

@@ -4,13 +4,16 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <algorithm>
+#include <sstream>
 
 #include "common/as_path.h"
 #include "document/session_draft.h"
 #include "drawing/prepared_levels.h"
 #include "io/mesh_source.h"
 #include "io/recovery_bar.h"
+#include "io/reload_bar.h"
 #include "io/samples.h"
+#include "io/session_watch.h"
 #include "io/unsaved_work.h"
 
 namespace chainmail {
@@ -20,6 +23,16 @@ namespace {
 QString ownFile(const Session& session) {
   const auto look = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
   return look[QStringLiteral("file")].toString();
+}
+
+void write(const QString& path, const Session& session, bool inPlace, const Progress& progress) {
+  if (!inPlace) {
+    save_session(asPath(path), session, progress);
+    return;
+  }
+  std::ostringstream text;
+  write_session(text, session, progress);
+  write_in_place(asPath(path), text.str());
 }
 
 /// Shows as many panels as the session has, within the limits of the window.
@@ -36,7 +49,16 @@ void showPanels(Document& document, const Session& session) {
 }  // namespace
 
 Sessions::Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* parent)
-    : QObject(parent), document_(document), jobs_(jobs), look_(std::move(look)), recovery_(new RecoveryBar) {
+    : QObject(parent),
+      document_(document),
+      jobs_(jobs),
+      look_(std::move(look)),
+      recovery_(new RecoveryBar),
+      reload_(new ReloadBar),
+      watch_(new SessionWatch(document, this)) {
+  connect(watch_, &SessionWatch::changedOutside, reload_, &ReloadBar::offer);
+  connect(&document_, &Document::sessionFileChanged, reload_, &QWidget::hide);
+  connect(reload_, &ReloadBar::reloadRequested, this, [this](const QString& path) { openPath(path, false); });
   connect(recovery_, &RecoveryBar::restoreRequested, this, &Sessions::restore);
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] { ++steps_; });
 }
@@ -46,10 +68,14 @@ Sessions::~Sessions() = default;
 void Sessions::openPath(const QString& path, bool first) {
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
+                const auto state = stateOf(path);  // before it is read
                 const auto session = std::make_shared<const Session>(
                     read_session(asPath(path), progress.part(0, 0.9), meshesNear(path)));
                 prepareLevels(session->mesh, progress.part(0.9, 1));
-                return [this, session, path, first] { show(session, path, first); };
+                return [this, session, path, state, first] {
+                  watch_->know(QFileInfo(path).absoluteFilePath(), state);
+                  show(session, path, first);
+                };
               });
 }
 
@@ -69,12 +95,21 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
   }
 }
 
-void Sessions::savePath(const QString& path) {
+void Sessions::savePath(const QString& path, bool inPlace) {
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
-              [this, path, steps = steps_,
+              [this, path, inPlace, steps = steps_, mesh = document_.unsplitMesh(),
                draft = SessionDraft(document_, look_.read())](const Progress& progress) -> Jobs::Finish {
-                save_session(asPath(path), draft.finished(progress), progress);
-                return [this, path, steps] {
+                try {
+                  write(path, draft.finished(progress), inPlace, progress);
+                } catch (const NotReplaceable& refused) {
+                  return [this, path, why = QString::fromUtf8(refused.what())] { emit notReplaceable(path, why); };
+                }
+                return [this, path, steps, mesh, state = stateOf(path)] {
+                  watch_->know(QFileInfo(path).absoluteFilePath(), state);
+                  reload_->hide();
+                  if (autosave_) {
+                    autosave_->discardAdopted(mesh);
+                  }
                   document_.setSessionFile(QFileInfo(path).absoluteFilePath());
                   // Changes during saving are not in the file.
                   if (steps_ == steps) {
@@ -85,16 +120,22 @@ void Sessions::savePath(const QString& path) {
               });
 }
 
+bool Sessions::isChangedOutside(const QString& path) const { return watch_->isChanged(path); }
+
 void Sessions::protect() {
   autosave_ = std::make_unique<Autosave>(document_, look_, this);
   connect(autosave_.get(), &Autosave::failed, this, &Sessions::failed);
+  connect(autosave_.get(), &Autosave::recovered, this, &Sessions::recovered);
   recovery_->offer();
 }
 
-void Sessions::keep() {
-  if (autosave_) {
-    autosave_->keep();
+QString Sessions::keep() {
+  const QString why = autosave_ ? autosave_->keep() : QString();
+  if (why.isEmpty()) {
+    recovery_->release();
+    unsaved_work::discardOldest();
   }
+  return why;
 }
 
 void Sessions::close() { autosave_.reset(); }
@@ -111,7 +152,7 @@ void Sessions::restore(const QString& path) {
                   look_.set(session->ui);
                   auto lock = recovery_->take();
                   if (autosave_) {
-                    autosave_->adopt(path, std::move(lock));
+                    autosave_->adopt(path, std::move(lock), document_.unsplitMesh());
                   }
                 };
               });

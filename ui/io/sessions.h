@@ -10,6 +10,8 @@
 namespace chainmail {
 
 class RecoveryBar;
+class ReloadBar;
+class SessionWatch;
 
 /// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
 /// next start.
@@ -22,22 +24,32 @@ class Sessions : public QObject {
 
   /// Opens a session in the background: as one undo step, or as the first object of the window.
   void openPath(const QString& path, bool first);
-  void savePath(const QString& path);
+  /// Saves the session in the background. `inPlace`: without replacing the file, see notReplaceable().
+  void savePath(const QString& path, bool inPlace = false);
+  /// True if another program has changed this file since the window opened or saved it.
+  bool isChangedOutside(const QString& path) const;
 
   /// Returns the bar that offers unsaved work from earlier windows.
   RecoveryBar& recoveryBar() { return *recovery_; }
+  /// Returns the bar that tells of changes by other programs.
+  ReloadBar& reloadBar() { return *reload_; }
   /// Starts automatic saving, and offers unsaved work from earlier windows. Most tests do not call it.
   void protect();
-  /// Keeps unsaved work for the next start. Call it when the user closes the window.
-  void keep();
+  /// Keeps unsaved work for the next start. Call it when the user closes the window. Returns why the work could not be
+  /// kept, as a sentence; otherwise an empty text.
+  QString keep();
   /// Stops automatic saving.
   void close();
 
  signals:
   void failed(const QString& sentence);
+  /// Emitted when `sentence` of failed() is no longer true.
+  void recovered(const QString& sentence);
   /// Emitted with a sentence about the work that an opened session replaced.
   void noted(const QString& sentence);
   void saved(const QString& path);
+  /// Emitted if a file could be written in place, but not replaced as a whole; `why` is the sentence that says so.
+  void notReplaceable(const QString& path, const QString& why);
   void opened(const QString& path);
 
  private:
@@ -49,6 +61,8 @@ class Sessions : public QObject {
   const LookAccess look_;
   std::uint64_t steps_ = 0;  // number of edits, undos and redos
   RecoveryBar* recovery_;
+  ReloadBar* reload_;
+  SessionWatch* watch_;
   std::unique_ptr<Autosave> autosave_;
 };
 

@@ -4,16 +4,17 @@
 #include <QDir>
 #include <QFile>
 #include <QLockFile>
+#include <QRegularExpression>
 #include <QStandardPaths>
 #include <QUuid>
+#include <algorithm>
 
 #include "common/as_path.h"
 
 namespace chainmail::unsaved_work {
 namespace {
 
-constexpr QLatin1String closedEnding(".closed.chainmail"), lockEnding(".lock"), objectEnding(".object-");
-constexpr int mostClosed = 5;
+constexpr QLatin1String closedMark(".closed"), lockEnding(".lock"), objectEnding(".object-");
 
 QString ending() { return QString::fromUtf8(session_ending.data(), qsizetype(session_ending.size())); }
 
@@ -24,7 +25,29 @@ QString stem(const QString& path) {
 }
 
 QFileInfoList filesLike(const QString& pattern, QDir::Filters filters = QDir::Files) {
-  return QDir(folder()).entryInfoList({pattern}, filters, QDir::Time);
+  return QDir(folder()).entryInfoList({pattern}, filters, QDir::Name);
+}
+
+/// Returns the number that orders work: M of closed work, else N. Names without one come first.
+qulonglong orderOf(const QString& path) {
+  static const QRegularExpression number(QStringLiteral(R"(^(?:[^.]*\.closed-(\d{1,18})\.|(\d{1,18})-))"));
+  const auto match = number.match(QFileInfo(path).fileName());
+  return match.captured(match.captured(1).isEmpty() ? 2 : 1).toULongLong();
+}
+
+/// Returns a number above those of all work.
+qulonglong nextNumber() {
+  qulonglong highest = 0;
+  for (const QFileInfo& file : filesLike(QLatin1Char('*') + ending() + QLatin1Char('*'))) {
+    highest = std::max(highest, orderOf(file.fileName()));
+  }
+  return highest + 1;
+}
+
+/// Returns true if there is work that belongs to a lock or an object with this stem.
+bool hasWork(const QString& path) {
+  return !filesLike(QFileInfo(stem(path)).fileName() + QStringLiteral(".*") + ending()).isEmpty() ||
+         QFile::exists(stem(path) + ending());
 }
 
 /// Removes unfinished files. A running program finishes a file within seconds.
@@ -39,7 +62,7 @@ void discardUnfinished() {
 
 /// Removes the lock and the objects of work that does not exist, unless a running program is about to write it.
 void discardWithoutWork(const QString& path) {
-  if (QFile::exists(path) || QFile::exists(closedPath(path))) {
+  if (hasWork(path)) {
     return;
   }
   QLockFile lock(lockOf(path));
@@ -54,14 +77,20 @@ void discardWithoutWork(const QString& path) {
 QString folder() {
   QString path = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/autosave");
   QDir().mkpath(path);
+  QFile::setPermissions(path, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   return path;
 }
 
-QString newPath() { return QDir(folder()).filePath(QUuid::createUuid().toString(QUuid::Id128).left(12) + ending()); }
+QString newPath() {
+  const QString id = QUuid::createUuid().toString(QUuid::Id128).left(12);
+  return QDir(folder()).filePath(QStringLiteral("%1-%2").arg(nextNumber()).arg(id) + ending());
+}
 
-QString closedPath(const QString& path) { return stem(path) + closedEnding; }
+QString closedPath(const QString& path) {
+  return stem(path) + closedMark + QLatin1Char('-') + QString::number(nextNumber()) + ending();
+}
 
-bool isClosed(const QString& path) { return path.endsWith(closedEnding); }
+bool isClosed(const QString& path) { return QFileInfo(path).fileName().contains(closedMark); }
 
 QString lockOf(const QString& path) { return path + lockEnding; }
 
@@ -88,9 +117,24 @@ void discard(const QString& path) {
   discardObjects(path);
 }
 
+QStringList all() {
+  QStringList paths;
+  for (const QFileInfo& file : filesLike(QLatin1Char('*') + ending())) {
+    paths << file.filePath();
+  }
+  std::ranges::stable_sort(paths, {}, orderOf);
+  return paths;
+}
+
 void discardOldest() {
-  for (const QFileInfo& file : filesLike(QLatin1Char('*') + closedEnding).mid(mostClosed)) {
-    discard(file.filePath());
+  QStringList closed = all();
+  closed.removeIf([](const QString& path) { return !isClosed(path); });
+  for (const QString& path : closed.first(std::max<qsizetype>(0, closed.size() - mostClosed))) {
+    QLockFile lock(lockOf(path));
+    lock.setStaleLockTime(0);
+    if (lock.tryLock()) {
+      discard(path);
+    }
   }
 }
 

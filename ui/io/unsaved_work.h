@@ -1,22 +1,26 @@
 #pragma once
 
-#include <QString>
+#include <QStringList>
 
 #include "files/session/session.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
 
-/// Files of unsaved work, which all running programs of a user keep in one folder. Work is a session `ID.chainmail`, or
-/// `ID.closed.chainmail` from a closed window. Its object may be in a file of its own, `ID.object-N`, so that saving
-/// again writes only what the user has changed. A lock beside the session shows whether its program still runs.
+/// Files of unsaved work, which all running programs of a user keep in one folder that only this user can read. Work is
+/// a session `N-ID.chainmail`, or `N-ID.closed-M.chainmail` from a closed window. N and M count up, so that the order
+/// of work does not depend on a clock. Its object may be in a file of its own, `N-ID.object-K`, so that saving again
+/// writes only what the user has changed. A lock beside the session shows whether a program still uses it.
 namespace unsaved_work {
+
+/// Closed work that is kept: the oldest is removed when there is more.
+inline constexpr int mostClosed = 5;
 
 /// Returns the folder, and creates it if it does not exist.
 QString folder();
-/// Returns a path that no work has.
+/// Returns a path that no work has, for newer work than all others.
 QString newPath();
-/// Returns the path that work has after its window was closed.
+/// Returns the path that work has after its window was closed now.
 QString closedPath(const QString& path);
 /// True for work from a window that was closed, false for work from a crash.
 bool isClosed(const QString& path);
@@ -31,7 +35,9 @@ Session read(const QString& path, const Progress& progress = {});
 void discardObjects(const QString& path, const QString& kept = {});
 /// Removes work and its object.
 void discard(const QString& path);
-/// Removes the oldest work of closed windows.
+/// Returns all work, the newest last.
+QStringList all();
+/// Removes the oldest work of closed windows beyond mostClosed, but none that a window offers.
 void discardOldest();
 /// Removes what crashes have left: unfinished files, locks, objects without work.
 void discardLeftovers();

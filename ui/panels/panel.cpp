@@ -128,7 +128,9 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  violation_->show(statistics, statistics.passes > 0 || document_.cuts().count() > 0, view_->isInMidPass());
+  const Tape& tape = document_.tape();  // a session brings moves that this solver has not made
+  const bool hasMoved = statistics.passes > 0 || document_.cuts().count() > 0 || tape.passes(tape.position()) > 0;
+  violation_->show(statistics, hasMoved, view_->isInMidPass());
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is\n"
       "the share of links above 1e-4 rest lengths.\n"

@@ -138,12 +138,12 @@ void Filling::describe() {
 void Filling::start() {
   const QString name = document_.name();
   jobs_.start(
-      Jobs::Kind::load, QStringLiteral("Filling %1").arg(name),
+      Jobs::Kind::compute, QStringLiteral("Filling %1").arg(name),
       [this, name, surface = document_.mesh(), size = size_->value()](const Progress& progress) -> Jobs::Finish {
         const MeshPointer filled = chainmail::fill(*surface, size, progress.part(0, 0.9));
         prepareLevels(filled, progress.part(0.9, 1));
         return [this, name, filled] {
-          document_.replaceMesh(filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
+          document_.reworkMesh(filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
         };
       });
 }

@@ -154,7 +154,7 @@ void Lessons::start() {
 }
 
 /// When a lesson opens, hides the hints. When it closes, hides the dock that it has opened, and the next object has the
-/// colours that the user had chosen before.
+/// colours and the look that the user had chosen before.
 void Lessons::leave() {
   emit openChanged(player_.isOpen());
   if (player_.isOpen()) {
@@ -164,6 +164,7 @@ void Lessons::leave() {
   chooseDock({});
   if (!window_.document().lesson() && colourBefore_) {
     window_.colouring().setMode(*std::exchange(colourBefore_, {}));
+    window_.showMenu().forgetShown();
   }
 }
 
@@ -194,7 +195,7 @@ void Lessons::showStep() {
       window_.colouring().setMode(mode.mode);
     }
   }
-  window_.showMenu().choose(nameOf(&LessonStep::show));
+  window_.showMenu().show(nameOf(&LessonStep::show));
   chooseDock(nameOf(&LessonStep::dock));
   if (QAction* action = tool(nameOf(&LessonStep::tool))) {
     action->trigger();

@@ -8,6 +8,7 @@
 #include "tools/lesson_handle.h"
 
 class QAction;
+class QDockWidget;
 class QMenu;
 
 namespace chainmail {

@@ -15,13 +15,16 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "common/application.h"
 #include "common/icons.h"
 #include "io/file_actions.h"
 #include "io/mesh_repair.h"
 #include "io/picture_actions.h"
+#include "io/questions.h"
 #include "io/recovery_bar.h"
+#include "io/reload_bar.h"
 #include "io/repair_bar.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
@@ -136,6 +139,7 @@ void MainWindow::arrange() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(&sessions_->recoveryBar());
+  column->addWidget(&sessions_->reloadBar());
   column->addWidget(messages_);
   column->addWidget(&files_->sheets().bar());
   column->addWidget(&files_->volumes().bar());
@@ -187,8 +191,16 @@ void MainWindow::listen() {
 
 void MainWindow::listenToFiles() {
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
+  connect(&jobs_, &Jobs::replaced, messages_, &MessageBar::note);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
   connect(files_, &FileActions::noted, messages_, &MessageBar::note);
+  connect(files_, &FileActions::recovered, messages_, &MessageBar::retract);
+  connect(&jobs_, &Jobs::failed, this, [this] { closesWhenSaved_ = false; });
+  connect(sessions_, &Sessions::saved, this, [this] {
+    if (std::exchange(closesWhenSaved_, false)) {
+      close();
+    }
+  });
   connect(&files_->repair(), &MeshRepair::noted, messages_, &MessageBar::note);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->clear();
@@ -469,11 +481,31 @@ void MainWindow::showTitle() {
   setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
 }
 
+/// Keeps unsaved work for the next start. Returns false if that fails and the user wants the window to stay open.
+bool MainWindow::keepsWork() {
+  Application::guarded([this] { document_.abandonMoves(lastMovePatience); });  // then the work is kept in any case
+  const QString why = sessions_->keep();
+  if (why.isEmpty()) {
+    return true;
+  }
+  const ClosingAnswer answer = askBeforeClosing(*this, why);
+  if (answer == ClosingAnswer::discard) {
+    return true;
+  }
+  document_.goOn();
+  if (answer == ClosingAnswer::save_as) {
+    closesWhenSaved_ = files_->saveSessionAs();
+  }
+  return false;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!keepsWork()) {
+    event->ignore();
+    return;
+  }
   lecture_->leave();
   jobs_.close();
-  Application::guarded([this] { document_.abandonMoves(lastMovePatience); });  // then the work is kept in any case
-  sessions_->keep();
   QSettings settings;
   settings.setValue(QStringLiteral("geometry"), saveGeometry());
   settings.setValue(QStringLiteral("layout"), layoutForSettings());

@@ -95,6 +95,7 @@ class MainWindow : public QMainWindow {
   /// Shows a sentence in the status bar for 4 s.
   void showStatus(const QString& sentence);
   void showTitle();
+  bool keepsWork();
   QByteArray layoutForSettings() const;
   void restoreLayout();
 
@@ -133,6 +134,7 @@ class MainWindow : public QMainWindow {
   ColourSelector* colourBy_;
   QToolBar* bar_ = nullptr;
   int widthWithNames_ = 0;  // of the tool bar (pixels)
+  bool closesWhenSaved_ = false;
   ElementReadout* readout_;
   QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
   std::unique_ptr<Docks> docks_;

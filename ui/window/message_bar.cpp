@@ -74,6 +74,13 @@ void MessageBar::add(Severity severity, const QString& sentence) {
   QAccessible::updateAccessibility(&alert);
 }
 
+void MessageBar::retract(const QString& sentence) {
+  const auto removed = std::erase_if(messages_, [&](const Message& message) { return message.sentence == sentence; });
+  if (removed > 0) {
+    messages_.empty() ? hide() : refresh();
+  }
+}
+
 void MessageBar::dismiss() {
   if (!messages_.empty()) {
     messages_.pop_back();

@@ -24,6 +24,8 @@ class MessageBar : public QFrame {
   void warn(const QString& sentence) { add(Severity::warning, sentence); }
   /// Shows a note.
   void note(const QString& sentence) { add(Severity::info, sentence); }
+  /// Removes a message that is no longer true, if it is still there.
+  void retract(const QString& sentence);
   /// Removes the shown message. The bar then shows the previous one.
   void dismiss();
   /// Removes all messages. Hiding the bar also does this.

@@ -1,6 +1,7 @@
 #include "window/show_menu.h"
 
 #include <QActionGroup>
+#include <QSettings>
 #include <algorithm>
 #include <array>
 
@@ -75,6 +76,9 @@ QStringList ShowMenu::names() {
 
 QString ShowMenu::chosen() const {
   const Mesh& mesh = *document_.mesh();
+  if (const auto shown = shown_.find(settingsKey(mesh)); shown != shown_.end()) {
+    return shown->second;
+  }
   const QString otherwise = ObjectDrawing::showsPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");
   const QString remembered = QSettings().value(settingsKey(mesh), otherwise).toString();
   return actions_.count(remembered) != 0 ? remembered : otherwise;
@@ -83,8 +87,21 @@ QString ShowMenu::chosen() const {
 void ShowMenu::choose(const QString& name) {
   if (actions_.count(name) != 0) {
     QSettings().setValue(settingsKey(*document_.mesh()), name);
+    shown_.erase(settingsKey(*document_.mesh()));
     adapt();
   }
+}
+
+void ShowMenu::show(const QString& name) {
+  if (actions_.count(name) != 0) {
+    shown_[settingsKey(*document_.mesh())] = name;
+    adapt();
+  }
+}
+
+void ShowMenu::forgetShown() {
+  shown_.clear();
+  adapt();
 }
 
 Look ShowMenu::look() const {

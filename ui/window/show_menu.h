@@ -25,8 +25,12 @@ class ShowMenu : public QObject {
   QMenu& menu() const { return *menu_; }
   /// Returns the name of the choice for this kind of object, as sessions store it.
   QString chosen() const;
-  /// Chooses by name. Ignores unknown names.
+  /// Chooses by name, as the user does. Ignores unknown names.
   void choose(const QString& name);
+  /// Shows a choice without storing it, for a session or a lesson, until the user chooses.
+  void show(const QString& name);
+  /// Returns to the stored choices.
+  void forgetShown();
 
  signals:
   void changed();
@@ -37,6 +41,7 @@ class ShowMenu : public QObject {
   const Document& document_;
   QMenu* menu_ = nullptr;
   std::map<QString, QAction*> actions_;  // by name
+  std::map<QString, QString> shown_;     // not stored; by the key of the stored choice
 };
 
 }  // namespace chainmail

@@ -49,6 +49,23 @@ Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
   return pose;
 }
 
+/// Fits the object once the panels show the positions that follow, unless the user does something before.
+void fitWhenShown(MainWindow& window) {
+  auto* wait = new QObject(&window);
+  Document& document = window.document();
+  const auto fit = [&window, wait] {
+    if (window.document().settled()) {
+      if (window.area().fits()) {
+        window.area().fit();
+      }
+      wait->deleteLater();
+    }
+  };
+  QObject::connect(&document, &Document::frameReady, wait, fit);
+  QObject::connect(&document, &Document::becameIdle, wait, fit);
+  QObject::connect(&document.undoStack(), &QUndoStack::indexChanged, wait, &QObject::deleteLater);
+}
+
 void takeCameras(MainWindow& window, const QJsonObject& look) {
   PanelLinks& links = window.area().links();
   links.setCameras(look[QStringLiteral("linked")].toBool(links.cameras()));
@@ -61,6 +78,9 @@ void takeCameras(MainWindow& window, const QJsonObject& look) {
     }
     emit view.cameraChanged();
     view.update();
+  }
+  if (window.area().fits()) {
+    fitWhenShown(window);
   }
 }
 
@@ -92,7 +112,7 @@ std::string lookOf(MainWindow& window) {
 void takeLook(MainWindow& window, const std::string& json) {
   const QJsonObject look = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
   window.takeDockPlaces(look[QStringLiteral("docks")].toArray());
-  window.showMenu().choose(look[QStringLiteral("show")].toString());
+  window.showMenu().show(look[QStringLiteral("show")].toString());
   window.docks().get<SectionDock>().take(look[QStringLiteral("section")].toObject());
   takeColours(window, look[QStringLiteral("colour")].toString());
   takeCameras(window, look);

@@ -1,0 +1,52 @@
+#include "io/questions.h"
+
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+#include <array>
+
+namespace chainmail {
+namespace {
+
+/// Asks with *Save as…*, another answer and *Cancel*. Returns 0, 1 or 2 for them; 2 if the box is closed.
+int ask(QWidget& window, const char* name, const QString& what, const QString& why, const QString& other) {
+  QMessageBox box(&window);
+  box.setObjectName(QLatin1String(name));
+  box.setWindowTitle(QStringLiteral("ChainMail workbench"));
+  box.setIcon(QMessageBox::Warning);
+  box.setTextFormat(Qt::PlainText);
+  box.setText(what);
+  box.setInformativeText(why);
+  const auto* saveAs = box.addButton(QStringLiteral("Save &as…"), QMessageBox::AcceptRole);
+  const auto* second = box.addButton(other, QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QStringLiteral("&Cancel"), QMessageBox::RejectRole));
+  box.exec();
+  return box.clickedButton() == saveAs ? 0 : box.clickedButton() == second ? 1 : 2;
+}
+
+constexpr std::array overwriteAnswers{OverwriteAnswer::save_as, OverwriteAnswer::overwrite, OverwriteAnswer::cancel};
+
+}  // namespace
+
+ClosingAnswer askBeforeClosing(QWidget& window, const QString& why) {
+  constexpr std::array answers{ClosingAnswer::save_as, ClosingAnswer::discard, ClosingAnswer::cancel};
+  return answers[std::size_t(ask(window, "closingQuestion",
+                                 QStringLiteral("Your unsaved work cannot be kept for the next start"), why,
+                                 QStringLiteral("&Discard")))];
+}
+
+OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path) {
+  return overwriteAnswers[std::size_t(
+      ask(window, "overwriteQuestion", QStringLiteral("Another program has changed %1").arg(QFileInfo(path).fileName()),
+          QStringLiteral("Saving replaces what it wrote since this window opened or saved it."),
+          QStringLiteral("&Overwrite")))];
+}
+
+OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why) {
+  return overwriteAnswers[std::size_t(
+      ask(window, "inPlaceQuestion", QStringLiteral("%1 can only be written in place").arg(QFileInfo(path).fileName()),
+          why + QStringLiteral("\nIf the disk fails while it is written in place, the old content is lost, too."),
+          QStringLiteral("&Write in place")))];
+}
+
+}  // namespace chainmail
