@@ -15,7 +15,7 @@ inline void drag(Document& document, ElementId element, const Point& by) {
 }
 
 /// Changes everything that a session stores.
-inline void work(Workbench& bench) {
+inline void changeEverything(Workbench& bench) {
   Document& document = bench.document();
   document.setAlgorithm(0, Algorithm::exact);
   document.setAlgorithm(1, Algorithm::spiral);

@@ -255,7 +255,7 @@ class WindowPhysics : public QObject {
     bench.document().dragBy(Point(0.4, 0.3, 0), {Point::UnitZ(), 12});
     bench.document().release();
     bench.settle();
-    QTRY_VERIFY(title(0).contains(QStringLiteral("relative error ")));
+    QTRY_VERIFY_WITH_TIMEOUT(title(0).contains(QStringLiteral("relative error ")), 30'000);
     const QString after = title(0).section(QStringLiteral("relative error "), 1);
     const double error = QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;() ]")), 0, 0));
     QVERIFY2(error < 1e-4, qPrintable(title(0)));

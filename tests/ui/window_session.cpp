@@ -23,7 +23,7 @@ class WindowSession : public QObject {
     Camera::Pose pose;
     {
       Workbench bench(cloth());
-      work(bench);
+      changeEverything(bench);
       bench.view(0).camera()->zoom(1.7, {20, 30}, bench.view(0).size());
       bench.window.colouring().setMode(ColourMode::violation);
       pose = bench.view(0).camera()->pose();
@@ -137,7 +137,7 @@ class WindowSession : public QObject {
   void whatWasDoneIsGoneBackInAndForth() {
     const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
     Workbench bench(cloth());
-    work(bench);
+    changeEverything(bench);
     bench.document().undo();  // the last drag is then undone and can be redone
     bench.settle();
     bench.window.sessions().savePath(path);
@@ -168,7 +168,7 @@ class WindowSession : public QObject {
   void openingIsOneStepOfUndo() {
     const QString path = folder_.filePath(QStringLiteral("b.chainmail"));
     Workbench bench(cloth());
-    work(bench);
+    changeEverything(bench);
     bench.window.sessions().savePath(path);
     bench.settle();
     const Session saved = sessionOf(bench);
@@ -239,7 +239,7 @@ class WindowSession : public QObject {
   void aBadSessionGetsASentenceAndChangesNothing() {
     const QString path = folder_.filePath(QStringLiteral("e.chainmail"));
     Workbench bench(cloth());
-    work(bench);
+    changeEverything(bench);
     bench.window.sessions().savePath(path);
     bench.settle();
     QFile file(path);

@@ -1,0 +1,451 @@
+// Tests that no path through the window loses work: other objects, failed writes, clocks, other windows, undo, lessons.
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <QAction>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QLabel>
+#include <QLockFile>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QThread>
+
+#include "docks/preset_store.h"
+#include "io/file_actions.h"
+#include "io/recovery_bar.h"
+#include "io/reload_bar.h"
+#include "io/samples.h"
+#include "io/sessions.h"
+#include "io/unsaved_work.h"
+#include "mesh/error.h"
+#include "session_bench.h"
+#include "window/message_bar.h"
+#include "window/show_menu.h"
+
+namespace chainmail::window_lost {
+
+namespace {
+
+/// A workbench with automatic saving, whose timer the test starts.
+struct SafeBench : Workbench {
+  SafeBench() {
+    window.sessions().protect();
+    timer = find<QTimer>("autosaveTimer");
+  }
+  /// Writes what is unsaved, or tries to.
+  void save() {
+    settle();
+    timer->start(0);
+    QTRY_VERIFY(!timer->isActive() || timer->remainingTime() > 0);
+    settle();
+  }
+
+  QTimer* timer = nullptr;
+};
+
+QStringList kept() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
+
+/// Makes a folder where nothing can be written, also by root: a file has its name.
+class FullDisk {
+ public:
+  FullDisk() : path_(unsaved_work::folder()), aside_(path_ + QStringLiteral("-aside")) {
+    QVERIFY(QDir().rename(path_, aside_));
+    QFile file(path_);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+  }
+  ~FullDisk() { end(); }
+  void end() {
+    if (!aside_.isEmpty()) {
+      QFile::remove(path_);
+      QDir().rename(aside_, path_);
+      aside_.clear();
+    }
+  }
+
+ private:
+  QString path_, aside_;
+};
+
+/// Clicks a button of the next question, and counts the questions.
+class Answer : public QObject {
+ public:
+  explicit Answer(const QString& button) {
+    timer_.setInterval(10);
+    connect(&timer_, &QTimer::timeout, this, [this, button] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      for (QAbstractButton* one : box != nullptr ? box->buttons() : QList<QAbstractButton*>()) {
+        if (one->text().remove(QLatin1Char('&')) == button) {
+          ++questions;
+          said = box->text() + QLatin1Char('\n') + box->informativeText();
+          timer_.stop();
+          one->click();
+          return;
+        }
+      }
+    });
+    timer_.start();
+  }
+
+  int questions = 0;
+  QString said;
+
+ private:
+  QTimer timer_;
+};
+
+void put(const QString& name, const QDateTime& changed) {
+  QFile file(QDir(unsaved_work::folder()).filePath(name));
+  QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write("{") == 1 && file.flush());
+  QVERIFY(file.setFileTime(changed, QFileDevice::FileModificationTime));
+}
+
+int modeOf(const QString& path) {
+  struct stat status {};
+  return stat(qPrintable(path), &status) == 0 ? int(status.st_mode & 07777) : 0;
+}
+
+}  // namespace
+
+class WindowLost : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
+    QSettings().clear();
+  }
+
+  void anotherObjectIsAnotherDocument_data() {
+    QTest::addColumn<std::function<void(Workbench&)>>("open");
+    const QString mesh = path("other.obj");
+    QTest::newRow("a mesh") << std::function([mesh](Workbench& bench) {
+      bench.window.findChild<FileActions*>()->savePath(mesh);
+      bench.settle();
+      bench.open(mesh);
+    });
+    QTest::newRow("a sample") << std::function([](Workbench& bench) {
+      bench.window.findChild<FileActions*>()->openSample(samplesFolder() + QStringLiteral("/torus.obj"));
+    });
+    QTest::newRow("Build") << std::function([](Workbench& bench) { bench.find<QPushButton>("buildMesh")->click(); });
+  }
+  void anotherObjectIsAnotherDocument() {
+    QFETCH(std::function<void(Workbench&)>, open);
+    const QString session = path("lecture.chainmail");
+    Workbench bench(cloth());
+    bench.document().setPinned({3}, true);
+    bench.window.sessions().savePath(session);
+    bench.settle();
+    open(bench);
+    bench.settle();
+    QCOMPARE(bench.document().sessionFile(), QString());  // so that Save asks for a file
+    QVERIFY(!bench.window.windowTitle().contains(QStringLiteral("lecture")));
+    bench.document().undo();
+    bench.settle();
+    QCOMPARE(bench.document().sessionFile(), session);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{3});
+    bench.document().redo();
+    bench.settle();
+    QCOMPARE(bench.document().sessionFile(), QString());
+  }
+
+  void closingAsksIfWorkCannotBeKept() {
+    auto bench = std::make_unique<SafeBench>();
+    bench->document().setPinned({3}, true);
+    bench->settle();
+    FullDisk disk;
+    {
+      const Answer cancel(QStringLiteral("Cancel"));
+      QVERIFY(!bench->window.close());
+      QCOMPARE(cancel.questions, 1);
+      QVERIFY2(cancel.said.contains(QStringLiteral("folder does not exist")), qPrintable(cancel.said));
+    }
+    QVERIFY(bench->window.isVisible());
+    drag(bench->document(), 31, {1, 0, 0});  // the solvers still work
+    bench->settle();
+    QVERIFY(bench->position(0, 31).x() > bench->document().mesh()->rest_position(31).x() + 0.9);
+    {
+      const Answer discard(QStringLiteral("Discard"));
+      QVERIFY(bench->window.close());
+      QCOMPARE(discard.questions, 1);
+    }
+    disk.end();
+    bench.reset();
+    QVERIFY(kept().isEmpty());
+  }
+
+  void whatCouldNotBeKeptOnceIsKeptLater() {
+    {
+      SafeBench bench;
+      bench.document().setPinned({3}, true);
+      bench.settle();
+      {
+        const FullDisk disk;
+        const Answer cancel(QStringLiteral("Cancel"));
+        QVERIFY(!bench.window.close());
+      }
+      QVERIFY(bench.window.close());
+    }
+    QCOMPARE(kept().size(), 1);
+  }
+
+  void savingGoesOnAfterAFailure() {
+    SafeBench bench;
+    bench.document().setPinned({3}, true);
+    int first = 0;
+    {
+      const FullDisk disk;
+      bench.save();
+      QTRY_VERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("Automatic saving failed")));
+      first = bench.timer->interval();
+      bench.save();
+      QTRY_COMPARE(bench.timer->interval(), 2 * first);
+      QVERIFY(bench.timer->isActive());  // it tries again by itself
+      QCOMPARE(bench.window.messages().count(), 1);
+    }
+    bench.save();
+    QTRY_VERIFY(!bench.window.messages().isVisible());
+    QCOMPARE(kept().size(), 1);
+  }
+
+  /// The clock does not say which work is new.
+  void aClockThatGoesBackDeletesNothingNew() {
+    const QDateTime future = QDateTime::currentDateTime().addDays(3);
+    for (int i = 1; i <= unsaved_work::mostClosed; ++i) {
+      put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), future.addSecs(-i));
+    }
+    {
+      SafeBench bench;
+      bench.document().setPinned({42}, true);
+      bench.settle();
+      QVERIFY(bench.window.close());
+    }
+    QCOMPARE(kept().size(), unsaved_work::mostClosed);
+    QVERIFY(!kept().contains(QStringLiteral("1-a.closed-1.chainmail")));
+    SafeBench again;
+    again.find<QPushButton>("restoreWork")->click();
+    again.settle();
+    QCOMPARE(again.document().pins(), std::vector<ElementId>{42});
+  }
+
+  void whatAnotherWindowOffersIsNotDeleted() {
+    for (int i = 1; i <= unsaved_work::mostClosed; ++i) {
+      put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), QDateTime::currentDateTime());
+    }
+    const QString oldest = QDir(unsaved_work::folder()).filePath(QStringLiteral("1-a.closed-1.chainmail"));
+    QLockFile offered(unsaved_work::lockOf(oldest));
+    QVERIFY(offered.tryLock());
+    unsaved_work::discardOldest();
+    put(QStringLiteral("9-a.closed-9.chainmail"), QDateTime::currentDateTime());
+    unsaved_work::discardOldest();
+    QVERIFY(QFile::exists(oldest));
+    offered.unlock();
+    unsaved_work::discardOldest();
+    QVERIFY(!QFile::exists(oldest));
+    QCOMPARE(kept().size(), unsaved_work::mostClosed);
+  }
+
+  void restoredWorkStaysUntilItIsSavedElsewhere() {
+    {
+      SafeBench bench;
+      bench.document().setPinned({42}, true);
+      bench.settle();
+      QVERIFY(bench.window.close());
+    }
+    QCOMPARE(kept().size(), 1);
+    const QString first = kept().first();
+    SafeBench again;
+    again.find<QPushButton>("restoreWork")->click();
+    again.settle();
+    again.save();
+    QTRY_COMPARE(kept().size(), 2);
+    again.document().undo();
+    again.save();
+    QTRY_COMPARE(kept(), QStringList{first});
+    again.document().redo();
+    again.settle();
+    again.window.sessions().savePath(path("elsewhere.chainmail"));
+    again.settle();
+    again.save();
+    QTRY_VERIFY(kept().isEmpty());
+    QCOMPARE(read_session(path("elsewhere.chainmail").toStdString()).pins, std::vector<ElementId>{42});
+  }
+
+  void twoWindowsOnOneFile() {
+    const QString file = path("both.chainmail");
+    Workbench one(cloth());
+    one.window.sessions().savePath(file);
+    one.settle();
+    one.document().setPinned({3}, true);
+    Session others = sessionOf(one);
+    others.pins = {7};
+    save_session(file.toStdString(), others);
+    auto& bar = one.window.sessions().reloadBar();
+    QTRY_VERIFY(bar.isVisible());
+    {
+      const Answer cancel(QStringLiteral("Cancel"));
+      one.trigger("saveSession");
+      one.settle();
+      QCOMPARE(cancel.questions, 1);
+    }
+    QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{7});
+    one.find<QPushButton>("reload")->click();
+    one.settle();
+    QCOMPARE(one.document().pins(), std::vector<ElementId>{7});
+    QVERIFY(!bar.isVisible());
+    one.document().setPinned({8}, true);
+    save_session(file.toStdString(), others);
+    {
+      const Answer overwrite(QStringLiteral("Overwrite"));
+      one.trigger("saveSession");
+      one.settle();
+      QCOMPARE(overwrite.questions, 1);
+    }
+    QCOMPARE(read_session(file.toStdString()).pins, (std::vector<ElementId>{7, 8}));
+    one.document().setPinned({9}, true);
+    one.trigger("saveSession");  // what this window has written is known to it
+    one.settle();
+    QCOMPARE(read_session(file.toStdString()).pins, (std::vector<ElementId>{7, 8, 9}));
+    QVERIFY(!bar.isVisible());
+  }
+
+  void aFileThatCannotBeReplacedIsWrittenInPlace() {
+    if (geteuid() != 0) {
+      QSKIP("only root can make a file of another user in a sticky folder");
+    }
+    const QString folder = path("sticky"), file = folder + QStringLiteral("/shared.chainmail");
+    QVERIFY(QDir().mkpath(folder));
+    Workbench bench(cloth());
+    bench.window.sessions().savePath(file);
+    bench.settle();
+    for (const QString& one : {folder_.path(), file}) {
+      QCOMPARE(chmod(qPrintable(one), one == file ? 0666 : 0755), 0);
+    }
+    QCOMPARE(chmod(qPrintable(folder), 01777), 0);
+    bench.document().setPinned({3}, true);
+    QCOMPARE(seteuid(12345), 0);
+    {
+      const Answer inPlace(QStringLiteral("Write in place"));
+      bench.trigger("saveSession");
+      bench.settle();
+      bench.settle();  // the second job
+      QCOMPARE(inPlace.questions, 1);
+    }
+    QCOMPARE(seteuid(0), 0);
+    QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{3});
+    QVERIFY(!bench.window.isWindowModified());
+  }
+
+  void aComputationThatEndsIsNamed() {
+    Workbench bench(generate({MeshKind::tetra, {8, 8, 8}, 1, {}}));
+    bench.document().setPinned({0, 1, 2, 3, 4, 5, 6, 7}, true);
+    bench.settle();
+    bench.window.jobs().start(Jobs::Kind::compute, QStringLiteral("Calibrating softness"),
+                              [](const Progress& progress) -> Jobs::Finish {
+                                for (;;) {
+                                  progress.report(0.5);  // throws when it is cancelled
+                                  QThread::yieldCurrentThread();
+                                }
+                              });
+    bench.window.findChild<FileActions*>()->openSample(samplesFolder() + QStringLiteral("/torus.obj"));
+    bench.settle();
+    QCOMPARE(bench.window.messages().sentence(),
+             QStringLiteral("'Calibrating softness' ended without a result, because 'Opening torus.obj' began"));
+  }
+
+  void presetsOfTwoWindows() {
+    PresetStore one, two;
+    one.load();
+    two.load();
+    one.save({"felt", {0.5, 1.5, 0.2}});
+    two.save({"cloth", {0.9, 1.1, 0.1}});
+    one.load();
+    QCOMPARE(one.own().size(), std::size_t{2});
+    one.remove("felt");
+    QVERIFY_EXCEPTION_THROWN(two.rename("felt", "wool"), Error);
+    two.load();
+    QCOMPARE(two.own().size(), std::size_t{1});
+  }
+
+  void presetsThatCannotBeReadAreKept() {
+    const QString damaged = QStringLiteral("{\"presets\": [");
+    QSettings().setValue(QStringLiteral("softnessPresets"), damaged);
+    PresetStore store;
+    QVERIFY_EXCEPTION_THROWN(store.load(), Error);
+    store.save({"felt", {0.5, 1.5, 0.2}});
+    QCOMPARE(QSettings().value(QStringLiteral("softnessPresetsDamaged1")).toString(), damaged);
+    store.load();
+    QCOMPARE(store.own().size(), std::size_t{1});
+  }
+
+  void unsavedWorkIsPrivate() {
+    SafeBench bench;
+    bench.document().setPinned({3}, true);
+    bench.save();
+    QTRY_COMPARE(kept().size(), 1);
+    QCOMPARE(modeOf(unsaved_work::folder()), 0700);
+    const QDir folder(unsaved_work::folder());
+    const QStringList files =
+        folder.entryList({QStringLiteral("*.chainmail"), QStringLiteral("*.object-*")}, QDir::Files);
+    QCOMPARE(files.size(), 2);
+    for (const QString& name : files) {
+      QCOMPARE(modeOf(folder.filePath(name)), 0600);
+    }
+  }
+
+  void afterALessonTheSettingsAreTheUsersOwn() {
+    Workbench bench;
+    bench.trigger("showLinks");
+    bench.document().setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
+    bench.choose(0, "Spiral");
+    const LinkSoftness own = bench.document().softness();
+    for (const char* lesson : {"lesson1", "lesson2"}) {
+      bench.trigger(lesson);
+      bench.settle();
+      bench.trigger("lessonNext");
+      bench.settle();
+    }
+    bench.trigger("lessonClose");
+    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build"));
+    bench.settle();
+    QVERIFY(bench.document().softness() == own);
+    QVERIFY(bench.document().algorithm(0) == Algorithm::spiral);
+    QCOMPARE(bench.window.showMenu().chosen(), QStringLiteral("links"));
+  }
+
+  /// A session that was fitted is fitted again, with its positions.
+  void aSessionOpensAsItWasSeen() {
+    const QString file = path("seen.chainmail");
+    {
+      Workbench bench;
+      drag(bench.document(), 31, {14, 9, 0});
+      bench.settle();
+      bench.trigger("fitView");
+      bench.settle();
+      QVERIFY(bench.window.area().showsAll());
+      bench.window.sessions().savePath(file);
+      bench.settle();
+    }
+    Workbench again;
+    again.open(file);
+    QTRY_VERIFY(again.window.area().showsAll());
+    again.settleFigures();
+    for (const QLabel* label : again.window.panel(0).findChildren<QLabel*>()) {
+      QVERIFY(!label->text().contains(QStringLiteral("Nothing has moved")));
+    }
+  }
+
+ private:
+  QString path(const char* name) const { return folder_.filePath(QLatin1String(name)); }
+
+  QTemporaryDir folder_;
+};
+
+CHAINMAIL_WINDOW_TEST(WindowLost)
+
+}  // namespace chainmail::window_lost
+
+#include "window_lost.moc"
