@@ -96,13 +96,14 @@ configure() {
   printf '%s\n' "$root" " ${options[*]}" >"$folder/configured"
 }
 
-# build PRESET [TARGET…]: shows progress on a terminal, otherwise only errors.
+# build PRESET [TARGET…]: shows progress on a terminal, otherwise only errors. `builder` is a command that starts it.
+builder=()
 build() {
   local preset=$1 targets=() quiet=()
   shift
   [[ $# -eq 0 ]] || targets=(--target "$@")
   [[ -t 1 ]] || quiet=(-- --quiet)
   [[ -e $root/build/$preset/.ninja_log ]] || say "Building $preset, which takes a few minutes the first time"
-  (cd "$root" && cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}") ||
+  (cd "$root" && "${builder[@]}" cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}") ||
     fail "$preset could not be built; see the compiler's messages above"
 }

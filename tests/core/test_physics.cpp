@@ -1,9 +1,12 @@
 #include <Eigen/Geometry>
 #include <QXmlStreamReader>
 #include <QtTest>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "core/comparisons.h"
 #include "mesh/error.h"
@@ -190,29 +193,51 @@ void PhysicsTest::times_of_a_drag_are_split() {
   QCOMPARE(split(std::vector{4.0}, false, false).first, 4.0);
 }
 
-void PhysicsTest::preparation_is_no_part_of_a_move() {
+namespace {
+
+/// Measures a drag with linear FEM, and returns what is wrong with its times; empty if nothing is.
+QString fault_of_preparation() {
   // Factorizing for some 2000 elements takes a thousand times as long as a move, so no share of it can hide in a move.
   Case bar = pinned_bar(2000, {}, {});
   bar.drags = {bar.drags[1], bar.drags.back()};
   const auto report = compare_with_physics({bar}, quick({Algorithm::linear_fem}, {0}));
-  const PhysicsEntry& pull = report.objects[0].drags[0].entries[1];
-  const PhysicsMeasurement& measured = pull.measurement.value();
-  QVERIFY(measured.prepare.factorize.count >= 1 && measured.prepare.grab.count >= 1);
-  const double factorize = measured.prepare.factorize.median, grab = measured.prepare.grab.median;
-  QVERIFY2(factorize > grab && grab > 0, qPrintable(QStringLiteral("%1 %2").arg(factorize).arg(grab)));
+  const PhysicsMeasurement& pull = report.objects[0].drags[0].entries[1].measurement.value();
+  const PhysicsMeasurement& cut = report.objects[0].drags[1].entries[1].measurement.value();
+  const double factorize = pull.prepare.factorize.median, grab = pull.prepare.grab.median;
   // Also in the first run, which prepares everything.
   Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
   const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
-  QCOMPARE(count_moves(moves), count_moves(bar.drags[0]) + 1);
   const DragTimes cold = split(runner.run(moves, 0, chainmail::Progress()).ms, true, false);
-  QVERIFY2(cold.preparing > 0.5 * (factorize + grab), qPrintable(QString::number(cold.preparing)));
-  for (const double ms : {measured.first_move.median, measured.ms_per_move.median, cold.first, cold.later}) {
-    QVERIFY2(ms > 0 && ms < 0.02 * factorize, qPrintable(QStringLiteral("%1 of %2").arg(ms).arg(factorize)));
+  const auto is_short = [&](double ms) { return ms > 0 && ms < 0.02 * factorize; };
+  const std::array checks{
+      std::pair{"both are measured", pull.prepare.factorize.count >= 1 && pull.prepare.grab.count >= 1},
+      std::pair{"one move prepares", count_moves(moves) == count_moves(bar.drags[0]) + 1},
+      std::pair{"factorizing takes longest", factorize > grab && grab > 0},
+      std::pair{"the first run prepares", cold.preparing > 0.5 * (factorize + grab)},
+      std::pair{"moves are short", is_short(pull.first_move.median) && is_short(pull.ms_per_move.median)},
+      std::pair{"moves of the first run are short", is_short(cold.first) && is_short(cold.later)},
+      // After a cut, all of it is needed again, in one move.
+      std::pair{"a cut prepares again", cut.move_after_cut.median > 0.5 * factorize},
+      std::pair{"moves after a cut are short", is_short(cut.ms_per_move.median)}};
+  const auto wrong = std::find_if(checks.begin(), checks.end(), [](const auto& check) { return !check.second; });
+  return wrong == checks.end() ? QString()
+                               : QStringLiteral("not true: %1; %2 %3 %4 %5")
+                                     .arg(wrong->first)
+                                     .arg(factorize)
+                                     .arg(grab)
+                                     .arg(cold.preparing)
+                                     .arg(cut.move_after_cut.median);
+}
+
+}  // namespace
+
+/// Times that are compared may be taken while other programs run, so three attempts.
+void PhysicsTest::preparation_is_no_part_of_a_move() {
+  QString fault = fault_of_preparation();
+  for (int attempt = 2; attempt <= 3 && !fault.isEmpty(); ++attempt) {
+    fault = fault_of_preparation();
   }
-  // After a cut, all of it is needed again, in one move.
-  const PhysicsMeasurement& cut = report.objects[0].drags[1].entries[1].measurement.value();
-  QVERIFY2(cut.move_after_cut.median > 0.5 * factorize, qPrintable(QString::number(cut.move_after_cut.median)));
-  QVERIFY(cut.ms_per_move.median < 0.02 * factorize);
+  QVERIFY2(fault.isEmpty(), qPrintable(fault));
 }
 
 void PhysicsTest::a_cut_in_the_middle_is_measured_against_the_same_cut() {
