@@ -90,10 +90,10 @@ Autosave::~Autosave() {
 }
 
 std::vector<Autosave::Adopted> Autosave::takeAdopted(const MeshPointer& mesh) {
-  const auto taken =
-      std::ranges::stable_partition(adopted_, [&](const Adopted& work) { return work.mesh.lock() != mesh; });
-  std::vector<Adopted> result(std::make_move_iterator(taken.begin()), std::make_move_iterator(taken.end()));
-  adopted_.erase(taken.begin(), taken.end());
+  const auto taken = std::stable_partition(adopted_.begin(), adopted_.end(),
+                                           [&](const Adopted& work) { return work.mesh.lock() != mesh; });
+  std::vector<Adopted> result(std::make_move_iterator(taken), std::make_move_iterator(adopted_.end()));
+  adopted_.erase(taken, adopted_.end());
   return result;
 }
 
@@ -142,7 +142,7 @@ QString Autosave::keep() {
   } catch (...) {  // no memory for the draft
     failure.set_value(failure_sentence("unsaved work"));
   }
-  const QString sentence = QString::fromStdString(known.get());
+  QString sentence = QString::fromStdString(known.get());
   if (sentence.isEmpty()) {
     discardAdopted(document_.unsplitMesh());
   } else {

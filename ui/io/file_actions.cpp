@@ -116,7 +116,7 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
     const OverwriteAnswer answer = askToWriteInPlace(window_, path, why);
     if (answer == OverwriteAnswer::overwrite) {
       sessions_.savePath(path, true);
-    } else if (answer == OverwriteAnswer::save_as) {
+    } else if (answer == OverwriteAnswer::saveAs) {
       saveSessionAs();
     }
   });
@@ -167,13 +167,13 @@ void FileActions::addSaveActions(QMenu& menu) {
 
 void FileActions::saveSession() {
   const QString path = document_.sessionFile();
-  OverwriteAnswer answer = path.isEmpty() ? OverwriteAnswer::save_as : OverwriteAnswer::overwrite;
+  OverwriteAnswer answer = path.isEmpty() ? OverwriteAnswer::saveAs : OverwriteAnswer::overwrite;
   if (!path.isEmpty() && sessions_.isChangedOutside(path)) {
     answer = askBeforeOverwriting(window_, path);
   }
   if (answer == OverwriteAnswer::overwrite) {
     sessions_.savePath(path);
-  } else if (answer == OverwriteAnswer::save_as) {
+  } else if (answer == OverwriteAnswer::saveAs) {
     saveSessionAs();
   }
 }

@@ -24,12 +24,12 @@ int ask(QWidget& window, const char* name, const QString& what, const QString& w
   return box.clickedButton() == saveAs ? 0 : box.clickedButton() == second ? 1 : 2;
 }
 
-constexpr std::array overwriteAnswers{OverwriteAnswer::save_as, OverwriteAnswer::overwrite, OverwriteAnswer::cancel};
+constexpr std::array overwriteAnswers{OverwriteAnswer::saveAs, OverwriteAnswer::overwrite, OverwriteAnswer::cancel};
 
 }  // namespace
 
 ClosingAnswer askBeforeClosing(QWidget& window, const QString& why) {
-  constexpr std::array answers{ClosingAnswer::save_as, ClosingAnswer::discard, ClosingAnswer::cancel};
+  constexpr std::array answers{ClosingAnswer::saveAs, ClosingAnswer::discard, ClosingAnswer::cancel};
   return answers[std::size_t(ask(window, "closingQuestion",
                                  QStringLiteral("Your unsaved work cannot be kept for the next start"), why,
                                  QStringLiteral("&Discard")))];

@@ -8,12 +8,12 @@ namespace chainmail {
 
 // Questions that protect the user's work.
 
-enum class ClosingAnswer { save_as, discard, cancel };
+enum class ClosingAnswer { saveAs, discard, cancel };
 
 /// Asks what to do with unsaved work that cannot be kept when the window closes. `why` is the sentence that says so.
 ClosingAnswer askBeforeClosing(QWidget& window, const QString& why);
 
-enum class OverwriteAnswer { overwrite, save_as, cancel };
+enum class OverwriteAnswer { overwrite, saveAs, cancel };
 
 /// Asks before a session overwrites a file that another program has changed.
 OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path);

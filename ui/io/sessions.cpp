@@ -130,7 +130,7 @@ void Sessions::protect() {
 }
 
 QString Sessions::keep() {
-  const QString why = autosave_ ? autosave_->keep() : QString();
+  QString why = autosave_ ? autosave_->keep() : QString();
   if (why.isEmpty()) {
     recovery_->release();
     unsaved_work::discardOldest();

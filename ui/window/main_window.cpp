@@ -493,7 +493,7 @@ bool MainWindow::keepsWork() {
     return true;
   }
   document_.goOn();
-  if (answer == ClosingAnswer::save_as) {
+  if (answer == ClosingAnswer::saveAs) {
     closesWhenSaved_ = files_->saveSessionAs();
   }
   return false;
