@@ -313,7 +313,9 @@ void Replacement::put(bool keeps_old) {
 void Replacement::take_back() {
   std::error_code ignored;
   if (state_ == State::exchanged) {
-    exchange();
+    if (!exchange()) {
+      temporary_.clear();  // it has the old content, which must not be removed
+    }
   } else if (state_ == State::backed_up) {
     fs::rename(backup_, target_, ignored);
     backup_.clear();
@@ -340,9 +342,9 @@ void Replacement::sync_folder() const {
 }
 
 void write_in_place(const fs::path& path, const std::string& content) {
+  errno = 0;
   const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   struct stat status {};
-  errno = 0;
   bool written = descriptor >= 0 && fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   if (written && static_cast<std::size_t>(status.st_size) < content.size()) {
     const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(content.size()));
