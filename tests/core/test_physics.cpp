@@ -197,7 +197,8 @@ namespace {
 
 /// Measures a drag with linear FEM, and returns what is wrong with its times; empty if nothing is.
 QString fault_of_preparation() {
-  // Factorizing for some 2000 elements takes a thousand times as long as a move, so no share of it can hide in a move.
+  // Factorizing for some 2000 elements takes a thousand times as long as a move; a busy machine does not change which
+  // of the two a move contains.
   Case bar = pinned_bar(2000, {}, {});
   bar.drags = {bar.drags[1], bar.drags.back()};
   const auto report = compare_with_physics({bar}, quick({Algorithm::linear_fem}, {0}));
@@ -208,7 +209,7 @@ QString fault_of_preparation() {
   Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
   const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
   const DragTimes cold = split(runner.run(moves, 0, chainmail::Progress()).ms, true, false);
-  const auto is_short = [&](double ms) { return ms > 0 && ms < 0.02 * factorize; };
+  const auto is_short = [&](double ms) { return ms > 0 && ms < 0.5 * factorize; };
   const std::array checks{
       std::pair{"both are measured", pull.prepare.factorize.count >= 1 && pull.prepare.grab.count >= 1},
       std::pair{"one move prepares", count_moves(moves) == count_moves(bar.drags[0]) + 1},

@@ -9,7 +9,6 @@
 #include <QFile>
 #include <QLabel>
 #include <QLockFile>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QThread>
 
@@ -21,30 +20,13 @@
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
-#include "session_bench.h"
+#include "safe_bench.h"
 #include "window/message_bar.h"
 #include "window/show_menu.h"
 
 namespace chainmail::window_lost {
 
 namespace {
-
-/// A workbench with automatic saving, whose timer the test starts.
-struct SafeBench : Workbench {
-  SafeBench() {
-    window.sessions().protect();
-    timer = find<QTimer>("autosaveTimer");
-  }
-  /// Writes what is unsaved, or tries to.
-  void save() {
-    settle();
-    timer->start(0);
-    QTRY_VERIFY(!timer->isActive() || timer->remainingTime() > 0);
-    settle();
-  }
-
-  QTimer* timer = nullptr;
-};
 
 QStringList kept() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
 
@@ -69,37 +51,15 @@ class FullDisk {
   QString path_, aside_;
 };
 
-/// Clicks a button of the next question, and counts the questions.
-class Answer : public QObject {
- public:
-  explicit Answer(const QString& button) {
-    timer_.setInterval(10);
-    connect(&timer_, &QTimer::timeout, this, [this, button] {
-      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-      for (QAbstractButton* one : box != nullptr ? box->buttons() : QList<QAbstractButton*>()) {
-        if (one->text().remove(QLatin1Char('&')) == button) {
-          ++questions;
-          said = box->text() + QLatin1Char('\n') + box->informativeText();
-          timer_.stop();
-          one->click();
-          return;
-        }
-      }
-    });
-    timer_.start();
-  }
-
-  int questions = 0;
-  QString said;
-
- private:
-  QTimer timer_;
-};
-
 void put(const QString& name, const QDateTime& changed) {
   QFile file(QDir(unsaved_work::folder()).filePath(name));
   QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write("{") == 1 && file.flush());
   QVERIFY(file.setFileTime(changed, QFileDevice::FileModificationTime));
+}
+
+void writeText(const QString& path, const char* text) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly) && file.write(text) > 0);
 }
 
 int modeOf(const QString& path) {
@@ -117,6 +77,7 @@ class WindowLost : public QObject {
     failOnWarnings();
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     QSettings().clear();
+    QFile::remove(PresetStore::file());
   }
 
   void anotherObjectIsAnotherDocument_data() {
@@ -312,6 +273,35 @@ class WindowLost : public QObject {
     QVERIFY(!bar.isVisible());
   }
 
+  void anotherProgramChangesTheOpenMesh() {
+    const QString file = path("part.obj"), session = path("session.chainmail");
+    Workbench bench(cloth());
+    auto* files = bench.window.findChild<FileActions*>();
+    auto& bar = bench.window.sessions().reloadBar();
+    files->savePath(file);
+    bench.settle();
+    bench.open(file);
+    files->savePath(file);  // what this window has written is known to it
+    bench.settle();
+    writeText(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    QTRY_VERIFY(bar.isVisible());
+    bench.document().undo();  // the object before has no file
+    QVERIFY(!bar.isVisible());
+    bench.document().redo();
+    QTRY_VERIFY(bar.isVisible());
+    bench.find<QPushButton>("reload")->click();
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), ElementId{3});
+    QVERIFY(!bar.isVisible());
+    // The session of a mesh is another file.
+    bench.window.sessions().savePath(session);
+    bench.settle();
+    writeText(file, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    writeText(session, "{}");
+    QTRY_VERIFY(bar.isVisible());
+    QVERIFY(bar.findChild<QLabel*>()->text().contains(QStringLiteral("session.chainmail")));
+  }
+
   void aFileThatCannotBeReplacedIsWrittenInPlace() {
     if (geteuid() != 0) {
       QSKIP("only root can make a file of another user in a sticky folder");
@@ -371,14 +361,28 @@ class WindowLost : public QObject {
   }
 
   void presetsThatCannotBeReadAreKept() {
-    const QString damaged = QStringLiteral("{\"presets\": [");
-    QSettings().setValue(QStringLiteral("softnessPresets"), damaged);
+    const char* const damaged = "{\"presets\": [";
+    writeText(PresetStore::file(), damaged);
     PresetStore store;
     QVERIFY_EXCEPTION_THROWN(store.load(), Error);
     store.save({"felt", {0.5, 1.5, 0.2}});
-    QCOMPARE(QSettings().value(QStringLiteral("softnessPresetsDamaged1")).toString(), damaged);
+    QFile kept(QFileInfo(PresetStore::file()).dir().filePath(QStringLiteral("softness-presets-damaged-1.json")));
+    QVERIFY(kept.open(QIODevice::ReadOnly) && kept.readAll() == damaged);
     store.load();
     QCOMPARE(store.own().size(), std::size_t{1});
+  }
+
+  void presetsOfEarlierVersionsAreTakenOver() {
+    QSettings().setValue(QStringLiteral("softnessPresets"),
+                         QStringLiteral("{\"presets\": [{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, "
+                                        "\"shear\": 0.2}]}"));
+    PresetStore store;
+    store.load();
+    QCOMPARE(store.own().size(), std::size_t{1});
+    store.save({"cloth", {0.9, 1.1, 0.1}});
+    QSettings().clear();
+    store.load();
+    QCOMPARE(store.own().size(), std::size_t{2});
   }
 
   void unsavedWorkIsPrivate() {

@@ -6,6 +6,7 @@
 #include <QLineEdit>
 
 #include "docks/preset_row.h"
+#include "docks/preset_store.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -46,6 +47,7 @@ class WindowPresets : public QObject {
   void init() {
     failOnWarnings();
     QSettings().clear();
+    QFile::remove(PresetStore::file());
   }
 
   void thoseBuiltInActLiveAsOneStep() {
@@ -192,10 +194,12 @@ class WindowPresets : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
   }
 
-  void settingsThatAreBrokenSaySo() {
-    QSettings().setValue(QStringLiteral("softnessPresets"), QStringLiteral("nonsense"));
+  void presetsThatAreBrokenSaySo() {
+    QFile file(PresetStore::file());
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("nonsense") > 0);
+    file.close();
     PresetBench bench;
-    QVERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("settings:1: ")));
+    QVERIFY(bench.window.messages().sentence().startsWith(file.fileName() + QStringLiteral(":1: ")));
     QCOMPARE(bench.shown(), QStringLiteral("Standard"));
   }
 };

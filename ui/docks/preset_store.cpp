@@ -1,9 +1,10 @@
 #include "docks/preset_store.h"
 
+#include <QDir>
+#include <QFileInfo>
 #include <QLockFile>
 #include <QSettings>
 #include <algorithm>
-#include <sstream>
 
 #include "common/as_path.h"
 #include "files/text/limits.h"
@@ -15,15 +16,20 @@ namespace {
 
 constexpr int lockMilliseconds = 5000;
 
-QString key() { return QStringLiteral("softnessPresets"); }
+/// Earlier versions kept the presets in the settings. Qt (6.4) empties the file of the settings without a word when the
+/// disk is full, so presets have a file of their own.
+std::string earlierText() { return QSettings().value(QStringLiteral("softnessPresets")).toString().toStdString(); }
 
-/// Returns a key for text that cannot be read, which no text has.
-QString keyOfDamaged(const QSettings& settings) {
+/// Returns the first free name beside the file.
+QString nameOfDamaged(const QString& path) {
+  const auto name = [&](int number) {
+    return QFileInfo(path).dir().filePath(QStringLiteral("softness-presets-damaged-%1.json").arg(number));
+  };
   int number = 1;
-  while (settings.contains(key() + QStringLiteral("Damaged%1").arg(number))) {
+  while (QFile::exists(name(number))) {
     ++number;
   }
-  return key() + QStringLiteral("Damaged%1").arg(number);
+  return name(number);
 }
 
 bool isBuiltIn(const std::string& name) {
@@ -50,10 +56,15 @@ std::string freeName(std::vector<SoftnessPreset>& presets, const std::string& na
 
 }  // namespace
 
+QString PresetStore::file() {
+  return QFileInfo(QSettings().fileName()).dir().filePath(QStringLiteral("softness-presets.json"));
+}
+
 void PresetStore::load() {
   own_.clear();
-  const std::string text = QSettings().value(key()).toString().toStdString();
-  if (!text.empty()) {
+  if (QFile::exists(file())) {
+    own_ = read_presets(asPath(file()));
+  } else if (const std::string text = earlierText(); !text.empty()) {
     own_ = read_presets(text, "settings");
   }
 }
@@ -61,23 +72,31 @@ void PresetStore::load() {
 /// Changes the presets while no other window does.
 template <class Edit>
 void PresetStore::change(Edit edit) {
-  QLockFile lock(QSettings().fileName() + QStringLiteral(".presets.lock"));
+  QDir().mkpath(QFileInfo(file()).path());
+  QLockFile lock(file() + QStringLiteral(".lock"));
   if (!lock.tryLock(lockMilliseconds)) {
-    throw Error("presets", "another window is changing them", "try again");
+    const bool isHeld = lock.error() == QLockFile::LockFailedError;
+    throw Error("presets", isHeld ? "another window is changing them" : "their folder cannot be written",
+                isHeld ? "try again"
+                       : "free disk space, or check the permissions of " + QFileInfo(file()).path().toStdString());
   }
   refresh();
-  edit();
-  keep();
+  const std::vector<SoftnessPreset> before = own_;
+  try {
+    edit();
+    writeTo(file());
+  } catch (...) {
+    own_ = before;
+    throw;
+  }
 }
 
-/// Reads what another window may have changed.
+/// Reads what another window may have changed. Text that cannot be read is kept in another file.
 void PresetStore::refresh() {
-  QSettings settings;
-  settings.sync();
   try {
     load();
   } catch (const Error&) {
-    settings.setValue(keyOfDamaged(settings), settings.value(key()));
+    QFile::rename(file(), nameOfDamaged(file()));
   }
 }
 
@@ -150,12 +169,6 @@ std::size_t PresetStore::addFrom(const QString& path) {
 
 void PresetStore::writeTo(const QString& path) const {
   write_file(asPath(path), [this](std::ostream& out) { write_presets(out, own_); });
-}
-
-void PresetStore::keep() const {
-  std::ostringstream text;
-  write_presets(text, own_);
-  QSettings().setValue(key(), QString::fromStdString(text.str()));
 }
 
 }  // namespace chainmail

@@ -7,15 +7,17 @@
 
 namespace chainmail {
 
-/// The user's softness presets, stored in the settings, which all windows share: each change is made to the presets as
-/// another window has left them. Names are unique and differ from those of built-in presets. Functions throw Error if
-/// they fail.
+/// The user's softness presets, in a file beside the settings, which all windows share: each change is made to the
+/// presets as another window has left them. Names are unique and differ from those of built-in presets. Functions throw
+/// Error if they fail; then nothing has changed.
 class PresetStore {
  public:
   const std::vector<SoftnessPreset>& own() const { return own_; }
 
-  /// Reads the settings. Throws if they are damaged; then there are no presets. The next change keeps the damaged text
-  /// in the settings beside the new one.
+  /// Returns the file of the presets.
+  static QString file();
+  /// Reads the file. Throws if it is damaged; then there are no presets. The next change gives the damaged file another
+  /// name.
   void load();
   /// Adds a preset, or replaces the user's preset of this name.
   void save(const SoftnessPreset& preset);
@@ -34,7 +36,6 @@ class PresetStore {
   void check(const std::string& name) const;
   /// Throws Error if there are limits::presets already.
   static void checkRoom(std::size_t present);
-  void keep() const;
 
   std::vector<SoftnessPreset> own_;
 };

@@ -527,7 +527,9 @@ void Document::replaceMesh(const MeshPointer& mesh, const QString& name, const Q
 }
 
 void Document::reworkMesh(const MeshPointer& mesh, const QString& name, const QString& text, OwnSoftness own) {
-  apply(meshChange(mesh, name, text, std::move(own)));
+  Change edit = meshChange(mesh, name, text, std::move(own));
+  edit.after.object->file = meshFile();
+  apply(std::move(edit));
 }
 
 void Document::restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text) {
@@ -582,6 +584,11 @@ void Document::setSessionFile(const QString& file) {
     sessionFile_ = file;
     emit sessionFileChanged();
   }
+}
+
+void Document::setMeshFile(const QString& file) {
+  contents_.object->file = file;
+  emit meshFileChanged();
 }
 
 // The handle: its moves go directly to the solvers, and a drag becomes an undo step when it ends.

@@ -192,7 +192,11 @@ class Document : public QObject {
   void restore(const std::shared_ptr<const Session>& session, const QString& file, const QString& text);
   /// The file of this session; empty if it has none yet.
   const QString& sessionFile() const { return sessionFile_; }
+  /// Returns the mesh file that the object was opened from; empty if there is none.
+  const QString& meshFile() const { return contents_.object->file; }
   void setSessionFile(const QString& file);
+  /// The object was opened from this mesh file.
+  void setMeshFile(const QString& file);
 
   // Highlight and selection. They do not change the object and are not undo steps.
 
@@ -230,6 +234,7 @@ class Document : public QObject {
   /// The recorded commands, or the current position in them, have changed.
   void tapeChanged();
   void sessionFileChanged();
+  void meshFileChanged();
   /// A command was refused; `sentence` gives the reason.
   void refused(const QString& sentence);
   /// A panel has no solution; see lacksPins().

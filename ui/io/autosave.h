@@ -48,6 +48,9 @@ class Autosave : public QObject {
   /// failure the window may stay open, and saving goes on.
   QString keep();
 
+  /// True while a file is being written in the background.
+  bool isWriting() const { return writing_ != nullptr; }
+
   /// Keeps unsaved work for the next start, because another object is about to replace it. Writing runs in the
   /// background. Returns false if there is none.
   bool setAside();

@@ -20,6 +20,7 @@
 #include "io/mesh_repair.h"
 #include "io/picture_file.h"
 #include "io/questions.h"
+#include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
@@ -109,6 +110,7 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   connect(sheets_, &Sheets::failed, this, &FileActions::failed);
   connect(sheets_, &Sheets::opened, this, &FileActions::remember);
   connect(sheets_, &Sheets::saved, this, &FileActions::saved);
+  connect(&sessions_.reloadBar(), &ReloadBar::reloadRequested, this, [this](const QString& path) { openPath(path); });
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
   connect(&sessions_, &Sessions::recovered, this, &FileActions::recovered);
   connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
@@ -246,10 +248,17 @@ void FileActions::read(const QString& path, bool first, bool ask) {
                 if (is_volume(asPath(path))) {
                   return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
                 }
+                const auto state = stateOf(path);  // before it is read
                 const OpenedMesh opened = open_mesh(asPath(path), {}, progress.part(0, 0.8));
                 const Defects defects = find_defects(*opened.mesh, progress.part(0.8, 0.9));
                 prepareLevels(opened.mesh, progress.part(0.9, 1));
-                return [this, opened, defects, path, first] { show(opened, defects, path, first); };
+                return [this, opened, defects, path, first, state] {
+                  show(opened, defects, path, first);
+                  if (!isSample(path)) {
+                    sessions_.know(path, state);
+                    document_.setMeshFile(QFileInfo(path).absoluteFilePath());
+                  }
+                };
               });
 }
 
@@ -297,7 +306,8 @@ void FileActions::write(const QString& path, const std::shared_ptr<const Frame>&
       [this, path, mesh = document_.mesh(), cuts = document_.cuts(), softness = document_.wholeSoftness(),
        shape](const Progress& progress) -> Jobs::Finish {
         save_mesh(asPath(path), {*mesh, cuts, shape ? shape->view() : rest_positions(*mesh), *softness}, progress);
-        return [this, path] {
+        return [this, path, state = stateOf(path)] {
+          sessions_.know(path, state);
           remember(path);
           emit saved(path);
         };

@@ -1,14 +1,15 @@
 #include "io/film.h"
 
+#include <QBuffer>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QWidget>
-#include <filesystem>
-#include <system_error>
 
 #include "common/as_path.h"
+#include "common/write_bytes.h"
+#include "files/text/outputs.h"
 #include "io/pictures.h"
 #include "mesh/failure.h"
 
@@ -25,11 +26,11 @@ QString pictureName(std::size_t number) {
   return QStringLiteral("move-%1.png").arg(qulonglong(number), 6, 10, QLatin1Char('0'));
 }
 
-/// Moves a whole file to its place. The file that is there stays if this fails.
-bool replaces(const QString& made, const QString& target) {
-  std::error_code error;
-  std::filesystem::rename(asPath(made), asPath(target), error);
-  return !error;
+/// Writes a picture, and waits until the disk has it. Throws Error.
+void writePicture(const QImage& picture, const QString& path) {
+  QBuffer buffer;
+  buffer.open(QIODevice::WriteOnly);
+  writeBytes(path, picture.save(&buffer, "PNG") ? buffer.data() : QByteArray());
 }
 
 }  // namespace
@@ -128,10 +129,10 @@ void Film::savePicture(const QImage& picture) {
 
 void Film::encode(const QImage& picture, const QString& path) {
   try {
-    if (!stopped_ && !picture.save(path)) {
-      unwritten_ = true;
+    if (!stopped_) {
+      writePicture(picture, path);
     }
-  } catch (...) {  // no memory
+  } catch (...) {
     unwritten_ = true;
   }
 }
@@ -160,30 +161,45 @@ void Film::finish() {
   }
 }
 
-/// Moves all pictures into the folder. Replaces the pictures of an earlier film.
-void Film::finishPictures() {
-  for (std::size_t number = 1; number <= positions_.size() && !unwritten_; ++number) {
-    const QString name = pictureName(number);
-    unwritten_ = !replaces(folder_->filePath(name), QDir(path_).filePath(name));
-  }
-  if (unwritten_) {
-    fail(QStringLiteral("%1: a picture could not be written; check the free disk space").arg(path_));
+/// Ends the film with this last step.
+template <class Step>
+void Film::put(Step step) {
+  try {
+    step();
+  } catch (...) {
+    fail(QString::fromStdString(failure_sentence(path_.toStdString())));
     return;
   }
   end();
   emit saved(path_);
 }
 
+/// Moves all pictures into the folder, where they replace those of an earlier film, or none of them.
+void Film::finishPictures() {
+  if (unwritten_) {
+    fail(QStringLiteral("%1: a picture could not be written; check the free disk space").arg(path_));
+    return;
+  }
+  put([&] {
+    Outputs outputs;
+    for (std::size_t number = 1; number <= positions_.size(); ++number) {
+      const QString name = pictureName(number);
+      outputs.take(asPath(QDir(path_).filePath(name)), asPath(folder_->filePath(name)));
+    }
+    outputs.commit();
+  });
+}
+
 void Film::endVideo() {
   if (!running_) {
     return;
   }
-  const QString made = folder_->filePath(QFileInfo(path_).fileName());
-  const bool whole =
-      next_ == positions_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0;
-  if (whole && replaces(made, path_)) {
-    end();
-    emit saved(path_);
+  if (next_ == positions_.size() && ffmpeg_.exitStatus() == QProcess::NormalExit && ffmpeg_.exitCode() == 0) {
+    put([&] {
+      Outputs outputs;
+      outputs.take(asPath(path_), asPath(folder_->filePath(QFileInfo(path_).fileName())));
+      outputs.commit();
+    });
     return;
   }
   QFile log(folder_->filePath(QStringLiteral("log")));

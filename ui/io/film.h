@@ -47,6 +47,8 @@ class Film : public QObject {
   void startVideo(QSize size);
   void sendPicture(const QImage& picture);
   void finish();
+  template <class Step>
+  void put(Step step);
   void finishPictures();
   void endVideo();
   void fail(const QString& sentence);

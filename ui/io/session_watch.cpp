@@ -28,6 +28,12 @@ SessionWatch::SessionWatch(Document& document, QObject* parent) : QObject(parent
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { calm_.start(); });
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] { calm_.start(); });
   connect(&document_, &Document::sessionFileChanged, this, &SessionWatch::follow);
+  connect(&document_, &Document::meshFileChanged, this, &SessionWatch::follow);
+  connect(&document_, &Document::meshChanged, this, [this] {
+    if (followed_ != this->path()) {
+      follow();
+    }
+  });
 }
 
 void SessionWatch::know(const QString& path, const std::optional<FileState>& state) {
@@ -44,21 +50,27 @@ bool SessionWatch::isChanged(const QString& path) const {
   return known != known_.end() && now && *now != known->second;
 }
 
+/// Returns the watched file; empty if there is none.
+const QString& SessionWatch::path() const {
+  return document_.sessionFile().isEmpty() ? document_.meshFile() : document_.sessionFile();
+}
+
 /// Watches the file, and its folder, because most programs replace a file.
 void SessionWatch::follow() {
   told_.reset();
+  emit followed();
   if (const QStringList watched = watcher_.files() + watcher_.directories(); !watched.isEmpty()) {
     watcher_.removePaths(watched);
   }
-  const QString& path = document_.sessionFile();
-  if (!path.isEmpty()) {
+  followed_ = path();
+  if (const QString& path = followed_; !path.isEmpty()) {
     watcher_.addPaths({path, QFileInfo(path).absolutePath()});
     calm_.start();  // it may have changed while it was not watched
   }
 }
 
 void SessionWatch::look() {
-  const QString& path = document_.sessionFile();
+  const QString& path = this->path();
   if (path.isEmpty()) {
     return;
   }

@@ -22,7 +22,7 @@ struct FileState {
 std::optional<FileState> stateOf(const QString& path);
 
 /// Knows the sessions that this window has read and written, so that it does not overwrite what another window or
-/// program has written to them since. Watches the file of the document.
+/// program has written to them since. Watches the session of the document, or the mesh file that it was opened from.
 class SessionWatch : public QObject {
   Q_OBJECT
 
@@ -35,14 +35,18 @@ class SessionWatch : public QObject {
   bool isChanged(const QString& path) const;
 
  signals:
+  /// Emitted when another file is watched, or none.
+  void followed();
   /// Emitted once for each change of the document's file by another program.
   void changedOutside(const QString& path);
 
  private:
+  const QString& path() const;
   void follow();
   void look();
 
   Document& document_;
+  QString followed_;
   std::map<QString, FileState> known_;
   std::optional<FileState> told_;
   QFileSystemWatcher watcher_;

@@ -13,7 +13,6 @@
 #include "io/recovery_bar.h"
 #include "io/reload_bar.h"
 #include "io/samples.h"
-#include "io/session_watch.h"
 #include "io/unsaved_work.h"
 
 namespace chainmail {
@@ -57,8 +56,7 @@ Sessions::Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* par
       reload_(new ReloadBar),
       watch_(new SessionWatch(document, this)) {
   connect(watch_, &SessionWatch::changedOutside, reload_, &ReloadBar::offer);
-  connect(&document_, &Document::sessionFileChanged, reload_, &QWidget::hide);
-  connect(reload_, &ReloadBar::reloadRequested, this, [this](const QString& path) { openPath(path, false); });
+  connect(watch_, &SessionWatch::followed, reload_, &QWidget::hide);
   connect(recovery_, &RecoveryBar::restoreRequested, this, &Sessions::restore);
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] { ++steps_; });
 }
@@ -73,7 +71,7 @@ void Sessions::openPath(const QString& path, bool first) {
                     read_session(asPath(path), progress.part(0, 0.9), meshesNear(path)));
                 prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path, state, first] {
-                  watch_->know(QFileInfo(path).absoluteFilePath(), state);
+                  know(path, state);
                   show(session, path, first);
                 };
               });
@@ -105,7 +103,7 @@ void Sessions::savePath(const QString& path, bool inPlace) {
                   return [this, path, why = QString::fromUtf8(refused.what())] { emit notReplaceable(path, why); };
                 }
                 return [this, path, steps, mesh, state = stateOf(path)] {
-                  watch_->know(QFileInfo(path).absoluteFilePath(), state);
+                  know(path, state);
                   reload_->hide();
                   if (autosave_) {
                     autosave_->discardAdopted(mesh);
@@ -118,6 +116,10 @@ void Sessions::savePath(const QString& path, bool inPlace) {
                   emit this->saved(path);
                 };
               });
+}
+
+void Sessions::know(const QString& path, const std::optional<FileState>& state) {
+  watch_->know(QFileInfo(path).absoluteFilePath(), state);
 }
 
 bool Sessions::isChangedOutside(const QString& path) const { return watch_->isChanged(path); }

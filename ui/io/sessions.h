@@ -6,12 +6,12 @@
 #include "document/document.h"
 #include "files/session/session.h"
 #include "io/autosave.h"
+#include "io/session_watch.h"
 
 namespace chainmail {
 
 class RecoveryBar;
 class ReloadBar;
-class SessionWatch;
 
 /// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
 /// next start.
@@ -26,6 +26,8 @@ class Sessions : public QObject {
   void openPath(const QString& path, bool first);
   /// Saves the session in the background. `inPlace`: without replacing the file, see notReplaceable().
   void savePath(const QString& path, bool inPlace = false);
+  /// The window has read or written a file, which was in this state then.
+  void know(const QString& path, const std::optional<FileState>& state);
   /// True if another program has changed this file since the window opened or saved it.
   bool isChangedOutside(const QString& path) const;
 

@@ -42,11 +42,8 @@ void write_stream(std::ostream& out, const fs::path& path, const Outputs::Writer
 
 }  // namespace
 
-void Outputs::refuse_twice(const fs::path& path, const fs::path& target) const {
-  const bool twice =
-      std::any_of(files_.begin(), files_.end(), [&](const auto& file) { return file->target() == target; }) ||
-      std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) { return stream.path == path; });
-  if (twice) {
+void Outputs::refuse_twice(const fs::path& path, const fs::path& target) {
+  if (!targets_.insert(target).second) {
     throw Error(path == "-" ? "standard output" : shown(path), "two outputs have this name",
                 "use a different file for each");
   }
@@ -75,6 +72,15 @@ void Outputs::add(const fs::path& path, Writer writer, Readers readers) {
   refuse_unwritable(path, target, status);
   auto file = std::make_unique<Replacement>(path, target, readers);
   writer(file->stream());
+  file->finish();
+  files_.push_back(std::move(file));
+}
+
+void Outputs::take(const fs::path& path, const fs::path& made) {
+  const fs::path target = resolved(path);
+  refuse_twice(path, target);
+  refuse_unwritable(path, target, fs::status(path));
+  auto file = std::make_unique<Replacement>(path, target, made);
   file->finish();
   files_.push_back(std::move(file));
 }
@@ -108,13 +114,21 @@ void Outputs::replace_all() {
   }
 }
 
+void Outputs::sync_folders() {
+  std::set<fs::path> synced;
+  for (const auto& file : files_) {
+    if (synced.insert(file->folder()).second) {
+      file->sync_folder();
+    }
+  }
+}
+
 void Outputs::commit() {
   write_streams();
   replace_all();
-  for (const auto& file : files_) {
-    file->sync_folder();
-  }
+  sync_folders();
   files_.clear();
+  targets_.clear();
 }
 
 void write_file(const fs::path& path, const Outputs::Writer& writer, Readers readers) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <vector>
 
 #include "files/text/replacement.h"
@@ -29,6 +30,8 @@ class Outputs {
   /// Writes the content of a file. Throws Error if the target cannot be written, NotReplaceable if it cannot be
   /// replaced.
   void add(const std::filesystem::path& path, Writer writer, Readers readers = Readers::as_usual);
+  /// Takes over a finished file of another writer, on the file system of its target `path`.
+  void take(const std::filesystem::path& path, const std::filesystem::path& made);
   void commit();
 
  private:
@@ -39,9 +42,11 @@ class Outputs {
 
   void write_streams();
   void replace_all();
-  void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target) const;
+  void sync_folders();
+  void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target);
 
   std::vector<std::filesystem::path> inputs_;  // with symbolic links resolved
+  std::set<std::filesystem::path> targets_;    // of files_ and of streams_
   std::vector<std::unique_ptr<Replacement>> files_;
   std::vector<Stream> streams_;
 };

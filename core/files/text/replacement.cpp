@@ -189,15 +189,35 @@ Replacement::Replacement(fs::path path, fs::path target, Readers readers)
   stream_ = std::make_unique<std::ostream>(buffer_.get());
 }
 
-Replacement::~Replacement() {
-  if (descriptor_ >= 0) {
-    close(descriptor_);
+Replacement::Replacement(fs::path path, fs::path target, fs::path made)
+    : path_(std::move(path)),
+      target_(std::move(target)),
+      folder_(target_.parent_path()),
+      temporary_(std::move(made)),
+      descriptor_(open(temporary_.c_str(), O_WRONLY | O_CLOEXEC)),
+      state_(State::named) {
+  if (folder_.empty()) {
+    folder_ = ".";
   }
+  if (descriptor_ < 0) {
+    throw Error(shown(path_), "it cannot be written (" + system_reason() + ")", "check the permissions of its folder");
+  }
+}
+
+Replacement::~Replacement() {
+  close_descriptor();
   std::error_code ignored;
   for (const fs::path& left : {temporary_, backup_}) {
     if (!left.empty()) {
       fs::remove(left, ignored);
     }
+  }
+}
+
+void Replacement::close_descriptor() {
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+    descriptor_ = -1;
   }
 }
 
@@ -250,14 +270,16 @@ void Replacement::keep_properties() const {
 }
 
 void Replacement::finish() {
-  stream_->flush();
-  if (!*stream_) {
+  if (stream_ && !stream_->flush()) {
     errno = buffer_->error();
     fail_to_write();
   }
   keep_properties();
   if (!sync(descriptor_)) {
     fail_to_write();
+  }
+  if (state_ == State::named) {  // there may be more files than descriptors
+    close_descriptor();
   }
 }
 

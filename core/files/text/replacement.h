@@ -37,6 +37,8 @@ class Replacement {
   /// `path` is what the user entered, for messages; `target` is the same without symbolic links. Throws NotReplaceable
   /// or Error if no file can be made there.
   Replacement(std::filesystem::path path, std::filesystem::path target, Readers readers = Readers::as_usual);
+  /// Takes over a file that another writer has made on the same file system. Throws Error if it is not there.
+  Replacement(std::filesystem::path path, std::filesystem::path target, std::filesystem::path made);
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
   /// Removes the new content unless it was put in place.
@@ -44,6 +46,8 @@ class Replacement {
 
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& target() const { return target_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  /// Takes the content; not for a file that was taken over.
   std::ostream& stream();
 
   /// Waits until the disk has the content. Throws WriteFailure if it does not.
@@ -54,7 +58,7 @@ class Replacement {
   /// the target is never missing. Throws WriteFailure or NotReplaceable.
   void put(bool keeps_old);
   void take_back();
-  /// Waits until the disk has the new name. Throws WriteFailure if the disk fails.
+  /// Waits until the disk has the new names in the folder. Throws WriteFailure if the disk fails.
   void sync_folder() const;
 
  private:
@@ -66,6 +70,7 @@ class Replacement {
   void keep_properties() const;
   bool exchange() const;
   std::filesystem::path free_name() const;
+  void close_descriptor();
   [[noreturn]] void fail_to_write() const;
   [[noreturn]] void fail_to_replace() const;
 
