@@ -64,7 +64,7 @@ class WindowKilled : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  /// CHAINMAIL_KILLS is the number of rounds.
+  /// CHAINMAIL_KILLS is the number of rounds. Many take longer than Qt lets a test run (QTEST_FUNCTION_TIMEOUT).
   void littleWorkIsLost() {
     const int rounds = std::max(1, qEnvironmentVariableIntValue("CHAINMAIL_KILLS"));
     qint64 mostLost = 0;

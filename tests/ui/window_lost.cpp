@@ -373,9 +373,10 @@ class WindowLost : public QObject {
   }
 
   void presetsOfEarlierVersionsAreTakenOver() {
-    QSettings().setValue(QStringLiteral("softnessPresets"),
-                         QStringLiteral("{\"presets\": [{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, "
-                                        "\"shear\": 0.2}]}"));
+    QSettings().setValue(
+        QStringLiteral("softnessPresets"),
+        QStringLiteral("{\"version\": 1, \"presets\": [{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, "
+                       "\"shear\": 0.2}]}"));
     PresetStore store;
     store.load();
     QCOMPARE(store.own().size(), std::size_t{1});
