@@ -10,6 +10,7 @@
 #include "mesh/error.h"
 #include "mesh/large_pages.h"
 #include "mesh/parts.h"
+#include "mesh/polygon_triangles.h"
 #include "mesh/shapes.h"
 
 namespace chainmail {
@@ -122,13 +123,17 @@ void store_rest(Mesh& mesh, const std::vector<Point>& rest) {
   }
 }
 
-/// Splits polygons into fans of triangles around the first corner. This is enough to draw a convex polygon.
-void split_polygons(Mesh& mesh) {
+/// Divides the polygons into triangles.
+void divide_polygons(Mesh& mesh, const Progress& progress) {
+  std::vector<Point> at;
   for (std::size_t i = 0; i < mesh.polygons.size(); i += mesh.polygons[i] + 1) {
-    const ElementId* corner = mesh.polygons.data() + i + 1;
-    for (ElementId j = 2; j < mesh.polygons[i]; ++j) {
-      mesh.triangles.push_back({corner[0], corner[j - 1], corner[j]});
+    progress.report(i, mesh.polygons.size());
+    const auto corners = std::span<const ElementId>(mesh.polygons).subspan(i + 1, mesh.polygons[i]);
+    at.clear();
+    for (const ElementId corner : corners) {
+      at.push_back(mesh.rest_position(corner));
     }
+    divide_polygon(corners, at, mesh.triangles);
   }
 }
 
@@ -258,9 +263,9 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->hexahedra = std::move(parts.hexahedra);
   mesh->texture = std::move(parts.texture);
   mesh->lattice = parts.lattice;
-  split_polygons(*mesh);
+  divide_polygons(*mesh, progress.part(0.8, 0.82));
   mesh->object_dimension = object_dimension(*mesh);
-  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.8, 0.9));
+  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.82, 0.9));
   mesh->part_count = count_parts(*mesh, {}, progress.part(0.9, 1));
   mesh->box = box_of(*mesh);
   mesh->is_grid = is_grid(*mesh);
