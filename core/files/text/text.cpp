@@ -91,10 +91,20 @@ std::string shown(const std::filesystem::path& path, std::size_t line) {
 namespace {
 
 /// Reads a whole file. A text file must not contain a byte 0.
+// Some programs end a text with zero bytes, or with the end of file of CP/M, Ctrl+Z.
+constexpr std::string_view padding("\0\x1a", 2), padding_and_blanks("\0\x1a \t\r\n", 6);
+
+/// True if text stands behind a zero byte.
+bool is_binary(std::string_view text, std::size_t from) {
+  const std::size_t zero = text.find('\0', from);
+  return zero != std::string_view::npos && text.find_first_not_of(padding_and_blanks, zero) != std::string_view::npos;
+}
+
 std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
                        const Progress& progress) {
   RegularFile file(path);
   const Error too_large(shown(path), "it is larger than 4 GiB", "use a smaller file");
+  const Error no_text(shown(path), "it is not a text file", "use a text file with " + content);
   if (file.size() > limits::file_bytes) {
     throw too_large;
   }
@@ -104,8 +114,8 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
   while (const std::size_t got = file.read(part)) {
     text.append(part.data(), got);
     progress.report(std::min(1.0, double(text.size()) / double(file.size())));
-    if (is_text && text.find('\0', text.size() - got) != std::string::npos) {
-      throw Error(shown(path), "it is not a text file", "use a text file with " + content);
+    if (is_text && is_binary(text, text.size() - got)) {
+      throw no_text;  // before the rest of a large file is read
     }
     if (text.size() > limits::file_bytes) {
       throw too_large;  // the file grew while it was read
@@ -113,6 +123,13 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
   }
   if (text.empty()) {
     throw Error(shown(path), "it is empty", "use a file that contains " + content);
+  }
+  if (is_text && is_binary(text, 0)) {
+    throw no_text;
+  }
+  const std::size_t end = text.find_last_not_of(padding_and_blanks) + 1;
+  if (is_text && text.find_first_of(padding, end) != std::string::npos) {
+    text.resize(std::max<std::size_t>(end, 1));
   }
   return text;
 }
@@ -127,27 +144,42 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& con
   return read_whole(path, false, content, progress);
 }
 
-Lines::Lines(std::string_view text) : size_(text.size()), rest_(text) {
+Lines::Lines(std::string_view text, Backslash backslash) : size_(text.size()), backslash_(backslash), rest_(text) {
   static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (rest_.starts_with(byte_order_mark)) {
     rest_.remove_prefix(byte_order_mark.size());
   }
 }
 
+std::string_view Lines::take_line() {
+  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+  const std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(end);
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
+  ++ends_;
+  return line;
+}
+
 bool Lines::next() {
   if (rest_.empty()) {
     return false;
   }
-  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-  line_ = rest_.substr(0, end);
-  rest_.remove_prefix(end);
-  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
-  ++number_;
+  number_ = ends_ + 1;
+  line_ = take_line();
+  if (backslash_ == Backslash::joins && line_.ends_with('\\')) {
+    joined_.clear();
+    for (; line_.ends_with('\\') && !rest_.empty(); line_ = take_line()) {
+      joined_ += line_.substr(0, line_.size() - 1);
+      joined_ += ' ';
+    }
+    joined_ += line_.substr(0, line_.size() - (line_.ends_with('\\') ? 1 : 0));
+    line_ = joined_;
+  }
   return true;
 }
 
 void Lines::report(const Progress& progress) const {
-  if (number_ % lines_between_reports == 0) {
+  if (ends_ % lines_between_reports == 0) {
     progress.report(1 - double(rest_.size()) / double(size_));
   }
 }
@@ -180,16 +212,50 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+/// True if a decimal number that no double holds is too small, not too large.
+bool is_tiny(std::string_view word) {
+  const std::size_t end = std::min(word.find_first_of("eE"), word.size());
+  const std::string_view digits = word.substr(0, end);
+  const std::size_t first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), digits.size());
+  std::string_view power = word.substr(std::min(end + 1, word.size()));
+  power.remove_prefix(power.starts_with('+') ? 1 : 0);
+  std::int64_t exponent = 0;
+  const auto parsed = std::from_chars(power.data(), power.data() + power.size(), exponent);
+  if (parsed.ec == std::errc::result_out_of_range) {
+    return power.starts_with('-');
+  }
+  // The power of ten of the first digit.
+  return first == std::string_view::npos ||
+         exponent + (std::int64_t(point) - std::int64_t(first)) - (first < point ? 1 : 0) < 0;
+}
+
 std::optional<double> parse_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
     word.remove_prefix(1);  // files contain a plus sign, which from_chars does not accept
   }
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error == std::errc::result_out_of_range && end == word.data() + word.size() && is_tiny(word)) {
+    return 0;
+  }
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) {
     return std::nullopt;
   }
   return number;
+}
+
+bool has_decimal_comma(std::string_view word) {
+  std::string with_point(word);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return with_point != word && parse_number(with_point);
+}
+
+std::string number_remedy(std::string_view word) {
+  return has_decimal_comma(word) ? "write a decimal point instead of the comma" : "write a finite decimal number";
+}
+
+bool is_word(std::string_view word, std::string_view lower) {
+  return std::ranges::equal(word, lower, [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
 std::optional<std::uint32_t> parse_count(std::string_view word) {

@@ -33,23 +33,32 @@ std::string read_text(const std::filesystem::path& path, const std::string& cont
 std::string read_bytes(const std::filesystem::path& path, const std::string& content = "a mesh",
                        const Progress& progress = {});
 
-/// Reads a text line by line. Lines end with \n, \r\n or \r, and their numbers start at 1.
+/// Reads a text line by line. Lines end with \n, \r\n or \r, and their numbers start at 1. A byte order mark at the
+/// beginning is passed over.
 class Lines {
  public:
-  explicit Lines(std::string_view text);
+  /// A backslash at the end of a line may join it to the next one.
+  enum class Backslash { is_text, joins };
+
+  explicit Lines(std::string_view text, Backslash backslash = Backslash::is_text);
 
   /// Moves to the next line. Returns false at the end.
   bool next();
   std::string_view line() const { return line_; }
+  /// The number of the line; of joined lines the first one.
   std::size_t number() const { return number_; }
   /// Reports the share of the text that was read.
   void report(const Progress& progress) const;
 
  private:
+  std::string_view take_line();
+
   std::size_t size_;
+  Backslash backslash_;
   std::string_view rest_;
   std::string_view line_;
-  std::size_t number_ = 0;
+  std::string joined_;
+  std::size_t number_ = 0, ends_ = 0;
 };
 
 /// Removes the first word from a line and returns it; empty if there is none. Blanks and tabs separate words.
@@ -60,8 +69,15 @@ std::string_view trimmed(std::string_view text);
 /// Converts A to Z to lower case. Other characters stay.
 std::string lower_case(std::string_view text);
 
-/// Parses a word that is a finite decimal number, to the nearest double.
+/// True if a word is `lower`, which has lower-case letters, in upper or lower case.
+bool is_word(std::string_view word, std::string_view lower);
+
+/// Parses a word that is a finite decimal number, to the nearest double; a number that is too small for it is 0.
 std::optional<double> parse_number(std::string_view word);
+/// True if a word would be a number with a point instead of a comma.
+bool has_decimal_comma(std::string_view word);
+/// Returns what to write instead of a word that parse_number() refuses.
+std::string number_remedy(std::string_view word);
 /// Parses a word of digits as a whole number of 32 bits.
 std::optional<std::uint32_t> parse_count(std::string_view word);
 

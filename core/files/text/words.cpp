@@ -53,6 +53,23 @@ std::string_view Words::next() {
   return word;
 }
 
+bool Words::begins_line() const {
+  const std::size_t before = text_.substr(0, last_).find_last_not_of(" \t\v\f");
+  return before == std::string_view::npos || text_[before] == '\n' || text_[before] == '\r';
+}
+
+bool Words::ends_line() const {
+  const std::size_t next = text_.find_first_not_of(" \t\v\f", at_);
+  return next == std::string_view::npos || text_[next] == '\n' || text_[next] == '\r' || text_[next] == '#';
+}
+
+void Words::skip_line() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
+
+std::string_view Words::peek() const {
+  Words ahead = *this;
+  return ahead.next();
+}
+
 std::uint32_t Words::count(const char* what) {
   const std::string_view word = next();
   const auto number = parse_count(word);
@@ -68,7 +85,7 @@ double Words::coordinate() {
   const auto number = parse_number(word);
   if (!number || std::abs(*number) > coordinate_limit) {
     fail(word.empty() ? "it ends before all coordinates" : in_quotes(word) + " is not a valid coordinate",
-         "write a finite decimal number");
+         number_remedy(word));
   }
   return *number;
 }

@@ -10,7 +10,7 @@
 namespace chainmail {
 
 /// Reads a text word by word, wherever its lines end. A comment begins with # and ends with its line; a byte order mark
-/// at the beginning is passed over.
+/// at the beginning is passed over. For all text formats whose lines have no meaning, or only here and there.
 class Words {
  public:
   Words(std::string_view text, const std::filesystem::path& path, const Progress& progress);
@@ -20,6 +20,16 @@ class Words {
 
   /// Moves to the next word and returns it; empty at the end.
   std::string_view next();
+  /// Lets the next word begin so many bytes behind the begin of the last one.
+  void split(std::size_t bytes) { at_ = last_ + bytes; }
+  /// True if the last word is the first of its line.
+  bool begins_line() const;
+  /// True if no word follows on the line of the last word.
+  bool ends_line() const;
+  /// Moves to the end of the line.
+  void skip_line();
+  /// Returns the next word without moving to it.
+  std::string_view peek() const;
   /// Returns the next word as a whole number. `what` describes it in error messages.
   std::uint32_t count(const char* what);
   /// Returns the next word as a coordinate.
