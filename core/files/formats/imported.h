@@ -16,9 +16,19 @@ struct ImportedMesh {
   MeshParts parts;
   /// Number of unused points in the file that the library leaves out.
   std::uint64_t unused = 0;
+  /// Number of faces with fewer than 3 corners.
+  std::uint64_t collapsed = 0;
+  /// Number of faces and cells that were divided into others, see add_divided().
+  std::uint64_t divided = 0;
+  /// Number of lines that the format does not have, and that the reader passed over.
+  std::uint64_t skipped = 0;
+  /// Points this close are one point (share of the largest extent). For formats that list corners by their positions.
+  double joins_within = 0;
   /// The space dimension that a comment of the file states.
   std::optional<Stated<int>> space;
-  /// True if the reader itself refuses flawed faces. Then opened() keeps every face, and allows a mesh without links.
+  /// True if a file of this format may have points without any link.
+  bool may_lack_links = false;
+  /// True if the reader itself refuses flawed faces. Then opened() keeps every face.
   bool checked = false;
 };
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <random>
 #include <span>
 #include <vector>
 
+#include "files/formats/seeded_hash.h"
 #include "mesh/cells.h"
 
 namespace chainmail {
@@ -107,13 +107,6 @@ void add_words(std::string& words, std::uint64_t count, const char* one, const c
   }
 }
 
-/// Spreads the bits of a number over all bits (the finalizer of SplitMix64, Steele et al. 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
-
 }  // namespace
 
 void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
@@ -127,18 +120,14 @@ void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws) {
 std::vector<ElementId> first_at_position(const Mesh& mesh) {
   const auto dimension = std::size_t(mesh.space_dimension);
   const auto position = [&](ElementId e) { return std::span(mesh.rest).subspan(e * dimension, dimension); };
-  // A hash table of elements with open addressing. A file cannot choose positions with equal hashes: the seed is
-  // random.
+  // A hash table of elements with open addressing.
   constexpr auto empty = std::numeric_limits<ElementId>::max();
-  static const std::uint64_t seed = std::random_device{}();
   std::vector<ElementId> table(std::bit_ceil(2 * std::size_t{mesh.element_count()} + 1), empty);
   std::vector<ElementId> first(mesh.element_count());
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    std::uint64_t hash = seed;
-    for (const double coordinate : position(e)) {
-      hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0));  // -0 is 0
-    }
-    std::size_t at = hash % table.size();
+    std::array<double, 3> key{};
+    std::ranges::transform(position(e), key.begin(), [](double coordinate) { return coordinate + 0.0; });  // -0 is 0
+    std::size_t at = SeededHash()(key) % table.size();
     while (table[at] != empty && !std::ranges::equal(position(table[at]), position(e))) {
       at = (at + 1) % table.size();
     }
@@ -179,16 +168,23 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
 }
 
 std::string in_words(const MeshFlaws& flaws) {
-  std::string out, kept;
+  std::string out, joined, kept;
   add_words(out, flaws.unused, "unused point", "unused points", "");
-  add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point used twice");
+  add_words(out, flaws.collapsed, "face or cell", "faces or cells", " with a point used twice or fewer than 3");
   add_words(out, flaws.doubled, "duplicate face or cell", "duplicate faces or cells", "");
+  add_words(out, flaws.skipped, "line of an unknown kind", "lines of unknown kinds", "");
+  add_words(joined, flaws.divided, "prism, pyramid or second-order cell", "prisms, pyramids or second-order cells",
+            " divided into tetrahedra, triangles or lines");
+  add_words(joined, flaws.joined, "point", "points", " joined to others within the rounding of the file");
   add_words(kept, flaws.flat, "face or cell is flat", "faces or cells are flat", "");
   add_words(kept, flaws.inverted, "cell is inside out", "cells are inside out", "");
   add_words(kept, flaws.coincident, "element shares its position with another",
             "elements share their position with another", "");
   out += out.empty() ? "" : " left out" + std::string(flaws.unused > 0 ? " (ids count only the other points)" : "");
-  return out + (out.empty() || kept.empty() ? "" : "; ") + kept;
+  for (const std::string& part : {joined, kept}) {
+    out += (out.empty() || part.empty() ? "" : "; ") + part;
+  }
+  return out;
 }
 
 }  // namespace chainmail

@@ -12,12 +12,16 @@ namespace chainmail {
 struct MeshFlaws {
   // Flaws that are left out:
   std::uint64_t unused = 0;     // unused points that a library leaves out
-  std::uint64_t collapsed = 0;  // faces and cells that use a point twice; their edges are still links
+  std::uint64_t collapsed = 0;  // faces and cells that use a point twice, or fewer than 3; their edges are still links
   std::uint64_t doubled = 0;    // duplicate faces and cells
   // Flaws that are kept:
   std::uint64_t flat = 0;        // faces without an area, cells without a volume
   std::uint64_t inverted = 0;    // cells inside out
   std::uint64_t coincident = 0;  // elements at the position of another element
+  // What the reader changed:
+  std::uint64_t divided = 0;  // cells and faces that were divided into others
+  std::uint64_t skipped = 0;  // lines that the format does not have, left out
+  std::uint64_t joined = 0;   // points that became one with another beside them
 
   bool operator==(const MeshFlaws&) const = default;
 };

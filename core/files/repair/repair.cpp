@@ -8,6 +8,7 @@
 #include "files/import/handover.h"
 #include "files/import/import_process.h"
 #include "files/mesh/flaws.h"
+#include "files/mesh/join.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
 
@@ -39,26 +40,9 @@ MeshParts parts_of(const Mesh& mesh) {
   return parts;
 }
 
-template <std::size_t Size>
-void rename(std::vector<std::array<ElementId, Size>>& groups, const std::vector<ElementId>& ids) {
-  for (auto& group : groups) {
-    for (ElementId& corner : group) {
-      corner = ids[corner];
-    }
-  }
-}
-
 /// Gives the elements of parts their new ids, and removes those that are gone.
 void rename(MeshParts& parts, const std::vector<ElementId>& ids, const std::vector<bool>& kept) {
-  rename(parts.links, ids);
-  rename(parts.triangles, ids);
-  rename(parts.tetrahedra, ids);
-  rename(parts.hexahedra, ids);
-  for (std::size_t i = 0; i < parts.polygons.size(); i += parts.polygons[i] + 1) {
-    for (std::size_t j = 1; j <= parts.polygons[i]; ++j) {
-      parts.polygons[i + j] = ids[parts.polygons[i + j]];
-    }
-  }
+  rename_elements(parts, ids);
   std::size_t e = 0;
   std::erase_if(parts.rest, [&](const Point& /*position*/) { return !kept[e++]; });
 }
@@ -139,9 +123,9 @@ void append(const Mesh& mesh, const MeshParts& patches, MeshParts& parts) {
 
 }  // namespace
 
-Repaired weld(const Mesh& mesh, const Progress& progress) {
+Repaired weld(const Mesh& mesh, double tolerance, const Progress& progress) {
   progress.report(0);
-  const auto first = first_at_position(mesh);
+  const auto first = tolerance > 0 ? first_within(rest_of(mesh), tolerance) : first_at_position(mesh);
   std::vector<bool> kept(first.size());
   for (ElementId e = 0; e < first.size(); ++e) {
     kept[e] = first[e] == e;

@@ -20,9 +20,10 @@ struct Repaired {
   std::vector<ElementId> new_ids;
 };
 
-/// Joins the elements at exactly the same position to the one with the lowest id. Links between them are left out, and
-/// so are faces and cells that then use an element twice or are duplicates of others. Throws Cancelled.
-Repaired weld(const Mesh& mesh, const Progress& progress = {});
+/// Joins the elements within `tolerance` (mesh units; 0: at exactly the same position) to the one with the lowest id,
+/// see first_within(). Links between them are left out, and so are faces and cells that then use an element twice or
+/// are duplicates of others. Throws Cancelled.
+Repaired weld(const Mesh& mesh, double tolerance = 0, const Progress& progress = {});
 
 /// Removes the elements without links, unless the mesh has no links. Throws Cancelled.
 Repaired remove_loose(const Mesh& mesh, const Progress& progress = {});
