@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "files/formats/divided_cells.h"
 #include "files/text/text.h"
 #include "files/text/words.h"
 #include "mesh/error.h"
@@ -19,7 +20,9 @@ struct MeditList {
   std::size_t corners;
 };
 
-constexpr std::array<MeditList, 6> read_lists{{{"Edges", 2},
+constexpr std::array<MeditList, 8> read_lists{{{"Prisms", 6},
+                                               {"Pyramids", 5},
+                                               {"Edges", 2},
                                                {"Triangles", 3},
                                                {"Quadrilaterals", 4},
                                                {"Tetrahedra", 4},
@@ -59,8 +62,6 @@ class MeditReader {
       read_vertices();
     } else if (found != read_lists.end()) {
       read_pieces(*found);
-    } else if (keyword == "Prisms" || keyword == "Pyramids") {
-      words_.fail("it contains prisms or pyramids", "split them into tetrahedra");
     } else if (parse_number(keyword)) {
       words_.fail(in_quotes(keyword) + " stands where a keyword is expected", "correct the count before it");
     } else {
@@ -136,6 +137,9 @@ class MeditReader {
     MeshParts& parts = mesh_.parts;
     if (list.keyword == "Tetrahedra") {
       parts.tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
+    } else if (list.keyword == "Prisms" || list.keyword == "Pyramids") {
+      add_divided(mesh_, list.corners == 6 ? DividedKind::prism : DividedKind::pyramid,
+                  std::span(corners).first(list.corners));
     } else if (list.corners == 8) {
       parts.hexahedra.push_back(corners);
     } else {

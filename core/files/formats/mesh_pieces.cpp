@@ -1,8 +1,11 @@
 #include "files/formats/mesh_pieces.h"
 
 #include <algorithm>
+#include <memory>
+#include <set>
 
 #include "mesh/cells.h"
+#include "mesh/surface.h"
 
 namespace chainmail {
 
@@ -16,6 +19,9 @@ MeshPieces::MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& l
   if (listed.cells) {
     list(Piece::tetrahedron, SIZE_MAX, progress.part(0.4, 0.6));
     list(Piece::hexahedron, SIZE_MAX, progress.part(0.6, 0.8));
+  } else if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
+    find_sides(progress.part(0.4, 0.7));
+    list(Piece::side, SIZE_MAX, progress.part(0.7, 0.8));
   }
   list_lines(progress.part(0.8, 1));
 }
@@ -30,6 +36,8 @@ MeshPieces::Corners MeshPieces::corners(Piece piece, std::size_t index_of_kind) 
       return mesh_.tetrahedra[index_of_kind];
     case Piece::hexahedron:
       return mesh_.hexahedra[index_of_kind];
+    case Piece::side:
+      return sides_[index_of_kind].corners();
     case Piece::polygon:
       break;
   }
@@ -46,6 +54,8 @@ std::size_t MeshPieces::size(Piece piece) const {
       return mesh_.tetrahedra.size();
     case Piece::hexahedron:
       return mesh_.hexahedra.size();
+    case Piece::side:
+      return sides_.size();
     case Piece::polygon:
       break;
   }
@@ -93,6 +103,29 @@ void MeshPieces::list(Piece piece, std::size_t most_corners, const Progress& pro
       listed[i] = true;
       ++counts_[index(piece)];
       corner_counts_[index(piece)] += of_piece.size();
+    }
+  }
+}
+
+void MeshPieces::find_sides(const Progress& progress) {
+  const auto table = std::make_shared<const CellTable>(MeshPointer(MeshPointer(), &mesh_), progress);
+  const Surface surface(table, cuts_);
+  std::set<std::vector<ElementId>> faces;  // corners in ascending order
+  const auto ascending = [](Corners corners) {
+    std::vector<ElementId> sorted(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  for (const Piece face : {Piece::triangle, Piece::polygon}) {
+    for (std::size_t i = 0; i < size(face); ++i) {
+      faces.insert(ascending(corners(face, i)));
+    }
+  }
+  std::vector<SideId> order(surface.sides().begin(), surface.sides().end());
+  std::sort(order.begin(), order.end());
+  for (const SideId id : order) {
+    if (const Side side = table->side(id); !faces.contains(ascending(side.corners()))) {
+      sides_.push_back(side);
     }
   }
 }

@@ -6,18 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "mesh/cell_table.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
 
-/// The kinds of pieces in mesh files. A line is a link that is not an edge of another listed piece.
-enum class Piece { line, triangle, polygon, tetrahedron, hexahedron };
+/// The kinds of pieces in mesh files. A line is a link that is not an edge of another listed piece. A side is one of
+/// the outer surface of the cells (see Surface) that is no face of the mesh.
+enum class Piece { line, triangle, polygon, tetrahedron, hexahedron, side };
 
 /// The pieces that a format can list. Other pieces are written as lines.
 struct ListedPieces {
-  bool cells = true;
+  bool cells = true;                    // otherwise the sides of cells
   std::size_t most_corners = SIZE_MAX;  // largest number of corners of a polygon
 };
 
@@ -54,13 +56,15 @@ class MeshPieces {
   bool take(Piece piece, Corners corners);
   void list(Piece piece, std::size_t most_corners, const Progress& progress);
   void list_lines(const Progress& progress);
+  void find_sides(const Progress& progress);
 
   const Mesh& mesh_;
   const Cuts& cuts_;
   std::vector<std::size_t> polygons_;  // index at which each polygon begins
-  std::array<std::vector<bool>, 5> listed_;
-  std::array<std::uint32_t, 5> counts_{};
-  std::array<std::uint64_t, 5> corner_counts_{};
+  std::vector<Side> sides_;
+  std::array<std::vector<bool>, 6> listed_;
+  std::array<std::uint32_t, 6> counts_{};
+  std::array<std::uint64_t, 6> corner_counts_{};
   std::vector<LinkId> edges_;  // links along the edges of the current piece
   std::vector<bool> along_;    // true for links that are edges of a listed piece
 };

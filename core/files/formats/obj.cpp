@@ -14,8 +14,8 @@
 namespace chainmail {
 namespace {
 
-/// Statements that define no elements or links. They are skipped.
-constexpr std::array<std::string_view, 31> skipped_statements{
+/// Statements that define no elements or links. Lines with other statements are passed over, too, but counted.
+constexpr std::array<std::string_view, 31> known_statements{
     "vn",    "vt",       "vp",       "g",    "o",    "s",      "mg",  "mtllib",     "usemtl",   "maplib", "usemap",
     "bevel", "c_interp", "d_interp", "lod",  "p",    "cstype", "deg", "bmat",       "step",     "curv",   "curv2",
     "surf",  "parm",     "trim",     "hole", "scrv", "sp",     "end", "shadow_obj", "trace_obj"};
@@ -27,27 +27,17 @@ std::optional<std::int64_t> parse_index(std::string_view word) {
   return whole && number != 0 ? std::optional(number) : std::nullopt;
 }
 
-/// Returns the vertex index of a corner `v`, `v/t`, `v//n` or `v/t/n`, if the whole corner is well formed.
+/// Returns the vertex index of a corner `v`, `v/t`, `v//n` or `v/t/n`. Texture coordinates and normals are not read, so
+/// they may be missing or 0.
 std::optional<std::int64_t> parse_corner(std::string_view word) {
-  std::array<std::string_view, 3> parts;
-  std::size_t count = 0;
-  for (std::string_view rest = word; count < parts.size();) {
-    const std::size_t end = std::min(rest.find('/'), rest.size());
-    parts[count++] = rest.substr(0, end);
-    if (end == rest.size()) {
-      break;
-    }
-    rest.remove_prefix(end + 1);
-  }
-  const bool texture_fits = count < 2 || parse_index(parts[1]) || (count == 3 && parts[1].empty());
-  const bool normal_fits = count < 3 || parse_index(parts[2]);
-  const std::size_t length = parts[0].size() + parts[1].size() + parts[2].size() + count - 1;
-  return texture_fits && normal_fits && length == word.size() ? parse_index(parts[0]) : std::nullopt;
+  const std::size_t end = std::min(word.find('/'), word.size());
+  const bool fits = word.find_first_not_of("0123456789-+/", end) == std::string_view::npos;
+  return fits ? parse_index(word.substr(0, end)) : std::nullopt;
 }
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : path_(path) { result_.checked = true; }
+  explicit ObjReader(const std::filesystem::path& path) : path_(path) { result_.may_lack_links = true; }
 
   ImportedMesh read(std::string_view text, const Progress& progress);
 
@@ -60,7 +50,7 @@ class ObjReader {
   void read_vertex(std::string_view rest);
   void read_corners(std::string_view rest);
   ElementId read_corner(std::string_view word);
-  void check_corners(bool is_face) const;
+  void add_corners_as_face();
   void check_farthest() const;
 
   const std::filesystem::path& path_;
@@ -73,7 +63,7 @@ class ObjReader {
 };
 
 ImportedMesh ObjReader::read(std::string_view text, const Progress& progress) {
-  Lines lines(text);
+  Lines lines(text, Lines::Backslash::joins);
   while (lines.next()) {
     line_ = lines.number();
     lines.report(progress);
@@ -94,17 +84,15 @@ void ObjReader::read_line(std::string_view line) {
     read_vertex(rest);
   } else if (word == "f") {
     read_corners(rest);
-    check_corners(true);
-    add_face(result_.parts, corners_);
+    add_corners_as_face();
   } else if (word == "l") {
     read_corners(rest);
-    check_corners(false);
     for (std::size_t i = 1; i < corners_.size(); ++i) {
       result_.parts.links.push_back({corners_[i - 1], corners_[i]});
     }
   } else if (!word.empty() &&
-             std::find(skipped_statements.begin(), skipped_statements.end(), word) == skipped_statements.end()) {
-    fail(line_, in_quotes(word) + " is not an OBJ statement", "use 'v x y z' for elements, 'f' and 'l' for links");
+             std::find(known_statements.begin(), known_statements.end(), word) == known_statements.end()) {
+    ++result_.skipped;
   }
 }
 
@@ -122,22 +110,19 @@ void ObjReader::read_vertex(std::string_view rest) {
   if (result_.parts.rest.size() == element_limit) {
     fail(line_, "there are more than " + std::to_string(element_limit) + " vertices", "use a smaller mesh");
   }
-  std::array<double, 7> numbers{};  // x y z, then a weight or colours, which are ignored
-  std::size_t count = 0;
-  for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
+  Point point;  // a weight or colours may follow
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto word = take_word(rest);
     const auto number = parse_number(word);
+    if (word.empty()) {
+      fail(line_, "a vertex has " + std::to_string(axis) + " of its 3 coordinates", "write 'v x y z'");
+    }
     if (!number || std::abs(*number) > coordinate_limit) {
-      fail(line_, in_quotes(word) + " is not a valid coordinate", "write a finite decimal number");
+      fail(line_, in_quotes(word) + " is not a valid coordinate", number_remedy(word));
     }
-    if (count == numbers.size()) {
-      fail(line_, "a vertex has more than 7 numbers", "write 'v x y z'");
-    }
-    numbers[count++] = *number;
+    point[axis] = *number;
   }
-  if (count < 3) {
-    fail(line_, "a vertex has " + std::to_string(count) + " of its 3 coordinates", "write 'v x y z'");
-  }
-  result_.parts.rest.emplace_back(numbers[0], numbers[1], numbers[2]);
+  result_.parts.rest.push_back(point);
 }
 
 void ObjReader::read_corners(std::string_view rest) {
@@ -166,20 +151,14 @@ ElementId ObjReader::read_corner(std::string_view word) {
   return id;
 }
 
-void ObjReader::check_corners(bool is_face) const {
-  const std::size_t least = is_face ? 3 : 2;
-  if (corners_.size() < least) {
-    fail(line_,
-         std::string(is_face ? "a face" : "a line") + " needs " + std::to_string(least) + " corners and has " +
-             std::to_string(corners_.size()),
-         "add the missing ones or remove it");
+/// Adds a face. Some programs close it by naming its first corner again.
+void ObjReader::add_corners_as_face() {
+  if (corners_.size() > 3 && corners_.front() == corners_.back()) {
+    corners_.pop_back();
   }
-  auto twice = std::adjacent_find(corners_.begin(), corners_.end());
-  if (is_face && corners_.front() == corners_.back()) {
-    twice = corners_.begin();
-  }
-  if (twice != corners_.end()) {
-    fail(line_, "vertex " + std::to_string(*twice + 1) + " is linked to itself", "use each corner once");
+  result_.collapsed += corners_.size() < 3 ? 1 : 0;
+  if (corners_.size() >= 2) {
+    add_face(result_.parts, corners_);
   }
 }
 
@@ -226,7 +205,8 @@ void write_obj(std::ostream& out, const MeshState& state, const Progress& progre
   text << space_comment(state.mesh, state.positions);
   write_obj_vertices(text, state, progress.part(0.3, 0.6));
   write_obj_pieces(text, pieces, Piece::triangle, progress.part(0.6, 0.7));
-  write_obj_pieces(text, pieces, Piece::polygon, progress.part(0.7, 0.8));
+  write_obj_pieces(text, pieces, Piece::polygon, progress.part(0.7, 0.75));
+  write_obj_pieces(text, pieces, Piece::side, progress.part(0.75, 0.8));
   write_obj_pieces(text, pieces, Piece::line, progress.part(0.8, 1));
   text.flush();
 }

@@ -7,134 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "files/formats/vtk_cells.h"
 #include "files/formats/vtk_cursor.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
-
-/// Adds cells of legacy VTK to a mesh that already has its points.
-class VtkCells {
- public:
-  /// VTK's numbers of the cell types.
-  enum Type {
-    vertex = 1,
-    vertices,
-    line,
-    lines,
-    triangle,
-    strip,
-    polygon,
-    pixel,
-    quad,
-    tetrahedron,
-    voxel,
-    hexahedron
-  };
-
-  using Corners = std::span<const std::uint64_t>;
-
-  /// `cursor` provides the line for error messages.
-  VtkCells(MeshParts& parts, const VtkCursor& cursor) : parts_(parts), cursor_(cursor) {}
-
-  /// Adds a cell. Throws Error if the corners do not fit the type, or if the type is not supported.
-  void add(Corners corners, int type);
-
- private:
-  void add_chain(Corners corners);
-  void add_face(Corners corners);
-  template <std::size_t Size>
-  void add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners, const std::array<int, Size>& order);
-  ElementId id(std::uint64_t point) const;
-
-  MeshParts& parts_;
-  const VtkCursor& cursor_;
-};
-
-ElementId VtkCells::id(std::uint64_t point) const {
-  if (point >= parts_.rest.size()) {
-    cursor_.fail("a cell names point " + std::to_string(point) + ", which does not exist", "export it again");
-  }
-  return static_cast<ElementId>(point);
-}
-
-void VtkCells::add_chain(Corners corners) {
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    parts_.links.push_back({id(corners[i - 1]), id(corners[i])});
-  }
-}
-
-void VtkCells::add_face(Corners corners) {
-  if (corners.size() < 3) {
-    cursor_.fail("a face has fewer than 3 corners", "export it again");
-  }
-  if (corners.size() == 3) {
-    parts_.triangles.push_back({id(corners[0]), id(corners[1]), id(corners[2])});
-    return;
-  }
-  parts_.polygons.push_back(static_cast<ElementId>(corners.size()));
-  for (const std::uint64_t corner : corners) {
-    parts_.polygons.push_back(id(corner));
-  }
-}
-
-template <std::size_t Size>
-void VtkCells::add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners,
-                         const std::array<int, Size>& order) {
-  if (corners.size() != Size) {
-    cursor_.fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " + std::to_string(Size),
-                 "export it again");
-  }
-  std::array<ElementId, Size> group{};
-  std::transform(order.begin(), order.end(), group.begin(), [&](int place) { return id(corners[place]); });
-  groups.push_back(group);
-}
-
-void VtkCells::add(Corners corners, int type) {
-  switch (type) {
-    case vertex:
-    case vertices:
-      return;
-    case line:
-    case lines:
-      return add_chain(corners);
-    case strip:
-      for (std::size_t i = 2; i < corners.size(); ++i) {
-        add_face(corners.subspan(i - 2, 3));
-      }
-      return;
-    case triangle:
-    case polygon:
-    case quad:
-      return add_face(corners);
-    case pixel:
-      if (corners.size() == 4) {
-        return add_face(std::array{corners[0], corners[1], corners[3], corners[2]});
-      }
-      return add_face(corners);
-    case tetrahedron:
-      return add_group(parts_.tetrahedra, corners, {0, 1, 2, 3});
-    case voxel:
-      return add_group(parts_.hexahedra, corners, {0, 1, 3, 2, 4, 5, 7, 6});
-    case hexahedron:
-      return add_group(parts_.hexahedra, corners, {0, 1, 2, 3, 4, 5, 6, 7});
-    default:
-      cursor_.fail("it contains cells of VTK's type " + std::to_string(type),
-                   "split them into tetrahedra, or save them as cells of first order");
-  }
-}
-
-/// The corners of cells: cell i has the corners ids[first[i] .. first[i + 1]).
-struct CellRows {
-  std::vector<std::uint64_t> first{0};
-  std::vector<std::uint64_t> ids;
-
-  std::size_t count() const { return first.size() - 1; }
-  VtkCells::Corners operator[](std::size_t i) const {
-    return VtkCells::Corners(ids).subspan(first[i], first[i + 1] - first[i]);
-  }
-};
 
 class VtkReader {
  public:
@@ -144,6 +23,9 @@ class VtkReader {
   ImportedMesh read() {
     read_head();
     while (read_section()) {
+    }
+    if (grid_[0] > 0) {
+      add_grid();
     }
     return std::move(mesh_);
   }
@@ -159,12 +41,23 @@ class VtkReader {
   CellRows read_offsets(std::uint64_t offsets, std::uint64_t size);
   void read_types();
   void add_all(const CellRows& rows, int type);
+  void add(VtkCells::Corners corners, int type);
+  void read_size();
+  void read_axis(std::size_t axis);
+  Point read_point();
+  void take_point(const Point& point);
+  void add_grid();
+  void add_grid_points();
+  void add_grid_cell(std::uint64_t point);
 
   VtkCursor cursor_;
-  bool has_offsets_ = false;  // true for version 5 and later
-  CellRows cells_;            // cells of an unstructured grid; their types follow in the file
+  bool has_offsets_ = false;                 // true for version 5 and later
+  CellRows cells_;                           // cells of an unstructured grid; their types follow in the file
+  std::array<std::uint64_t, 3> grid_{};      // points along each axis of a grid
+  std::array<std::vector<double>, 3> axes_;  // of a rectilinear grid
+  Point origin_ = Point::Zero(), spacing_ = Point::Ones();
   ImportedMesh mesh_;
-  VtkCells into_{mesh_.parts, cursor_};
+  VtkCells into_{mesh_};
 };
 
 std::string upper_case(std::string_view word) {
@@ -189,7 +82,9 @@ void VtkReader::read_head() {
     cursor_.fail("the line 'DATASET …' is missing", "export it again");
   }
   const std::string kind = upper_case(cursor_.word());
-  if (kind != "POLYDATA" && kind != "UNSTRUCTURED_GRID") {
+  static constexpr std::array<std::string_view, 5> kinds{"POLYDATA", "UNSTRUCTURED_GRID", "STRUCTURED_GRID",
+                                                         "RECTILINEAR_GRID", "STRUCTURED_POINTS"};
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     cursor_.fail("a dataset " + in_quotes(kind) + " is not supported", "save it as an unstructured grid");
   }
 }
@@ -215,6 +110,14 @@ bool VtkReader::read_section() {
     read_rows();
   } else if (section == "FIELD") {
     read_field();
+  } else if (section == "DIMENSIONS") {
+    read_size();
+  } else if (section == "ORIGIN") {
+    origin_ = read_point();
+  } else if (section == "SPACING" || section == "ASPECT_RATIO") {
+    spacing_ = read_point();
+  } else if (section == "X_COORDINATES" || section == "Y_COORDINATES" || section == "Z_COORDINATES") {
+    read_axis(std::size_t(section[0] - 'X'));
   } else if (section == "METADATA") {
     cursor_.skip_block();
   } else {
@@ -230,12 +133,91 @@ void VtkReader::read_points() {
   }
   const auto numbers = cursor_.reals(3 * count, cursor_.word());
   for (std::size_t i = 0; i < numbers.size(); i += 3) {
-    const Point point(numbers[i], numbers[i + 1], numbers[i + 2]);
-    if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() <= coordinate_limit)) {
-      cursor_.fail("point " + std::to_string(i / 3) + " has a coordinate that is not a number, or is beyond 1e100",
-                   "use finite coordinates");
+    take_point({numbers[i], numbers[i + 1], numbers[i + 2]});
+  }
+}
+
+void VtkReader::take_point(const Point& point) {
+  if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() <= coordinate_limit)) {
+    cursor_.fail("point " + std::to_string(mesh_.parts.rest.size()) +
+                     " has a coordinate that is not a number, or is beyond 1e100",
+                 "use finite coordinates");
+  }
+  mesh_.parts.rest.push_back(point);
+}
+
+Point VtkReader::read_point() {
+  const double x = cursor_.number(), y = cursor_.number();
+  return {x, y, cursor_.number()};
+}
+
+void VtkReader::read_size() {
+  std::uint64_t points = 1;
+  for (std::uint64_t& size : grid_) {
+    size = cursor_.count("the number of points along an axis");
+    if (size == 0 || size > element_limit || (points *= size) > element_limit) {
+      cursor_.fail("the grid has no points, or more than " + std::to_string(element_limit), "use a smaller grid");
     }
-    mesh_.parts.rest.push_back(point);
+  }
+}
+
+void VtkReader::read_axis(std::size_t axis) {
+  const std::uint64_t count = cursor_.count("the number of coordinates");
+  axes_[axis] = cursor_.reals(count, cursor_.word());
+  if (count != grid_[axis]) {
+    cursor_.fail("there are " + std::to_string(count) + " coordinates for " + std::to_string(grid_[axis]) + " points",
+                 "export it again");
+  }
+}
+
+/// Adds what a grid does not list: its cells, and unless it is a structured grid, its points.
+void VtkReader::add_grid() {
+  const std::uint64_t count = grid_[0] * grid_[1] * grid_[2];
+  if (mesh_.parts.rest.empty()) {
+    add_grid_points();
+  }
+  if (mesh_.parts.rest.size() != count) {
+    cursor_.fail("it has " + std::to_string(mesh_.parts.rest.size()) + " points, but its dimensions give " +
+                     std::to_string(count),
+                 "export it again");
+  }
+  for (std::uint64_t z = 0; z < std::max<std::uint64_t>(grid_[2] - 1, 1); ++z) {
+    for (std::uint64_t y = 0; y < std::max<std::uint64_t>(grid_[1] - 1, 1); ++y) {
+      for (std::uint64_t x = 0; x < std::max<std::uint64_t>(grid_[0] - 1, 1); ++x) {
+        add_grid_cell(x + grid_[0] * (y + grid_[1] * z));
+      }
+    }
+  }
+}
+
+void VtkReader::add_grid_points() {
+  const auto place = [&](std::size_t axis, std::uint64_t i) {
+    const auto& own = axes_[axis];
+    return own.empty() ? origin_[Eigen::Index(axis)] + spacing_[Eigen::Index(axis)] * double(i) : own[i];
+  };
+  for (std::uint64_t z = 0; z < grid_[2]; ++z) {
+    for (std::uint64_t y = 0; y < grid_[1]; ++y) {
+      for (std::uint64_t x = 0; x < grid_[0]; ++x) {
+        take_point({place(0, x), place(1, y), place(2, z)});
+      }
+    }
+  }
+}
+
+/// Adds the cell behind a point: along each axis with more than one point it reaches to the next.
+void VtkReader::add_grid_cell(std::uint64_t point) {
+  static constexpr std::array<int, 9> types{0, 0, VtkCells::line, 0, VtkCells::pixel, 0, 0, 0, VtkCells::voxel};
+  std::vector<std::uint64_t> corners{point};
+  std::uint64_t step = 1;
+  for (const std::uint64_t size : grid_) {
+    const std::size_t before = size > 1 ? corners.size() : 0;
+    for (std::size_t i = 0; i < before; ++i) {
+      corners.push_back(corners[i] + step);
+    }
+    step *= size;
+  }
+  if (corners.size() > 1) {
+    add(corners, types[corners.size()]);
   }
 }
 
@@ -309,13 +291,22 @@ void VtkReader::read_types() {
   }
   const auto types = cursor_.wholes(count, "int");
   for (std::size_t i = 0; i < types.size(); ++i) {
-    into_.add(cells_[i], int(std::min<std::uint64_t>(types[i], 1000)));
+    add(cells_[i], int(std::min<std::uint64_t>(types[i], 1000)));
+  }
+}
+
+/// Adds a cell; an error gets its line.
+void VtkReader::add(VtkCells::Corners corners, int type) {
+  try {
+    into_.add(corners, type);
+  } catch (const Error& error) {
+    cursor_.fail(error.problem(), error.remedy());
   }
 }
 
 void VtkReader::add_all(const CellRows& rows, int type) {
   for (std::size_t i = 0; i < rows.count(); ++i) {
-    into_.add(rows[i], type);
+    add(rows[i], type);
   }
 }
 

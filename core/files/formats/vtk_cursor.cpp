@@ -65,6 +65,15 @@ std::uint64_t VtkCursor::count(const std::string& what) {
   return *number;
 }
 
+double VtkCursor::number() {
+  const auto text = word();
+  const auto number = parse_number(text);
+  if (!number) {
+    fail(text.empty() ? "it ends within its numbers" : in_quotes(text) + " is not a number", number_remedy(text));
+  }
+  return *number;
+}
+
 template <class Visit>
 void VtkCursor::visit_binary(std::uint64_t count, std::string_view type, Visit visit) {
   const NumberType* found = find_number_type(vtk_types, lower_case(type));
@@ -92,12 +101,7 @@ void VtkCursor::visit_numbers(std::uint64_t count, std::string_view type, Visit 
   }
   for (std::uint64_t i = 0; i < count; ++i) {
     progress_.report(i, count);
-    const auto text = word();
-    const auto number = parse_number(text);
-    if (!number) {
-      fail(text.empty() ? "it ends within its numbers" : in_quotes(text) + " is not a number", "export it again");
-    }
-    visit(*number);
+    visit(number());
   }
 }
 

@@ -27,6 +27,8 @@ class VtkCursor {
   /// Returns the next word as a whole number. `what` describes it in error messages.
   std::uint64_t count(const std::string& what);
 
+  /// Returns the next word as a number, also in a binary file.
+  double number();
   /// Returns `count` numbers of a type. Before it takes memory, it checks that the file has enough bytes.
   std::vector<double> reals(std::uint64_t count, std::string_view type);
   /// Returns `count` whole numbers from 0.

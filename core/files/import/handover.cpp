@@ -45,6 +45,7 @@ class Encoder {
   void operator()(const ImportedMesh& mesh) {
     const MeshParts& parts = mesh.parts;
     put(mesh.unused);
+    put(mesh.divided);
     put_sizes(parts.rest, parts.links, parts.triangles, parts.polygons, parts.tetrahedra, parts.hexahedra);
     for (const Point& point : parts.rest) {
       put(std::array{point.x(), point.y(), point.z()});
@@ -61,6 +62,7 @@ class Encoder {
     for (const Point& point : {volume.spacing, volume.origin, Point(volume.lowest, volume.step, 0)}) {
       put(std::array{point.x(), point.y(), point.z()});
     }
+    put_all(std::span(volume.axes.data(), 9));
     put_all(volume.densities);
   }
   void operator()(const Refusal& refusal) {
@@ -172,6 +174,7 @@ void Decoder::check_polygons(const MeshParts& parts) const {
 ImportedMesh Decoder::take_mesh() {
   ImportedMesh mesh;
   mesh.unused = take<std::uint64_t>();
+  mesh.divided = take<std::uint64_t>();
   const auto [points, links, triangles, polygons, tetrahedra, hexahedra] = take<std::array<std::uint64_t, 6>>();
   take_rest(mesh.parts, points);
   mesh.parts.links = take_groups<2>(links, points);
@@ -190,14 +193,17 @@ Volume Decoder::take_volume() {
   volume.spacing = take_point();
   volume.origin = take_point();
   const Point range = take_point();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    volume.axes.col(k) = take_point();
+  }
   volume.lowest = range[0];
   volume.step = range[1];
   const double voxels = double(volume.size[0]) * volume.size[1] * volume.size[2];
-  const double farthest = (volume.origin.cwiseAbs() + volume.spacing * 4294967296.0).maxCoeff();
+  const double farthest = volume.origin.cwiseAbs().maxCoeff() + 4 * volume.spacing.maxCoeff() * 4294967296.0;
   if (!(voxels >= 1 && voxels <= double(limits::voxels_in_memory)) || !volume.spacing.allFinite() ||
-      !(volume.spacing.minCoeff() > 0) || !(farthest <= coordinate_limit) || !volume.origin.allFinite() ||
-      !std::isfinite(volume.lowest + volume.step * most_density_steps) || !(volume.step >= 0) || volume.merged == 0 ||
-      volume.merged > limits::voxels) {
+      !(volume.spacing.minCoeff() > 0) || !are_axes(volume.axes) || !(farthest <= coordinate_limit) ||
+      !volume.origin.allFinite() || !std::isfinite(volume.lowest + volume.step * most_density_steps) ||
+      !(volume.step >= 0) || volume.merged == 0 || volume.merged > limits::voxels) {
     damaged();
   }
   volume.densities = take_all<std::uint16_t>(volume.voxel_count());

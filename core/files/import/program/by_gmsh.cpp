@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "files/formats/divided_cells.h"
 #include "files/import/program/beginning.h"
 #include "files/import/program/counts.h"
 #include "files/import/program/gmsh_session.h"
@@ -22,6 +23,9 @@ enum GmshType {
   hexahedron = 5,
   prism = 6,
   pyramid = 7,
+  line3 = 8,
+  triangle6 = 9,
+  tetrahedron10 = 11,
   point = 15
 };
 
@@ -67,7 +71,18 @@ void take(std::vector<std::array<ElementId, Size>>& groups, const std::vector<st
   }
 }
 
-void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes, const Points& points) {
+void take_divided(ImportedMesh& mesh, DividedKind kind, const std::vector<std::size_t>& nodes, const Points& points) {
+  const std::size_t size = corner_count(kind);
+  std::vector<ElementId> corners(size);
+  for (std::size_t i = 0; i + size <= nodes.size(); i += size) {
+    std::transform(nodes.begin() + std::ptrdiff_t(i), nodes.begin() + std::ptrdiff_t(i + size), corners.begin(),
+                   [&](std::size_t tag) { return points.of(tag); });
+    add_divided(mesh, kind, corners);
+  }
+}
+
+void take_type(ImportedMesh& mesh, int type, const std::vector<std::size_t>& nodes, const Points& points) {
+  MeshParts& parts = mesh.parts;
   switch (type) {
     case point:
       return;
@@ -88,11 +103,18 @@ void take_type(MeshParts& parts, int type, const std::vector<std::size_t>& nodes
     case hexahedron:
       return take(parts.hexahedra, nodes, points);
     case prism:
+      return take_divided(mesh, DividedKind::prism, nodes, points);
     case pyramid:
-      refuse("it contains prisms or pyramids", "split them into tetrahedra");
+      return take_divided(mesh, DividedKind::pyramid, nodes, points);
+    case line3:
+      return take_divided(mesh, DividedKind::line3, nodes, points);
+    case triangle6:
+      return take_divided(mesh, DividedKind::triangle6, nodes, points);
+    case tetrahedron10:
+      return take_divided(mesh, DividedKind::tetrahedron10, nodes, points);
     default:
       refuse("it contains elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
-             "save it with elements of first order");
+             "save it with elements of first order, or tetrahedra of second order");
   }
 }
 
@@ -109,7 +131,7 @@ ImportedMesh read_by_gmsh(const std::filesystem::path& path) {
   gmsh::model::mesh::getElements(types, tags, nodes);
   std::size_t taken = 0;
   for (std::size_t i = 0; i < types.size(); ++i) {
-    take_type(mesh.parts, types[i], nodes[i], points);
+    take_type(mesh, types[i], nodes[i], points);
     taken += tags[i].size();
   }
   const FileCounts stated = count_in(path);

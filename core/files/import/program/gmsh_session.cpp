@@ -18,8 +18,13 @@ GmshSession::GmshSession() {
 }
 
 void GmshSession::open(const std::filesystem::path& path) const {
-  const auto fail = [] {
-    throw Error("", "Gmsh cannot read it (" + gmsh_complaint() + ")", "export it again, or in another format");
+  const auto fail = [&path] {
+    std::string why = gmsh_complaint();
+    const std::string copy = path.string();  // the user knows the file by another name
+    for (std::size_t at = 0; (at = why.find(copy)) != std::string::npos;) {
+      why.replace(at, copy.size(), "the file");
+    }
+    throw Error("", "Gmsh cannot read it (" + why + ")", "export it again, or in another format");
   };
   try {
     gmsh::open(path.string());

@@ -88,13 +88,9 @@ void report_share(double share) {
 using Task = std::function<Imported(const std::filesystem::path&, const std::vector<std::string>&)>;
 
 const std::map<std::string, Task>& tasks() {
-  static const auto polygons = [](const char* name) {
-    return [name](const auto& path, const auto&) { return Imported(read_polygons(name, path)); };
-  };
   static const std::map<std::string, Task> all{
-      {"off", polygons("off")},
-      {"stl", polygons("stl")},
       {"msh", [](const auto& path, const auto&) { return Imported(read_by_gmsh(path)); }},
+      {"vtu", [](const auto& path, const auto&) { return Imported(read_vtk_xml(path)); }},
       {"nrrd", [](const auto& path, const auto&) { return Imported(read_nrrd(path)); }},
       {"fill",
        [](const auto& path, const auto& arguments) {

@@ -48,6 +48,22 @@ double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
   return 1;
 }
 
+/// Returns the directions of the axes in space; those of space for a file that states none.
+Eigen::Matrix3d axes_of(const Nrrd& file) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (Eigen::Index k = 0; file.spaceDim == 3 && k < 3; ++k) {
+    const Point direction(file.axis[k].spaceDirection[0], file.axis[k].spaceDirection[1],
+                          file.axis[k].spaceDirection[2]);
+    if (direction.allFinite() && !direction.isZero()) {
+      axes.col(k) = direction.stableNormalized();
+    }
+  }
+  if (!are_axes(axes)) {
+    refuse("its space directions lie in one plane", "export it again");
+  }
+  return axes;
+}
+
 /// Loads a file, or its header only, without memory for the data.
 std::unique_ptr<Nrrd, Remove> load(const std::filesystem::path& path, bool header_only) {
   const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> how(nrrdIoStateNew(), &nrrdIoStateNix);
@@ -92,6 +108,7 @@ Volume read_nrrd(const std::filesystem::path& path) {
     const double origin = file->spaceDim == 3 ? file->spaceOrigin[k] : file->axis[k].min;
     volume.origin[k] = std::isfinite(origin) ? origin : 0;
   }
+  volume.axes = axes_of(*file);
   const auto number = nrrdDLookup[file->type];
   take_densities(volume, "", [&](std::size_t i) { return number(file->data, i); });
   return volume;

@@ -19,13 +19,12 @@ namespace chainmail::import {
 /// Reports the share that is done, from 0 to 1.
 using Report = std::function<void(double)>;
 
-/// Reads OFF or STL (`name`) by CGAL. Points keep the order of the file. STL has no points: equal corners become one
-/// point, in the order of their first appearance.
-ImportedMesh read_polygons(const std::string& name, const std::filesystem::path& path);
-
 /// Reads formats 2 and 4 of Gmsh, and Medit, by Gmsh: lines, triangles, quadrangles, tetrahedra and hexahedra; points
 /// in the order of their tags. `name` is the ending of the path, by which Gmsh chooses the format.
 ImportedMesh read_by_gmsh(const std::filesystem::path& path);
+
+/// Reads VTK's XML of unstructured grids and polygonal data (.vtu, .vtp) by pugixml and zlib. Ids are the file's order.
+ImportedMesh read_vtk_xml(const std::filesystem::path& path);
 
 /// Reads NRRD by teem: three axes of numbers.
 Volume read_nrrd(const std::filesystem::path& path);
