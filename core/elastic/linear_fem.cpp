@@ -24,15 +24,30 @@ class LinearFem final : public LinearResponse {
         unknowns_(simplices_.dimension, problem.mesh->element_count(), order_, problem.pins) {
     std::vector<double> base = displacements();
     Eigen::Map<Eigen::MatrixXd> fields(base.data(), static_cast<Eigen::Index>(base.size()), 1);
-    solve(unknowns_, factor_, fields, progress.part(0.2, 1));
+    if (!solved(unknowns_, factor_, fields, progress.part(0.2, 1))) {
+      // A part that hangs on one element turns about it, until the handle holds it, too.
+      can_turn_ = fields.isZero(0);
+      if (!can_turn_) {
+        throw not_positive_definite();
+      }
+    }
     set_base(std::move(base));
   }
 
  private:
   using Fields = Eigen::Ref<Eigen::MatrixXd>;  // n rows per element, one field per column
 
+  static Error not_positive_definite() {
+    return {
+        "linear FEM",
+        "the stiffness matrix is not positive definite: cells are too thin, Poisson's ratio is too close to 0.5, or a "
+        "part hangs on one element and can turn about it",
+        "mesh the object again, lower Poisson's ratio, or pin more of the part"};
+  }
+
   /// Factors the stiffness matrix of the unknowns, and computes them in each field from the prescribed displacements.
-  void solve(const Unknowns& unknowns, Cholesky& factor, Fields fields, const Progress& progress) const {
+  /// Returns false if it is not positive definite.
+  bool solved(const Unknowns& unknowns, Cholesky& factor, Fields fields, const Progress& progress) const {
     Stiffness stiffness(simplices_, unknowns, progress.part(0, 0.05));
     Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(unknowns.count(), fields.cols());
     for (std::size_t s = 0; s < simplices_.count(); ++s) {
@@ -46,14 +61,12 @@ class LinearFem final : public LinearResponse {
     if (unknowns.count() > 0) {
       factor.analyze(stiffness.matrix());
       if (!factor.factor(stiffness.matrix(), progress.part(0.1, 1))) {
-        throw Error(
-            "linear FEM",
-            "the stiffness matrix is not positive definite: cells are too thin, or Poisson's ratio is too close to 0.5",
-            "mesh the object again, or lower Poisson's ratio");
+        return false;
       }
       unknowns.scatter(factor.solve(std::move(loads)), fields);
     }
     progress.report(1.0);
+    return true;
   }
 
   /// Adds the forces that prescribed displacements of a field exert on the unknowns.
@@ -83,7 +96,8 @@ class LinearFem final : public LinearResponse {
 
   Eigen::MatrixXd respond(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
                           const Progress& progress) override {
-    return elements.size() == 1 ? respond_to_one(elements[0]) : respond_to_many(elements, prescribed, progress);
+    return elements.size() == 1 && !can_turn_ ? respond_to_one(elements[0])
+                                              : respond_to_many(elements, prescribed, progress);
   }
 
   /// Factors the stiffness matrix once more, without the handle's unknowns: for more than a few elements, that is
@@ -100,7 +114,9 @@ class LinearFem final : public LinearResponse {
       fields.middleRows(Eigen::Index{elements[i]} * n, n) = prescribed.middleRows(Eigen::Index(i) * n, n);
     }
     Cholesky factor;
-    solve(unknowns, factor, fields, progress);
+    if (!solved(unknowns, factor, fields, progress)) {
+      throw not_positive_definite();
+    }
     return fields;
   }
 
@@ -129,7 +145,8 @@ class LinearFem final : public LinearResponse {
   Simplices simplices_;
   std::vector<ElementId> order_;  // of the unknowns
   Unknowns unknowns_;
-  Cholesky factor_;
+  Cholesky factor_;  // not if a part can turn
+  bool can_turn_ = false;
 };
 
 }  // namespace

@@ -46,7 +46,10 @@ class MetaImageHeadReader {
   /// Reads a line and returns its key.
   std::string_view take_line();
   void take(std::string_view key, std::string_view value);
-  std::array<double, 3> numbers(std::string_view value) const;
+  std::array<double, 3> numbers(std::string_view& value) const;
+  void take_dimension(std::string_view value);
+  void take_size(std::string_view value);
+  void take_axes(std::string_view value);
   bool flag(std::string_view value) const;
   void check() const;
 
@@ -78,17 +81,48 @@ std::string_view MetaImageHeadReader::take_line() {
   return key;
 }
 
+/// Four dimensions are a volume if there is one of them in time.
+void MetaImageHeadReader::take_dimension(std::string_view value) {
+  dimension_ = parse_count(value).value_or(0);
+  if (dimension_ != 3 && dimension_ != 4) {
+    fail("it is an image of " + printable(value) + " dimensions", "use a volume, which has 3");
+  }
+}
+
+void MetaImageHeadReader::take_size(std::string_view value) {
+  const auto size = numbers(value);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(size[k] >= 0 && size[k] <= double(limits::voxels) && size[k] == std::floor(size[k]))) {
+      fail("a size is not a whole number up to " + std::to_string(limits::voxels), "write three sizes");
+    }
+    head_.size[k] = static_cast<std::uint64_t>(size[k]);
+  }
+  if (const auto frames = take_word(value); dimension_ == 4 && frames != "1") {
+    fail("it has " + in_quotes(frames) + " volumes, one for each time", "save one of them");
+  }
+}
+
+/// The matrix has the direction of each axis of the voxels, one after another.
+void MetaImageHeadReader::take_axes(std::string_view value) {
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const auto direction = numbers(value);
+    head_.axes.col(k) = Point(direction[0], direction[1], direction[2]).stableNormalized();
+    if (dimension_ == 4) {
+      take_word(value);
+    }
+  }
+  if (!are_axes(head_.axes)) {
+    fail("the directions of its axes lie in one plane", "write three directions in space");
+  }
+}
+
 void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
   if (key == "NDims") {
-    dimension_ = parse_count(value).value_or(0);
+    take_dimension(value);
   } else if (key == "DimSize") {
-    const auto size = numbers(value);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!(size[k] >= 0 && size[k] <= double(limits::voxels) && size[k] == std::floor(size[k]))) {
-        fail("a size is not a whole number up to " + std::to_string(limits::voxels), "write three sizes");
-      }
-      head_.size[k] = static_cast<std::uint64_t>(size[k]);
-    }
+    take_size(value);
+  } else if (key == "TransformMatrix" || key == "Rotation" || key == "Orientation") {
+    take_axes(value);
   } else if (key == "ElementSpacing" || (key == "ElementSize" && head_.spacing == Point::Ones())) {
     const auto spacing = numbers(value);
     head_.spacing = Point(spacing[0], spacing[1], spacing[2]).cwiseAbs();
@@ -106,13 +140,15 @@ void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
   } else if (key == "CompressedData") {
     head_.compressed = flag(value);
   } else if (key == "HeaderSize") {
-    head_size_known_ = value == "0";
+    head_.at_end = value == "-1";
+    head_size_known_ = value == "0" || head_.at_end;
   } else if (key == "ElementDataFile") {
     head_.data_file = value;
-  }  // other keys, such as TransformMatrix and Comment, do not affect densities
+  }  // other keys, such as Comment and Modality, do not affect the object
 }
 
-std::array<double, 3> MetaImageHeadReader::numbers(std::string_view value) const {
+/// Takes three numbers off a value.
+std::array<double, 3> MetaImageHeadReader::numbers(std::string_view& value) const {
   std::array<double, 3> numbers{};
   for (double& number : numbers) {
     const auto word = take_word(value);
@@ -126,21 +162,22 @@ std::array<double, 3> MetaImageHeadReader::numbers(std::string_view value) const
 }
 
 bool MetaImageHeadReader::flag(std::string_view value) const {
-  if (value != "True" && value != "False" && value != "true" && value != "false") {
+  const bool is_true = is_word(value, "true") || value == "1";
+  if (!is_true && !is_word(value, "false") && value != "0") {
     fail(in_quotes(value) + " is neither True nor False", "write one of them");
   }
-  return value.front() == 'T' || value.front() == 't';
+  return is_true;
 }
 
 void MetaImageHeadReader::check() const {
-  if (dimension_ != 3) {
-    fail("the image does not have 3 dimensions", "use a volume");
+  if (dimension_ == 0) {
+    fail("the number of dimensions is missing", "write NDims = 3");
   }
   if (channels_ != 1) {
     fail("the image has " + std::to_string(channels_) + " numbers per voxel",
          "use a volume with one density per voxel");
   }
-  if (!binary_ || !head_size_known_) {
+  if (!binary_ || !head_size_known_ || (head_.at_end && head_.compressed)) {
     fail("its data are text or have a header", "export it with binary data and HeaderSize 0");
   }
   if (!(head_.spacing.minCoeff() > 0)) {
@@ -292,6 +329,7 @@ Volume volume_of(const MetaImageHead& head, const VoxelData& data, const Progres
   volume.size = checked_volume_size(shown(data.path), head.size);
   volume.spacing = head.spacing;
   volume.origin = head.origin;
+  volume.axes = head.axes;
   const std::size_t count = volume.voxel_count();
   check_size(data, head.compressed, count * type.bytes);
   const auto bytes = bytes_of(data, head.compressed);
@@ -312,6 +350,12 @@ Volume volume_of(const MetaImageHead& head, const VoxelData& data, const Progres
     return numbers[i % in_piece];
   });
   return volume;
+}
+
+/// Returns the size of the data (bytes).
+std::uint64_t data_size(const MetaImageHead& head, const std::filesystem::path& path) {
+  const auto size = checked_volume_size(shown(path), head.size);
+  return std::uint64_t{size[0]} * size[1] * size[2] * metaimage_type(head, path).bytes;
 }
 
 VoxelData data_in(const RegularFile& file, std::uint64_t from, const std::filesystem::path& path) {
@@ -344,7 +388,8 @@ Volume read_metaimage(const std::filesystem::path& path, bool outside, const Pro
     return volume_of(head, data_in(file, head.length, path), progress);
   }
   const RegularFile other(data_file(path, head.data_file, outside));
-  return volume_of(head, data_in(other, 0, other.path()), progress);
+  const std::uint64_t needed = head.at_end ? data_size(head, path) : other.size();
+  return volume_of(head, data_in(other, other.size() - std::min(needed, other.size()), other.path()), progress);
 }
 
 }  // namespace chainmail

@@ -16,10 +16,12 @@ struct MetaImageHead {
   std::array<std::uint64_t, 3> size{};
   Point spacing = Point::Ones();
   Point origin = Point::Zero();
-  std::string type;  // type of the numbers: MET_UCHAR, MET_SHORT, …
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // see Volume
+  std::string type;                                    // type of the numbers: MET_UCHAR, MET_SHORT, …
   bool big_endian = false;
   bool compressed = false;  // true: compressed by zlib
   std::string data_file;    // LOCAL: the data follow the header
+  bool at_end = false;      // true: the data are at the end of their file, whatever is before them
   std::size_t length = 0;   // length of the header (bytes)
 };
 

@@ -18,6 +18,8 @@ struct ReadOptions {
   std::optional<double> spacing;
   /// Space dimension. Default: the one that the file states, else the number of axes along which the mesh extends.
   std::optional<int> space_dimension;
+  /// Points this close become one element (mesh units). Default: as the format needs it, see read_stl().
+  std::optional<double> weld;
   /// Options for the conversion of voxels to elements.
   VoxelOptions voxels;
   /// True if the header of a volume may name data outside its own folder.

@@ -1,6 +1,8 @@
 #include "files/formats/volume.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "mesh/error.h"
 
@@ -53,11 +55,15 @@ VoxelBoxes boxes_for(const std::array<std::uint32_t, 3>& volume_size, std::uint6
 void merge_voxels(Volume& volume, const VoxelBoxes& boxes) {
   volume.merged = boxes.edge();
   volume.size = boxes.count;
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t edge = boxes.edges[std::size_t(k)];
-    volume.origin[k] += volume.spacing[k] * (edge - 1) / 2;
-    volume.spacing[k] *= edge;
-  }
+  const Point edges(boxes.edges[0], boxes.edges[1], boxes.edges[2]);
+  volume.origin = volume.at((edges - Point::Ones()) / 2);
+  volume.spacing = volume.spacing.cwiseProduct(edges);
+}
+
+bool are_axes(const Eigen::Matrix3d& axes) {
+  constexpr double rounding = 1e-3, least_volume = 1e-3;
+  return axes.allFinite() && ((axes.colwise().norm().array() - 1).abs() < rounding).all() &&
+         std::abs(axes.determinant()) > least_volume;
 }
 
 }  // namespace chainmail

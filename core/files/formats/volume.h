@@ -19,6 +19,9 @@ struct Volume {
   std::array<std::uint32_t, 3> size{1, 1, 1};  // number of voxels along x, y and z
   Point spacing = Point::Ones();               // distances between voxels (mesh units)
   Point origin = Point::Zero();                // centre of the first voxel (mesh units)
+  /// Directions along which voxels follow each other: column k, of length 1, is that of axis k of the voxels. They need
+  /// not be at right angles, and may be mirrored.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   /// Number of voxels of the file along each axis that one voxel is the mean of; along a shorter axis, all of them.
   std::uint32_t merged = 1;
   /// Densities along x, then y, then z, as steps above the lowest density. There are at most 65,535 steps, so that
@@ -29,11 +32,16 @@ struct Volume {
 
   std::size_t voxel_count() const { return std::size_t{size[0]} * size[1] * size[2]; }
   double density(std::size_t voxel) const { return lowest + step * densities[voxel]; }
+  /// Returns the place that is so many voxels behind the first along each axis (mesh units).
+  Point at(const Point& voxels) const { return origin + axes * spacing.cwiseProduct(voxels); }
 };
 
 inline constexpr double most_density_steps = 65535;
 /// Largest magnitude of a density. Larger ones are refused, because sums must stay finite in single precision.
 inline constexpr double density_limit = 1e30;
+
+/// Returns true if directions may be the axes of a volume: of length 1, and not in one plane.
+bool are_axes(const Eigen::Matrix3d& axes);
 
 /// The range of densities and its step. The step is 1 if all densities are whole numbers and their range is small
 /// enough.

@@ -1,9 +1,11 @@
 #include "files/formats/voxel_block.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,22 +65,66 @@ class Bricks {
   std::vector<float> single_ = std::vector<float>(std::size_t(most_density_steps) + 1);  // density of each step
 };
 
-std::shared_ptr<const Texture> texture_of(const Volume& volume) {
+/// The axes of voxels as those of space: axis k of space is axis `from[k]` of the voxels, and may run the other way.
+struct SpaceAxes {
+  std::array<std::size_t, 3> from{0, 1, 2};
+  std::array<bool, 3> reversed{};
+};
+
+/// Returns how the axes of the voxels lie along those of space; none if they are oblique.
+std::optional<SpaceAxes> along_space(const Eigen::Matrix3d& axes) {
+  SpaceAxes result;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Eigen::Index column = 0;
+    const double length = axes.row(k).cwiseAbs().maxCoeff(&column);
+    if (std::abs(length - 1) > 1e-9 || std::abs(axes.row(k).cwiseAbs().sum() - 1) > 1e-9) {
+      return std::nullopt;
+    }
+    result.from[std::size_t(k)] = std::size_t(column);
+    result.reversed[std::size_t(k)] = axes(k, column) < 0;
+  }
+  return result;
+}
+
+/// Returns the texel of each density.
+std::vector<std::uint8_t> shades_of(const Volume& volume) {
   const auto [lowest, highest] = std::minmax_element(volume.densities.begin(), volume.densities.end());
   const double range = std::max(int{*highest} - int{*lowest}, 1);
-  auto texture = std::make_shared<Texture>();
-  texture->size = volume.size;
-  texture->channels = 1;
-  std::vector<std::uint8_t> texels(std::size_t{*highest} + 1);  // of each density
-  for (std::size_t density = *lowest; density < texels.size(); ++density) {
-    texels[density] = static_cast<std::uint8_t>(std::lround(255 * double(density - *lowest) / range));
+  std::vector<std::uint8_t> shades(std::size_t{*highest} + 1);
+  for (std::size_t density = *lowest; density < shades.size(); ++density) {
+    shades[density] = static_cast<std::uint8_t>(std::lround(255 * double(density - *lowest) / range));
   }
-  texture->texels.resize(volume.densities.size());
-  std::transform(volume.densities.begin(), volume.densities.end(), texture->texels.begin(),
-                 [&texels](std::uint16_t density) { return texels[density]; });
-  texture->box[0] = volume.origin - volume.spacing / 2;
-  for (int k = 0; k < 3; ++k) {
-    texture->box[1][k] = texture->box[0][k] + volume.spacing[k] * volume.size[std::size_t(k)];
+  return shades;
+}
+
+/// Returns the densities as a texture, whose axes are those of space; none for oblique voxels.
+std::shared_ptr<const Texture> texture_of(const Volume& volume) {
+  const auto axes = along_space(volume.axes);
+  if (!axes) {
+    return nullptr;
+  }
+  const std::vector<std::uint8_t> shades = shades_of(volume);
+  auto texture = std::make_shared<Texture>();
+  texture->channels = 1;
+  std::array<std::size_t, 3> step{};  // in densities, from one texel to the next along each axis
+  std::size_t first = 0;
+  const std::array<std::size_t, 3> steps{1, volume.size[0], std::size_t{volume.size[0]} * volume.size[1]};
+  const Point low = volume.at(Point::Constant(-0.5)),
+              high = volume.at(Point(volume.size[0], volume.size[1], volume.size[2]) - Point::Constant(0.5));
+  for (std::size_t k = 0; k < 3; ++k) {
+    texture->size[k] = volume.size[axes->from[k]];
+    step[k] = steps[axes->from[k]];
+    first += axes->reversed[k] ? (texture->size[k] - 1) * step[k] : 0;
+  }
+  texture->box = {low.cwiseMin(high), low.cwiseMax(high)};
+  texture->texels.reserve(volume.densities.size());
+  const auto along = [&](std::size_t k, std::size_t i) { return axes->reversed[k] ? 0 - i * step[k] : i * step[k]; };
+  for (std::size_t z = 0; z < texture->size[2]; ++z) {
+    for (std::size_t y = 0; y < texture->size[1]; ++y) {
+      for (std::size_t x = 0; x < texture->size[0]; ++x) {
+        texture->texels.push_back(shades[volume.densities[first + along(0, x) + along(1, y) + along(2, z)]]);
+      }
+    }
   }
   return texture;
 }
@@ -87,7 +133,11 @@ std::shared_ptr<const Texture> texture_of(const Volume& volume) {
 class BlockBuilder {
  public:
   BlockBuilder(const Volume& volume, const Bricks& bricks, double threshold)
-      : volume_(volume), bricks_(bricks), threshold_(threshold), size_(bricks.boxes().count) {
+      : volume_(volume),
+        bricks_(bricks),
+        threshold_(threshold),
+        size_(bricks.boxes().count),
+        is_mirrored_(volume.axes.determinant() < 0) {
     number_layer(0);
   }
 
@@ -126,22 +176,24 @@ class BlockBuilder {
   void add(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     const auto& edges = bricks_.boxes().edges;
     const Point edge(edges[0], edges[1], edges[2]);
-    const Point steps = Point(x, y, z).cwiseProduct(edge) + (edge - Point::Ones()) / 2;
-    parts_.rest.push_back(volume_.origin + volume_.spacing.cwiseProduct(steps));
+    parts_.rest.push_back(volume_.at(Point(x, y, z).cwiseProduct(edge) + (edge - Point::Ones()) / 2));
     const ElementId here = at(x, y, z);
     for (const ElementId other : {at(x + 1, y, z), at(x, y + 1, z), at(x, y, z + 1)}) {
       if (other != no_voxel) {
         parts_.links.push_back({here, other});
       }
     }
-    const std::array<ElementId, 8> cell{here,
-                                        at(x + 1, y, z),
-                                        at(x + 1, y + 1, z),
-                                        at(x, y + 1, z),
-                                        at(x, y, z + 1),
-                                        at(x + 1, y, z + 1),
-                                        at(x + 1, y + 1, z + 1),
-                                        at(x, y + 1, z + 1)};
+    std::array<ElementId, 8> cell{here,
+                                  at(x + 1, y, z),
+                                  at(x + 1, y + 1, z),
+                                  at(x, y + 1, z),
+                                  at(x, y, z + 1),
+                                  at(x + 1, y, z + 1),
+                                  at(x + 1, y + 1, z + 1),
+                                  at(x, y + 1, z + 1)};
+    if (is_mirrored_) {
+      std::rotate(cell.begin(), cell.begin() + 4, cell.end());  // so that its volume is positive
+    }
     if (std::find(cell.begin(), cell.end(), no_voxel) == cell.end()) {
       parts_.hexahedra.push_back(cell);
     }
@@ -151,6 +203,7 @@ class BlockBuilder {
   const Bricks& bricks_;
   double threshold_;
   Size size_;
+  bool is_mirrored_;
   std::array<std::vector<ElementId>, 2> element_;  // element of each brick of an even and of an odd layer
   ElementId next_ = 0;
   MeshParts parts_;

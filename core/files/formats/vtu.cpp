@@ -22,6 +22,7 @@ std::uint8_t vtk_type(Piece piece, std::size_t corners) {
     case Piece::triangle:
       return 5;
     case Piece::polygon:
+    case Piece::side:
       return corners == 4 ? 9 : 7;
     case Piece::tetrahedron:
       return 10;

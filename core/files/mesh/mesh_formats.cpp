@@ -8,12 +8,15 @@
 #include "files/formats/metaimage.h"
 #include "files/formats/msh.h"
 #include "files/formats/obj.h"
+#include "files/formats/off.h"
 #include "files/formats/ply.h"
 #include "files/formats/positions_csv.h"
+#include "files/formats/stl.h"
 #include "files/formats/tetgen.h"
 #include "files/formats/vtk.h"
 #include "files/formats/vtu.h"
 #include "files/import/import_file.h"
+#include "files/mesh/foreign.h"
 #include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -44,17 +47,25 @@ constexpr std::array formats{
     MeshFormat{.name = "Wavefront OBJ",
                .endings = ".obj",
                .help = "surfaces and lines",
+               .signs = {"v ", "o ", "g ", "mtllib ", "vn "},
                .read_mesh = read_text_file<read_obj>,
-               .write = write_obj},
+               .write = write_obj,
+               .holds = MeshFormat::Holds::faces_and_links},
     MeshFormat{.name = "Stanford PLY",
                .endings = ".ply",
                .help = "surfaces; links along no face as edges",
                .signs = {"ply\n", "ply\r"},
                .read_mesh = read_file<read_ply>,
-               .write = write_ply},
-    MeshFormat{.name = "ParaView",
-               .endings = ".vtu",
-               .help = "all cells, with displacement and violation as fields",
+               .write = write_ply,
+               .holds = MeshFormat::Holds::faces_and_links},
+    MeshFormat{.name = "VTK XML",
+               .endings = ".vtu .vtp",
+               .help = "all cells; written with displacement and violation as fields, for ParaView",
+               .signs = {"<VTKFile"},
+               .read_mesh =
+                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("vtu", path, 1, progress, options.import_program);
+                   },
                .write = write_vtu},
     MeshFormat{.name = "Gmsh",
                .endings = ".msh",
@@ -79,18 +90,14 @@ constexpr std::array formats{
                .endings = ".off",
                .help = "surfaces",
                .signs = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"},
-               .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("off", path, 1, progress, options.import_program);
-                   }},
+               .read_mesh = read_text_file<read_off>},
     MeshFormat{.name = "STL",
                .endings = ".stl",
                .help = "surfaces, triangle by triangle",
                .signs = {"solid "},
-               .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("stl", path, 1, progress, options.import_program);
-                   }},
+               .read_mesh = read_file<read_stl>,
+               .write = write_stl,
+               .holds = MeshFormat::Holds::faces},
     MeshFormat{.name = "TetGen",
                .endings = ".node .ele",
                .help = "tetrahedra, in a pair of files",
@@ -151,13 +158,19 @@ const MeshFormat* find_by_sign(std::string_view beginning) {
   return found == formats.end() ? nullptr : &*found;
 }
 
+/// Passes over blank lines, comments, a byte order mark and the declaration of XML.
 std::string_view without_comments(std::string_view beginning) {
+  static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  beginning.remove_prefix(beginning.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
   for (;;) {
     beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
-    if (!beginning.starts_with('#')) {
+    const char end = beginning.starts_with('#')                                     ? '\n'
+                     : beginning.starts_with("<?") || beginning.starts_with("<!--") ? '>'
+                                                                                    : '\0';
+    if (end == '\0') {
       return beginning;
     }
-    beginning.remove_prefix(std::min(beginning.find('\n'), beginning.size()));
+    beginning.remove_prefix(std::min(beginning.find_first_of(end == '\n' ? "\r\n" : ">"), beginning.size() - 1) + 1);
   }
 }
 
@@ -206,6 +219,21 @@ std::string mesh_formats_help(FormatUse use) {
   return text;
 }
 
+std::string lost_in(const MeshFormat& format, const Mesh& mesh) {
+  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+  const std::string name(format.name);
+  switch (format.holds) {
+    case MeshFormat::Holds::all:
+      return {};
+    case MeshFormat::Holds::faces_and_links:
+      return has_cells ? name + " has no cells: it gets their outer faces, and the links inside as lines" : "";
+    case MeshFormat::Holds::faces:
+      return name + (has_cells ? " has neither cells nor links: it gets the outer faces of the cells"
+                               : " has no links: it gets the faces, divided into triangles");
+  }
+  return {};
+}
+
 const MeshFormat& mesh_format(const fs::path& path, FormatUse use) {
   const std::string ending = lower_case(path.extension().string());
   const MeshFormat* format = find_by_ending(ending);
@@ -226,6 +254,9 @@ const MeshFormat& detect_format(const fs::path& path) {
   }
   const MeshFormat* by_comment = find_by_sign(beginning);
   const MeshFormat* by_sign = by_comment != nullptr ? by_comment : find_by_sign(without_comments(beginning));
+  if (by_sign == nullptr) {
+    refuse_foreign(beginning, path);
+  }
   return by_sign != nullptr ? *by_sign : mesh_format(path);
 }
 

@@ -35,6 +35,8 @@ struct MeshFormat {
   void (*write)(std::ostream&, const MeshState&, const Progress&) = nullptr;
   /// False if the format stores no positions, but only a lattice.
   bool holds_positions = true;
+  /// What a file of the format has of an object: all of it, faces and links, or only faces.
+  enum class Holds { all, faces_and_links, faces } holds = Holds::all;
 
   bool reads() const { return read_mesh != nullptr || read_volume != nullptr; }
   bool writes() const { return write != nullptr; }
@@ -51,6 +53,9 @@ std::string mesh_endings(FormatUse use, std::string_view last = "or");
 
 /// Returns one line per format with a use, for help texts.
 std::string mesh_formats_help(FormatUse use);
+
+/// Says what a file of this format will not have of a mesh; empty if it has all.
+std::string lost_in(const MeshFormat& format, const Mesh& mesh);
 
 /// Returns the format with the ending of a file, in upper or lower case. Throws Error if no format has this ending, or
 /// if the format does not have this use.

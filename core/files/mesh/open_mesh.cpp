@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "files/mesh/join.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/text/text.h"
 #include "mesh/cells.h"
@@ -17,6 +18,15 @@ void check_options(const MeshFormat& format, const std::filesystem::path& path, 
   if (format.read_volume == nullptr && (options.voxels.threshold || options.voxels.every || options.data_outside)) {
     throw Error(shown(path), "it is not a volume of voxels", "leave out the options of volumes");
   }
+}
+
+/// Returns the distance within which points are one (mesh units); none if they are not joined.
+std::optional<double> join_tolerance(const ImportedMesh& imported, const ReadOptions& options) {
+  if (options.weld) {
+    return options.weld;
+  }
+  return imported.joins_within > 0 ? std::optional(imported.joins_within * largest_extent(imported.parts))
+                                   : std::nullopt;
 }
 
 OpenedMesh open_volume(const MeshFormat& format, const std::filesystem::path& path, const ReadOptions& options,
@@ -47,12 +57,18 @@ OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, cons
   }
   OpenedMesh result;
   result.flaws.unused = imported.unused;
+  result.flaws.collapsed = imported.collapsed;
+  result.flaws.divided = imported.divided;
+  result.flaws.skipped = imported.skipped;
+  if (const auto tolerance = join_tolerance(imported, options)) {
+    result.flaws.joined = join_close(parts, *tolerance);
+  }
   add_links_along_edges(parts);  // includes faces and cells that are left out
   if (!imported.checked) {
     leave_out_flawed(parts, result.flaws);
-    if (parts.links.empty()) {
-      throw Error(shown(path), "it contains points without links", "use a file with lines, faces or cells");
-    }
+  }
+  if (parts.links.empty() && !imported.checked && !imported.may_lack_links) {
+    throw Error(shown(path), "it contains points without links", "use a file with lines, faces or cells");
   }
   parts.space_dimension = chosen_space(parts, options.space_dimension, imported.space, path);
   result.mesh = build_mesh(std::move(parts), progress);

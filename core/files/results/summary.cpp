@@ -63,7 +63,12 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
                   {"components", summary.components},
                   {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
                   {"mean_link_length", summary.mean_link_length},
-                  {"left_out", {{"unused", flaws.unused}, {"collapsed", flaws.collapsed}, {"doubled", flaws.doubled}}},
+                  {"left_out",
+                   {{"unused", flaws.unused},
+                    {"collapsed", flaws.collapsed},
+                    {"doubled", flaws.doubled},
+                    {"lines", flaws.skipped}}},
+                  {"joined", flaws.joined},
                   {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
                   {"defects", to_json(summary.defects)}};
   out << of_kind(json_kinds::info, json).dump(2) << '\n';
