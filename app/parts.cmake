@@ -7,6 +7,7 @@ find_package(NLopt 2.7 QUIET)
 find_package(Bullet QUIET)
 find_package(CLI11 2.1 QUIET)
 find_package(PNG QUIET)
+find_package(pugixml QUIET)
 find_package(CGAL QUIET)
 find_package(Qt6 6.4 QUIET COMPONENTS Widgets OpenGL OpenGLWidgets Svg)
 find_package(Qt6DBus 6.4 QUIET)
@@ -63,8 +64,8 @@ chainmail_part(ZLIB "compressed MetaImage volumes" NEEDS zlib ZLIB_FOUND)
 chainmail_part(CALIBRATE "softness closest to physics" NEEDS NLopt NLopt_FOUND JSON CHAINMAIL_JSON)
 chainmail_part(BULLET "Bullet's soft body, for comparison" NEEDS Bullet BULLET_FOUND)
 chainmail_part(SANDBOX "the sandbox of chainmail-import" NEEDS libseccomp CHAINMAIL_SECCOMP_LIBRARY)
-chainmail_part(IMPORT "chainmail-import: .msh, .off, .stl, .nrrd, filling, repair"
-  NEEDS CGAL CGAL_FOUND Gmsh CHAINMAIL_GMSH_LIBRARY teem CHAINMAIL_TEEM_LIBRARY)
+chainmail_part(IMPORT "chainmail-import: .msh, .vtu, .nrrd, filling, repair"
+  NEEDS CGAL CGAL_FOUND Gmsh CHAINMAIL_GMSH_LIBRARY teem CHAINMAIL_TEEM_LIBRARY pugixml pugixml_FOUND zlib ZLIB_FOUND)
 chainmail_part(COMMAND_LINE "the program chainmail"
   NEEDS CLI11 CLI11_FOUND libpng PNG_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
 chainmail_part(WINDOW "the workbench"

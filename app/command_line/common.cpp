@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command_line/progress_line.h"
+#include "command_line/standard_input.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -181,9 +182,10 @@ std::optional<int> space_of(const CLI::Option* option) {
   return text->front() - '0';
 }
 
-MeshOptions add_mesh_options(CLI::App& app) {
+MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
   MeshOptions options;
-  options.path = add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
+  options.path =
+      add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read) + "; - is standard input")->required();
   options.size = add_value(app, "--size", "WxH[xD]", "number of elements of a .dat file along each axis");
   options.spacing =
       add_value(app, "--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file");
@@ -194,7 +196,19 @@ MeshOptions add_mesh_options(CLI::App& app) {
   options.by_density = add_value(app, "--density-softness", "on|off", "make denser voxels stiffer [on]");
   options.data_outside =
       add_value(app, "--data-outside", "allow|refuse", "data files outside the folder of a volume's header [refuse]");
+  if (welding == Welding::by_reader) {
+    options.weld = add_value(app, "--weld", "TOLERANCE",
+                             "join points this close, in mesh units [STL: 1e-7 of the extent; others: not]");
+  }
   return options;
+}
+
+double tolerance_of(const std::string& text) {
+  const double tolerance = parse_number_of("--weld", text);
+  if (tolerance < 0 || tolerance > coordinate_limit) {
+    throw Error("--weld", in_quotes(text) + " is not a distance", "write a number from 0, in mesh units");
+  }
+  return tolerance;
 }
 
 VoxelOptions voxels_of(const MeshOptions& options) {
@@ -234,28 +248,36 @@ OpenedMesh open_mesh(const MeshOptions& options) {
   how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
   how.voxels = voxels_of(options);
   how.data_outside = data_outside_of(options);
-  const std::filesystem::path path = *value_of(options.path);
-  Watch watch("reading " + shown(path));
-  return in_options({{"space dimension", "--space"}},
-                    [&] { return chainmail::open_mesh(path, how, watch.progress()); });
+  if (const auto tolerance = options.weld == nullptr ? std::nullopt : value_of(options.weld)) {
+    how.weld = tolerance_of(*tolerance);
+  }
+  const InputFile file(*value_of(options.path));
+  Watch watch("reading " + shown(file.path()));
+  return in_options({{"space dimension", "--space"}}, [&] {
+    return file.read([&](const auto& path) { return chainmail::open_mesh(path, how, watch.progress()); });
+  });
 }
 
 CLI::Option* add_mesh_target(CLI::App& app) {
   return add_value(app, "-o", "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
 }
 
-void say_flaws(const OpenedMesh& opened) {
-  const std::string words = in_words(opened.flaws);
+void say_note(const std::string& words) {
   if (!words.empty()) {
     std::cerr << "chainmail: note: " << words << '\n';
   }
 }
 
+void say_flaws(const OpenedMesh& opened) { say_note(in_words(opened.flaws)); }
+
 void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const Mesh& mesh,
                    const OwnSoftness& softness) {
   const std::filesystem::path path = target;
   const MeshFormat& format = mesh_format(path, FormatUse::write);
-  outputs.keep(*value_of(read.path));
+  say_note(lost_in(format, mesh));
+  if (const std::string source = *value_of(read.path); source != "-") {
+    outputs.keep(source);
+  }
   outputs.add(target, [&format, &mesh, &softness](std::ostream& out) {
     write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});
   });

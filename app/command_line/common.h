@@ -86,12 +86,19 @@ struct MeshOptions {
   CLI::Option* voxels = nullptr;
   CLI::Option* by_density = nullptr;
   CLI::Option* data_outside = nullptr;
+  CLI::Option* weld = nullptr;
 };
-MeshOptions add_mesh_options(CLI::App& app);
+/// Whether points are joined when a file is opened, or as a repair.
+enum class Welding { by_reader, by_repair };
+MeshOptions add_mesh_options(CLI::App& app, Welding welding = Welding::by_reader);
+/// Returns the value of --weld (mesh units). Throws Error.
+double tolerance_of(const std::string& text);
 OpenedMesh open_mesh(const MeshOptions& options);
 
 /// Adds the required option -o for a mesh file.
 CLI::Option* add_mesh_target(CLI::App& app);
+/// Prints a sentence for the user on standard error; nothing if it is empty.
+void say_note(const std::string& words);
 /// Prints the flaws of a file on standard error, because the result may have other ids or fewer elements.
 void say_flaws(const OpenedMesh& opened);
 /// Adds a mesh file at rest to the outputs. The file that was read is protected.

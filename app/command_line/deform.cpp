@@ -165,10 +165,47 @@ void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const 
   }
 }
 
+std::string share_of(std::size_t count, std::size_t all) {
+  return all == 1 ? "the pass" : std::to_string(count) + " of " + std::to_string(all) + " passes";
+}
+
+/// Says what did not go as requested, so that a script notices it, too.
+void say_what_failed(const std::vector<DeformSummary::Pass>& passes) {
+  std::map<std::string, std::size_t> remarks;
+  std::size_t stopped = 0;
+  const DeformSummary::Pass* last = nullptr;
+  for (const auto& pass : passes) {
+    if (!pass.remark.empty()) {
+      ++remarks[pass.remark];
+    }
+    if (pass.stopped_at) {
+      ++stopped;
+      last = &pass;
+    }
+  }
+  for (const auto& [remark, count] : remarks) {
+    say_note(share_of(count, passes.size()) + ": " + remark);
+  }
+  if (last != nullptr) {
+    const auto words = [](const Point& at) {
+      std::string text;
+      for (int k = 0; k < 3; ++k) {
+        text += k == 0 ? "(" : ", ";
+        append_number(text, at[k]);
+      }
+      return text + ")";
+    };
+    say_note(share_of(stopped, passes.size()) + " stopped before the target; the last at " + words(*last->stopped_at) +
+             " instead of " + words(last->target));
+  }
+}
+
 void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
   Outputs outputs;
   for (const std::string& input : targets.inputs) {
-    outputs.keep(input);
+    if (input != "-") {
+      outputs.keep(input);
+    }
   }
   if (targets.positions) {
     outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });
@@ -184,6 +221,7 @@ void write_results(const Targets& targets, const Simulation& simulation, const R
                 [&](std::ostream& out) { write_deformation(out, info(simulation.statistics().algorithm), summary); });
   }
   outputs.commit();
+  say_what_failed(summary.passes);
 }
 
 void deform(const DeformArguments& options) {

@@ -39,9 +39,12 @@ class Repair {
   const Defects& defects() const { return defects_; }
   const std::vector<std::string>& done() const { return done_; }
 
-  void weld(const Progress& progress) {
-    if (const auto count = defects_.duplicates.size(); count > 0) {
-      take(chainmail::weld(*opened_.mesh, progress));
+  void weld(double tolerance, const Progress& progress) {
+    const ElementId before = opened_.mesh->element_count();
+    if (tolerance > 0 || !defects_.duplicates.empty()) {
+      take(chainmail::weld(*opened_.mesh, tolerance, progress));
+    }
+    if (const ElementId count = before - opened_.mesh->element_count(); count > 0) {
       done_.push_back(number_of(count, "duplicate vertex welded", "duplicate vertices welded"));
     }
   }
@@ -74,7 +77,8 @@ class Repair {
 
 void carry_out(const RepairOptions& options, Repair& repair, const Progress& progress) {
   if (options.asks(options.weld)) {
-    repair.weld(progress.part(0, 0.2));
+    const auto tolerance = value_of(options.weld);
+    repair.weld(tolerance ? tolerance_of(*tolerance) : 0, progress.part(0, 0.2));
   }
   if (options.asks(options.loose)) {
     repair.remove_loose(progress.part(0.2, 0.4));
@@ -132,8 +136,12 @@ void repair_file(const RepairOptions& options, const std::string& target, const 
 Command add_repair(CLI::App& root) {
   CLI::App* app = root.add_subcommand("repair", "Repair a mesh: weld duplicates, remove loose points, close holes");
   RepairOptions options;
-  options.mesh = add_mesh_options(*app);
-  options.weld = add_switch(*app, "--weld", "only weld duplicate vertices: elements at exactly the same position");
+  options.mesh = add_mesh_options(*app, Welding::by_repair);
+  options.weld =
+      add_value(*app, "--weld", "TOLERANCE",
+                "only weld duplicate vertices: elements at the same position, or as close as TOLERANCE, in mesh "
+                "units [0]")
+          ->expected(0, 1);
   options.loose = add_switch(*app, "--loose", "only remove loose points: elements without links");
   options.holes = add_switch(*app, "--holes", "only close holes of a surface; the outline of an open surface stays");
   CLI::Option* json = add_value(*app, "--json", "FILE", "write the counts before and after as JSON");

@@ -306,10 +306,14 @@ void FileActions::write(const QString& path, const std::shared_ptr<const Frame>&
       [this, path, mesh = document_.mesh(), cuts = document_.cuts(), softness = document_.wholeSoftness(),
        shape](const Progress& progress) -> Jobs::Finish {
         save_mesh(asPath(path), {*mesh, cuts, shape ? shape->view() : rest_positions(*mesh), *softness}, progress);
-        return [this, path, state = stateOf(path)] {
+        const QString lost = QString::fromStdString(lost_in(mesh_format(asPath(path), FormatUse::write), *mesh));
+        return [this, path, lost, state = stateOf(path)] {
           sessions_.know(path, state);
           remember(path);
           emit saved(path);
+          if (!lost.isEmpty()) {
+            emit noted(lost);
+          }
         };
       });
 }

@@ -154,7 +154,7 @@ void MeshRepair::weld() {
     const std::size_t count = known->defects->duplicates.size();
     start(QStringLiteral("Welding vertices"),
           QStringLiteral("weld %L1 duplicate %2").arg(count).arg(count == 1 ? "vertex" : "vertices"),
-          [](const Mesh& mesh, const Progress& progress) { return chainmail::weld(mesh, progress); });
+          [](const Mesh& mesh, const Progress& progress) { return chainmail::weld(mesh, 0, progress); });
   }
 }
 

@@ -1,0 +1,53 @@
+#include "command_line/standard_input.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+
+#include "files/text/limits.h"
+#include "files/text/replacement.h"
+#include "files/text/text.h"
+
+namespace chainmail::command_line {
+namespace {
+
+constexpr const char* name = "standard input";
+
+void copy_standard_input(const std::filesystem::path& path) {
+  std::ofstream file(path, std::ios::binary);
+  std::array<char, std::size_t{1} << 16> part{};
+  std::uint64_t size = 0;
+  while (const std::size_t got = std::fread(part.data(), 1, part.size(), stdin)) {
+    size += got;
+    if (size > limits::file_bytes) {
+      throw Error(name, "it is larger than 4 GiB", "use a smaller file");
+    }
+    errno = 0;
+    if (!file.write(part.data(), static_cast<std::streamsize>(got))) {
+      break;
+    }
+  }
+  if (!file.flush()) {
+    throw WriteFailure(shown(path), "it cannot be written to its end (" + system_reason() + ")",
+                       system_remedy("free some space, or set TMPDIR to another folder"));
+  }
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& named) : path_(named) {
+  if (named == "-") {
+    folder_.emplace();
+    path_ = folder_->path() / name;
+    copy_standard_input(path_);
+  }
+}
+
+Error InputFile::named(const Error& error) const {
+  const std::string path = shown(path_);
+  const bool is_copy = folder_ && error.where().starts_with(path);
+  return is_copy ? error.at(name + error.where().substr(path.size())) : error;
+}
+
+}  // namespace chainmail::command_line
