@@ -24,8 +24,8 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(outcome.code, 0);
   const auto info = QJsonDocument::fromJson(outcome.out).object();
   QStringList keys = info.keys();
-  QCOMPARE(keys, (QStringList{"bounds", "components", "defects", "elements", "flaws", "hexahedra", "kind", "left_out",
-                              "links", "mean_link_length", "object_dimension", "schema_version", "space_dimension",
+  QCOMPARE(keys, (QStringList{"bounds", "components", "defects", "elements", "flaws", "hexahedra", "joined", "kind",
+                              "left_out", "links", "mean_link_length", "object_dimension", "schema_version", "space_dimension",
                               "tetrahedra", "triangles"}));
   QCOMPARE(info["elements"].toInt(), 5);
   QCOMPARE(info["links"].toInt(), 4);

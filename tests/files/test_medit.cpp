@@ -105,8 +105,6 @@ void MeditTest::wrong_files_are_refused_data() {
                            << "a.mesh:9: it ends in the middle of a list; ";
   QTest::newRow("two lists") << two + "Vertices\n1\n0 0 0 1\n"
                              << "a.mesh:7: there are two lists of vertices; ";
-  QTest::newRow("prisms") << two + "Prisms\n1\n1 2 3 4 5 6 1\n"
-                          << "a.mesh:7: it contains prisms or pyramids; split them into tetrahedra";
 }
 
 void MeditTest::wrong_files_are_refused() {

@@ -392,7 +392,7 @@ void MeshRepairTest::it_can_be_cancelled() {
   job.cancelled = true;
   const auto mesh = obj(corners + sides);
   QVERIFY_THROWS_EXCEPTION(Cancelled, closed(*mesh, Progress(job)));
-  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, 0, Progress(job)));
   QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, Progress(job)));
 }
 

@@ -96,8 +96,8 @@ void ObjTest::the_space_dimension_is_the_extent_or_stated() {
 
 void ObjTest::writing_and_reading_is_the_identity() {
   const auto mixed = obj(square + "v 0.1 0.2 0.3\nf 1 2 3 4\nf 1 2 5\nl 4 5\n");
-  for (const auto& mesh : {mixed, made(MeshKind::cloth, {5, 4, 1}, 0.1), made(MeshKind::tetra, {3, 3, 3}),
-                           made(MeshKind::grid, {4, 4, 1}, 1, 3), made(MeshKind::line, {3, 1, 1})}) {
+  for (const auto& mesh : {mixed, made(MeshKind::cloth, {5, 4, 1}, 0.1), made(MeshKind::grid, {4, 4, 1}, 1, 3),
+                           made(MeshKind::line, {3, 1, 1})}) {
     const auto read = obj(obj_text(*mesh));
     QCOMPARE(read->links, mesh->links);
     QCOMPARE(read->rest, mesh->rest);

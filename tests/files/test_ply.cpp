@@ -84,10 +84,6 @@ void PlyTest::wrong_files_are_refused_data() {
   row("dangling", face + points + "3 0 1 4\n", "a face or edge names the vertex 4, which does not exist; ");
   row("negative", face + points + "3 0 1 -1\n", "a face or edge names the vertex -1, which does not exist; ");
   row("count of a list", face + points + "-3 0 1 2\n", "the length of a list is not a whole number");
-  row("point as face", face + points + "1 0\n", "a face has fewer than 2 corners; ");
-  row("strips",
-      vertices + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + points + "3 0 1 2\n",
-      "it contains triangle strips; save it with faces");
   row("no z", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
       "the PLY element 'vertex' has no property 'z'; ");
   row("binary", "ply\nformat binary_big_endian 1.0\nelement vertex 9\nproperty float x\nend_header\nabc",

@@ -51,7 +51,10 @@ bool becomes_a_program() { return execl("/bin/true", "true", nullptr) == 0; }
 
 bool opens_a_socket(int domain) { return worked(socket(domain, SOCK_STREAM, 0)); }
 
-constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+constexpr const char* triangle =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 0 1 1 "
+    "2 3\n"
+    "$EndElements\n";
 constexpr const char* given = "../given";  // a file that is open when the sandbox is entered
 constexpr const char* given_again = "/proc/self/fd/50";
 constexpr int given_number = 50;
@@ -79,7 +82,7 @@ bool opens_without_landlock() {
   if (seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), 444, 0) != 0 || seccomp_load(filter) != 0) {
     return false;
   }
-  return !chainmail::import::sandbox_hides_files() && chainmail::open_mesh("a.off").mesh->element_count() == 3;
+  return !chainmail::import::sandbox_hides_files() && chainmail::open_mesh("a.msh").mesh->element_count() == 3;
 }
 
 /// Makes a system call fail with an error, and returns the sentence that opening a mesh then gives.
@@ -90,13 +93,13 @@ QString sentence_without(std::initializer_list<const char*> calls, std::uint16_t
   }
   // The C library then starts processes by clone.
   seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
-  return seccomp_load(filter) == 0 ? error_of([] { chainmail::open_mesh("a.off"); }) : QString();
+  return seccomp_load(filter) == 0 ? error_of([] { chainmail::open_mesh("a.msh"); }) : QString();
 }
 
 bool says_that_no_file_can_be_created() {
   return sentence_without({"symlink", "symlinkat"}, ENOSPC)
       .endsWith(
-          "/mesh.off: a link cannot be created (No space left on device); free some space, or set TMPDIR to "
+          "/mesh.msh: a link cannot be created (No space left on device); free some space, or set TMPDIR to "
           "another folder");
 }
 
@@ -117,8 +120,8 @@ bool opens_without_seccomp() {
       seccomp_load(filter) != 0) {
     return true;
   }
-  const QString error = error_of([] { chainmail::open_mesh("a.off"); });
-  return !error.startsWith("a.off: this system cannot sandbox the program that reads this format");
+  const QString error = error_of([] { chainmail::open_mesh("a.msh"); });
+  return !error.startsWith("a.msh: this system cannot sandbox the program that reads this format");
 }
 
 }  // namespace
@@ -289,18 +292,18 @@ void SandboxTest::a_file_grows_to_the_given_size_only() {
 }
 
 void SandboxTest::where_there_is_no_landlock_files_open() {
-  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
+  put_file(folder_->filePath("inside/a.msh").toStdString(), triangle);
   QCOMPARE(result_outside(opens_without_landlock), succeeded);
 }
 
 void SandboxTest::where_it_cannot_be_entered_nothing_is_read() {
-  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
-  QCOMPARE(result_outside([] { return chainmail::open_mesh("a.off").mesh->element_count() == 3; }), succeeded);
+  put_file(folder_->filePath("inside/a.msh").toStdString(), triangle);
+  QCOMPARE(result_outside([] { return chainmail::open_mesh("a.msh").mesh->element_count() == 3; }), succeeded);
   QCOMPARE(result_outside(opens_without_seccomp), failed);
 }
 
 void SandboxTest::what_the_system_is_short_of_gets_a_sentence() {
-  put_file(folder_->filePath("inside/a.off").toStdString(), triangle);
+  put_file(folder_->filePath("inside/a.msh").toStdString(), triangle);
   QCOMPARE(result_outside(says_that_no_file_can_be_created), succeeded);
   QCOMPARE(
       result_outside([] { return says_that_no_process_can_be_started(EAGAIN, "Resource temporarily unavailable"); }),

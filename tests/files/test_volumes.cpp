@@ -135,7 +135,8 @@ void VolumesTest::heads_that_do_not_are_refused_data() {
   QTest::newRow("no data") << QByteArray::fromStdString(head)
                            << "a.mha:8: the header ends before its line 'ElementDataFile = …'; ";
   QTest::newRow("no line") << QByteArray("NDims = 3\nfoo\n") << "a.mha:2: 'foo' is not a line of a header; ";
-  QTest::newRow("plane") << QByteArray("NDims = 2\nElementDataFile = LOCAL\n") << "does not have 3 dimensions; ";
+  QTest::newRow("plane") << QByteArray("NDims = 2\nElementDataFile = LOCAL\n")
+                         << "a.mha:1: it is an image of 2 dimensions; ";
   QTest::newRow("size") << QByteArray("NDims = 3\nDimSize = 2 -1 1\n") << "a.mha:2: a size is not a whole number";
   QTest::newRow("huge") << QByteArray("NDims = 3\nDimSize = 2 1e300 1\n") << "a.mha:2: ";
   QTest::newRow("channels") << QByteArray("NDims = 3\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n")

@@ -110,13 +110,13 @@ class WritersTest : public QObject {
 void WritersTest::ply_holds_faces_and_edges() {
   const std::string text = written("a.ply", {*mesh_, {}, rest_positions(*mesh_), softness_});
   QVERIFY(text.starts_with("ply\nformat ascii 1.0\n"));
-  QVERIFY(text.find("element vertex 10\n") != text.npos && text.find("element face 2\n") != text.npos);
+  QVERIFY(text.find("element vertex 10\n") != text.npos && text.find("element face 11\n") != text.npos);
   const auto body = rows(text, "end_header", "");
   QCOMPARE(body.mid(10, 2), (QList<QList<double>>{{5, 0, 3, 7, 8, 4}, {4, 0, 1, 2, 3}}));
-  // The two faces share one link.
-  QCOMPARE(body.size(), 10 + 2 + qsizetype(mesh_->link_count()) - (5 + 4 - 1));
+  // The sides of the cells follow, but for the one that is a face already. One link is along no face.
+  QCOMPARE(body.size(), 10 + 2 + (5 + 4) + 1);
   QCOMPARE(body.last(), (QList<double>{8, 9}));
-  QVERIFY(text.find("element edge " + std::to_string(body.size() - 12) + "\n") != text.npos);
+  QVERIFY(text.find("element edge " + std::to_string(1) + "\n") != text.npos);
 }
 
 void WritersTest::ply_without_edges_names_none() {
@@ -233,7 +233,8 @@ void WritersTest::a_full_disk_is_told() {
   if (!fs::exists("/dev/full")) {
     QSKIP("there is no device that is full");
   }
-  const auto grid = made(MeshKind::grid, {60, 50, 1});  // more than one block of text
+  const auto grid = made(format->holds == MeshFormat::Holds::faces ? MeshKind::cloth : MeshKind::grid,
+                         {60, 50, 1});  // more than one block of text
   const auto error = error_of([&] {
     write_file("/dev/full", [&](std::ostream& out) {
       write_mesh(out, *format, {*grid, {}, rest_positions(*grid), softness_});
