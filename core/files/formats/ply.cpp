@@ -45,6 +45,7 @@ class PlyReader {
       read_elements(head_.elements[i], progress_.part(double(i) / count, double(i + 1) / count));
     }
     add_pieces();
+    mesh_.skipped = head_.skipped;
     return std::move(mesh_);
   }
 

@@ -84,7 +84,7 @@ bool PlyHeadReader::take(std::string_view line) {
   } else if (word == "property") {
     take_property(line);
   } else if (!word.empty() && word != "comment" && word != "obj_info") {
-    fail(in_quotes(word) + " does not begin a line of a header", "export it again");
+    ++head_.skipped;  // Blender 2.47 forgot the word 'comment'
   }
   return true;
 }

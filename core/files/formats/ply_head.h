@@ -30,6 +30,7 @@ struct PlyHead {
   std::vector<PlyElement> elements;
   std::size_t length = 0;  // length of the header (bytes)
   std::size_t lines = 0;
+  std::size_t skipped = 0;  // lines that the format does not have
 };
 
 /// Reads the header. Throws Error, with the line.
