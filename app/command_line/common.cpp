@@ -274,6 +274,7 @@ void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string&
                    const OwnSoftness& softness) {
   const std::filesystem::path path = target;
   const MeshFormat& format = mesh_format(path, FormatUse::write);
+  check_holds(format, mesh, path);
   say_note(lost_in(format, mesh));
   if (const std::string source = *value_of(read.path); source != "-") {
     outputs.keep(source);

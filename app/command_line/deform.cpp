@@ -129,6 +129,7 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
 
 void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
   const Solver& solver = simulation.solver();
+  check_holds(positions_format(path), simulation.mesh(), path);
   write_mesh(out, positions_format(path),
              {simulation.mesh(), solver.body().cuts(), solver.body().positions(), simulation.softness()});
 }

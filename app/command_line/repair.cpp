@@ -78,7 +78,7 @@ class Repair {
 void carry_out(const RepairOptions& options, Repair& repair, const Progress& progress) {
   if (options.asks(options.weld)) {
     const auto tolerance = value_of(options.weld);
-    repair.weld(tolerance ? tolerance_of(*tolerance) : 0, progress.part(0, 0.2));
+    repair.weld(tolerance && !tolerance->empty() ? tolerance_of(*tolerance) : 0, progress.part(0, 0.2));
   }
   if (options.asks(options.loose)) {
     repair.remove_loose(progress.part(0.2, 0.4));

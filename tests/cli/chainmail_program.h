@@ -29,6 +29,7 @@ class Program {
     QProcess process;
     process.setChildProcessModifier(prepare);
     process.setWorkingDirectory(folder_.path());
+    process.setStandardInputFile(standardInput);
     process.start(builtFile("bin/chainmail"), arguments);
     process.waitForFinished(60'000);
     const bool ended = process.exitStatus() == QProcess::NormalExit && process.state() == QProcess::NotRunning;
@@ -36,6 +37,9 @@ class Program {
   }
   /// Runs the program with the arguments in `line`, separated by spaces.
   Outcome run(const char* line) const { return run(QString(line).split(' ', Qt::SkipEmptyParts)); }
+
+  /// The file that the program reads as standard input; an empty one.
+  QString standardInput = QProcess::nullDevice();
 
   QString path(const QString& name) const { return folder_.filePath(name); }
   QByteArray read(const QString& name) const {

@@ -19,6 +19,8 @@ class ConvertCommandTest : public QObject {
   void a_volume_is_taken_as_asked();
   void a_closed_surface_is_filled();
   void a_mesh_is_repaired();
+  void points_within_a_tolerance_are_one();
+  void what_a_format_does_not_hold_is_said();
   void only_the_repairs_asked_for_are_made();
   void cells_have_no_holes();
   void bad_usage_is_one_sentence_and_leaves_no_file_data();
@@ -106,6 +108,26 @@ void ConvertCommandTest::a_mesh_is_repaired() {
   QCOMPARE(program.json("a.json")["after"].toObject()["elements"].toInt(), 9);
 }
 
+void ConvertCommandTest::points_within_a_tolerance_are_one() {
+  const Program program;
+  program.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.01 0 0\nv 0 1.01 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n");
+  QVERIFY(program.run("info a.obj").out.startsWith("elements          6\n"));
+  QVERIFY(program.run("info a.obj --weld 0.02").out.startsWith("elements          4\n"));
+  QVERIFY(program.run("repair a.obj --weld 0.02 -o b.obj").out.startsWith("repaired  2 duplicate vertices welded\n"));
+  QVERIFY(program.run("repair a.obj --weld -o b.obj").out.startsWith("repaired  nothing\n"));
+}
+
+void ConvertCommandTest::what_a_format_does_not_hold_is_said() {
+  const Program program;
+  program.write(
+      "a.mesh",
+      "MeshVersionFormatted 2 Dimension 3 Vertices 4 0 0 0 1 1 0 0 1 0 1 0 1 0 0 1 1 Tetrahedra 1 1 2 3 4 1 End");
+  QCOMPARE(program.run("convert a.mesh -o a.obj").error,
+           QByteArray("chainmail: note: Wavefront OBJ has no cells: it gets their outer faces, and the links inside as "
+                      "lines\n"));
+  QCOMPARE(program.run("convert a.mesh -o a.vtu").error, QByteArray());
+}
+
 void ConvertCommandTest::only_the_repairs_asked_for_are_made() {
   const Program program;
   program.write("a.off", broken);
@@ -135,8 +157,8 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::addColumn<QString>("sentence");
   QTest::newRow("format") << "convert a.off -o a.xyz"
                           << "a.xyz: the ending .xyz is not known; ";
-  QTest::newRow("read only") << "convert a.off -o a.stl"
-                             << "a.stl: a .stl file can be opened but not written; ";
+  QTest::newRow("read only") << "convert a.off -o a.node"
+                             << "a.node: a .node file can be opened but not written; ";
   QTest::newRow("itself") << "convert a.off -o a.off"
                           << "a.off: a .off file can be opened but not written; ";
   QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"

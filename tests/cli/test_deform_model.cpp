@@ -110,6 +110,8 @@ void DeformModelTest::a_hand_that_pins_stop() {
   // The chain is taut from the pinned 3 on: 3 - 3 * 1.2.
   QVERIFY2(lines[1].startsWith("pass 0: ") && lines[1].endsWith(", stopped by pins at (-0.6, 0, 0)"), outcome.out);
   QVERIFY2(lines[2].startsWith("pass 1: ") && !lines[2].contains("stopped"), outcome.out);
+  QVERIFY2(outcome.error.startsWith("chainmail: note: 1 of 2 passes stopped before the target; the last at ("),
+           outcome.error);
   QVERIFY(close(xs("--algorithm exact --pin 3 --move 0:-1"), {-0.6, 0.6, 1.8, 3}));
 }
 

@@ -156,15 +156,15 @@ void HostileFilesTest::a_temporary_folder_that_is_none_gets_a_sentence() {
   QFETCH(QString, folder);
   QFETCH(QString, sentence);
   program_->write("file", "");
-  program_->write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  program_->write("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   qputenv("TMPDIR", folder.toUtf8());
-  const auto outcome = program_->run("info a.off");
+  const auto outcome = program_->run("info a.msh");
   qunsetenv("TMPDIR");
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(outcome.error.startsWith("chainmail: " + folder.toUtf8()) && outcome.error.contains(sentence.toUtf8()),
            outcome.error);
-  QCOMPARE(program_->files(), (QStringList{"a.off", "file"}));
+  QCOMPARE(program_->files(), (QStringList{"a.msh", "file"}));
 }
 
 void HostileFilesTest::known_attacks_end_soon_data() {

@@ -10,12 +10,26 @@ class InfoCommandTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void standard_input_is_a_mesh();
   void json_has_the_keys_of_the_contract();
   void size_and_spacing_come_first();
   void text_names_the_figures();
   void bad_files_are_refused_data();
   void bad_files_are_refused();
 };
+
+void InfoCommandTest::standard_input_is_a_mesh() {
+  Program program;
+  program.write("a.obj", "v 1 2 3\nv 4 2 3\nl 1 2\n");
+  program.standardInput = program.path("a.obj");
+  const auto outcome = program.run("info -");
+  QCOMPARE(outcome.code, 0);
+  QVERIFY(outcome.out.startsWith("elements          2\n"));
+  program.write("a.obj", "v 1 2 3\nv 4 x 3\n");
+  QVERIFY(program.run("info -").error.startsWith("chainmail: standard input:2: 'x' is not a valid coordinate; "));
+  program.standardInput = QProcess::nullDevice();
+  QVERIFY(program.run("info -").error.startsWith("chainmail: standard input: it is empty; "));
+}
 
 void InfoCommandTest::json_has_the_keys_of_the_contract() {
   const Program program;
@@ -25,8 +39,8 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   const auto info = QJsonDocument::fromJson(outcome.out).object();
   QStringList keys = info.keys();
   QCOMPARE(keys, (QStringList{"bounds", "components", "defects", "elements", "flaws", "hexahedra", "joined", "kind",
-                              "left_out", "links", "mean_link_length", "object_dimension", "schema_version", "space_dimension",
-                              "tetrahedra", "triangles"}));
+                              "left_out", "links", "mean_link_length", "object_dimension", "schema_version",
+                              "space_dimension", "tetrahedra", "triangles"}));
   QCOMPARE(info["elements"].toInt(), 5);
   QCOMPARE(info["links"].toInt(), 4);
   QCOMPARE(info["triangles"].toInt(), 2);

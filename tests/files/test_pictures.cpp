@@ -37,8 +37,8 @@ const std::string exif("Exif\0\0orientation", 17);
 const std::string scan_data("pixels\xff\0\xff\xd0more\xff", 15);
 
 std::string jpeg() {
-  return jpeg_begin + segment('\xe0', "JFIF") + segment('\xe1', "http://x") + segment('\xe1', exif) +
-         segment('\xe1', exif) + segment('\xe2', "ICC_PROFILE") + segment('\xfe', "comment") +
+  return jpeg_begin + segment('\xe0', "JFIF") + segment('\xe1', "http://x") + segment('\xe1', "") + exif +
+         segment('\xe1', exif) + segment('\xe1', exif) + segment('\xe2', "ICC_PROFILE") + segment('\xfe', "comment") +
          segment('\xed', "Photoshop") + "filler" + segment('\xee', "Adobe") + segment('\xdb', "table") +
          segment('\xc2', "size") + segment('\xda', "scan") + scan_data + segment('\xfe', "comment") +
          segment('\xda', "scan") + "last\xff\xd9" + "\xff\xd8 another picture";

@@ -39,7 +39,7 @@ class WindowOpen : public QObject {
     QCOMPARE(
         messages(bench).sentence(),
         QStringLiteral("flawed.off: 5 elements, 6 links, 2 triangles, 1 part, 9 × 9 × 9 units. 1 face or cell with "
-                       "a point used twice, 1 duplicate face or cell left out"));
+                       "a point used twice or fewer than 3, 1 duplicate face or cell left out"));
     QCOMPARE(messages(bench).severity(), Severity::info);
   }
 

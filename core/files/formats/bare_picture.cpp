@@ -132,7 +132,7 @@ class JpegSieve {
     if (length < 2 || length + 2 > sieve_.left()) {
       return false;
     }
-    if (!is_needed(marker)) {
+    if (!is_needed(marker, length - 2)) {
       sieve_.drop(length + 2);
       return true;
     }
@@ -145,10 +145,10 @@ class JpegSieve {
   }
   /// The numbers of APP0 and APP14 say how colours are stored. Only the first notes of the camera stay: a decoder joins
   /// them.
-  bool is_needed(std::uint8_t marker) {
+  bool is_needed(std::uint8_t marker, std::size_t size) {
     if (marker == application_1) {
       constexpr std::string_view exif("Exif\0\0", 6);
-      const bool first = !has_notes_ && sieve_.text(4, exif.size()) == exif;
+      const bool first = !has_notes_ && size >= exif.size() && sieve_.text(4, exif.size()) == exif;
       has_notes_ = has_notes_ || first;
       return first;
     }

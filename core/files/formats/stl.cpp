@@ -215,9 +215,6 @@ ImportedMesh read_stl(std::string_view bytes, const std::filesystem::path& path,
 
 void write_stl(std::ostream& out, const MeshState& state, const Progress& progress) {
   const MeshPieces pieces(state.mesh, state.cuts, {.cells = false}, progress.part(0, 0.5));
-  if (pieces.count(Piece::triangle) + pieces.count(Piece::polygon) + pieces.count(Piece::side) == 0) {
-    throw Error("STL", "the object has no faces, and STL has nothing else", "save it as .obj");
-  }
   TextBlocks text(out);
   text << "solid chainmail\n";
   double from = 0.5;

@@ -20,9 +20,7 @@ void write_mesh(std::ostream& out, const MeshFormat& format, const MeshState& st
 
 void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress) {
   const MeshFormat& format = mesh_format(path, FormatUse::write);
-  if (!format.holds_positions && !state.mesh.lattice) {
-    throw Error(shown(path), "a .dat file can only store lattices, and this mesh has none", "save it as .obj");
-  }
+  check_holds(format, state.mesh, path);
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, state, progress); });
 }
 

@@ -219,6 +219,16 @@ std::string mesh_formats_help(FormatUse use) {
   return text;
 }
 
+void check_holds(const MeshFormat& format, const Mesh& mesh, const fs::path& path) {
+  if (!format.holds_positions && !mesh.lattice) {
+    throw Error(shown(path), "a .dat file can only store lattices, and this mesh has none", "save it as .obj");
+  }
+  const bool has_faces = !mesh.triangles.empty() || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+  if (format.holds == MeshFormat::Holds::faces && !has_faces) {
+    throw Error(shown(path), "a .stl file has only faces, and this mesh has none", "save it as .obj");
+  }
+}
+
 std::string lost_in(const MeshFormat& format, const Mesh& mesh) {
   const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
   const std::string name(format.name);

@@ -54,6 +54,8 @@ std::string mesh_endings(FormatUse use, std::string_view last = "or");
 /// Returns one line per format with a use, for help texts.
 std::string mesh_formats_help(FormatUse use);
 
+/// Throws Error about the path if a file of this format would have nothing of a mesh.
+void check_holds(const MeshFormat& format, const Mesh& mesh, const std::filesystem::path& path);
 /// Says what a file of this format will not have of a mesh; empty if it has all.
 std::string lost_in(const MeshFormat& format, const Mesh& mesh);
 
