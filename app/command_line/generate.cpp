@@ -66,6 +66,7 @@ void generate_to_file(const GenerateArguments& options) {
   const MeshFormat& format = mesh_format(named, FormatUse::write);
   const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
                                       [&] { return generate(recipe); });
+  check_holds(format, *mesh, path);
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, {*mesh, {}, rest_positions(*mesh), {}}); });
 }
 
