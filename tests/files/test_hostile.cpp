@@ -90,6 +90,8 @@ void HostileTest::huge_claims_take_no_memory() {
   QVERIFY(
       read("a.dat", "# size 2\n0 1 4294967295\n1 0\n").contains("a.dat:2: element 0 lists the neighbour 4294967295"));
   QVERIFY(read("a.obj", "v 0 0 0\nf 1 2 19999999\n").contains("a.obj:2: there is no vertex"));
+  QVERIFY(read("a.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 270 270 270\n")
+              .contains("it has fewer bytes than its grid has points"));
   // Subdivision tags contain the number of values that follow; they are passed over.
   QCOMPARE(read("a.obj", "v 0 0 0\nt crease 2000000000/2000000000/0 1\n"), QString());
 }

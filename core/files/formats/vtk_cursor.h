@@ -20,6 +20,8 @@ class VtkCursor {
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
   void set_binary(bool binary) { binary_ = binary; }
+  /// Size of the file (bytes).
+  std::size_t size() const { return bytes_.size(); }
   /// Returns the rest of the line, and moves to the next line.
   std::string_view line();
   /// Returns the next word, on this or a later line; empty at the end.
