@@ -96,9 +96,10 @@ void ProgressTest::cancelled_saving_leaves_the_file_that_was_there() {
   QFETCH(QString, name);
   QTemporaryDir folder;
   const fs::path there = fs::path(folder.filePath(name).toStdString());
+  const MeshPointer mesh = made(MeshKind::tetra, {30, 20, 20});  // every format holds it
   JobState job;
   job.cancelled = true;
-  const auto save = [&] { save_mesh(there, {*mesh_, {}, rest_positions(*mesh_), {}}, Progress(job)); };
+  const auto save = [&] { save_mesh(there, {*mesh, {}, rest_positions(*mesh), {}}, Progress(job)); };
   QVERIFY_THROWS_EXCEPTION(Cancelled, save());
   QCOMPARE(files_in(folder.path().toStdString()), 0);
   put_file(there, "before");
