@@ -3,6 +3,7 @@
 #include <new>
 
 #include "core/scenarios.h"
+#include "core/threads.h"
 #include "program.h"
 #include "solve/exact.h"
 #include "solve/thread_team.h"
@@ -85,6 +86,7 @@ class ThreadsTest : public QObject {
   void threads_change_no_bit();
   void every_part_runs_once();
   void an_error_of_a_part_arrives();
+  void helpers_still_come_after_many_passes();
 };
 
 void ThreadsTest::shares_change_no_bit() {
@@ -158,6 +160,40 @@ void ThreadsTest::an_error_of_a_part_arrives() {
   int done = 0;
   team.run(1, [&](std::size_t) { ++done; });
   QCOMPARE(done, 1);
+}
+
+namespace {
+
+/// Runs a pass of two parts, each of which waits until the other one has begun. Returns true if both did at once.
+bool two_threads_share_a_pass() {
+  const RunningPass running;
+  ThreadTeam team(2);
+  team.call_helpers();
+  std::atomic<int> begun = 0, met = 0;
+  team.run(2, [&](std::size_t) {
+    ++begun;
+    met += wait_until([&] { return begun == 2; }) ? 1 : 0;
+  });
+  return met == 2;
+}
+
+}  // namespace
+
+/// A helper is free again after a pass, whether it came in time for that pass or not.
+void ThreadsTest::helpers_still_come_after_many_passes() {
+  if (core_count() < 2) {
+    QSKIP("a machine with one core has no helpers");
+  }
+  QVERIFY(two_threads_share_a_pass());
+  for (int pass = 0; pass < 5000; ++pass) {
+    const RunningPass running;
+    ThreadTeam team(core_count());
+    team.call_helpers();
+    team.run(2, [](std::size_t) {});  // most of them end before the helper is awake
+  }
+  for (int pass = 0; pass < 100; ++pass) {
+    QVERIFY(two_threads_share_a_pass());
+  }
 }
 
 CHAINMAIL_TEST(ThreadsTest)
