@@ -34,10 +34,13 @@ class SplitTest : public QObject {
   void polygons_stay_polygons();
   void perspective_places_elements_on_the_stroke();
   void cuts_pins_and_softness_go_over();
+  void every_number_and_the_frame_of_a_softness_go_over();
+  void positions_go_over_data();
   void positions_go_over();
   void a_simulation_is_split_and_undone_exactly();
   void the_parts_move_apart();
   void a_split_does_not_stop_relaxation();
+  void a_drag_after_a_split_needs_a_grab();
   void recorded_splits_are_replayed();
   void meshes_of_undone_splits_are_freed();
   void links_beside_faces_are_told_apart();
@@ -367,14 +370,55 @@ void SplitTest::cuts_pins_and_softness_go_over() {
   QVERIFY(mixed >= 2);
 }
 
+namespace {
+
+const RegionFrame turned_frame(FrameKind::given, {0, 0, 0.4});
+
+}  // namespace
+
+void SplitTest::every_number_and_the_frame_of_a_softness_go_over() {
+  const MeshPointer mesh = regular_sheet(3, 3);
+  const auto split = split_of(mesh, {{-20, 8}, {60, 12}});
+  const LinkId side = *find_link(*mesh, 0, 3);
+  const LinkSoftness global{0.9, 1.2, 0.1, 0.3, 2, -1}, own{0.5, 2, 0.5, 0.1, 5, 1};
+  for (const OwnSoftness& links : {OwnSoftness{{side, own}}, OwnSoftness()}) {
+    Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
+    simulation.apply(commands::SetSoftness{{global, links, EnergyKind::axial, turned_frame}});
+    simulation.apply(commands::Split{split});
+    const Softness& after = simulation.softness();
+    QCOMPARE(after.global, global);
+    QVERIFY(after.energy == EnergyKind::axial);
+    QVERIFY(after.frame == turned_frame);
+    QVERIFY(simulation.body().frame() == turned_frame);
+    for (const auto& [link, softness] : after.links) {
+      for (const auto& [parameter, value] : softness_numbers) {
+        const double mean = (global.*value + own.*value) / 2;
+        const bool is_mixed = split->parents[link] == Split::none && std::abs(softness.*value - mean) < 1e-12;
+        QVERIFY2(softness.*value == own.*value || is_mixed, parameter->name.data());
+      }
+    }
+    QCOMPARE(after.links.empty(), links.empty());
+  }
+}
+
+void SplitTest::positions_go_over_data() {
+  QTest::addColumn<bool>("turned");
+  QTest::newRow("axes of the world") << false;
+  QTest::newRow("turned axes") << true;
+}
+
 void SplitTest::positions_go_over() {
-  const MeshPointer mesh = sheet();
-  const auto split = split_of(mesh, line_across(3));
+  QFETCH(const bool, turned);
+  const MeshPointer mesh = jittered_triangles(20, 14, 5);  // of several blocks
+  const auto split = split_of(mesh, {{100, -30}, {110, 320}});
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
     for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
       Simulation simulation(mesh, algorithm, precision);
+      simulation.apply(
+          commands::SetSoftness{{{0.3, 2, 0.5}, {}, standard_energy, turned ? turned_frame : RegionFrame()}});
       QVERIFY(positions_after(*split, simulation.snapshot(), precision).is_at_rest());
-      drag_by(simulation, 40, Point(2, 1, 0));
+      drag_by(simulation, 45, Point(2, 1, 0));
+      QVERIFY(simulation.snapshot().blocks.front() != nullptr && simulation.snapshot().blocks.back() == nullptr);
       const auto at = [&](ElementId e) { return point_of(simulation.mesh(), simulation.body().positions(), e); };
       std::vector<Point> before;
       for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -446,6 +490,18 @@ void SplitTest::a_split_does_not_stop_relaxation() {
   while (simulation.step()) {
   }
   QVERIFY(point_of(simulation.mesh(), simulation.body().positions(), 1) != before);  // far from the split
+}
+
+/// The handle was of the object before.
+void SplitTest::a_drag_after_a_split_needs_a_grab() {
+  const MeshPointer mesh = sheet();
+  Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
+  drag_by(simulation, 40, Point(2, 1, 0));
+  simulation.apply(commands::Split{split_of(mesh, line_across(3))});
+  QVERIFY(simulation.grabbed().empty());
+  const Snapshot before = simulation.snapshot();
+  QVERIFY_THROWS_EXCEPTION(Error, simulation.apply(commands::Drag{{9, 9, 0}}));
+  QCOMPARE(simulation.snapshot(), before);
 }
 
 void SplitTest::meshes_of_undone_splits_are_freed() {

@@ -24,6 +24,7 @@ class MovesTest : public QObject {
   void splits_are_written_and_read();
   void splits_that_do_not_fit_are_refused_data();
   void splits_that_do_not_fit_are_refused();
+  void a_drag_after_a_split_needs_a_grab();
   void what_is_not_the_objects_is_left_out();
   void a_change_of_mesh_is_not_written();
   void other_files_are_refused_data();
@@ -195,6 +196,22 @@ void MovesTest::splits_that_do_not_fit_are_refused() {
                two_triangles());
   });
   QVERIFY2(error.startsWith(sentence), qPrintable(error));
+}
+
+/// A simulation would refuse it, too: the handle was of the object before.
+void MovesTest::a_drag_after_a_split_needs_a_grab() {
+  const std::string split =
+      R"({"do": "split", "elements": [[0, 0, 0, 0, 0], [2, 2, 2, 0, 0]], "removed": [1], "triangles": [[4, 5, 3]]})";
+  const auto error_with = [&](const std::string& between) {
+    return error_of([&] {
+      read_moves(R"({"version": 2, "commands": [{"do": "grab", "element": 1}, )" + between +
+                     R"({"do": "drag", "target": [1, 2, 0]}]})",
+                 std::filesystem::path("m.json"), two_triangles());
+    });
+  };
+  QCOMPARE(error_with(""), QString());
+  QVERIFY(error_with(split + ", ").startsWith("m.json: command 2: no element is grabbed at that time"));
+  QCOMPARE(error_with(split + R"(, {"do": "grab", "element": 5}, )"), QString());
 }
 
 void MovesTest::what_is_not_the_objects_is_left_out() {
