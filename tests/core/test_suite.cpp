@@ -17,6 +17,7 @@
 #include "report/run/preparing.h"
 #include "report/run/suite.h"
 #include "report/run/suite_experiments.h"
+#include "report/run/time_to_error.h"
 
 namespace chainmail::test_suite {
 
@@ -63,6 +64,7 @@ class SuiteTest : public QObject {
   void a_handle_that_turns_has_a_reference();
   void limited_iterations_count_unlimited_ones_must_converge();
   void times_grow_with_the_accuracy();
+  void a_fresh_move_is_timed_with_its_grab();
   void parts_have_every_experiment_once();
   void parts_are_joined();
   void an_experiment_twice_is_refused();
@@ -189,6 +191,28 @@ void SuiteTest::times_grow_with_the_accuracy() {
     QCOMPARE(fem.ms_per_move[i], fem.ms_per_move[0]);  // it has no iterations to choose
   }
   QVERIFY(!named("BEM, on its surface mesh").refusal.empty());
+}
+
+/// A user who takes hold of an object waits for both. On these clocks a grab takes 1000 seconds. A move takes what its
+/// pass takes, because the time of a pass comes from the machine.
+void SuiteTest::a_fresh_move_is_timed_with_its_grab() {
+  Case object = twisted_bar(0);
+  const std::vector<ElementId> side = grabbed_by(object.drags.front());
+  const auto drag_by = [](double x) { return commands::Drag{{x, 0, 0}, {}, true}; };
+  const RecordedMoves one_move{"pull", "", {commands::Grab{side}, drag_by(0.1)}},
+      drag{"pull", "", {commands::Grab{side}, drag_by(0.05), drag_by(0.1)}};
+  object.drags = {drag, one_move};
+  double now = 0;
+  const auto tick = [&now] { return now += 1000; };
+  CompareOptions options;
+  options.clocks = {tick, tick};
+  const auto reference = DragReferences(object, std::nullopt).at_end(drag);
+  const SuiteTime time = times_to_error(object, {PhysicsContestant{Algorithm::linear_fem}}, drag, one_move,
+                                        reference.solution, options, [](double) {}, {})
+                             .front();
+  constexpr double grab_ms = 1e6, longest_pass_ms = 1e5;
+  QVERIFY(time.fresh_ms[0].value() > grab_ms && *time.fresh_ms[0] < grab_ms + longest_pass_ms);
+  QVERIFY(time.ms_per_move[0].value() < longest_pass_ms);
 }
 
 void SuiteTest::parts_have_every_experiment_once() {

@@ -11,6 +11,7 @@
 #include "measure/time_spread.h"
 #include "measure/violation.h"
 #include "report/run/cases.h"
+#include "report/run/clocks.h"
 #include "report/run/shape_figures.h"
 
 namespace chainmail::report {
@@ -56,7 +57,8 @@ struct CompareOptions {
   Precision precision = Precision::single_precision;
   /// Number of repetitions of each drag, without the warm-up; none: as many as fit in `seconds`, at least 5.
   std::optional<int> repetitions;
-  double seconds = 4;  // total time for the repetitions of one drag with all contestants
+  double seconds = 4;                // total time for the repetitions of one drag with all contestants
+  Clocks clocks = machine_clocks();  // of everything but passes, which measure themselves
 };
 
 /// Throws Error if a number is out of its range.

@@ -41,7 +41,7 @@ bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>&
 class Contest::Participant {
  public:
   Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options)
-      : object_(object), contestant_(contestant) {
+      : object_(object), contestant_(contestant), clocks_(options.clocks) {
     if (!contestant.algorithm) {
       return;
     }
@@ -124,8 +124,9 @@ class Contest::Participant {
   const PreparingTimes& prepared(Preparations& preparations) const {
     const ElasticMethod method = *info(*contestant_.algorithm).elastic;
     const auto found = preparations.find(method);
-    return found != preparations.end() ? found->second
-                                       : preparations.emplace(method, PreparingTimes(object_, method)).first->second;
+    return found != preparations.end()
+               ? found->second
+               : preparations.emplace(method, PreparingTimes(object_, method, clocks_)).first->second;
   }
 
   Relaxing relaxing() const {
@@ -180,7 +181,7 @@ class Contest::Participant {
   std::string refusal_;
   std::optional<std::uint64_t> bytes_;  // held after the first drag
   bool has_run_ = false;
-  Clocks clocks_ = machine_clocks();
+  Clocks clocks_;
   // State of the current drag:
   PhysicsEntry entry_;
   RecordedMoves moves_;

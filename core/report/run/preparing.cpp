@@ -36,8 +36,7 @@ ElasticHandle elastic_handle(const Case& object, ElementId handle) {
 
 }  // namespace
 
-PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method) {
-  const Clocks clocks = machine_clocks();
+PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks) {
   const ElasticProblem problem = elastic_problem(object);
   const std::vector<ElementId> handles = handles_of(object);
   const double start = clocks.wall();

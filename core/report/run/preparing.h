@@ -11,7 +11,7 @@ class PreparingTimes {
  public:
   PreparingTimes() = default;
   /// Repeats the preparation for about a second, and does it at least once. Throws Error if the method has no solution.
-  PreparingTimes(const Case& object, ElasticMethod method);
+  PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks = machine_clocks());
 
   Preparation of(ElementId handle) const;
 

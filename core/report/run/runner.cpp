@@ -26,6 +26,7 @@ Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, con
       cuts_(sorted(object.cuts)),
       pins_(sorted(object.pins)),
       relax_step_(options.relax_step),
+      clocks_(options.clocks),
       simulation_(object.mesh, algorithm, precision) {
   simulation_.apply(commands::SetRelaxation{false, options.relax_step, options.scheme});
   simulation_.apply(commands::SetElastic{object.elastic});

@@ -42,7 +42,7 @@ class Runner {
   std::vector<LinkId> cuts_;     // ascending, as in the solver
   std::vector<ElementId> pins_;  // ascending
   double relax_step_;
-  Clocks clocks_ = machine_clocks();
+  Clocks clocks_;
   JobState job_;  // of a run that can be stopped
   Simulation simulation_;
   std::vector<ElementId> handle_;
