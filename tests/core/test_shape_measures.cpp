@@ -60,6 +60,8 @@ class ShapeMeasuresTest : public QObject {
   void objects_without_cells_have_no_figures();
   void hausdorff_is_from_points_to_triangles();
   void hausdorff_agrees_with_all_pairs();
+  void hausdorff_looks_at_each_side_of_a_triangle();
+  void hausdorff_agrees_with_a_search_of_all_triangles();
 };
 
 void ShapeMeasuresTest::a_stretched_box() {
@@ -184,6 +186,72 @@ void ShapeMeasuresTest::hausdorff_agrees_with_all_pairs() {
       }
     }
     QVERIFY(near(hausdorff_distance(one, other), largest));
+  }
+}
+
+/// A point beside the middle of each side, with the corners in every order.
+void ShapeMeasuresTest::hausdorff_looks_at_each_side_of_a_triangle() {
+  const std::vector<Point> corners{{0, 0, 0}, {10, 0, 0}, {4, 9, 0}};
+  const Point middle = (corners[0] + corners[1] + corners[2]) / 3;
+  std::array<ElementId, 3> order{0, 1, 2};
+  do {
+    const PointSurface triangle{corners, {order}};
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Point &from = corners[side], &to = corners[(side + 1) % 3], along = (to - from).normalized();
+      const Point outward = ((from - middle) - (from - middle).dot(along) * along).normalized();
+      PointSurface with_point = triangle;
+      with_point.points.emplace_back((from + to) / 2 + 0.1 * outward);
+      QVERIFY(near(hausdorff_distance(with_point, triangle), 0.1));
+      QVERIFY(near(hausdorff_distance(triangle, with_point), 0.1));
+    }
+  } while (std::ranges::next_permutation(order).found);
+}
+
+namespace {
+
+/// Returns the least value of a convex function between 0 and `end`, by a search in thirds.
+template <class Function>
+double least_of(double end, Function function) {
+  double low = 0, high = end;
+  for (int i = 0; i < 60; ++i) {
+    const double one = low + (high - low) / 3, other = high - (high - low) / 3;
+    (function(one) < function(other) ? high : low) = function(one) < function(other) ? other : one;
+  }
+  return function((low + high) / 2);
+}
+
+/// Returns the distance to a triangle, the least over all its points.
+double searched_distance(const Point& from, const PointSurface& surface, const std::array<ElementId, 3>& corners) {
+  const Point &a = surface.points[corners[0]], &b = surface.points[corners[1]], &c = surface.points[corners[2]];
+  return least_of(1, [&](double u) {
+    return least_of(1 - u, [&](double v) { return (a + u * (b - a) + v * (c - a) - from).norm(); });
+  });
+}
+
+}  // namespace
+
+/// A surface, and the same with one more point: their distance is that of the point.
+void ShapeMeasuresTest::hausdorff_agrees_with_a_search_of_all_triangles() {
+  std::mt19937_64 random(7);
+  const auto drawn = [&random](double reach) {
+    return Point(uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach));
+  };
+  for (int i = 0; i < 150; ++i) {
+    PointSurface surface;
+    for (ElementId corner = 0; corner < (i < 120 ? 3U : 60U); ++corner) {
+      surface.points.push_back(drawn(1));
+      if (corner % 3 == 2) {
+        surface.triangles.push_back({corner - 2, corner - 1, corner});
+      }
+    }
+    PointSurface with_point = surface;
+    with_point.points.push_back(drawn(1.5));
+    double nearest = 1e9;
+    for (const auto& triangle : surface.triangles) {
+      nearest = std::min(nearest, searched_distance(with_point.points.back(), surface, triangle));
+    }
+    const double found = hausdorff_distance(with_point, surface);
+    QVERIFY2(near(found, nearest), qPrintable(QString("%1, not %2").arg(found).arg(nearest)));
   }
 }
 
