@@ -27,6 +27,7 @@ class EquilibriumTest : public QObject {
   void relaxation_comes_to_it();
   void axial_energy_by_hand();
   void corotated_energy_follows_a_turned_side();
+  void corotated_energy_ends_at_a_cut();
   void gradients_agree_with_cholesky();
 };
 
@@ -210,6 +211,29 @@ void EquilibriumTest::corotated_energy_follows_a_turned_side() {
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     const Point rest = mesh->rest_position(e), turned(-rest[1], rest[0], 0);
     QVERIFY((point_of(*mesh, found->positions(*mesh), e) - turned).norm() < 1e-5);
+  }
+}
+
+/// A square that is cut in two between its rows: one half stays, the other one turns with its side, without energy.
+void EquilibriumTest::corotated_energy_ends_at_a_cut() {
+  const auto mesh = make_mesh(MeshKind::cloth, {4, 4, 1});
+  const auto turned = [&](ElementId e) { return Point(-mesh->rest_position(e)[1], mesh->rest_position(e)[0], 0); };
+  std::vector<std::pair<ElementId, Point>> by;
+  for (const ElementId e : {12U, 13U, 14U, 15U}) {
+    by.emplace_back(e, turned(e) - mesh->rest_position(e));
+  }
+  const auto solver = displaced(mesh, by);
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    if ((mesh->links[link][0] < 8) != (mesh->links[link][1] < 8)) {
+      solver->body().cut(std::span(&link, 1));
+    }
+  }
+  const Softness corotated{{}, {}, EnergyKind::corotated};
+  const auto found = solve(*mesh, *solver, {0, 1, 2, 3, 12, 13, 14, 15}, corotated);
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    const Point expected = e < 8 ? mesh->rest_position(e) : turned(e);
+    QVERIFY((point_of(*mesh, found.positions(*mesh), e) - expected).norm() < 1e-5);
+    QVERIFY(found.defined[e]);
   }
 }
 
