@@ -28,6 +28,8 @@ class SolverThreadTest : public QObject {
   void it_sleeps_when_nothing_is_to_do_data();
   void it_sleeps_when_nothing_is_to_do();
   void frames_come_at_most_60_times_a_second();
+  void a_long_drag_of_a_large_mesh_is_seen_from_its_beginning_data();
+  void a_long_drag_of_a_large_mesh_is_seen_from_its_beginning();
   void it_announces_that_it_became_idle();
   void it_ends_without_finishing_the_commands();
   void it_answers_questions_when_it_ends();
@@ -154,6 +156,44 @@ void SolverThreadTest::frames_come_at_most_60_times_a_second() {
   const auto elapsed = std::chrono::steady_clock::now() - start;
   // One frame every 16 ms, and a frame of rest at either end.
   QVERIFY2(counted <= elapsed / 16ms + 3, qPrintable(QString("%1 frames").arg(counted)));
+}
+
+void SolverThreadTest::a_long_drag_of_a_large_mesh_is_seen_from_its_beginning_data() {
+  QTest::addColumn<bool>("relaxed");
+  QTest::newRow("without relaxation") << false;
+  QTest::newRow("with relaxation") << true;
+}
+
+/// Each pass takes some milliseconds. The first frame comes after a few of them, not after all, and does not wait until
+/// the whole mesh is measured.
+void SolverThreadTest::a_long_drag_of_a_large_mesh_is_seen_from_its_beginning() {
+  QFETCH(const bool, relaxed);
+  constexpr int moves = 1000;
+  std::atomic<SolverThread*> reader = nullptr;
+  std::promise<Statistics> first;
+  bool has_first = false;  // only the solver's thread uses it
+  SolverThread solver(make_mesh(MeshKind::grid, {300, 300, 1}), Algorithm::natural_queue, [&] {
+    SolverThread* const one = reader;
+    if (one != nullptr && !has_first && one->latest_frame().statistics.passes > 0) {
+      has_first = true;
+      first.set_value(one->latest_frame().statistics);
+    }
+  });
+  reader = &solver;
+  solver.post(commands::SetRelaxation{relaxed, 1});
+  QVERIFY(wait_until([&] { return solver.settled(); }));  // the next frame shows the drag
+  std::promise<void> all_are_posted;
+  solver.ask([posted = all_are_posted.get_future().share()](const Simulation&) { posted.wait(); });
+  solver.post(commands::Grab{0});
+  for (int i = 0; i < moves; ++i) {
+    solver.post(commands::Drag{i % 2 == 0 ? Point(-900, -700, 0) : Point(900, 700, 0)});
+  }
+  all_are_posted.set_value();
+  auto answer = first.get_future();
+  QVERIFY(answer.wait_for(30s) == std::future_status::ready);
+  const Statistics seen = answer.get();
+  QVERIFY2(seen.passes <= moves / 2, qPrintable(QString("%1 passes").arg(seen.passes)));
+  QVERIFY(seen.violation_of_sample && !seen.violation_of_whole_mesh);
 }
 
 void SolverThreadTest::it_announces_that_it_became_idle() {
