@@ -1,11 +1,13 @@
 #include <png.h>
 
 #include <QPoint>
+#include <algorithm>
 #include <array>
 #include <random>
 #include <vector>
 
 #include "cli/chainmail_program.h"
+#include "folders.h"
 #include "packed_voxels.h"
 #include "program.h"
 
@@ -52,6 +54,7 @@ class ThumbnailCommandTest : public QObject {
   void slender_faces_take_little_time();
   void neighbouring_faces_leave_no_gap();
   void work_without_end_is_ended();
+  void files_of_other_programs();
   void a_mesh_with_a_long_name_is_refused();
   void refused_data();
   void refused();
@@ -182,6 +185,26 @@ void ThumbnailCommandTest::work_without_end_is_ended() {
       QByteArray("chainmail: large.mha: this takes more than 2 s of processor time; use a smaller file, or open it "
                  "in the workbench\n"));
   QCOMPARE(program.files(), QStringList{"large.mha"});
+}
+
+/// Each file of tests/files/world that opens has a picture that is not empty.
+void ThumbnailCommandTest::files_of_other_programs() {
+  const Program program;
+  const QString folder = QString::fromStdString(source_file("tests/files/world").string());
+  const QStringList rows = QString::fromStdString(file_text(source_file("tests/files/world/table.csv"))).split('\n');
+  for (const QString& row : rows.mid(1)) {
+    const QString name = row.section(';', 0, 0);
+    const bool opens = !row.section(';', 1, 1).isEmpty();
+    if (name.isEmpty()) {
+      continue;  // the last line
+    }
+    const auto outcome = program.run({"thumbnail", folder + '/' + name, "-o", "picture.png"});
+    QVERIFY2(opens ? outcome.code == 0 : outcome.code == 2 && is_one_sentence(outcome), qPrintable(name));
+    const Picture picture(opens ? program.path("picture.png") : QString());
+    const auto drawn =
+        std::count_if(picture.pixels.begin(), picture.pixels.end(), [](auto pixel) { return pixel[3] > 0; });
+    QVERIFY2(!opens || drawn > 20, qPrintable(name));
+  }
 }
 
 /// Asking whether such a file exists fails.

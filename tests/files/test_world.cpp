@@ -4,6 +4,7 @@
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "files/mesh/mesh_formats.h"
@@ -80,7 +81,7 @@ double enclosed_by(const Mesh& mesh) {
   return volume;
 }
 
-double measure_of(const Mesh& mesh) { return has_cells(mesh) ? volume_of(mesh) : area_of(mesh); }
+double measure_of(const Mesh& mesh) { return mesh.has_cells() ? volume_of(mesh) : area_of(mesh); }
 
 bool is_close(double a, double b, double tolerance = 1e-12) {
   return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
@@ -107,6 +108,8 @@ class WorldTest : public QObject {
   void they_come_back();
   void they_deform_data() { opened(); }
   void they_deform();
+  void divided_cells_share_their_sides_data();
+  void divided_cells_share_their_sides();
   void strips_face_one_way();
   void mirrored_cells_are_positive();
 
@@ -192,7 +195,7 @@ void WorldTest::they_come_back() {
     if (format.name == "Gmsh" && !mesh->polygons.empty()) {
       continue;  // it has the links of large faces
     }
-    if (has_all || !has_cells(*mesh)) {
+    if (has_all || !mesh->has_cells()) {
       QVERIFY2(is_close(measure_of(*again), measure_of(*mesh)), path.c_str());
     } else {
       QVERIFY2(is_close(std::abs(enclosed_by(*again)), volume_of(*mesh), 1e-9), path.c_str());
@@ -215,6 +218,38 @@ void WorldTest::they_deform() {
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     QVERIFY(point_of(*mesh, positions, e).allFinite());
   }
+}
+
+/// Objects that are as large as their bounding box.
+void WorldTest::divided_cells_share_their_sides_data() {
+  QTest::addColumn<WorldFile>("file");
+  for (const WorldFile& file : table()) {
+    if (file.counts[3] > 0 && is_close(file.measure, (file.bounds[1] - file.bounds[0]).prod())) {
+      QTest::newRow(qPrintable(file.name)) << file;
+    }
+  }
+}
+
+/// The sides that only one cell has are the surface, so their areas add up to that of the box.
+void WorldTest::divided_cells_share_their_sides() {
+  QFETCH(WorldFile, file);
+  const auto mesh = open_mesh(world(file.name)).mesh;
+  std::map<std::array<ElementId, 3>, int> cells_of;
+  for (const auto& cell : mesh->tetrahedra) {
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      std::array side{cell[(left_out + 1) % 4], cell[(left_out + 2) % 4], cell[(left_out + 3) % 4]};
+      std::sort(side.begin(), side.end());
+      ++cells_of[side];
+    }
+  }
+  double area = 0;
+  for (const auto& [side, cells] : cells_of) {
+    const Point at = mesh->rest_position(side[0]);
+    area += cells > 1 ? 0 : (mesh->rest_position(side[1]) - at).cross(mesh->rest_position(side[2]) - at).norm() / 2;
+    QVERIFY(cells <= 2);
+  }
+  const Point size = file.bounds[1] - file.bounds[0];
+  QVERIFY(is_close(area, 2 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0])));
 }
 
 void WorldTest::strips_face_one_way() {

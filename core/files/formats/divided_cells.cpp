@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace chainmail {
 namespace {
@@ -53,32 +55,118 @@ void add_each(std::span<const ElementId> v, const std::array<std::array<std::siz
   }
 }
 
+/// Adds the quadrangle to the faces.
+void add_quadrangle(MeshParts& parts, const std::array<ElementId, 4>& corners) {
+  parts.polygons.push_back(4);
+  parts.polygons.insert(parts.polygons.end(), corners.begin(), corners.end());
+}
+
 constexpr std::array<std::array<std::size_t, 2>, 2> lines_of_line3{{{0, 2}, {2, 1}}};
 constexpr std::array<std::array<std::size_t, 3>, 4> triangles_of_triangle6{
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+constexpr std::array<std::array<std::size_t, 3>, 4> corners_of_quadrangle8{
+    {{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}}};
+constexpr std::array<std::array<std::size_t, 4>, 4> parts_of_quadrangle9{
+    {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
 /// Four at the corners, and four about the line between the middles of two opposite edges.
 constexpr std::array<std::array<std::size_t, 4>, 8> tetrahedra_of_tetrahedron10{
     {{0, 4, 6, 7}, {1, 5, 4, 9}, {2, 6, 5, 8}, {3, 9, 7, 8}, {6, 9, 4, 5}, {6, 9, 5, 8}, {6, 9, 8, 7}, {6, 9, 7, 4}}};
+/// Each layer is divided as triangle6.
+constexpr std::array<std::array<std::size_t, 6>, 8> prisms_of_prism18{{{0, 6, 7, 8, 15, 16},
+                                                                       {6, 1, 9, 15, 10, 17},
+                                                                       {7, 9, 2, 16, 17, 11},
+                                                                       {6, 9, 7, 15, 17, 16},
+                                                                       {8, 15, 16, 3, 12, 13},
+                                                                       {15, 10, 17, 12, 4, 14},
+                                                                       {16, 17, 11, 13, 14, 5},
+                                                                       {15, 17, 16, 12, 14, 13}}};
+/// Four at the corners, one at the top, one below it upside down; between them are four tetrahedra.
+constexpr std::array<std::array<std::size_t, 5>, 6> pyramids_of_pyramid14{{{0, 5, 13, 6, 7},
+                                                                           {5, 1, 8, 13, 9},
+                                                                           {13, 8, 2, 10, 11},
+                                                                           {6, 13, 10, 3, 12},
+                                                                           {7, 9, 11, 12, 4},
+                                                                           {7, 9, 11, 12, 13}}};
+constexpr std::array<std::array<std::size_t, 4>, 4> tetrahedra_of_pyramid14{
+    {{5, 13, 7, 9}, {8, 13, 9, 11}, {10, 13, 11, 12}, {6, 13, 12, 7}}};
+constexpr std::array<std::array<std::size_t, 8>, 8> hexahedra_of_hexahedron27{{{0, 8, 20, 9, 10, 21, 26, 22},
+                                                                               {8, 1, 11, 20, 21, 12, 23, 26},
+                                                                               {20, 11, 2, 13, 26, 23, 14, 24},
+                                                                               {9, 20, 13, 3, 22, 26, 24, 15},
+                                                                               {10, 21, 26, 22, 4, 16, 25, 17},
+                                                                               {21, 12, 23, 26, 16, 5, 18, 25},
+                                                                               {26, 23, 14, 24, 25, 18, 6, 19},
+                                                                               {22, 26, 24, 15, 17, 25, 19, 7}}};
+
+/// A solid of second order without middles of faces. What remains without its corners is bounded by middles.
+struct Middles {
+  /// The ends of the edges, in the order of their middles.
+  std::vector<std::array<std::size_t, 2>> edges;
+  std::size_t corners;
+  /// The middles on each face of the solid, around it.
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+const Middles hexahedron20{
+    {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}},
+    8,
+    {{8, 11, 13, 9}, {8, 12, 16, 10}, {9, 15, 17, 10}, {11, 14, 18, 12}, {13, 15, 19, 14}, {16, 18, 19, 17}}};
+const Middles prism15{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}},
+                      6,
+                      {{6, 9, 7}, {12, 14, 13}, {6, 10, 12, 8}, {7, 11, 13, 8}, {9, 11, 14, 10}}};
+const Middles pyramid13{{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}},
+                        5,
+                        {{5, 8, 10, 6}, {5, 9, 7}, {8, 11, 9}, {10, 12, 11}, {6, 7, 12}}};
+
+/// Divides what these sides bound into tetrahedra with the corner of the lowest id, which lies on the surface. Each
+/// side is divided at its own lowest, so that neighbours agree.
+void add_convex(MeshParts& parts, std::vector<std::vector<ElementId>> sides) {
+  ElementId apex = sides[0][0];
+  for (auto& side : sides) {
+    std::rotate(side.begin(), std::min_element(side.begin(), side.end()), side.end());
+    apex = std::min(apex, side[0]);
+  }
+  for (const auto& side : sides) {
+    for (std::size_t i = 2; i < side.size() && side[0] != apex; ++i) {
+      add_tetrahedron(parts, {apex, side[0], side[i - 1], side[i]});
+    }
+  }
+}
+
+/// Cuts the corners off, and divides the rest.
+void add_middles(MeshParts& parts, const Middles& shape, std::span<const ElementId> v) {
+  std::vector<std::vector<ElementId>> sides;
+  for (const auto& face : shape.faces) {
+    sides.emplace_back();
+    std::transform(face.begin(), face.end(), std::back_inserter(sides.back()), [&](std::size_t i) { return v[i]; });
+  }
+  for (std::size_t corner = 0; corner < shape.corners; ++corner) {
+    std::vector<ElementId> around;
+    for (std::size_t i = 0; i < shape.edges.size(); ++i) {
+      if (shape.edges[i][0] == corner || shape.edges[i][1] == corner) {
+        around.push_back(v[shape.corners + i]);
+      }
+    }
+    if (around.size() == 3) {
+      add_tetrahedron(parts, {v[corner], around[0], around[1], around[2]});
+    } else {
+      add_pyramid(parts, std::array{around[0], around[1], around[2], around[3], v[corner]});
+    }
+    sides.push_back(std::move(around));
+  }
+  add_convex(parts, std::move(sides));
+}
 
 }  // namespace
 
 std::size_t corner_count(DividedKind kind) {
-  switch (kind) {
-    case DividedKind::prism:
-    case DividedKind::triangle6:
-      return 6;
-    case DividedKind::pyramid:
-      return 5;
-    case DividedKind::line3:
-      return 3;
-    case DividedKind::tetrahedron10:
-      return 10;
-  }
-  return 0;
+  constexpr std::array<std::size_t, 13> counts{6, 5, 3, 6, 8, 9, 10, 13, 14, 15, 18, 20, 27};
+  return counts.at(std::size_t(kind));
 }
 
 void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId> corners) {
   MeshParts& parts = mesh.parts;
+  const auto tetrahedron = [&](const auto& cell) { add_tetrahedron(parts, cell); };
   ++mesh.divided;
   switch (kind) {
     case DividedKind::prism:
@@ -89,8 +177,26 @@ void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId
       return add_each(corners, lines_of_line3, [&](const auto& line) { parts.links.push_back(line); });
     case DividedKind::triangle6:
       return add_each(corners, triangles_of_triangle6, [&](const auto& face) { parts.triangles.push_back(face); });
+    case DividedKind::quadrangle8:
+      add_each(corners, corners_of_quadrangle8, [&](const auto& face) { parts.triangles.push_back(face); });
+      return add_quadrangle(parts, {corners[4], corners[5], corners[6], corners[7]});
+    case DividedKind::quadrangle9:
+      return add_each(corners, parts_of_quadrangle9, [&](const auto& face) { add_quadrangle(parts, face); });
     case DividedKind::tetrahedron10:
-      return add_each(corners, tetrahedra_of_tetrahedron10, [&](const auto& cell) { add_tetrahedron(parts, cell); });
+      return add_each(corners, tetrahedra_of_tetrahedron10, tetrahedron);
+    case DividedKind::pyramid13:
+      return add_middles(parts, pyramid13, corners);
+    case DividedKind::pyramid14:
+      add_each(corners, pyramids_of_pyramid14, [&](const auto& cell) { add_pyramid(parts, cell); });
+      return add_each(corners, tetrahedra_of_pyramid14, tetrahedron);
+    case DividedKind::prism15:
+      return add_middles(parts, prism15, corners);
+    case DividedKind::prism18:
+      return add_each(corners, prisms_of_prism18, [&](const auto& cell) { add_prism(parts, cell); });
+    case DividedKind::hexahedron20:
+      return add_middles(parts, hexahedron20, corners);
+    case DividedKind::hexahedron27:
+      return add_each(corners, hexahedra_of_hexahedron27, [&](const auto& cell) { parts.hexahedra.push_back(cell); });
   }
 }
 

@@ -8,15 +8,31 @@
 namespace chainmail {
 
 /// Cells and faces of other programs that have no counterpart here, with their corners in the order of Gmsh (Geuzaine
-/// and Remacle 2009): the corners first, then the middles of edges.
-enum class DividedKind { prism, pyramid, line3, triangle6, tetrahedron10 };
+/// and Remacle 2009): the corners first, then the middles of edges, of faces and of the cell. The number is that of
+/// all.
+enum class DividedKind {
+  prism,
+  pyramid,
+  line3,
+  triangle6,
+  quadrangle8,
+  quadrangle9,
+  tetrahedron10,
+  pyramid13,
+  pyramid14,
+  prism15,
+  prism18,
+  hexahedron20,
+  hexahedron27
+};
 
 /// Returns the number of corners and middles.
 std::size_t corner_count(DividedKind kind);
 
 /// Adds a cell or face in parts, and counts it. Prisms and pyramids become tetrahedra, and neighbours share the
-/// diagonals of their sides (Dompierre et al. 1999). A line, triangle or tetrahedron of second order becomes 2, 4 or 8
-/// of first order, whose elements are its corners and the middles of its edges. Tetrahedra get a positive volume.
+/// diagonals of their sides (Dompierre et al. 1999). A cell or face of second order becomes several of first order,
+/// whose elements are its corners and middles: hexahedra of 27 become hexahedra, other solids tetrahedra. Tetrahedra
+/// get a positive volume.
 void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId> corners);
 
 }  // namespace chainmail

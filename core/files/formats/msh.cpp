@@ -11,14 +11,14 @@ namespace chainmail {
 namespace {
 
 /// Gmsh's numbers for a kind of piece: the dimension of its entity, and its type.
-struct MshType {
+struct PieceType {
   Piece piece;
   std::uint32_t dimension;
   std::uint32_t type;
 };
-constexpr std::array msh_types{MshType{Piece::line, 1, 1}, MshType{Piece::triangle, 2, 2},
-                               MshType{Piece::polygon, 2, 3}, MshType{Piece::tetrahedron, 3, 4},
-                               MshType{Piece::hexahedron, 3, 5}};
+constexpr std::array piece_types{PieceType{Piece::line, 1, 1}, PieceType{Piece::triangle, 2, 2},
+                                 PieceType{Piece::polygon, 2, 3}, PieceType{Piece::tetrahedron, 3, 4},
+                                 PieceType{Piece::hexahedron, 3, 5}};
 constexpr std::size_t most_msh_corners = 4;
 
 class MshWriter {
@@ -43,8 +43,9 @@ class MshWriter {
 };
 
 bool MshWriter::has_dimension(std::uint32_t dimension) const {
-  return std::any_of(msh_types.begin(), msh_types.end(),
-                     [&](const MshType& kind) { return kind.dimension == dimension && pieces_.count(kind.piece) > 0; });
+  return std::any_of(piece_types.begin(), piece_types.end(), [&](const PieceType& kind) {
+    return kind.dimension == dimension && pieces_.count(kind.piece) > 0;
+  });
 }
 
 std::uint32_t MshWriter::node_dimension() const { return has_dimension(3) ? 3 : has_dimension(2) ? 2 : 1; }
@@ -99,13 +100,13 @@ void MshWriter::write_nodes(const Progress& progress) {
 
 void MshWriter::write_elements(const Progress& progress) {
   std::uint32_t blocks = 0, count = 0;
-  for (const MshType& kind : msh_types) {
+  for (const PieceType& kind : piece_types) {
     blocks += pieces_.count(kind.piece) > 0 ? 1 : 0;
     count += pieces_.count(kind.piece);
   }
   text_ << "$Elements\n" << blocks << ' ' << count << ' ' << std::uint32_t{count > 0 ? 1U : 0U} << ' ' << count << '\n';
   std::uint32_t tag = 0;
-  for (const MshType& kind : msh_types) {
+  for (const PieceType& kind : piece_types) {
     if (pieces_.count(kind.piece) == 0) {
       continue;
     }

@@ -25,7 +25,7 @@ class PlyHeadReader {
   PlyHeadReader(std::string_view bytes, const std::filesystem::path& path) : bytes_(bytes), path_(path) {}
 
   PlyHead read() {
-    head_.length = bytes_.starts_with("\xef\xbb\xbf") ? 3 : 0;
+    head_.length = mark_length(bytes_);
     ends_ = bytes_.substr(0, bytes_.find("end_header")).find('\n') == std::string_view::npos ? '\r' : '\n';
     if (trimmed(line()) != "ply") {
       fail("it does not begin with 'ply'", "use a PLY file");

@@ -11,6 +11,13 @@ namespace {
 
 [[noreturn]] void fail(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
 
+// VTK lists middles of edges by layers, Gmsh by their ends.
+constexpr std::array tetrahedron10_order{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+constexpr std::array pyramid13_order{0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12};
+constexpr std::array prism18_order{0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16};
+constexpr std::array hexahedron27_order{0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 16, 9,  17, 10,
+                                        18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26};
+
 }  // namespace
 
 ElementId VtkCells::id(std::uint64_t point) const {
@@ -52,18 +59,15 @@ void VtkCells::add_group(std::vector<std::array<ElementId, Size>>& groups, Corne
   groups.push_back(group);
 }
 
-void VtkCells::add_divided_cell(DividedKind kind, Corners corners) {
+void VtkCells::add_divided_cell(DividedKind kind, Corners corners, std::span<const int> order) {
   if (corners.size() != corner_count(kind)) {
     fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " +
              std::to_string(corner_count(kind)),
          "export it again");
   }
   std::vector<ElementId> ids;
-  for (const std::uint64_t corner : corners) {
-    ids.push_back(id(corner));
-  }
-  if (kind == DividedKind::tetrahedron10) {
-    std::swap(ids[8], ids[9]);  // VTK and Gmsh list these two middles in opposite orders
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    ids.push_back(id(corners[order.empty() ? i : std::size_t(order[i])]));
   }
   add_divided(mesh_, kind, ids);
 }
@@ -104,11 +108,24 @@ void VtkCells::add(Corners corners, int type) {
       return add_divided_cell(DividedKind::line3, corners);
     case triangle6:
       return add_divided_cell(DividedKind::triangle6, corners);
+    case quadrangle8:
+      return add_divided_cell(DividedKind::quadrangle8, corners);
+    case quadrangle9:
+      return add_divided_cell(DividedKind::quadrangle9, corners);
     case tetrahedron10:
-      return add_divided_cell(DividedKind::tetrahedron10, corners);
+      return add_divided_cell(DividedKind::tetrahedron10, corners, tetrahedron10_order);
+    case pyramid13:
+      return add_divided_cell(DividedKind::pyramid13, corners, pyramid13_order);
+    case prism15:
+      return add_divided_cell(DividedKind::prism15, corners, prism18_order);
+    case prism18:
+      return add_divided_cell(DividedKind::prism18, corners, prism18_order);
+    case hexahedron20:
+      return add_divided_cell(DividedKind::hexahedron20, corners, hexahedron27_order);
+    case hexahedron27:
+      return add_divided_cell(DividedKind::hexahedron27, corners, hexahedron27_order);
     default:
-      fail("it contains cells of VTK's type " + std::to_string(type),
-           "save them as cells of first order, or as tetrahedra of second order");
+      fail("it contains cells of VTK's type " + std::to_string(type), "save them as cells of first or second order");
   }
 }
 

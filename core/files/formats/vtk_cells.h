@@ -31,7 +31,14 @@ class VtkCells {
     pyramid,
     line3 = 21,
     triangle6,
-    tetrahedron10 = 24
+    quadrangle8,
+    tetrahedron10,
+    hexahedron20,
+    prism15,
+    pyramid13,
+    quadrangle9,
+    hexahedron27,
+    prism18 = 32
   };
 
   using Corners = std::span<const std::uint64_t>;
@@ -47,7 +54,8 @@ class VtkCells {
   void add_face(Corners corners);
   template <std::size_t Size>
   void add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners, const std::array<int, Size>& order);
-  void add_divided_cell(DividedKind kind, Corners corners);
+  /// `order` says which corner of VTK is each of Gmsh's, where they differ.
+  void add_divided_cell(DividedKind kind, Corners corners, std::span<const int> order = {});
   ElementId id(std::uint64_t point) const;
 
   ImportedMesh& mesh_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "files/formats/data_file.h"
+#include "files/formats/msh_check.h"
 #include "files/formats/nrrd_head.h"
 #include "files/import/import_process.h"
 #include "files/text/limits.h"
@@ -13,11 +14,12 @@
 namespace chainmail {
 namespace {
 
-/// Throws Error at the first number with a decimal comma. Libraries do not say where it is, or what is wrong with it.
-void refuse_decimal_commas(const std::filesystem::path& path) {
-  std::string beginning(std::size_t{1} << 20, '\0');
-  beginning.resize(RegularFile(path).read(beginning));
-  Lines lines(beginning);
+/// Bytes of a refused file in which its fault is looked for.
+constexpr std::size_t most_searched = std::size_t{1} << 24;
+
+/// Throws Error at the first number with a decimal comma.
+void refuse_decimal_commas(std::string_view text, const std::filesystem::path& path) {
+  Lines lines(text);
   while (lines.next()) {
     std::string_view rest = lines.line();
     for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
@@ -25,6 +27,16 @@ void refuse_decimal_commas(const std::filesystem::path& path) {
         throw Error(shown(path, lines.number()), in_quotes(word) + " is not a number", number_remedy(word));
       }
     }
+  }
+}
+
+/// Throws Error at the line that is wrong, where it can be found: libraries do not say where it is.
+void find_fault(const std::string& task, const std::filesystem::path& path) {
+  std::string text(most_searched, '\0');
+  text.resize(RegularFile(path).read(text));
+  refuse_decimal_commas(text, path);
+  if (task == "msh" && text.size() < most_searched) {
+    check_msh(text, path);
   }
 }
 
@@ -38,7 +50,7 @@ ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& p
   try {
     return run_import_of<ImportedMesh>(task, input, {}, limits_for(input.linked_size()), progress, program);
   } catch (const Error&) {
-    refuse_decimal_commas(path);
+    find_fault(task, path);
     throw;
   }
 }

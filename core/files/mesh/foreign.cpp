@@ -46,8 +46,7 @@ constexpr std::array foreigners{
 }  // namespace
 
 void refuse_foreign(std::string_view beginning, const std::filesystem::path& path) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  beginning.remove_prefix(beginning.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  beginning.remove_prefix(mark_length(beginning));
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   for (const Foreign& one : foreigners) {
     if (lower_case(beginning.substr(0, one.sign.size())) == one.sign) {

@@ -144,11 +144,13 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& con
   return read_whole(path, false, content, progress);
 }
 
-Lines::Lines(std::string_view text, Backslash backslash) : size_(text.size()), backslash_(backslash), rest_(text) {
+std::size_t mark_length(std::string_view text) {
   static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (rest_.starts_with(byte_order_mark)) {
-    rest_.remove_prefix(byte_order_mark.size());
-  }
+  return text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+}
+
+Lines::Lines(std::string_view text, Backslash backslash) : size_(text.size()), backslash_(backslash), rest_(text) {
+  rest_.remove_prefix(mark_length(text));
 }
 
 std::string_view Lines::take_line() {

@@ -61,6 +61,9 @@ class Lines {
   std::size_t number_ = 0, ends_ = 0;
 };
 
+/// Returns the length of the byte order mark of UTF-8 with which a text begins, or 0.
+std::size_t mark_length(std::string_view text);
+
 /// Removes the first word from a line and returns it; empty if there is none. Blanks and tabs separate words.
 std::string_view take_word(std::string_view& rest);
 

@@ -10,7 +10,6 @@
 namespace chainmail {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 constexpr std::string_view blanks = " \t\r\n\v\f";
 
 /// Returns the number of lines that end in a text. They end with \n, \r\n or \r.
@@ -26,7 +25,7 @@ std::size_t line_ends(std::string_view text) {
 
 Words::Words(std::string_view text, const std::filesystem::path& path, const Progress& progress)
     : text_(text), path_(path), progress_(progress) {
-  at_ = last_ = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  at_ = last_ = mark_length(text);
 }
 
 void Words::fail(const std::string& problem, const std::string& remedy) const {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "files/formats/divided_cells.h"
+#include "files/formats/msh_types.h"
 #include "files/import/program/beginning.h"
 #include "files/import/program/counts.h"
 #include "files/import/program/gmsh_session.h"
@@ -15,19 +16,7 @@ namespace chainmail::import {
 namespace {
 
 /// Gmsh's numbers of the types of elements (Geuzaine and Remacle 2009).
-enum GmshType {
-  line = 1,
-  triangle = 2,
-  quadrangle = 3,
-  tetrahedron = 4,
-  hexahedron = 5,
-  prism = 6,
-  pyramid = 7,
-  line3 = 8,
-  triangle6 = 9,
-  tetrahedron10 = 11,
-  point = 15
-};
+enum GmshType { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5, point = 15 };
 
 /// Maps tags to elements, in the order of the tags, and stores their positions.
 class Points {
@@ -71,6 +60,15 @@ void take(std::vector<std::array<ElementId, Size>>& groups, const std::vector<st
   }
 }
 
+DividedKind divided_kind(int type) {
+  const MshType* const known = msh_type(type);
+  if (known == nullptr || !known->divided) {
+    refuse("it contains elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
+           "save it with elements of first or second order");
+  }
+  return *known->divided;
+}
+
 void take_divided(ImportedMesh& mesh, DividedKind kind, const std::vector<std::size_t>& nodes, const Points& points) {
   const std::size_t size = corner_count(kind);
   std::vector<ElementId> corners(size);
@@ -102,19 +100,8 @@ void take_type(ImportedMesh& mesh, int type, const std::vector<std::size_t>& nod
       return take(parts.tetrahedra, nodes, points);
     case hexahedron:
       return take(parts.hexahedra, nodes, points);
-    case prism:
-      return take_divided(mesh, DividedKind::prism, nodes, points);
-    case pyramid:
-      return take_divided(mesh, DividedKind::pyramid, nodes, points);
-    case line3:
-      return take_divided(mesh, DividedKind::line3, nodes, points);
-    case triangle6:
-      return take_divided(mesh, DividedKind::triangle6, nodes, points);
-    case tetrahedron10:
-      return take_divided(mesh, DividedKind::tetrahedron10, nodes, points);
     default:
-      refuse("it contains elements of higher order or of an uncommon kind (Gmsh's type " + std::to_string(type) + ")",
-             "save it with elements of first order, or tetrahedra of second order");
+      return take_divided(mesh, divided_kind(type), nodes, points);
   }
 }
 

@@ -118,7 +118,8 @@ void VtkXml::parse() {
     text += "</VTKFile>";
   }
   if (const auto result = document_.load_buffer(text.data(), text.size()); !result) {
-    refuse_damaged(std::string("it is damaged XML (") + printable(result.description()) + ")");
+    const auto line = 1 + std::count(text.begin(), text.begin() + result.offset, '\n');
+    refuse_damaged("its XML is damaged at line " + std::to_string(line) + " (" + printable(result.description()) + ")");
   }
   root_ = document_.child("VTKFile");
   const std::string_view compressor = root_.attribute("compressor").value();
