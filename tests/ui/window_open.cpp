@@ -6,6 +6,7 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTemporaryDir>
@@ -156,13 +157,11 @@ class WindowOpen : public QObject {
     bench.find<QPushButton>("repairWeld")->click();
     bench.settle();
     QCOMPARE(repairText(bench), QStringLiteral("1 loose point · 1 hole (4 edges) · 1 non-manifold edge"));
-    QVERIFY(!bench.find<QPushButton>("repairWeld")->isVisible());
     QCOMPARE(bench.document().mesh()->element_count(), broken->element_count() - 1);
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("weld 1 duplicate vertex"));
     bench.trigger("undo");
     bench.settle();
     QCOMPARE(bench.document().mesh(), broken);
-    QVERIFY(bench.find<QPushButton>("repairWeld")->isVisible());
     bench.trigger("redo");
     bench.find<QPushButton>("repairLoose")->click();
     bench.settle();
@@ -225,21 +224,48 @@ class WindowOpen : public QObject {
     QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
   }
 
-  void anObjectWithoutDefectsHasNoBar() {
+  void anObjectWithoutDefectsHasABarOnlyWhenAsked() {
     Workbench bench;
     bench.open(brokenCube());
     bench.open(sourceFile("meshes/sphere.obj"));
-    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    const auto* bar = bench.find<QFrame>("repairBar");
+    QVERIFY(!bar->isVisible());
     bench.trigger("repairMesh");
     bench.settle();
-    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
-    QCOMPARE(messages(bench).sentence(), QStringLiteral("sphere.obj has no defects to repair"));
+    QVERIFY(bar->isVisible());
+    QCOMPARE(repairText(bench), QStringLiteral("sphere.obj has no defects to repair"));
+    for (const char* name : {"repairShow", "repairLoose", "repairHoles"}) {
+      QVERIFY(!bench.find<QPushButton>(name)->isVisible());
+    }
     const MeshPointer cloth = generate({MeshKind::cloth, {20, 20, 1}, 1, {}});
+    bench.document().replaceMesh(cloth, QStringLiteral("cloth"), QStringLiteral("build"));
+    QVERIFY(!bar->isVisible());
+    bench.trigger("repairMesh");
+    bench.settle();
+    QVERIFY(repairText(bench).contains(QStringLiteral("outline of an open surface")));
+  }
+
+  void verticesWithinADistanceAreWelded() {
+    Workbench bench;
+    const MeshPointer cloth = generate({MeshKind::cloth, {4, 1, 1}, 1, {}});
     bench.document().replaceMesh(cloth, QStringLiteral("cloth"), QStringLiteral("build"));
     bench.trigger("repairMesh");
     bench.settle();
-    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
-    QVERIFY(messages(bench).sentence().contains(QStringLiteral("outline of an open surface")));
+    auto* weld = bench.find<QPushButton>("repairWeld");
+    auto* distance = bench.find<QLineEdit>("repairDistance");
+    distance->setText(QStringLiteral("1e"));
+    QVERIFY(!weld->isEnabled());
+    distance->setText(QStringLiteral("0.5"));
+    weld->click();
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), cloth);
+    QCOMPARE(messages(bench).sentence(),
+             QStringLiteral("cloth: no two of its vertices are as close as 0.5; choose a larger distance"));
+    distance->setText(QStringLiteral("1.2"));
+    QTest::keyClick(distance, Qt::Key_Return);
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), std::size_t{2});
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("weld 2 duplicate vertices"));
   }
 
   void theFillOfferedSuitsLinearFem() {

@@ -101,7 +101,7 @@ void MeshRepair::check() {
                   remember(mesh, defects);
                   follow();
                   if (defects.empty()) {
-                    emit noted(nothingToRepair(name, defects));
+                    bar_->offer(defects, nothingToRepair(name, defects));
                   }
                 };
               });
@@ -124,7 +124,7 @@ void MeshRepair::showNext() {
 }
 
 /// Replaces the object with the repaired one. The softness of single links stays.
-void MeshRepair::start(const QString& doing, const QString& step, const Repair& repair) {
+void MeshRepair::start(const QString& doing, const Named& step, const Repair& repair) {
   const QString name = document_.name();
   jobs_.start(
       Jobs::Kind::compute, QStringLiteral("%1 of %2").arg(doing, name),
@@ -141,7 +141,7 @@ void MeshRepair::start(const QString& doing, const QString& step, const Repair& 
               return;
             }
             remember(repaired.mesh, defects);
-            document_.reworkMesh(repaired.mesh, name, step, own);
+            document_.reworkMesh(repaired.mesh, name, step(repaired), own);
           };
         } catch (const Error& error) {
           throw error.at(name.toStdString());
@@ -150,29 +150,40 @@ void MeshRepair::start(const QString& doing, const QString& step, const Repair& 
 }
 
 void MeshRepair::weld() {
-  if (const Checked* known = ofTheObject()) {
-    const std::size_t count = known->defects->duplicates.size();
-    start(QStringLiteral("Welding vertices"),
-          QStringLiteral("weld %L1 duplicate %2").arg(count).arg(count == 1 ? "vertex" : "vertices"),
-          [](const Mesh& mesh, const Progress& progress) { return chainmail::weld(mesh, 0, progress); });
-  }
+  const double distance = bar_->weldDistance();
+  start(
+      QStringLiteral("Welding vertices"),
+      [count = document_.mesh()->element_count()](const Repaired& after) {
+        const std::size_t welded = count - after.mesh->element_count();
+        return QStringLiteral("weld %L1 duplicate %2").arg(welded).arg(welded == 1 ? "vertex" : "vertices");
+      },
+      [distance](const Mesh& mesh, const Progress& progress) {
+        Repaired after = chainmail::weld(mesh, distance, progress);
+        if (after.mesh->element_count() == mesh.element_count()) {
+          throw Error("", "no two of its vertices are as close as " + QString::number(distance).toStdString(),
+                      "choose a larger distance");
+        }
+        return after;
+      });
 }
 
 void MeshRepair::removeLoose() {
   if (const Checked* known = ofTheObject()) {
-    start(QStringLiteral("Removing loose points"),
-          counted(QStringLiteral("remove"), known->defects->loose.size(), QStringLiteral("loose point")),
-          [](const Mesh& mesh, const Progress& progress) { return remove_loose(mesh, progress); });
+    const QString step = counted(QStringLiteral("remove"), known->defects->loose.size(), QStringLiteral("loose point"));
+    start(
+        QStringLiteral("Removing loose points"), [step](const Repaired&) { return step; },
+        [](const Mesh& mesh, const Progress& progress) { return remove_loose(mesh, progress); });
   }
 }
 
 void MeshRepair::closeHoles() {
   if (const Checked* known = ofTheObject()) {
-    start(QStringLiteral("Closing holes"),
-          counted(QStringLiteral("close"), known->defects->holes.size(), QStringLiteral("hole")),
-          [defects = known->defects](const Mesh& mesh, const Progress& progress) {
-            return close_holes(mesh, defects->holes, progress);
-          });
+    const QString step = counted(QStringLiteral("close"), known->defects->holes.size(), QStringLiteral("hole"));
+    start(
+        QStringLiteral("Closing holes"), [step](const Repaired&) { return step; },
+        [defects = known->defects](const Mesh& mesh, const Progress& progress) {
+          return close_holes(mesh, defects->holes, progress);
+        });
   }
 }
 

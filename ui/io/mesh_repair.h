@@ -27,11 +27,10 @@ class MeshRepair : public QObject {
   /// Remembers the defects of a mesh that becomes the object next.
   void remember(const MeshPointer& mesh, Defects defects);
 
- signals:
-  void noted(const QString& sentence);
-
  private:
   using Repair = std::function<Repaired(const Mesh&, const Progress&)>;
+  /// Returns the name of the undo step.
+  using Named = std::function<QString(const Repaired&)>;
 
   /// A mesh that was checked. The undo stack may bring it back.
   struct Checked {
@@ -45,7 +44,7 @@ class MeshRepair : public QObject {
   void check();
   void dismiss();
   void showNext();
-  void start(const QString& doing, const QString& step, const Repair& repair);
+  void start(const QString& doing, const Named& step, const Repair& repair);
   void weld();
   void removeLoose();
   void closeHoles();

@@ -1,7 +1,9 @@
 #include "io/repair_bar.h"
 
 #include <QAccessible>
+#include <QDoubleValidator>
 #include <QHBoxLayout>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -10,6 +12,7 @@
 #include "common/icons.h"
 #include "common/text.h"
 #include "files/repair/defects.h"
+#include "mesh/mesh.h"
 
 namespace chainmail {
 namespace {
@@ -43,13 +46,14 @@ RepairBar::RepairBar() : row_(new QHBoxLayout(this)), text_(makeText("repairText
   words->addWidget(shown_);
   row_->setContentsMargins(10, 4, 6, 4);
   row_->addLayout(words, 1);
-  addButton(QStringLiteral("&Show"), "repairShow",
-            QStringLiteral("Selects the elements of one defect. Each click selects the next one"),
-            &RepairBar::showRequested);
+  show_ = addButton(QStringLiteral("&Show"), "repairShow",
+                    QStringLiteral("Selects the elements of one defect. Each click selects the next one"),
+                    &RepairBar::showRequested);
   weld_ = addButton(QStringLiteral("&Weld"), "repairWeld",
-                    QStringLiteral("Joins vertices at the same position, as one undo step. The object is then at rest, "
-                                   "without cuts and pins"),
+                    QStringLiteral("Joins vertices that are as close as the distance beside this button, as one undo "
+                                   "step. The object is then at rest, without cuts and pins"),
                     &RepairBar::weldRequested);
+  addWeldDistance();
   loose_ = addButton(QStringLiteral("Remove loose &points"), "repairLoose",
                      QStringLiteral("Removes elements without links, as one undo step. The object is then at rest, "
                                     "without cuts and pins"),
@@ -77,6 +81,23 @@ QPushButton* RepairBar::addButton(const QString& text, const char* name, const Q
   return button;
 }
 
+void RepairBar::addWeldDistance() {
+  distance_ = new QLineEdit(QStringLiteral("0"));
+  distance_->setObjectName(QStringLiteral("repairDistance"));
+  distance_->setAccessibleName(QStringLiteral("Distance of welding, in mesh units"));
+  distance_->setToolTip(
+      QStringLiteral("Vertices as close as this are welded, in mesh units. 0 welds those at the same "
+                     "position"));
+  auto* validator = new QDoubleValidator(0, coordinate_limit, -1, distance_);
+  validator->setNotation(QDoubleValidator::ScientificNotation);
+  distance_->setValidator(validator);
+  distance_->setFixedWidth(distance_->fontMetrics().horizontalAdvance(QStringLiteral("0.000000000")));
+  connect(distance_, &QLineEdit::textChanged, weld_, [this] { weld_->setEnabled(distance_->hasAcceptableInput()); });
+  connect(distance_, &QLineEdit::returnPressed, weld_, &QPushButton::click);
+  row_->addWidget(new QLabel(QStringLiteral("within")));
+  row_->addWidget(distance_);
+}
+
 void RepairBar::addClose() {
   auto* close = new QToolButton;
   close->setObjectName(QStringLiteral("repairClose"));
@@ -88,10 +109,13 @@ void RepairBar::addClose() {
   row_->addWidget(close);
 }
 
-void RepairBar::offer(const Defects& defects) {
-  text_->setText(withoutBreaks(in_words(defects)).join(QStringLiteral(" · ")));
-  setAccessibleName(QStringLiteral("Defects: %1").arg(text_->text()));
-  weld_->setVisible(!defects.duplicates.empty());
+double RepairBar::weldDistance() const { return distance_->locale().toDouble(distance_->text()); }
+
+void RepairBar::offer(const Defects& defects, const QString& ifNone) {
+  const bool isSound = defects.empty();
+  text_->setText(isSound ? ifNone : withoutBreaks(in_words(defects)).join(QStringLiteral(" · ")));
+  setAccessibleName(isSound ? text_->text() : QStringLiteral("Defects: %1").arg(text_->text()));
+  show_->setVisible(!isSound);
   loose_->setVisible(!defects.loose.empty());
   holes_->setVisible(!defects.holes.empty());
   showShown({});

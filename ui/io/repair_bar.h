@@ -17,8 +17,10 @@ class RepairBar : public QFrame {
  public:
   RepairBar();
 
-  /// Shows the bar with these defects; there is at least one.
-  void offer(const Defects& defects);
+  /// Shows the bar with these defects; `ifNone` is its text where there is none.
+  void offer(const Defects& defects, const QString& ifNone = {});
+  /// Elements as close as this are welded (mesh units).
+  double weldDistance() const;
   /// Adds what Show has selected to the text.
   void showShown(const QString& what);
 
@@ -31,12 +33,14 @@ class RepairBar : public QFrame {
 
  private:
   QPushButton* addButton(const QString& text, const char* name, const QString& help, void (RepairBar::*request)());
+  void addWeldDistance();
   void addClose();
 
   QHBoxLayout* row_;
   QLabel* text_;
   QLabel* shown_;
-  QPushButton *weld_, *loose_, *holes_;
+  QPushButton *show_, *weld_, *loose_, *holes_;
+  QLineEdit* distance_;
 };
 
 }  // namespace chainmail

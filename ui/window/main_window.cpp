@@ -201,7 +201,6 @@ void MainWindow::listenToFiles() {
       close();
     }
   });
-  connect(&files_->repair(), &MeshRepair::noted, messages_, &MessageBar::note);
   connect(files_, &FileActions::saved, this, [this](const QString& path) {
     messages_->clear();
     showStatus(QStringLiteral("Saved %1").arg(path));
