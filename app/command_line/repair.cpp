@@ -90,7 +90,7 @@ void carry_out(const RepairOptions& options, Repair& repair, const Progress& pro
 
 /// Refuses to close the holes of an object with cells, if that was asked for.
 void check_holes(const RepairOptions& options, const Mesh& mesh) {
-  if (options.holes->count() > 0 && has_cells(mesh)) {
+  if (options.holes->count() > 0 && mesh.has_cells()) {
     throw Error("--holes", "the object has cells, and only surfaces have holes", "leave it out, or use a surface");
   }
 }

@@ -11,7 +11,7 @@ namespace chainmail {
 namespace {
 
 bool is_surface_in_space(const Mesh& mesh) {
-  return mesh.space_dimension == 3 && mesh.tetrahedra.empty() && mesh.hexahedra.empty() && !mesh.triangles.empty();
+  return mesh.space_dimension == 3 && !mesh.has_cells() && !mesh.triangles.empty();
 }
 
 /// Adds a triangle with the gradients of its shape functions, in a plane in which its first edge is the first axis.

@@ -42,8 +42,7 @@ Outside outside_of_cells(const MeshPointer& mesh, const Cuts& cuts, const Progre
 }
 
 Outside outside_of(const MeshPointer& mesh, const Cuts& cuts, const Progress& progress) {
-  const bool has_cells = !mesh->tetrahedra.empty() || !mesh->hexahedra.empty();
-  return has_cells ? outside_of_cells(mesh, cuts, progress) : Outside{mesh->triangles, {}};
+  return mesh->has_cells() ? outside_of_cells(mesh, cuts, progress) : Outside{mesh->triangles, {}};
 }
 
 Facet facet_of(const Mesh& mesh, const Triangle& triangle) {

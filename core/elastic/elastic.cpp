@@ -27,7 +27,7 @@ constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes; t
 
 void check_fem(const std::string& where, const Mesh& mesh, const std::array<std::uint64_t, 4>& limits) {
   const bool is_full_grid = mesh.is_grid && mesh.object_dimension == mesh.space_dimension;
-  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty() || is_full_grid;
+  const bool has_cells = mesh.has_cells() || is_full_grid;
   if (mesh.space_dimension == 3 && !has_cells) {
     throw Error(where, "the object has no tetrahedra or hexahedra, so it is not a solid",
                 "fill its surface: 'chainmail fill', or Object > Fill with tetrahedra");
@@ -55,14 +55,13 @@ void check_cells(const std::string& where, const Mesh& mesh) {
 }
 
 void check_boundary(const Mesh& mesh) {
-  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
-  if (mesh.space_dimension != 3 || (mesh.triangles.empty() && !has_cells)) {
+  if (mesh.space_dimension != 3 || (mesh.triangles.empty() && !mesh.has_cells())) {
     throw Error("BEM", "it works only on closed surfaces of triangles in space, and this object has none",
                 "open a surface or a volume, or compare by linear FEM");
   }
   // The number of triangles around a volume is known only after its faces were found.
-  check_boundary_size(has_cells ? 0 : mesh.triangles.size(), has_cells ? mesh.element_count() : 0);
-  if (!has_cells) {
+  check_boundary_size(mesh.has_cells() ? 0 : mesh.triangles.size(), mesh.has_cells() ? mesh.element_count() : 0);
+  if (!mesh.has_cells()) {
     check_closed(mesh);
   }
 }

@@ -37,7 +37,7 @@ class Builder {
         mesh_.triangles.empty() ? add_squares() : add_triangles();
         break;
       default:
-        mesh_.tetrahedra.empty() && mesh_.hexahedra.empty() ? add_cubes() : add_cells();
+        mesh_.has_cells() ? add_cells() : add_cubes();
     }
     if (simplices_.corners.empty()) {
       throw Error("object", "it has no uncut cell, so it cannot resist", "uncut links, or use an object with cells");

@@ -132,7 +132,7 @@ double one_way(const PointSurface& from, const TriangleTree& to, double largest)
 }
 
 std::vector<std::array<ElementId, 3>> triangles_of(const Mesh& mesh) {
-  if (mesh.tetrahedra.empty() && mesh.hexahedra.empty()) {
+  if (!mesh.has_cells()) {
     return mesh.triangles;
   }
   // The surface refers to the mesh only while it is made.

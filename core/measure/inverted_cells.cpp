@@ -21,7 +21,7 @@ double orientation(const Mesh& mesh, const Simplex& simplex, PositionOf at) {
 }  // namespace
 
 std::optional<std::uint64_t> inverted_cells(const Mesh& mesh, const PositionView& positions) {
-  const bool has_inside = mesh.space_dimension == 2 || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+  const bool has_inside = mesh.space_dimension == 2 || mesh.has_cells();
   const std::vector<Simplex> simplices = has_inside ? simplices_of(mesh) : std::vector<Simplex>();
   if (simplices.empty()) {
     return std::nullopt;

@@ -99,8 +99,7 @@ std::optional<double> volume(const Mesh& mesh, PositionOf at) {
   if (mesh.space_dimension == 2) {
     return area_in_plane(mesh, at);
   }
-  return mesh.tetrahedra.empty() && mesh.hexahedra.empty() ? enclosed_volume(mesh, at)
-                                                           : std::optional(volume_of_cells(mesh, at));
+  return mesh.has_cells() ? std::optional(volume_of_cells(mesh, at)) : enclosed_volume(mesh, at);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ std::vector<ElementId> layer(const Mesh& mesh, const ObjectSide& side) {
 
 std::vector<ElementId> boundary(const Mesh& mesh) {
   std::vector<ElementId> elements;
-  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
+  if (mesh.has_cells()) {
     append_outer_surface(mesh, elements);
   } else if (!mesh.triangles.empty()) {
     append_open_edges(mesh, elements);

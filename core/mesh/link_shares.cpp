@@ -17,7 +17,7 @@ class ShareSum {
   explicit ShareSum(const Mesh& mesh) : mesh_(mesh), sums_(mesh.link_count()) {}
 
   std::vector<float> run() {
-    if (!mesh_.tetrahedra.empty() || !mesh_.hexahedra.empty()) {
+    if (mesh_.has_cells()) {
       add_cells();
     } else if (!mesh_.triangles.empty()) {
       add_faces();

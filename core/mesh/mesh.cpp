@@ -138,7 +138,7 @@ void divide_polygons(Mesh& mesh, const Progress& progress) {
 }
 
 int object_dimension(const Mesh& mesh) {
-  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
+  if (mesh.has_cells()) {
     return 3;
   }
   if (!mesh.triangles.empty()) {

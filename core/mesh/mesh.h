@@ -109,6 +109,8 @@ struct Mesh {
 
   ElementId element_count() const { return static_cast<ElementId>(first_entry.size() - 1); }
   LinkId link_count() const { return static_cast<LinkId>(links.size()); }
+  /// True if it has tetrahedra or hexahedra.
+  bool has_cells() const { return !tetrahedra.empty() || !hexahedra.empty(); }
   std::span<const ElementId> neighbours_of(ElementId element) const {
     return {neighbours.data() + first_entry[element], neighbours.data() + first_entry[element + 1]};
   }

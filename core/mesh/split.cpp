@@ -250,9 +250,7 @@ class Origins {
 
 }  // namespace
 
-bool can_split(const Mesh& mesh) {
-  return !mesh.triangles.empty() && mesh.tetrahedra.empty() && mesh.hexahedra.empty() && !mesh.lattice;
-}
+bool can_split(const Mesh& mesh) { return !mesh.triangles.empty() && !mesh.has_cells() && !mesh.lattice; }
 
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   check(edit, *mesh);

@@ -74,10 +74,10 @@ void DrawnParts::chooseParts(const ObjectDrawing::Scene& scene, const ObjectDraw
 DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint,
                                       double pixelsPerUnit) const {
   const Look& look = paint.look;
-  const bool hasCells = !mesh_->tetrahedra.empty() || !mesh_->hexahedra.empty();
   // Only links are shown while the surface of a large mesh is being computed.
-  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && hasCells && levels_->hasSurface(mesh_);
-  Parts parts{look.faces, look.links, ofSurface, ObjectDrawing::isSolid(*mesh_, look) && (ofSurface || !hasCells)};
+  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && mesh_->has_cells() && levels_->hasSurface(mesh_);
+  Parts parts{look.faces, look.links, ofSurface,
+              ObjectDrawing::isSolid(*mesh_, look) && (ofSurface || !mesh_->has_cells())};
   if (!parts.solid || !look.links) {
     return parts;
   }

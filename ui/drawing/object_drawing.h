@@ -92,8 +92,7 @@ class ObjectDrawing {
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
   /// True if the object is drawn as a surface in space, which is lit and hides everything behind it.
   static bool isSolid(const Mesh& mesh, const Look& look) {
-    return look.faces && mesh.space_dimension == 3 &&
-           !(mesh.triangles.empty() && mesh.tetrahedra.empty() && mesh.hexahedra.empty());
+    return look.faces && mesh.space_dimension == 3 && (!mesh.triangles.empty() || mesh.has_cells());
   }
   /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent. Faces are grey if
   /// values colour the links.

@@ -319,8 +319,7 @@ std::function<bool(ElementId)> View::shown() const {
 
 bool View::showsSolid() const {
   const MeshPointer& mesh = document_.mesh();
-  const bool hasCells = !mesh->tetrahedra.empty() || !mesh->hexahedra.empty();
-  return ObjectDrawing::isSolid(*mesh, look_) && (!hasCells || levels_->hasSurface(mesh));
+  return ObjectDrawing::isSolid(*mesh, look_) && (!mesh->has_cells() || levels_->hasSurface(mesh));
 }
 
 std::optional<ElementId> View::elementAt(QPointF position) const {

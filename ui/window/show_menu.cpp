@@ -34,9 +34,7 @@ constexpr std::array choices{
            "The faces (of a volume: its outside) and the links on them",
            {true, true}}};
 
-bool hasFaces(const Mesh& mesh) {
-  return !mesh.triangles.empty() || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
-}
+bool hasFaces(const Mesh& mesh) { return !mesh.triangles.empty() || mesh.has_cells(); }
 
 QString settingsKey(const Mesh& mesh) {
   return ObjectDrawing::showsPicture(mesh) ? QStringLiteral("showOfPictures") : QStringLiteral("show");

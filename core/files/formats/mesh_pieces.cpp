@@ -19,7 +19,7 @@ MeshPieces::MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& l
   if (listed.cells) {
     list(Piece::tetrahedron, SIZE_MAX, progress.part(0.4, 0.6));
     list(Piece::hexahedron, SIZE_MAX, progress.part(0.6, 0.8));
-  } else if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) {
+  } else if (mesh.has_cells()) {
     find_sides(progress.part(0.4, 0.7));
     list(Piece::side, SIZE_MAX, progress.part(0.7, 0.8));
   }

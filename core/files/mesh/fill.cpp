@@ -32,7 +32,7 @@ MeshPointer fill(const Mesh& surface, double size, const Progress& progress) {
   if (!(size > 0) || !std::isfinite(size)) {
     throw Error("size", "it must be a number above 0", "use the length of the new edges");
   }
-  if (!surface.tetrahedra.empty() || !surface.hexahedra.empty()) {
+  if (surface.has_cells()) {
     throw Error("surface", "the object already has cells", "use a closed surface");
   }
   ImportInput input("surface");

@@ -160,8 +160,7 @@ const MeshFormat* find_by_sign(std::string_view beginning) {
 
 /// Passes over blank lines, comments, a byte order mark and the declaration of XML.
 std::string_view without_comments(std::string_view beginning) {
-  static constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  beginning.remove_prefix(beginning.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  beginning.remove_prefix(mark_length(beginning));
   for (;;) {
     beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
     const char end = beginning.starts_with('#')                                     ? '\n'
@@ -223,23 +222,22 @@ void check_holds(const MeshFormat& format, const Mesh& mesh, const fs::path& pat
   if (!format.holds_positions && !mesh.lattice) {
     throw Error(shown(path), "a .dat file can only store lattices, and this mesh has none", "save it as .obj");
   }
-  const bool has_faces = !mesh.triangles.empty() || !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
+  const bool has_faces = !mesh.triangles.empty() || mesh.has_cells();
   if (format.holds == MeshFormat::Holds::faces && !has_faces) {
     throw Error(shown(path), "a .stl file has only faces, and this mesh has none", "save it as .obj");
   }
 }
 
 std::string lost_in(const MeshFormat& format, const Mesh& mesh) {
-  const bool has_cells = !mesh.tetrahedra.empty() || !mesh.hexahedra.empty();
   const std::string name(format.name);
   switch (format.holds) {
     case MeshFormat::Holds::all:
       return {};
     case MeshFormat::Holds::faces_and_links:
-      return has_cells ? name + " has no cells: it gets their outer faces, and the links inside as lines" : "";
+      return mesh.has_cells() ? name + " has no cells: it gets their outer faces, and the links inside as lines" : "";
     case MeshFormat::Holds::faces:
-      return name + (has_cells ? " has neither cells nor links: it gets the outer faces of the cells"
-                               : " has no links: it gets the faces, divided into triangles");
+      return name + (mesh.has_cells() ? " has neither cells nor links: it gets the outer faces of the cells"
+                                      : " has no links: it gets the faces, divided into triangles");
   }
   return {};
 }

@@ -204,8 +204,6 @@ std::size_t Defects::hole_edges() const {
                          [](std::size_t sum, const auto& hole) { return sum + hole.size(); });
 }
 
-bool has_cells(const Mesh& mesh) { return !mesh.tetrahedra.empty() || !mesh.hexahedra.empty(); }
-
 std::vector<std::array<ElementId, 3>> joined_triangles(const Mesh& mesh, const std::vector<ElementId>& first) {
   Triangles triangles;
   triangles.reserve(mesh.triangles.size());
@@ -249,7 +247,7 @@ Defects find_defects(const Mesh& mesh, const Progress& progress) {
       defects.loose.push_back(e);
     }
   }
-  if (has_cells(mesh)) {
+  if (mesh.has_cells()) {
     return defects;
   }
   const Triangles triangles = joined_triangles(mesh, first);

@@ -48,9 +48,6 @@ std::string joined_words(const std::vector<std::string>& words, const std::strin
 /// Returns for each element whether it is loose: without links, faces and cells, in a mesh with links.
 std::vector<bool> loose_elements(const Mesh& mesh);
 
-/// True if the mesh has cells. Only surfaces have holes.
-bool has_cells(const Mesh& mesh);
-
 /// Returns the triangles of a mesh with duplicates as one element (see first_at_position), without those that then use
 /// an element twice.
 std::vector<std::array<ElementId, 3>> joined_triangles(const Mesh& mesh, const std::vector<ElementId>& first);

@@ -157,7 +157,7 @@ Repaired remove_loose(const Mesh& mesh, const Progress& progress) {
 }
 
 Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>& holes, const Progress& progress) {
-  if (has_cells(mesh)) {
+  if (mesh.has_cells()) {
     throw Error("surface", "the object has cells, and only surfaces have holes", "use a surface");
   }
   const ImportedMesh patches = patches_of(mesh, holes, progress.part(0, 0.8));
