@@ -17,6 +17,8 @@ class FrameWriter {
   /// Publishes a frame of the current state. The simulation must be the same in every call. If memory runs out, no
   /// frame is published, and a later call tries it again.
   void publish(Simulation& simulation);
+  /// Number of the last frame.
+  std::uint64_t number() const { return number_; }
 
  private:
   void note_changes(Simulation& simulation);

@@ -415,6 +415,7 @@ void SolverThread::publish() {
   last_frame_ = Clock::now();
   recorder_.note_changes(simulation_);
   writer_.publish(simulation_);
+  published_.store(writer_.number(), std::memory_order_release);
   unseen_ = false;
   frame_ready_();
 }

@@ -59,6 +59,8 @@ class SolverThread {
   int waiting() const { return waiting_.load(std::memory_order_acquire); }
   /// Returns true if idle and the newest frame is up to date.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
+  /// Returns the number of the newest frame. A reader that has an older one is about to be told.
+  std::uint64_t newest_frame() const { return published_.load(std::memory_order_acquire); }
   /// Returns the newest frame. Only one thread may call this.
   const Frame& latest_frame() { return frames_.latest(); }
   /// Returns and clears the message of the last refused command or failure, if any. A method that fails in the middle
@@ -108,11 +110,12 @@ class SolverThread {
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
   PassTimes::Clock::time_point last_command_{};
-  PassTimes::Clock::duration slice_time_{};  // of the last slice of relaxation
-  std::atomic<bool> unseen_ = false;         // something changed since the last frame
-  bool measured_ = false;                    // the last frame shows the violation of the whole mesh
-  bool stopped_ = false;                     // a move failed: further moves of this handle are dropped
-  bool owes_idle_ = false;                   // became_idle has to be called again, because it threw
+  PassTimes::Clock::duration slice_time_{};   // of the last slice of relaxation
+  std::atomic<bool> unseen_ = false;          // something changed since the last frame
+  std::atomic<std::uint64_t> published_ = 0;  // number of the newest frame
+  bool measured_ = false;                     // the last frame shows the violation of the whole mesh
+  bool stopped_ = false;                      // a move failed: further moves of this handle are dropped
+  bool owes_idle_ = false;                    // became_idle has to be called again, because it threw
 
   std::atomic<int> prepared_ = 0;
   std::atomic<bool> abandoned_ = false;

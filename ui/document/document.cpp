@@ -472,7 +472,9 @@ std::shared_ptr<DocumentObject> Document::objectOf(const MeshPointer& mesh, cons
                                                    std::vector<ElementId> pins) const {
   auto object = std::make_shared<DocumentObject>(mesh, name());
   object->unsplit = unsplitMesh();
+  object->file = meshFile();
   object->lesson = lesson();
+  object->before = contents_.object->before;
   object->parts.cut(object->cuts, cuts);
   object->pins = std::move(pins);
   return object;
@@ -737,8 +739,13 @@ bool Document::idle() const {
 }
 
 bool Document::settled() const {
-  return !log_->waits() && std::ranges::all_of(solvers_, [](auto& one) { return one->settled(); }) &&
-         std::ranges::none_of(frameAnnounced_, [](auto& one) { return one.load(); });
+  for (std::size_t panel = 0; panel < solvers_.size(); ++panel) {
+    const SolverThread& solver = *solvers_[panel];
+    if (!solver.settled() || frames_[panel]->number != solver.newest_frame()) {
+      return false;
+    }
+  }
+  return !log_->waits() && std::ranges::none_of(frameAnnounced_, [](auto& one) { return one.load(); });
 }
 
 void Document::abandonMoves(std::chrono::milliseconds patience) {
