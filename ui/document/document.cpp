@@ -641,7 +641,7 @@ void Document::dragControlPoint(const Point& target) {
 }
 
 void Document::release() {
-  if (!handle_ || !handle_->elements.empty()) {
+  if (!handle_) {
     post(commands::Release{});
   }
   endDrag();
@@ -661,9 +661,13 @@ void Document::cancelDrag() {
   post(commands::DropState{handle->before});
 }
 
-/// Ends the drag. It becomes an undo step if anything moved.
+/// Ends the drag. It becomes an undo step if anything moved. The solvers release the handle, because the next change may
+/// be refused for its elements.
 void Document::endDrag() {
   if (const auto handle = std::exchange(handle_, {})) {
+    if (!handle->elements.empty()) {
+      post(commands::Release{});
+    }
     if (handle->moved) {
       undoStack_.push(new Edit(*this, change(handle->text), handle->before, true));
     } else {

@@ -1,0 +1,80 @@
+#include <QtTest>
+#include <cstdlib>
+
+#include "core/any_command.h"
+#include "core/simulations.h"
+#include "mesh/error.h"
+#include "program.h"
+
+namespace chainmail::test_simulation_life {
+
+using namespace chainmail::test;
+
+namespace {
+
+std::vector<MeshPointer> some_meshes() {
+  return {make_mesh(MeshKind::grid, {6, 5, 1}), make_mesh(MeshKind::tetra, {3, 3, 2}),
+          make_mesh(MeshKind::line, {9, 1, 1}), shuffled_neighbours(*jittered_triangles(5, 5, 3), 8)};
+}
+
+/// Carries out a command. Returns what it says: the reason of a refusal, or the remark of the pass.
+std::string outcome(Simulation& simulation, const Command& command) {
+  try {
+    simulation.apply(command);
+    return simulation.statistics().remark;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// True for methods whose answer depends on those before, beyond rounding.
+bool follows_path(Algorithm algorithm) { return info(algorithm).elastic || algorithm == Algorithm::exact; }
+
+bool same_settings(const Simulation& a, const Simulation& b) {
+  return a.softness() == b.softness() && a.elastic() == b.elastic() && a.relaxation() == b.relaxation() &&
+         std::ranges::equal(a.grabbed(), b.grabbed()) && std::ranges::equal(a.body().pins(), b.body().pins()) &&
+         a.body().cuts().links() == b.body().cuts().links() && a.mesh_pointer() == b.mesh_pointer() &&
+         a.statistics().algorithm == b.statistics().algorithm;
+}
+
+}  // namespace
+
+/// A simulation that goes through a long random life does the same as a new one that continues from its state.
+class SimulationLifeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void it_goes_on_as_a_new_one();
+};
+
+void SimulationLifeTest::it_goes_on_as_a_new_one() {
+  const char* given = std::getenv("CHAINMAIL_LIFE_STEPS");
+  const int steps = given == nullptr ? 2000 : std::atoi(given);
+  const auto seed = explored_parameters().seed;
+  qInfo("%d steps, seed %llu", steps, static_cast<unsigned long long>(seed));
+  AnyCommand any(seed, false, some_meshes(), 30, 60);
+  Simulation lived(some_meshes()[0], Algorithm::natural_queue, Precision::double_precision);
+  for (int step = 0; step < steps; ++step) {
+    const Algorithm before = lived.statistics().algorithm;
+    Simulation fresh(lived.mesh_pointer(), before, Precision::double_precision);
+    fresh.take(lived.hand_over(), before);
+    QVERIFY(same_settings(fresh, lived) && same_bits(positions_of(fresh), positions_of(lived)));
+    const Command command = any.draw();
+    const std::string said = outcome(lived, command), again = outcome(fresh, command);
+    const QByteArray where =
+        "step " + QByteArray::number(step) + ", command " + QByteArray::number(int(command.index()));
+    QVERIFY2(same_settings(fresh, lived), where);
+    if (!follows_path(before)) {
+      QCOMPARE(again, said);
+      QVERIFY2(same_bits(positions_of(fresh), positions_of(lived)), where);
+      QVERIFY2(fresh.valid() == lived.valid(), where);
+      QCOMPARE(fresh.statistics().last_pass.moved, lived.statistics().last_pass.moved);
+    }
+  }
+}
+
+CHAINMAIL_TEST(SimulationLifeTest)
+
+}  // namespace chainmail::test_simulation_life
+
+#include "test_simulation_life.moc"

@@ -1,0 +1,517 @@
+// A document that goes through a long random life is always the same as a new one that was made from its session.
+
+#include <QEventLoop>
+#include <QTest>
+#include <QTimer>
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <sstream>
+
+#include "document/document.h"
+#include "document/session_draft.h"
+#include "mesh/generate.h"
+#include "mesh/split.h"
+#include "program.h"
+#include "property.h"
+
+namespace chainmail::test_document_life {
+
+using namespace chainmail::test;
+
+namespace {
+
+/// What a person may do. Each kind draws what it needs from the numbers of an Action.
+enum class Kind {
+  drag,
+  drag_many,
+  drag_and_keep,
+  cancel_drag,
+  move_control_point,
+  cut,
+  split,
+  pin,
+  unpin,
+  soften,
+  soften_links,
+  reset_softness,
+  change_energy,
+  turn_regions,
+  set_relaxation,
+  relax,
+  change_material,
+  change_algorithm,
+  add_panel,
+  remove_panel,
+  replace_mesh,
+  reset,
+  forget_moves,
+  load_moves,
+  go_to,
+  become_lesson,
+  go_to_in_lesson,
+  select,
+  reload,
+  restart,
+  undo,
+  redo,
+  count
+};
+
+struct Action {
+  Kind kind = Kind::drag;
+  std::uint32_t which = 0, how = 0;
+  int x = 0, y = 0;  // eighths of a mesh unit
+};
+
+std::ostream& operator<<(std::ostream& out, const Action& action) {
+  return out << "{Kind(" << int(action.kind) << "), " << action.which << ", " << action.how << ", " << action.x << ", "
+             << action.y << "}";
+}
+
+rc::Gen<Action> any_action() {
+  return rc::gen::build<Action>(
+      rc::gen::set(&Action::kind, rc::gen::map(rc::gen::inRange(0, int(Kind::count)), [](int i) { return Kind(i); })),
+      rc::gen::set(&Action::which, rc::gen::inRange<std::uint32_t>(0, 1000)),
+      rc::gen::set(&Action::how, rc::gen::inRange<std::uint32_t>(0, 1000)),
+      rc::gen::set(&Action::x, rc::gen::inRange(-12, 13)), rc::gen::set(&Action::y, rc::gen::inRange(-12, 13)));
+}
+
+std::vector<MeshPointer> meshes() {
+  static const std::vector<MeshPointer> all{
+      generate({MeshKind::grid, {5, 4, 1}, 1, {}}), generate({MeshKind::cloth, {4, 4, 1}, 0.7, {}}),
+      generate({MeshKind::tetra, {3, 2, 2}, 1, {}}), generate({MeshKind::line, {6, 1, 1}, 1, {}})};
+  return all;
+}
+
+/// Returns true once the solvers have done everything, and their frames have arrived.
+bool is_settled(Document& document) {
+  constexpr int patience = 60'000, again = 2;  // ms
+  const QDeadlineTimer end(patience);
+  while (!document.settled() && !end.hasExpired()) {
+    QEventLoop loop;
+    QObject::connect(&document, &Document::frameReady, &loop, &QEventLoop::quit);
+    QObject::connect(&document, &Document::becameIdle, &loop, &QEventLoop::quit);
+    QTimer::singleShot(again, &loop, &QEventLoop::quit);
+    loop.exec();
+  }
+  return document.settled();
+}
+
+/// Everything of a document that a person could see or save.
+struct Seen {
+  std::string object;  // as a session, without positions and moves
+  std::string done;    // the same with the moves that are done
+  std::string moves;   // the same with all moves
+  QStringList facts;
+  std::vector<Algorithm> algorithms;
+  std::vector<std::vector<float>> positions;  // one for each panel
+};
+
+/// Moves without releases: a document that holds something releases it before the next step.
+std::string text_of(Session session, std::span<const Command> moves, std::size_t done) {
+  const auto releases = [](const Command& command) { return std::holds_alternative<commands::Release>(command); };
+  session.moves_done = done - std::size_t(std::ranges::count_if(moves.first(done), releases));
+  session.moves.assign(moves.begin(), moves.end());
+  std::erase_if(session.moves, releases);
+  for (Session::Panel& panel : session.panels) {
+    panel.placement = {};
+  }
+  std::ostringstream text;
+  write_session(text, session);
+  return text.str();
+}
+
+/// True if the solver of each panel has the values of the document.
+bool solvers_agree(Document& document) {
+  bool all = true;
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    std::promise<bool> agrees;
+    document.ask(panel, [&](const Simulation& now) {
+      agrees.set_value(now.mesh_pointer() == document.mesh() && now.softness() == *document.wholeSoftness() &&
+                       now.elastic() == document.elastic() && now.relaxation() == document.relaxation() &&
+                       now.statistics().algorithm == document.algorithm(panel) &&
+                       std::ranges::equal(now.body().pins(), document.pins()) &&
+                       now.body().cuts().links() == document.cuts().links());
+    });
+    all = agrees.get_future().get() && all;
+  }
+  return all;
+}
+
+/// The commands with which a document records an object that came without moves.
+struct Prefix {
+  std::size_t length = 0;
+  const Softness* softness = nullptr;  // of the first one
+
+  explicit Prefix(const Tape& tape) : length(tape.length()), softness(first_softness(tape)) {}
+  Prefix() = default;
+
+  static const Softness* first_softness(const Tape& tape) {
+    const auto* first = tape.length() == 0 ? nullptr : std::get_if<commands::SetSoftness>(&tape.at(0));
+    return first == nullptr ? nullptr : first->softness.get();
+  }
+  /// Returns how many of these commands are still there.
+  std::size_t in(const Tape& tape) const {
+    return length > 0 && tape.length() >= length && first_softness(tape) == softness ? length : 0;
+  }
+};
+
+Seen see(Document& document, const Prefix& prefix = {}) {
+  RC_ASSERT(is_settled(document));
+  RC_ASSERT(solvers_agree(document));
+  const Session session = SessionDraft(document, "{}").finished({});
+  const std::size_t skip = prefix.in(document.tape());
+  const auto moves = std::span(session.moves).subspan(skip);
+  const std::size_t done = session.moves_done - skip;
+  Seen seen{
+      text_of(session, {}, 0), text_of(session, moves.first(done), done), text_of(session, moves, done), {}, {}, {}};
+  seen.facts << QStringLiteral("parts %1").arg(document.parts())
+             << QStringLiteral("unsplit %1").arg(document.unsplitMesh()->link_count())
+             << QStringLiteral("files ") + document.sessionFile() + ' ' + document.meshFile()
+             << QStringLiteral("last drag %1").arg(document.lastDrag().size())
+             << QStringLiteral("selected %1, %2")
+                    .arg(document.selection().elements.size())
+                    .arg(document.selection().links.size());
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    const Frame* frame = document.frame(panel);
+    RC_ASSERT(frame != nullptr);
+    seen.algorithms.push_back(document.algorithm(panel));
+    seen.positions.push_back(frame->positions);
+    seen.facts << QStringLiteral("lacks pins %1").arg(document.lacksPins(panel));
+  }
+  return seen;
+}
+
+/// How far positions of two documents may differ (mesh units): those of ChainMail are the same to the bit. Methods that
+/// iterate start from the answer before, or end within a tolerance; Exact rounds a repaired state.
+float tolerance_of(Algorithm algorithm) {
+  return info(algorithm).elastic ? 1e-3F : algorithm == Algorithm::exact ? 1e-5F : 0;
+}
+
+/// Describes the first position that differs; empty if there is none.
+std::string difference(const Seen& lived, const Seen& fresh, bool to_the_bit) {
+  for (std::size_t panel = 0; panel < lived.positions.size(); ++panel) {
+    const auto &a = lived.positions[panel], &b = fresh.positions[panel];
+    const float tolerance = to_the_bit ? 0 : tolerance_of(lived.algorithms[panel]);
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      if (a.size() != b.size() || !(std::abs(a[i] - b[i]) <= tolerance * (1 + std::abs(a[i])))) {
+        return "panel " + std::to_string(panel) + ", coordinate " + std::to_string(i) + ": " +
+               std::to_string(i < a.size() ? a[i] : 0) + " and " + std::to_string(i < b.size() ? b[i] : 0);
+      }
+    }
+  }
+  return {};
+}
+
+/// True for settings with which the last handle answers again. A session does not hold that handle.
+bool answers_again(Kind kind) {
+  return kind == Kind::soften || kind == Kind::soften_links || kind == Kind::reset_softness ||
+         kind == Kind::turn_regions || kind == Kind::change_energy || kind == Kind::change_material;
+}
+
+/// A document, and what it looked like after each step that it can undo.
+class Life {
+ public:
+  Life() : document_(std::make_unique<Document>(meshes()[0], QStringLiteral("first"))) { remember(see(*document_)); }
+
+  void act(const Action& action) {
+    const Seen before = see(*document_);
+    Prefix prefix;
+    auto fresh = renewed(prefix);
+    check(see(*fresh, prefix), before, "made from the session");
+    if (action.kind == Kind::undo || action.kind == Kind::redo) {
+      return travel(action.kind == Kind::undo);
+    }
+    if (action.kind == Kind::restart) {
+      document_ = std::move(fresh);
+      seen_.clear();
+      return remember(see(*document_));
+    }
+    forget_undone();
+    const auto step = step_of(action);
+    const QStringList said = carried_out(*document_, step, 0);
+    const Seen after = see(*document_);
+    if (action.kind != Kind::relax) {  // sweeps in idle time: their number differs
+      RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->tape())) == said);
+      check(see(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
+    }
+    if (action.kind == Kind::add_panel || action.kind == Kind::remove_panel) {
+      seen_.clear();
+    }
+    remember(after);
+  }
+
+ private:
+  using Step = std::function<void(Document&, std::size_t skip)>;
+
+  static void check(const Seen& fresh, const Seen& lived, const char* when, bool with_positions = true) {
+    RC_LOG() << when << '\n';
+    RC_ASSERT(fresh.object == lived.object);
+    RC_ASSERT(fresh.moves == lived.moves);
+    RC_ASSERT(fresh.facts == lived.facts);
+    RC_ASSERT(fresh.algorithms == lived.algorithms);
+    RC_ASSERT(!with_positions || difference(lived, fresh, false) == std::string());
+  }
+
+  /// Returns a document that was made from the session of this one, as the next start of the program makes it.
+  std::unique_ptr<Document> renewed(Prefix& prefix) {
+    std::ostringstream text;
+    write_session(text, SessionDraft(*document_, "{}").finished({}));
+    const auto session = std::make_shared<const Session>(parse_session(text.str(), "life.chainmail"));
+    auto fresh = std::make_unique<Document>(session->mesh, QStringLiteral("second"));
+    while (fresh->panels() < document_->panels()) {
+      fresh->addPanel();
+    }
+    fresh->restore(session, document_->sessionFile(), QStringLiteral("open"));
+    fresh->setMeshFile(document_->meshFile());
+    fresh->select(document_->selection().elements);
+    fresh->undoStack().clear();
+    prefix = session->moves.empty() ? Prefix(fresh->tape()) : Prefix();
+    return fresh;
+  }
+
+  static QStringList carried_out(Document& document, const Step& step, std::size_t skip) {
+    QStringList said;
+    QObject context;
+    const auto listen = [&](const QString& sentence) { said << sentence; };
+    QObject::connect(&document, &Document::refused, &context, listen);
+    QObject::connect(&document, &Document::noticed, &context, listen);
+    QObject::connect(&document, &Document::unpinned, &context, [&](int panel) { said << QString::number(panel); });
+    step(document, skip);
+    RC_ASSERT(is_settled(document));
+    return said;
+  }
+
+  void travel(bool back) {
+    QUndoStack& stack = document_->undoStack();
+    back ? document_->undo() : document_->redo();
+    const Seen now = see(*document_);
+    if (const auto known = seen_.find(stack.command(stack.index() - 1)); known != seen_.end()) {
+      RC_LOG() << (back ? "undone" : "done again") << '\n';
+      RC_ASSERT(now.object == known->second.object);
+      RC_ASSERT(now.done == known->second.done);
+      RC_ASSERT(now.facts.filter(QStringLiteral("files")) == known->second.facts.filter(QStringLiteral("files")));
+      RC_ASSERT(difference(now, known->second, true) == std::string());
+    }
+  }
+
+  /// A new step deletes those that were undone.
+  void forget_undone() {
+    const QUndoStack& stack = document_->undoStack();
+    for (int i = stack.index(); i < stack.count(); ++i) {
+      seen_.erase(stack.command(i));
+    }
+  }
+
+  void remember(const Seen& seen) {
+    const QUndoStack& stack = document_->undoStack();
+    std::map<const QUndoCommand*, Seen> kept;
+    for (int i = 0; i < stack.index(); ++i) {
+      const QUndoCommand* command = i == 0 ? nullptr : stack.command(i - 1);
+      if (seen_.contains(command) && (command != nullptr || stack.count() < stack.undoLimit())) {
+        kept[command] = seen_[command];
+      }
+    }
+    kept[stack.command(stack.index() - 1)] = seen;
+    seen_ = std::move(kept);
+  }
+
+  Step step_of(const Action& action) const;
+  Step drag_of(std::vector<ElementId> elements, const Action& action) const;
+  Step edit_of(const Action& action) const;
+
+  std::unique_ptr<Document> document_;
+  std::map<const QUndoCommand*, Seen> seen_;  // by the last step that was done; null: before the first one
+};
+
+Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) const {
+  const Mesh& mesh = *document_->mesh();
+  Point by = Point::Zero();
+  by[mesh.axes[0]] = action.x / 8.0;
+  if (mesh.space_dimension > 1) {
+    by[mesh.axes[1]] = action.y / 8.0;
+  }
+  const bool turns = elements.size() > 1 && mesh.space_dimension > 1 && action.how % 3 == 0;
+  const Rotation rotation = turns ? Rotation{Point(0, 0, 1), 15} : Rotation();
+  const Kind kind = action.kind;
+  return [=](Document& document, std::size_t) {
+    document.grab(elements);
+    document.dragBy(by / 2);
+    RC_ASSERT(is_settled(document));
+    document.dragBy(by, rotation);
+    RC_ASSERT(is_settled(document));
+    if (kind == Kind::cancel_drag) {
+      document.cancelDrag();
+    } else if (kind != Kind::drag_and_keep) {
+      document.release();
+    }
+  };
+}
+
+/// Steps that change the object or its settings.
+Life::Step Life::edit_of(const Action& action) const {
+  const Mesh& mesh = *document_->mesh();
+  const ElementId element = action.which % mesh.element_count();
+  const LinkId link = action.which % mesh.link_count(), other = action.how % mesh.link_count();
+  const LinkSoftness soft{1 - action.which % 5 / 8.0, 1 + action.how % 8 / 4.0, action.which % 3 / 10.0,
+                          action.how % 2 / 2.0,       1.0 + action.how % 3,     0};
+  switch (action.kind) {
+    case Kind::cut:
+      return [=](Document& d, std::size_t) {
+        std::vector<LinkId> links{link, other};
+        std::ranges::sort(links);
+        links.erase(std::ranges::unique(links).begin(), links.end());
+        std::erase_if(links, [&d](LinkId one) { return d.cuts().is_cut(one); });
+        d.cut(links);
+      };
+    case Kind::split:
+      return [which = action.which](Document& d, std::size_t) {
+        if (can_split(*d.mesh())) {
+          const std::uint32_t triangle = which % std::uint32_t(d.mesh()->triangles.size());
+          const auto [a, b, c] = d.mesh()->triangles[triangle];
+          const ElementId p = d.mesh()->element_count();
+          std::array corners{a, b, c};
+          std::ranges::sort(corners);
+          d.split(
+              make_split(d.mesh(), {{{corners, {0.25, 0.5}}}, {triangle}, {{a, b, p}, {b, c, p}, {c, a, p}}, {}, {}}));
+        }
+      };
+    case Kind::pin:
+    case Kind::unpin:
+      return [=, pin = action.kind == Kind::pin](Document& d, std::size_t) {
+        if (d.isPinned(element) != pin) {
+          d.setPinned({element}, pin);
+        }
+      };
+    case Kind::soften:
+      return [=](Document& d, std::size_t) { d.setSoftness(soft, QStringLiteral("softness")); };
+    case Kind::soften_links:
+      return [=, own = action.how % 4 != 0](Document& d, std::size_t) {
+        d.setSoftnessOf({std::min(link, other), std::max(link, other)}, own ? std::optional(soft) : std::nullopt);
+      };
+    case Kind::reset_softness:
+      return [](Document& d, std::size_t) { d.resetSoftness(); };
+    case Kind::change_energy:
+      return [=](Document& d, std::size_t) { d.setEnergy(EnergyKind(element % 3)); };
+    case Kind::turn_regions:
+      return [=](Document& d, std::size_t) { d.setFrame(element % 2 == 0 ? FrameKind::object : FrameKind::axes); };
+    case Kind::change_material:
+      return [=](Document& d, std::size_t) {
+        d.setElastic({{1.0 + element, 0.25}, {3, 3, 3}}, QStringLiteral("material"));
+      };
+    default:
+      return [](Document& d, std::size_t) { d.resetObject(); };
+  }
+}
+
+Life::Step Life::step_of(const Action& action) const {
+  const Mesh& mesh = *document_->mesh();
+  const ElementId element = action.which % mesh.element_count();
+  switch (action.kind) {
+    case Kind::drag:
+    case Kind::drag_and_keep:
+    case Kind::cancel_drag:
+      return drag_of({element}, action);
+    case Kind::drag_many:
+      return drag_of({element, ElementId((element + 1 + action.how % 3) % mesh.element_count())}, action);
+    case Kind::move_control_point:
+      return [=, panel = document_->algorithm(0) == Algorithm::free_form ? 0 : -1](Document& d, std::size_t) {
+        if (panel == 0) {
+          d.grabControlPoint(action.which % 8);
+          d.dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
+          d.release();
+        }
+      };
+    case Kind::set_relaxation:
+      return [=](Document& d, std::size_t) {
+        d.setRelaxation({false, 0.25 + action.how % 3 / 4.0, relaxation_schemes[action.which % 3].scheme});
+      };
+    case Kind::relax:
+      return [](Document& d, std::size_t) {
+        auto relaxation = d.relaxation();
+        relaxation.on = true;
+        d.setRelaxation(relaxation);
+        (void)QTest::qWaitFor(
+            [&] { return d.settled() || (d.frame(0) != nullptr && d.frame(0)->statistics.sweeps > 0); }, 1000);
+        relaxation.on = false;
+        d.setRelaxation(relaxation);
+      };
+    case Kind::change_algorithm: {
+      const int panel = int(action.how) % document_->panels();
+      const Algorithm algorithm = algorithms()[action.which % algorithms().size()].algorithm;
+      return [=](Document& d, std::size_t) { d.setAlgorithm(panel, algorithm); };
+    }
+    case Kind::add_panel:
+      return [](Document& d, std::size_t) { d.addPanel(); };
+    case Kind::remove_panel:
+      return [](Document& d, std::size_t) { d.removePanel(); };
+    case Kind::replace_mesh:
+      return
+          [other = meshes()[action.which % meshes().size()], rework = action.how % 2 == 0](Document& d, std::size_t) {
+            rework ? d.reworkMesh(other, d.name(), QStringLiteral("repair"))
+                   : d.replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
+            d.setMeshFile(rework ? d.meshFile() : QStringLiteral("other.obj"));
+          };
+    case Kind::forget_moves:
+      return [](Document& d, std::size_t) { d.forgetMoves(); };
+    case Kind::load_moves:
+      return [](Document& d, std::size_t skip) {
+        auto moves = d.tape().commands();
+        moves.erase(moves.begin(), moves.begin() + std::ptrdiff_t(skip));
+        d.loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("load"));
+      };
+    case Kind::go_to:
+      return
+          [at = action.which % (document_->tape().length() + 1)](Document& d, std::size_t skip) { d.goTo(at + skip); };
+    case Kind::become_lesson:
+    case Kind::reload: {
+      Session session = SessionDraft(*document_, "{}").finished({});
+      if (action.kind == Kind::become_lesson) {
+        session.lesson = {"title", {{"step", "text", session.moves_done, {}, {}, {}, {}, {}, {}}}};
+      }
+      return [shared = std::make_shared<const Session>(std::move(session))](Document& d, std::size_t) {
+        d.restore(shared, QStringLiteral("again.chainmail"), QStringLiteral("open"));
+      };
+    }
+    case Kind::go_to_in_lesson: {
+      std::vector<Algorithm> all;
+      for (int panel = 0; panel < document_->panels(); ++panel) {
+        all.push_back(document_->algorithm(panel));
+      }
+      const std::size_t length = document_->lesson() ? document_->lesson()->moves.size() : 0;
+      return [=, at = action.which % (length + 1)](Document& d, std::size_t) { d.goToInLesson(at, all); };
+    }
+    case Kind::select:
+      return [=](Document& d, std::size_t) { d.select({element}); };
+    default:
+      return edit_of(action);
+  }
+}
+
+}  // namespace
+
+class DocumentLifeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void it_is_always_what_its_session_holds();
+};
+
+void DocumentLifeTest::it_is_always_what_its_session_holds() {
+  const auto holds = [] {
+    Life life;
+    for (const Action& action : *rc::gen::container<std::vector<Action>>(any_action())) {
+      life.act(action);
+    }
+  };
+  QVERIFY(check_property("a document is always what its session holds", holds));
+}
+
+CHAINMAIL_TEST(DocumentLifeTest)
+
+}  // namespace chainmail::test_document_life
+
+#include "document_life.moc"
