@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/detail/TestListenerAdapter.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
@@ -12,13 +13,15 @@
 
 namespace chainmail::test {
 
+inline constexpr int default_explored = 100;
+
 /// Returns the parameters of the explored inputs: those in RapidCheck's own variable RC_PARAMS, else a random seed. To
 /// repeat a run, the number of successes must be the same too, because inputs grow with the share of them that is done.
 inline rc::detail::TestParams explored_parameters() {
   static const rc::detail::TestParams once = [] {
     rc::detail::Configuration drawn;
     drawn.testParams.seed = std::random_device()();
-    drawn.testParams.maxSuccess = 100;
+    drawn.testParams.maxSuccess = default_explored;
     const char* given = std::getenv("RC_PARAMS");
     const auto all = rc::detail::configFromString(given == nullptr ? "" : given, drawn);
     // RapidCheck also reads the variable, and prints the seed that it finds there.
@@ -30,13 +33,15 @@ inline rc::detail::TestParams explored_parameters() {
 
 /// Checks a property, which uses RC_ASSERT, on random inputs: on the same 300 in every run, then on new ones in each
 /// run. The line above a result shows how to repeat the new ones. To explore more inputs, run a test with
-/// RC_PARAMS="max_success=10000".
+/// RC_PARAMS="max_success=10000". `inputs`: fewer than these, for inputs that take long.
 template <class Property>
-bool check_property(const std::string& sentence, const Property& property) {
+bool check_property(const std::string& sentence, const Property& property, int inputs = 300) {
   rc::detail::TestParams fixed;
   fixed.seed = 2004;
-  fixed.maxSuccess = 300;
-  const rc::detail::TestParams explored = explored_parameters();
+  fixed.maxSuccess = inputs;
+  rc::detail::TestParams explored = explored_parameters();
+  explored.maxSuccess =
+      explored.maxSuccess == default_explored ? std::min(inputs, default_explored) : explored.maxSuccess;
   const std::string repeat = "explored inputs, repeated by RC_PARAMS=\"seed=" + std::to_string(explored.seed) +
                              " max_success=" + std::to_string(explored.maxSuccess) + "\"";
   // RapidCheck's own listener prints how to repeat a single input, but our tests cannot do that.

@@ -626,11 +626,13 @@ void Document::drag(const Point& target) { postDrag({target}); }
 
 void Document::dragBy(const Point& by, const Rotation& rotation) { postDrag({by, rotation, true}); }
 
+/// A drag of nothing, for example after all elements of a grab were pinned, must not be recorded: no session with it
+/// could be opened.
 void Document::postDrag(const commands::Drag& drag) {
-  if (handle_) {
+  if (handle_ && !handle_->elements.empty()) {
     handle_->moved = true;
+    post(drag);
   }
-  post(drag);
 }
 
 void Document::dragControlPoint(const Point& target) {
