@@ -253,9 +253,13 @@ OpenedMesh open_mesh(const MeshOptions& options) {
   }
   const InputFile file(*value_of(options.path));
   Watch watch("reading " + shown(file.path()));
-  return in_options({{"space dimension", "--space"}}, [&] {
-    return file.read([&](const auto& path) { return chainmail::open_mesh(path, how, watch.progress()); });
-  });
+  return in_options(
+      {{"space dimension", "--space"},
+       {"size", "--size"},
+       {"spacing", "--spacing"},
+       {"threshold", "--threshold"},
+       {"every", "--voxels"}},
+      [&] { return file.read([&](const auto& path) { return chainmail::open_mesh(path, how, watch.progress()); }); });
 }
 
 CLI::Option* add_mesh_target(CLI::App& app) {
@@ -276,9 +280,7 @@ void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string&
   const MeshFormat& format = mesh_format(path, FormatUse::write);
   check_holds(format, mesh, path);
   say_note(lost_in(format, mesh));
-  if (const std::string source = *value_of(read.path); source != "-") {
-    outputs.keep(source);
-  }
+  outputs.keep(*value_of(read.path));
   outputs.add(target, [&format, &mesh, &softness](std::ostream& out) {
     write_mesh(out, format, {mesh, {}, rest_positions(mesh), {{}, softness}});
   });

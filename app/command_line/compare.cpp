@@ -113,6 +113,7 @@ void compare(const CompareArguments& options, const std::string& command_line) {
   outputs.add("-", [&](std::ostream& out) { write_text(out, comparison); });
   outputs.commit();
   folder.keep();
+  folder.say_older_plots({});
 }
 
 }  // namespace

@@ -76,21 +76,26 @@ std::vector<report::Case> with_materials(const std::vector<report::Case>& cases,
   return all;
 }
 
-void add_plots(Outputs& outputs, const std::filesystem::path& folder, const report::PhysicsReport& report) {
+/// Adds the plots to the outputs. Returns their names.
+std::set<std::string> add_plots(Outputs& outputs, const std::filesystem::path& folder,
+                                const report::PhysicsReport& report) {
+  std::set<std::string> names;
   const auto add = [&](const std::string& name, const report::Plot& plot) {
-    outputs.add(folder / (name + ".svg"), [plot](std::ostream& out) { write_svg(out, plot, plot_ink); });
+    outputs.add(folder / name, [plot](std::ostream& out) { write_svg(out, plot, plot_ink); });
+    names.insert(name);
   };
   if (report.objects.size() > 1) {
-    add("overview", physics_overview(report));
+    add("overview.svg", physics_overview(report));
   }
   for (std::size_t i = 0; i < report.objects.size(); ++i) {
-    add("object-" + std::to_string(i + 1), physics_plot(report.objects[i]));
+    add(object_plot(i + 1), physics_plot(report.objects[i]));
   }
   if (!report.growths.empty()) {
-    add("growth-time", growth_time_plot(report.growths));
-    add("growth-prepare", growth_prepare_plot(report.growths));
-    add("growth-error", growth_error_plot(report.growths));
+    add("growth-time.svg", growth_time_plot(report.growths));
+    add("growth-prepare.svg", growth_prepare_plot(report.growths));
+    add("growth-error.svg", growth_error_plot(report.growths));
   }
+  return names;
 }
 
 }  // namespace
@@ -117,10 +122,11 @@ void compare_with_physics(const CompareArguments& arguments, const std::string& 
   outputs.add(folder.path() / "report.html", [&](std::ostream& out) { write_html(out, report, origin); });
   outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, report, origin); });
   outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, report); });
-  add_plots(outputs, folder.path(), report);
+  const auto plots = add_plots(outputs, folder.path(), report);
   outputs.add("-", [&](std::ostream& out) { write_text(out, report); });
   outputs.commit();
   folder.keep();
+  folder.say_older_plots(plots);
 }
 
 }  // namespace chainmail::command_line

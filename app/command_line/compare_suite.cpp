@@ -82,12 +82,15 @@ void write(const report::Suite& suite, OutputFolder& folder, const std::vector<s
   outputs.add(folder.path() / "report.html", [&](std::ostream& out) { write_html(out, suite); });
   outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, suite); });
   outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, suite); });
-  if (const report::Plot plot = suite_plot(suite); !plot.panels.empty()) {
+  const report::Plot plot = suite_plot(suite);
+  const bool has_plot = !plot.panels.empty();
+  if (has_plot) {
     outputs.add(folder.path() / "overview.svg", [&](std::ostream& out) { write_svg(out, plot, plot_ink); });
   }
   outputs.add("-", [&](std::ostream& out) { write_text(out, suite); });
   outputs.commit();
   folder.keep();
+  folder.say_older_plots(has_plot ? std::set<std::string>{"overview.svg"} : std::set<std::string>{});
 }
 
 }  // namespace

@@ -204,9 +204,7 @@ void say_what_failed(const std::vector<DeformSummary::Pass>& passes) {
 void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
   Outputs outputs;
   for (const std::string& input : targets.inputs) {
-    if (input != "-") {
-      outputs.keep(input);
-    }
+    outputs.keep(input);
   }
   if (targets.positions) {
     outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "command_line/common.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 std::string reason() { return std::generic_category().message(errno); }
 
 }  // namespace
+
+std::string object_plot(std::size_t number) { return "object-" + std::to_string(number) + ".svg"; }
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) {
@@ -57,6 +60,23 @@ void OutputFolder::make() {
       throw Error("-o", shown(folder) + " cannot be created (" + error.message() + ")",
                   "check the name and permissions");
     }
+  }
+}
+
+void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
+  std::set<std::string> names{"overview.svg", "growth-time.svg", "growth-prepare.svg", "growth-error.svg"};
+  std::error_code error;
+  for (std::size_t i = 1; fs::exists(path_ / object_plot(i), error); ++i) {
+    names.insert(object_plot(i));
+  }
+  std::string older;
+  for (const std::string& name : names) {
+    if (!written.contains(name) && fs::exists(path_ / name, error)) {
+      older += (older.empty() ? "" : ", ") + name;
+    }
+  }
+  if (!older.empty()) {
+    say_note(shown(path_) + " also has plots of an earlier report: " + older);
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace chainmail::command_line {
@@ -18,11 +20,17 @@ class OutputFolder {
 
   void make();
   void keep() { made_.clear(); }
+  /// Notes on standard error which plots in the folder are of an earlier report: the new one, with the plots `written`,
+  /// has not replaced them. They stay, because only the user knows whether somebody needs them.
+  void say_older_plots(const std::set<std::string>& written) const;
   const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;  // outermost first
 };
+
+/// Returns the name of the plot of an object in a report; the first object is 1.
+std::string object_plot(std::size_t number);
 
 }  // namespace chainmail::command_line

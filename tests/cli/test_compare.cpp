@@ -25,6 +25,7 @@ class CompareCommandTest : public QObject {
   void the_page_names_the_command();
   void prints_the_main_table();
   void replaces_an_older_report();
+  void plots_of_an_older_report_are_named();
   void the_default_set_is_compared();
   void wrong_usage_data();
   void wrong_usage();
@@ -161,6 +162,20 @@ void CompareCommandTest::replaces_an_older_report() {
   QCOMPARE(program_->run("compare grid.dat" + QByteArray(short_run)).code, 0);
   QVERIFY(program_->read("out/report.csv").startsWith("object,elements,"));
   QCOMPARE(program_->read("out/note.txt"), QByteArray("mine"));
+}
+
+/// A plot beside the new report looks as if it belonged to it. Files of others are not named, and all of them stay.
+void CompareCommandTest::plots_of_an_older_report_are_named() {
+  QVERIFY(QDir(program_->path(".")).mkdir("out"));
+  const QStringList plots{"growth-time.svg", "object-1.svg", "object-2.svg", "overview.svg"};
+  for (const QString& name : plots + QStringList{"mine.svg", "object-4.svg"}) {
+    program_->write("out/" + name, "<svg/>");
+  }
+  const auto outcome = program_->run("compare grid.dat" + QByteArray(short_run));
+  QCOMPARE(outcome.code, 0);
+  QCOMPARE(QString::fromUtf8(outcome.error),
+           "chainmail: note: out also has plots of an earlier report: " + plots.join(", ") + "\n");
+  QCOMPARE(report_files().size(), 3 + plots.size() + 2);
 }
 
 void CompareCommandTest::the_default_set_is_compared() {

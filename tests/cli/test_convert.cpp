@@ -1,4 +1,5 @@
 #include <QtTest>
+#include <filesystem>
 
 #include "cli/chainmail_program.h"
 #include "files/mesh/mesh_file.h"
@@ -23,6 +24,8 @@ class ConvertCommandTest : public QObject {
   void what_a_format_does_not_hold_is_said();
   void only_the_repairs_asked_for_are_made();
   void cells_have_no_holes();
+  void the_file_that_was_read_is_not_replaced_data();
+  void the_file_that_was_read_is_not_replaced();
   void bad_usage_is_one_sentence_and_leaves_no_file_data();
   void bad_usage_is_one_sentence_and_leaves_no_file();
 };
@@ -152,6 +155,44 @@ void ConvertCommandTest::cells_have_no_holes() {
                 "--holes: the object has cells, and only surfaces have holes; ");
 }
 
+void ConvertCommandTest::the_file_that_was_read_is_not_replaced_data() {
+  QTest::addColumn<QString>("input");
+  QTest::addColumn<QString>("output");
+  QTest::newRow("same name") << "a.obj"
+                             << "a.obj";
+  QTest::newRow("another spelling") << "a.obj"
+                                    << "./a.obj";
+  QTest::newRow("symbolic link") << "a.obj"
+                                 << "symbolic.obj";
+  QTest::newRow("through a symbolic link") << "symbolic.obj"
+                                           << "a.obj";
+  QTest::newRow("hard link") << "a.obj"
+                             << "hard.obj";
+  QTest::newRow("standard input") << "-"
+                                  << "a.obj";
+}
+
+/// The file may be the only copy.
+void ConvertCommandTest::the_file_that_was_read_is_not_replaced() {
+  QFETCH(QString, input);
+  QFETCH(QString, output);
+  Program program;
+  const QByteArray text = "# mine\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n";
+  program.write("a.obj", text);
+  program.standardInput = program.path("a.obj");
+  std::filesystem::create_symlink("a.obj", program.path("symbolic.obj").toStdString());
+  std::filesystem::create_hard_link(program.path("a.obj").toStdString(), program.path("hard.obj").toStdString());
+  for (const char* command : {"convert", "repair"}) {
+    const auto outcome = program.run(QStringList{command, input, "-o", output});
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(is_one_sentence(outcome), outcome.error);
+    QVERIFY2(outcome.error.contains(": it is an input, and this output would replace it; "), outcome.error);
+    for (const char* name : {"a.obj", "symbolic.obj", "hard.obj"}) {
+      QCOMPARE(program.read(name), text);
+    }
+  }
+}
+
 void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::addColumn<QString>("arguments");
   QTest::addColumn<QString>("sentence");
@@ -168,7 +209,7 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"
                           << "--voxels: ";
   QTest::newRow("nothing") << "convert a.mha --threshold 41 -o a.obj"
-                           << "a.mha: no voxel has a density of 41 or more; ";
+                           << "--threshold: no voxel has a density of 41 or more; ";
   QTest::newRow("open") << "fill open.off -o a.msh"
                         << "open.off: the surface is open: it has 1 hole, ";
   QTest::newRow("repair itself") << "repair a.mha -o a.mha"

@@ -13,6 +13,8 @@ class InfoCommandTest : public QObject {
   void standard_input_is_a_mesh();
   void json_has_the_keys_of_the_contract();
   void size_and_spacing_come_first();
+  void an_option_that_cannot_be_is_named_itself_data();
+  void an_option_that_cannot_be_is_named_itself();
   void text_names_the_figures();
   void bad_files_are_refused_data();
   void bad_files_are_refused();
@@ -64,6 +66,34 @@ void InfoCommandTest::size_and_spacing_come_first() {
   QCOMPARE(program.json("a.json")["bounds"][1].toArray(), (QJsonArray{5, 5, 0}));
   program.run("info --size 4x1 --spacing 2 2x2.dat --json a.json");
   QCOMPARE(program.json("a.json")["bounds"][1].toArray(), (QJsonArray{6, 0, 0}));
+}
+
+void InfoCommandTest::an_option_that_cannot_be_is_named_itself_data() {
+  QTest::addColumn<QString>("arguments");
+  QTest::addColumn<QString>("where");
+  QTest::newRow("spacing") << "3x1.dat --spacing 1e100"
+                           << "--spacing: the spacing is too large; use a smaller spacing\n";
+  QTest::newRow("spacing and size") << "3x1.dat --spacing 1e100 --size 3x1"
+                                    << "--spacing: the spacing is too large; ";
+  QTest::newRow("size") << "3x1.dat --size 99999x99999"
+                        << "--size: the size 99999x99999 is more than 20000000 elements; ";
+  QTest::newRow("threshold") << "a.mha --threshold 200"
+                             << "--threshold: no voxel has a density of 200 or more; ";
+  QTest::newRow("spacing of the file") << "wide.dat --size 3x1"
+                                       << "wide.dat:1: the spacing is too large; scale the mesh down\n";
+}
+
+/// The file is right, or its value does not count, so the sentence is not about the file.
+void InfoCommandTest::an_option_that_cannot_be_is_named_itself() {
+  QFETCH(QString, arguments);
+  QFETCH(QString, where);
+  const Program program;
+  program.write("3x1.dat", "# spacing 5\n0 1 1\n1 2 0 2\n2 1 1\n");
+  program.write("wide.dat", "# spacing 1e100\n0 1 1\n1 2 0 2\n2 1 1\n");
+  program.write("a.mha",
+                "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
+                "LOCAL\n\x0a\x14\x1e\x28");
+  check_refused(program, qPrintable("info " + arguments), where);
 }
 
 void InfoCommandTest::text_names_the_figures() {

@@ -81,7 +81,13 @@ void DatErrorsTest::options_that_do_not_fit() {
   // An error in a size that is not from the file has no line.
   QVERIFY(error_of([&] { dat("0 0\n", "99999x99999.dat"); }).startsWith("99999x99999.dat: the size 99999x99999 is "));
   options.size = {99'999, 99'999, 1};
-  QVERIFY(error_of([&] { dat("# size 1\n0 0\n", "a.dat", options); }).startsWith("a.dat: the size 99999x99999 is "));
+  // The option is to blame, not the line of the file that it overrides.
+  QVERIFY(error_of([&] { dat("# size 1\n0 0\n", "a.dat", options); }).startsWith("size: the size 99999x99999 is "));
+  options.size = {2, 1, 1};
+  options.spacing = 1e100;
+  QCOMPARE(error_of([&] { dat("# spacing 5\n0 0\n1 0\n", "a.dat", options); }),
+           QString("spacing: the spacing is too large; use a smaller spacing"));
+  options.spacing = {};
   options.size = {3, 3, 1};
   QVERIFY(error_of([&] {
             dat("0 0\n1 0\n", "a.dat", options);

@@ -63,6 +63,7 @@ class LessonTest : public QObject {
   void names_that_lead_elsewhere_are_refused_data();
   void names_that_lead_elsewhere_are_refused();
   void a_lesson_goes_with_its_moves();
+  void a_lesson_may_have_no_moves();
 };
 
 void LessonTest::what_is_written_reads_back() {
@@ -196,6 +197,19 @@ void LessonTest::a_lesson_goes_with_its_moves() {
   const Session again = parse_session(session_text(session), "a.chainmail");
   QVERIFY(again.moves.empty());
   QVERIFY(again.lesson.steps.empty());
+}
+
+/// Captions may be about an object that nobody moves yet.
+void LessonTest::a_lesson_may_have_no_moves() {
+  Session session = lesson_session();
+  session.moves.clear();
+  session.moves_done = 0;
+  for (LessonStep& step : session.lesson.steps) {
+    step.until = 0;
+  }
+  const Session again = parse_session(session_text(session), "a.chainmail");
+  QVERIFY(again.moves.empty());
+  QVERIFY(again.lesson == session.lesson);
 }
 
 CHAINMAIL_TEST(LessonTest)

@@ -92,6 +92,8 @@ class MeshRepairTest : public QObject {
   void a_large_hole_gets_triangles_as_large_as_those_around_it();
   void a_seam_that_is_not_welded_does_not_keep_a_hole_open();
   void a_hole_at_a_non_manifold_edge_is_closed();
+  void a_border_is_judged_by_its_own_piece_data();
+  void a_border_is_judged_by_its_own_piece();
   void a_picture_stays_on_its_sheet();
   void the_softness_of_links_stays();
   void what_cannot_be_closed_is_one_sentence();
@@ -304,6 +306,50 @@ void MeshRepairTest::a_hole_at_a_non_manifold_edge_is_closed() {
       }
     }
   }
+}
+
+void MeshRepairTest::a_border_is_judged_by_its_own_piece_data() {
+  QTest::addColumn<QByteArray>("text");
+  QTest::addColumn<int>("corner");
+  QTest::addColumn<QString>("words");
+  for (int corner = 0; corner < 4; ++corner) {
+    QTest::addRow("large hole at corner %d", corner)
+        << QByteArray::fromStdString(corners + sides) << corner << "1 hole (4 edges), 1 non-manifold edge";
+  }
+  // Two squares that share no edge: the outline of the small one is no hole, however large the piece beside it is.
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  for (int corner = 0; corner < 4; ++corner) {
+    QTest::addRow("outline at corner %d", corner)
+        << QByteArray::fromStdString(square) << corner << "1 non-manifold edge";
+  }
+}
+
+/// A closed tetrahedron with a fin touches another piece at one corner of its border. The edges of the fin lead away
+/// from the border and end there, so whoever walks along them comes back. Only the size of the border's own piece says
+/// whether it is a hole.
+void MeshRepairTest::a_border_is_judged_by_its_own_piece() {
+  QFETCH(QByteArray, text);
+  QFETCH(int, corner);
+  QFETCH(QString, words);
+  const bool is_small = words.startsWith("1 hole");
+  const double size = is_small ? 0.01 : 50;
+  const auto piece = obj(text.toStdString());
+  const ElementId first = is_small ? 4 : 0, at = first + ElementId(corner), count = piece->element_count();
+  const Point from = piece->rest_position(at);
+  MeshParts parts;
+  for (ElementId e = 0; e < count; ++e) {
+    parts.rest.push_back(piece->rest_position(e));
+  }
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.0, 1.0, 1.0}, {-1.0, -1.0, 1.0}}) {
+    parts.rest.push_back(from + size * Point(x, y, z));
+  }
+  parts.triangles = piece->triangles;
+  const ElementId a = count, b = count + 1, c = count + 2, tip = count + 3;
+  for (const auto& face : {std::array{at, a, b}, {at, b, c}, {at, c, a}, {a, c, b}, {at, a, tip}}) {
+    parts.triangles.push_back(face);
+  }
+  add_links_along_edges(parts);
+  QCOMPARE(found(*build_mesh(parts)), words);
 }
 
 void MeshRepairTest::a_picture_stays_on_its_sheet() {

@@ -94,6 +94,7 @@ class WritersTest : public QObject {
   void ply_without_edges_names_none();
   void vtu_holds_every_piece();
   void vtu_holds_both_fields();
+  void vtu_counts_no_cut_link_as_violated();
   void msh_is_as_documented();
   void msh_tells_large_faces_by_their_links();
   void msh_of_elements_alone();
@@ -150,6 +151,20 @@ void WritersTest::vtu_holds_both_fields() {
   QCOMPARE(violation[3], 0.0);
   QCOMPARE(violation[4], link_violation(*mesh_, softness, at, *find_link(*mesh_, 0, 4)));
   QVERIFY(violation[4] > 0.1);
+}
+
+/// Two halves that a cut separates may be as far from each other as they like.
+void WritersTest::vtu_counts_no_cut_link_as_violated() {
+  const auto line = made(MeshKind::line, {4, 1, 1});
+  const std::vector<double> positions{0, 1, 7, 9};  // of the links, 1-2 is 6 and 2-3 is 2 long
+  const Softness softness{{0.5, 1.5, 0}, {}};
+  Cuts cuts(line);
+  const auto violations = [&] {
+    return array<double>(written("a.vtu", {*line, cuts, view(*line, positions), softness}), "violation");
+  };
+  QCOMPARE(violations(), (QList<double>{0, 4.5, 4.5, 0.5}));
+  cuts.cut(*find_link(*line, 1, 2));
+  QCOMPARE(violations(), (QList<double>{0, 0, 0.5, 0.5}));
 }
 
 void WritersTest::msh_is_as_documented() {

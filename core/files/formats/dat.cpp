@@ -164,6 +164,11 @@ class DatReader {
   [[noreturn]] void fail(std::size_t line, const std::string& problem, const std::string& remedy) const {
     throw Error(shown(path_, line), problem, remedy);
   }
+  /// Returns what an error about a value names: the option of this name if it was given, else the line of the file.
+  template <class Option, class InFile>
+  std::string origin_of(const char* name, const Option& option, const InFile& in_file) const {
+    return option ? name : in_file ? shown(path_, in_file->line) : shown(path_);
+  }
   void choose_size();
   void choose_lattice();
   std::vector<const Row*> rows_by_id() const;
@@ -201,16 +206,15 @@ void DatReader::choose_lattice() {
   choose_size();
   lattice_.spacing = options_.spacing ? *options_.spacing : file_.spacing ? file_.spacing->value : 1;
   const auto& size = lattice_.size;
-  const std::string where = !options_.size && file_.size ? shown(path_, file_.size->line) : shown(path_);
   if (double(size[0]) * size[1] * size[2] > double(element_limit)) {
     throw Error(
-        where,
+        origin_of("size", options_.size, file_.size),
         "the size " + lattice_size_text(lattice_) + " is more than " + std::to_string(element_limit) + " elements",
         "use a smaller mesh");
   }
   if (!(lattice_.spacing * *std::max_element(size.begin(), size.end()) < coordinate_limit)) {
-    throw Error(file_.spacing ? shown(path_, file_.spacing->line) : shown(path_), "the spacing is too large",
-                "scale the mesh down");
+    throw Error(origin_of("spacing", options_.spacing, file_.spacing), "the spacing is too large",
+                options_.spacing ? "use a smaller spacing" : "scale the mesh down");
   }
 }
 

@@ -32,7 +32,9 @@ std::optional<double> join_tolerance(const ImportedMesh& imported, const ReadOpt
 OpenedMesh open_volume(const MeshFormat& format, const std::filesystem::path& path, const ReadOptions& options,
                        const Progress& progress) {
   const Volume volume = format.read_volume(path, options, progress.part(0, 0.5));
-  VoxelBlock block = voxel_block(volume, options.voxels, shown(path), progress.part(0.5, 1));
+  // Without options, the threshold and the number of voxels per element fit the volume.
+  const std::string where = options.voxels.threshold ? "threshold" : options.voxels.every ? "every" : shown(path);
+  VoxelBlock block = voxel_block(volume, options.voxels, where, progress.part(0.5, 1));
   std::string words = in_words(block);
   return {std::move(block.mesh), std::move(block.softness), {}, std::move(words)};
 }

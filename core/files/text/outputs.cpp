@@ -49,7 +49,14 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) {
   }
 }
 
-void Outputs::keep(const fs::path& input) { inputs_.push_back(resolved(input)); }
+void Outputs::keep(const fs::path& input) { inputs_.push_back(input == "-" ? "/dev/stdin" : input); }
+
+/// True if an output is the file of an input, under whatever name. Devices and pipes may be both.
+bool Outputs::is_input(const fs::path& output) const {
+  std::error_code ignored;
+  return fs::is_regular_file(output, ignored) &&
+         std::ranges::any_of(inputs_, [&](const fs::path& input) { return fs::equivalent(input, output, ignored); });
+}
 
 void Outputs::add(const fs::path& path, Writer writer, Readers readers) {
   if (path.empty()) {
@@ -62,7 +69,7 @@ void Outputs::add(const fs::path& path, Writer writer, Readers readers) {
     throw Error(shown(path), "it cannot be written (" + error.message() + ")", "check the name");
   }
   refuse_twice(path, target);
-  if (path != "-" && std::find(inputs_.begin(), inputs_.end(), target) != inputs_.end()) {
+  if (path != "-" && is_input(target)) {
     throw Error(shown(path), "it is an input, and this output would replace it", "choose another name for the output");
   }
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))) {

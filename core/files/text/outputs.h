@@ -25,7 +25,8 @@ class Outputs {
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
 
-  /// Protects an input file: no output may replace it. Call this before add().
+  /// Protects an input file: no output may replace it, under this name or another. The path `-` means the file that is
+  /// read as standard input, if it is one. Call this before add().
   void keep(const std::filesystem::path& input);
   /// Writes the content of a file. Throws Error if the target cannot be written, NotReplaceable if it cannot be
   /// replaced.
@@ -40,13 +41,14 @@ class Outputs {
     Writer writer;
   };
 
+  bool is_input(const std::filesystem::path& output) const;
   void write_streams();
   void replace_all();
   void sync_folders();
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target);
 
-  std::vector<std::filesystem::path> inputs_;  // with symbolic links resolved
-  std::set<std::filesystem::path> targets_;    // of files_ and of streams_
+  std::vector<std::filesystem::path> inputs_;
+  std::set<std::filesystem::path> targets_;  // of files_ and of streams_
   std::vector<std::unique_ptr<Replacement>> files_;
   std::vector<Stream> streams_;
 };
