@@ -12,7 +12,7 @@ import process
 HEADER = "tests/mutants/fault.h"
 PLACE = re.compile(r"\b((?:core|app|ui)/[\w/]+\.(?:cpp|h)):(\d+)")
 ERROR_PLACE = re.compile(PLACE.pattern + r"(?::\d+)?: (?:fatal )?error: ")
-# The program that imports foreign files gets only some variables of the environment. In the copy, also those of a fault.
+# The program that imports foreign files gets only some variables of the environment. In the copy, these of faults too.
 KEPT_VARIABLES = ("core/files/import/import_process.cpp", '"UBSAN_OPTIONS"}',
                   '"UBSAN_OPTIONS", "CHAINMAIL_FAULT", "CHAINMAIL_FAULTS_REACHED"}')
 
@@ -28,7 +28,7 @@ def source_files(root):
 
 
 def with_faults(text, faults, header):
-    """Returns a source in which each of the numbered faults can be switched on. Lines stay where they are, one lower."""
+    """Returns a source in which each of the numbered faults can be switched on. Each line moves down by one."""
     for number, fault in sorted(faults.items(), key=lambda item: -item[1].start):
         text = text[:fault.start] + fault.text.replace("@FAULT@", str(number)) + text[fault.end:]
     return f'#include "{header}"\n{text}'
@@ -41,7 +41,7 @@ class Build:
         self.folder = self.copy / "build/release"
         self.faults = faults  # by number
         cache = subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True, text=True).stdout.strip()
-        self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), CCACHE_DIR=os.environ.get("CCACHE_DIR", cache))
+        self.environment = {"CCACHE_DIR": cache, **os.environ, "CCACHE_BASEDIR": str(self.copy)}
 
     def content(self, name):
         faults = {number: fault for number, fault in self.faults.items() if fault.path == name}
@@ -68,8 +68,9 @@ class Build:
         """Uses the compiler's options of the release build, if there is one, so that ccache knows the objects."""
         cache = self.root / "build/release/CMakeCache.txt"
         known = cache.read_text() if cache.exists() else ""
-        options = ["-DCHAINMAIL_UNITY=ON", "-DCHAINMAIL_TESTS=ON", "-DCHAINMAIL_PYTHON=ON"] + [
-            f"-D{line}" for line in re.findall(r"^(?:CMAKE_COMPILE_WARNING_AS_ERROR|CMAKE_EXE_LINKER_FLAGS):.*", known, re.M)]
+        same = re.findall(r"^(?:CMAKE_COMPILE_WARNING_AS_ERROR|CMAKE_EXE_LINKER_FLAGS):.*", known, re.M)
+        wanted = ["CHAINMAIL_UNITY=ON", "CHAINMAIL_TESTS=ON", "CHAINMAIL_PYTHON=ON", *same]
+        options = [f"-D{option}" for option in wanted]
         code, output = process.run(["cmake", "--preset", "release", *options], self.copy, self.environment)
         if code != 0:
             sys.exit(f"mutants: the copy could not be configured:\n{output[-2000:]}")

@@ -30,16 +30,19 @@ PASSED_OVER = re.compile(
 # Statements of state. All other calls and assignments are of the kind "statement".
 SIGNAL = re.compile(r"emit |(?:[\w:]+::)?connect\([^,]*, &")
 STATE = re.compile(
-    r"(?:\+\+|--)?\w*revision|\w*(?:made_for|seen|outdated|dirty|stale)\w* [-+]?=|(?:[\w:()\[\]-]|[.>])*?\b(?:reset|clear|"
-    r"forget|invalidate|drop|discard|abandon|cancel|end|erase|remove|refresh|update|stop|release|wake|fall_asleep)\w*\("
+    r"(?:\+\+|--)?\w*revision|\w*(?:made_for|seen|outdated|dirty|stale)\w* [-+]?="
+    r"|[\w:()\[\].>-]*?\b(?:reset|clear|forget|invalidate|drop|discard|abandon|cancel|end|erase|remove|refresh|update"
+    r"|stop|release|wake|fall_asleep)\w*\("
     r"|[\w.>-]+_(?:[.>-]\w+)* = (?:@@|[\w:]+@@|[\w:]+\(\)|nullptr|std::nullopt|true|false|0)$")
 COPY = re.compile(r"[\w\])>_]+(?:\.|->)[\w.\[\]>-]+ = ")
 CHECK = re.compile(r" [!=]= |[Rr]evision|made_for|seen_|outdated|stale")
 OPTION = re.compile(
-    r"(?<![\w.>])(\w*(?:ptions|ettings|hoices|arameters)_?)(?:\.|->)(\w+)\b(?!\(|\s*[-+*/|]?= |\.\w+ = |[.]\w+_back|\[[^]]*\] = )")
+    r"(?<![\w.>])(\w*(?:ptions|ettings|hoices|arameters)_?)(?:\.|->)(\w+)\b"
+    r"(?!\(|\s*[-+*/|]?= |\.\w+ = |[.]\w+_back|\[[^]]*\] = )")  # a call, or a new value
 SIMPLE = re.compile(r"[\w.:>\[\]-]+(?:\(\))?$")
 NAME = re.compile(r"(?!this\b|true\b|false\b|nullptr\b|\d)[\w.>-]+(?:\(\))?$|std::move\(\w+\)$")
-INITIALISER = re.compile(r"(?:^\s+(?:: )?|\) : |, )(\w+_)\(((?:std::move\()?[\w.>-]+\)?)\)(?=,| \{|\s*@@)", re.MULTILINE)
+INITIALISER = re.compile(
+    r"(?:^\s+(?:: )?|\) : |, )(\w+_)\(((?:std::move\()?[\w.>-]+\)?)\)(?=,| \{|\s*@@)", re.MULTILINE)
 SYMMETRIC = ("min", "max", "swap", "hypot", "fuzzyCompare", "isApprox", "equal")
 
 # In a file, the text from `start` to `end` becomes `text`, where @FAULT@ stands for the number of the fault.
@@ -74,8 +77,8 @@ class Source:
             text = f"if (chainmail_fault(@FAULT@)) {{ {faulty}; }} else {{ {original}; }}"
         else:
             text = f"(chainmail_fault(@FAULT@) ? ({faulty}) : ({original}))"
-        before = self.in_line(span)
-        return self.fault(kind, span.start, span.end, text, before + self.one_line(span.start, span.end), before + faulty)
+        before, whole = self.in_line(span), self.one_line(span.start, span.end)
+        return self.fault(kind, span.start, span.end, text, before + whole, before + faulty)
 
     def skipped(self, kind, span):
         text = f"if (!chainmail_fault(@FAULT@)) {{ {self.text[span.start:span.end]}; }}"

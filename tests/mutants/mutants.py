@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks the tests: puts random faults ("mutants") into a copy of the source and names those that no test catches.
 
-All faults are in one build (build.py), which is compiled once. An environment variable switches one of them on (fault.h).
-faults.py has the kinds of faults. Each test runs once without a fault, which shows the faults that it reaches. For each
-fault, the tests that reach it run one after another until one fails (suite.py).
+All faults are in one build (build.py), which is compiled once. An environment variable switches one of them on
+(fault.h). faults.py has the kinds of faults. Each test runs once without a fault, which shows the faults that it
+reaches. For each fault, the tests that reach it run one after another until one fails (suite.py).
 """
 
 import argparse

@@ -13,14 +13,18 @@ TOKEN = re.compile(r"""
   | (?P<directive>^[ \t]*\#(?:[^\n]*\\\n)*[^\n]*)
   """, re.VERBOSE | re.DOTALL | re.MULTILINE)
 # Empty braces are a value, unless they are the body of a function.
-EMPTY_VALUE = re.compile(r"(?<=[\w>])(?<!const)(?<!override)(?<!noexcept)\{\}|(?<=[=(,>?:] )\{\}|(?<=return )\{\}|(?<=\()\{\}")
-LABELS = re.compile(r"\s*(?:(?:case [\w:'\"]+|default|public|protected|private|signals|public slots|private slots):(?!:)\s*)*")
+EMPTY_VALUE = re.compile(
+    r"(?<=[\w>])(?<!const)(?<!override)(?<!noexcept)\{\}|(?<=[=(,>?:] )\{\}|(?<=return )\{\}|(?<=\()\{\}")
+LABELS = re.compile(
+    r"\s*(?:(?:case [\w:'\"]+|default|public|protected|private|signals|public slots|private slots):(?!:)\s*)*")
 OTHER_STATEMENT = re.compile(
-    r"(?:using|namespace|template|static_assert|friend|typedef|class|struct|enum|union|concept|extern|throw|goto|if|else|while"
-    r"|do|for|switch|case|break|continue|delete|co_\w+|assert|Q_\w+)\b|.*\b(?:constexpr|operator|requires)\b", re.DOTALL)
+    r"(?:using|namespace|template|static_assert|friend|typedef|class|struct|enum|union|concept|extern|throw|goto|if"
+    r"|else|while|do|for|switch|case|break|continue|delete|co_\w+|assert|Q_\w+)\b"
+    r"|.*\b(?:constexpr|operator|requires)\b", re.DOTALL)
 RETURN = re.compile(r"return\s+")
 ASSIGNMENT = re.compile(r" [-+*/%|&^]?= ")
-CALL_OR_ASSIGNMENT = re.compile(r"(?:\+\+|--)[\w.>\[\]-]+$|(?:emit )?[\w.>:\[\]()*-]+(?:\(.*\)| [-+*/%|&^]?=\s.*)$", re.DOTALL)
+CALL_OR_ASSIGNMENT = re.compile(
+    r"(?:\+\+|--)[\w.>\[\]-]+$|(?:emit )?[\w.>:\[\]()*-]+(?:\(.*\)| [-+*/%|&^]?=\s.*)$", re.DOTALL)
 
 Span = collections.namedtuple("Span", "form start end")  # form: "statement", "value" or "condition"
 Elements = collections.namedtuple("Elements", "opener before spans")  # a list in parentheses or braces

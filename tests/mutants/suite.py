@@ -37,20 +37,23 @@ def recorded_seconds(root):
     """Returns the seconds that ctest has recorded in the release build."""
     costs = root / "build/release/Testing/Temporary/CTestCostData.txt"
     text = costs.read_text() if costs.exists() else ""
-    return {name: float(seconds) for name, count, seconds in re.findall(r"^(\S+) (\d+) ([\d.]+)$", text, re.M) if int(count)}
+    lines = re.findall(r"^(\S+) [1-9]\d* ([\d.]+)$", text, re.M)
+    return {name: float(seconds) for name, seconds in lines}
 
 
 class Suite:
     def __init__(self, build, program, seconds):
         self.build = build
         self.most_seconds = seconds  # that tests may run for one fault
-        shown = subprocess.run(["ctest", "--test-dir", build.folder, "--show-only=json-v1"], capture_output=True, text=True)
+        command = ["ctest", "--test-dir", build.folder, "--show-only=json-v1"]
+        shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         known = recorded_seconds(build.root)
-        tests = [Test(described, known) for described in json.loads(shown.stdout)["tests"]]
+        tests = [Test(described, known) for described in json.loads(shown)["tests"]]
         self.tests = [test for test in tests if test.program() and program in (None, test.program())]
 
     def passes(self, test, home, limit, **variables):
-        environment = dict(self.build.environment, HOME=str(home), XDG_RUNTIME_DIR=str(home), **test.environment, **variables)
+        own = {"HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
+        environment = {**self.build.environment, **own, **test.environment, **variables}
         return process.run(test.command, test.place, environment, limit)[0] == 0
 
     def reached_by(self, test, home):
@@ -74,8 +77,8 @@ class Suite:
         return not any(self.passes(test, home, limit, CHAINMAIL_FAULT=str(number)) for _ in range(2))
 
     def ordered(self, fault):
-        """Returns the tests: those of the fault's room first, then those that have words of the file in their name, then
-        the fast ones."""
+        """Returns the tests: those of the fault's room first, then those with words of the file in their name, then the
+        fast ones."""
         folder = next(folder for room, folder in FOLDERS.items() if fault.path.startswith(room + "/"))
         words = set(re.findall(r"[a-z]+", pathlib.Path(fault.path).stem)) - {"test"}
 
