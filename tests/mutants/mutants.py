@@ -1,363 +1,166 @@
 #!/usr/bin/env python3
-"""Puts random single-line faults ("mutants") into copies of the source and reports which of them the tests catch.
+"""Checks the tests: puts random faults ("mutants") into a copy of the source and names those that no test catches.
 
-`tests/run mutants` starts it after the release build with tests, and it asks ctest of that build for the tests. Each
-worker has a copy of the source. It changes one line there, builds and runs the related tests one after another, and
-stops at the first one that fails. A mutant that does not compile is replaced by another one.
-
-Related tests are those that include the header of the changed file, the most specific first, and then all tests of
-its room. A test counts as failing only if it fails twice.
+All faults are in one build (build.py), which is compiled once. An environment variable switches one of them on
+(fault.h). faults.py has the kinds of faults. Each test runs once without a fault, which shows the faults that it
+reaches. For each fault, the tests that reach it run one after another until one fails (suite.py).
 """
 
 import argparse
 import collections
 import concurrent.futures
-import json
 import os
 import pathlib
+import queue
 import random
 import re
-import shutil
-import subprocess
 import sys
-import threading
 import time
 
-# The rooms that get faults, and the folders of tests that run for them.
-ROOMS = {
-    "core/mesh": ["core", "files"],
-    "core/elastic": ["core"],
-    "core/solve": ["core", "hard"],
-    "core/measure": ["core"],
-    "core/simulate": ["core"],
-    "core/report": ["core", "cli"],
-    "core/calibrate": ["core", "cli"],
-    "core/bullet": ["core"],
-    "core/api": ["core", "cli"],
-    "core/files": ["files", "cli"],
-    "app": ["cli"],
-    "ui": ["ui"],
-}
+import build as builds
+import faults as kinds
+import suite as suites
 
-# Each operator: its name, a pattern, and the replacement. Binary operators have spaces around them in this source, but
-# templates and pointers do not.
-SWAPS = [
-    ("comparison", r" < ", " <= "), ("comparison", r" <= ", " < "),
-    ("comparison", r" > ", " >= "), ("comparison", r" >= ", " > "),
-    ("equality", r" == ", " != "), ("equality", r" != ", " == "),
-    ("arithmetic", r" \+ ", " - "), ("arithmetic", r" - ", " + "),
-    ("arithmetic", r" \* ", " / "), ("arithmetic", r" / ", " * "),
-    ("assignment", r" \+= ", " -= "), ("assignment", r" -= ", " += "),
-    ("logic", r" && ", " || "), ("logic", r" \|\| ", " && "),
-    ("boolean", r"\btrue\b", "false"), ("boolean", r"\bfalse\b", "true"),
-    ("bound", r"\bmin\(", "max("), ("bound", r"\bmax\(", "min("),
-    ("step", r"\+\+", "--"), ("negation", r"\bif \((?=[^;]*\) \{$)", "if (!"),
-]
-NUMBER = re.compile(r"(?<![\w.'])(\d+)(?![\w.'>])")
-REAL = re.compile(r"(?<![\w.'])(\d+\.\d+)(?![\w.'])")
-# Named constants are choices, like a waiting time or a size on the screen. A slightly different value is not wrong.
-NAMED_CONSTANT = re.compile(r"^\s*(static |inline )*constexpr \w[\w:<>, ]* \w+ = [^;]*;")
-STATEMENT = re.compile(r"^\s+[\w.>\-\[\]]+(\(.*\)| [+\-*/]?= .*);$")
-# Lines without behaviour that a test could check: declarations, compile-time checks, memory hints, layout.
-PASSED_OVER = re.compile(
-    r"^\s*(#|//|using |namespace |template |static_assert|assert\(|friend |class |struct |enum |case .*:$|public:|private:)"
-    r"|reserve\(|prefetch|shrink_to_fit|setSpacing|setContentsMargins|Margin|static_cast<void>|NOLINT|operator")
-
-Mutant = collections.namedtuple("Mutant", "path line operator before after")
-
-
-def code_only(line):
-    """Returns the line with strings, characters and comments replaced by the same number of other characters."""
-    blank = lambda match: " " * len(match.group())
-    line = re.sub(r'"(\\.|[^"\\])*"|(?<!\d)\'(\\.|[^\'\\])\'', lambda m: '"' + "_" * (len(m.group()) - 2) + '"', line)
-    return re.sub(r"//.*", blank, line)
-
-
-def mutants_of(path, number, line):
-    """Returns all faults that the operators can put into one line."""
-    code = code_only(line)
-    if PASSED_OVER.search(code):
-        return []
-    found = []
-
-    def add(operator, start, end, text):
-        found.append(Mutant(path, number, operator, line, line[:start] + text + line[end:]))
-
-    for operator, pattern, text in SWAPS:
-        if operator == "arithmetic" and '"' in code:
-            continue  # the operator joins strings
-        for match in re.finditer(pattern, code):
-            if operator == "negation":
-                add(operator, match.start(), len(line), "if (!(" + line[match.end():-3] + ")) {")
-            else:
-                add(operator, match.start(), match.end(), text)
-    if not NAMED_CONSTANT.match(code):
-        for match in NUMBER.finditer(code):
-            add("number", match.start(), match.end(), str(int(match.group()) + 1))
-        for match in REAL.finditer(code):
-            add("number", match.start(), match.end(), str(2 * float(match.group()) or 1.0))
-    if STATEMENT.match(code) and not line.lstrip().startswith(("return", "throw")):
-        found.append(Mutant(path, number, "statement", line, ""))
-    return found
-
-
-def source_files(root):
-    """Returns all files of the project. It does not use git, so that it works in an export too."""
-    files = []
-    for folder, folders, names in os.walk(root):
-        inside = pathlib.Path(folder).relative_to(root)
-        folders[:] = [name for name in folders if name not in (".git", "build", "__pycache__")]
-        files += [str(inside / name) for name in names if (root / inside / name).is_file()]
-    return files
+# More faults are drawn than wanted, because some do not compile: swapped arguments of two types, above all.
+SPARE = 1.6
+Result = collections.namedtuple("Result", "fault caught reaching")
 
 
 def room_of(path):
-    return next((room for room in ROOMS if path.startswith(room + "/")), None)
+    """Returns the folder of a file, at most two levels deep."""
+    return "/".join(path.split("/")[:-1][:2])
 
 
-def is_candidate(path, wanted):
-    # Only the headers of core/solve contain templates; other headers contain declarations.
-    is_source = path.endswith(".cpp") or (path.endswith(".h") and path.startswith("core/solve/"))
-    return is_source and room_of(path) and any(path == w or path.startswith(w.rstrip("/") + "/") for w in wanted)
+def candidates(root, wanted):
+    """Returns the sources that can have faults. Only the headers of core/solve contain more than declarations."""
+    return sorted(path for path in builds.source_files(root)
+                  if re.match(r"(?:core|app|ui)/.*\.cpp$|core/solve/.*\.h$", path)
+                  and (wanted == "all" or path == wanted or path.startswith(wanted.rstrip("/") + "/")))
 
 
-def draw(root, wanted, generator):
-    """Yields mutants: a random fault in each line that can have one, in random order of the lines."""
-    lines = []
-    for path in sorted(filter(lambda p: is_candidate(p, wanted), source_files(root))):
-        for number, line in enumerate((root / path).read_text().split("\n")):
-            if found := mutants_of(path, number, line):
-                lines.append(found)
-    generator.shuffle(lines)
-    for found in lines:
-        yield generator.choice(found)
+class Room:
+    def __init__(self):
+        self.lines = 0
+        self.faults = collections.defaultdict(list)  # by kind
+
+    def add(self, path, text):
+        self.lines += text.count("\n")
+        for fault in kinds.faults_of(path, text):
+            self.faults[fault.kind].append(fault)
+
+    def draw(self, generator):
+        """Takes a random fault of a random kind."""
+        left = self.faults[generator.choice([kind for kind in sorted(self.faults) if self.faults[kind]])]
+        return left.pop(generator.randrange(len(left)))
 
 
-def included(root, source):
-    """Returns the files of the project that a source includes, directly or not."""
-    found, waiting = set(), [source]
-    while waiting:
-        file = waiting.pop()
-        for name in re.findall(r'^#include "([^"]+)"', (root / file).read_text(), re.M):
-            places = [str(pathlib.Path(file).parent), "tests", "core", "ui", "app"]
-            path = next((os.path.normpath(f"{place}/{name}") for place in places if (root / place / name).is_file()), None)
-            if path and path not in found:
-                found.add(path)
-                waiting.append(path)
-    return found
+def draw(root, paths, count, generator):
+    """Returns random faults that do not overlap, as many in each room as its lines say."""
+    rooms = collections.defaultdict(Room)
+    for path in paths:
+        rooms[room_of(path)].add(path, (root / path).read_text())
+    drawn = []
+    while len(drawn) < count and (left := [room for room in rooms.values() if any(room.faults.values())]):
+        fault = generator.choices(left, [room.lines for room in left])[0].draw(generator)
+        if not any(fault.path == other.path and fault.start < other.end and other.start < fault.end for other in drawn):
+            drawn.append(fault)
+    return drawn
 
 
-class Tests:
-    """The tests of the release build, with the files that each includes and the time that it takes."""
+def shortened(before, after):
+    """Returns two texts without most of what they have in common at both ends."""
+    start = len(os.path.commonprefix([before, after]))
+    end = len(os.path.commonprefix([before[start:][::-1], after[start:][::-1]]))
 
-    def __init__(self, root, most):
-        build = root / "build/release"
-        self.most = most
-        self.includes = {}  # per test: the files of the project that its source includes
-        self.folder = {}
-        self.program = {}  # per test: the target that contains it
-        shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True).stdout
-        for test in json.loads(shown)["tests"] if shown else []:
-            self.add(root, test)
-        if not self.includes:
-            sys.exit("mutants: the release build has no tests; start it with tests/run mutants")
-        self.seconds = collections.defaultdict(lambda: 12.0)  # default until the time is known
-        costs = build / "Testing/Temporary/CTestCostData.txt"
-        for line in costs.read_text().splitlines() if costs.exists() else []:
-            if match := re.match(r"(\S+) (\d+) ([\d.]+)$", line):
-                if int(match.group(2)):
-                    self.seconds[match.group(1)] = float(match.group(3))
+    def middle(text):
+        begin, stop = max(0, start - 50), min(len(text), len(text) - end + 30)
+        return ("…" if begin else "") + text[begin:stop] + ("…" if stop < len(text) else "")
 
-    def add(self, root, test):
-        """Notes a test that is a class of Qt Test: ctest starts a program test_… with the name of the class, if it has
-        several."""
-        words = [pathlib.Path(word).name for word in test.get("command", [])]
-        program = next((word for word in words if word.startswith("test_")), None)
-        folder = next(pathlib.Path(p["value"]).name for p in test["properties"] if p["name"] == "WORKING_DIRECTORY")
-        if not program or folder == "python":
-            return
-        name = (words[words.index(program) + 1:] or [program.removeprefix("test_")])[0]
-        source = next((file for file in (f"tests/{folder}/test_{name}.cpp", f"tests/{folder}/{name}.cpp")
-                       if (root / file).exists()), None)
-        if source:
-            self.includes[test["name"]] = included(root, source)
-            self.folder[test["name"]] = folder
-            self.program[test["name"]] = program
-
-    def related(self, path):
-        """Returns the tests for a file, specific and fast ones first: those with its header, then those of its room.
-
-        There are at most `most` of them.
-        """
-        header = re.sub(r"\.cpp$", ".h", path)
-        words = set(re.findall(r"[a-z]+", pathlib.Path(path).stem))
-        folders = ROOMS[room_of(path)]
-
-        def key(name):
-            includes = header in self.includes[name]
-            alike = len(words & set(name.replace("window_", "").split("_")))
-            return (-alike, not includes, self.seconds[name] * (1 + len(self.includes[name]) / 100))
-
-        return sorted((n for n in self.includes if self.folder[n] in folders
-                       or (header in self.includes[n] and self.folder[n] not in ("ui", "hard"))), key=key)[:self.most]
+    return f"{middle(before)}  →  {middle(after)}"
 
 
-class Worker:
-    """A copy of the source with its own build."""
+def described(result):
+    fault = result.fault
+    verdict = f"caught by {result.caught}" if result.caught else f"SURVIVED {result.reaching} tests"
+    what = shortened(fault.before, fault.after)
+    return f"{verdict:34} {room_of(fault.path):18} {fault.path}:{fault.line} [{fault.kind}] {what}"
 
-    def __init__(self, root, number, tests):
-        self.root, self.tests = root, tests
-        self.copy = root / f"build/mutants/{number}"
-        self.home = root / f"build/mutants/home{number}"
-        self.home.mkdir(parents=True, exist_ok=True)
-        self.home.chmod(0o700)
-        self.reliable = {}  # per test that failed here: True if it passes without a fault
-        self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.copy), HOME=str(self.home),
-                                XDG_RUNTIME_DIR=str(self.home), CCACHE_DIR=os.environ["CCACHE_DIR"])
-        self.update()
-        # Uses the options of the release build, so that ccache knows the objects.
-        cache = (root / "build/release/CMakeCache.txt").read_text()
-        options = ["-D" + line for line in re.findall(
-            r"^(?:CHAINMAIL_TESTS|CHAINMAIL_UNITY|CMAKE_COMPILE_WARNING_AS_ERROR|CMAKE_EXE_LINKER_FLAGS):.*", cache, re.M)]
-        self.run(["cmake", "--preset", "release", *options], check=True)
 
-    def update(self):
-        """Updates the copy. Unchanged files keep their time, so that they are not built again."""
-        files = set(source_files(self.root))
-        for name in files:
-            source, target = self.root / name, self.copy / name
-            if not target.exists() or target.read_bytes() != source.read_bytes():
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy(source, target)
-        for old in self.copy.rglob("*"):
-            name = str(old.relative_to(self.copy))
-            if old.is_file() and not name.startswith("build/") and name not in files:
-                old.unlink()
+def examine_all(suite, numbers, root, jobs):
+    """Examines the faults, some at a time, and prints a line for each. Returns the results."""
+    homes, results = queue.SimpleQueue(), []
+    for job in range(jobs):
+        home = root / f"build/mutants/home{job}"
+        home.mkdir(mode=0o700, exist_ok=True)
+        homes.put(home)
 
-    def run(self, command, check=False, seconds=900):
-        limited = ["prlimit", f"--as={16 << 30}", f"--core=0", "--", *map(str, command)]
-        process = subprocess.Popen(limited, cwd=self.copy, env=self.environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    def examine(number):
+        home = homes.get()
         try:
-            output, _ = process.communicate(timeout=seconds)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, 9)
-            output, _ = process.communicate()
-        if check and process.returncode != 0:
-            sys.exit(f"mutants: {' '.join(map(str, command))} failed:\n{output[-2000:]}")
-        return process.returncode, output
-
-    def build(self, target):
-        return self.run(["cmake", "--build", "build/release", "--target", target, "--", "-j1"])[0] == 0
-
-    def fails(self, test):
-        limit = max(60, 5 * self.tests.seconds[test])
-        command = ["ctest", "--test-dir", "build/release", "-R", f"^{test}$", "--timeout", int(limit)]
-        return all(self.run(command, seconds=limit)[0] != 0 for _ in range(2))
-
-    def is_reliable(self, test):
-        """Returns True if a test passes here without a fault. The source must be unchanged."""
-        if test not in self.reliable:
-            self.reliable[test] = self.build(self.tests.program[test]) and not self.fails(test)
-            if not self.reliable[test]:
-                print(f"     {test} fails in {self.copy} without a fault: left out", flush=True)
-        return self.reliable[test]
-
-    def examine(self, mutant):
-        """Returns the name of the test that catches a mutant; '' if none does, None if it does not compile."""
-        tests = [test for test in self.tests.related(mutant.path) if self.reliable.get(test, True)]
-        while True:
-            caught = self.first_failure(mutant, tests)
-            if not caught or self.is_reliable(caught):
-                return caught
-            tests = tests[tests.index(caught) + 1:]
-
-    def first_failure(self, mutant, tests):
-        file = self.copy / mutant.path
-        original = file.read_text()
-        lines = original.split("\n")
-        lines[mutant.line] = mutant.after
-        file.write_text("\n".join(lines))
-        try:
-            for test in tests:
-                if not self.build(self.tests.program[test]):
-                    return None
-                if self.fails(test):
-                    return test
-            return ""
+            return Result(suite.build.faults[number], *suite.examine(number, home))
         finally:
-            file.write_text(original)
+            homes.put(home)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for done in concurrent.futures.as_completed([pool.submit(examine, number) for number in numbers]):
+            results.append(done.result())
+            print(f"{len(results):4} {described(results[-1])}", flush=True)
+    return results
 
 
-def describe(mutant, caught):
-    what = f"{mutant.before.strip()}  →  {mutant.after.strip() or '(removed)'}"
-    return f"{'caught by ' + caught if caught else 'SURVIVED':32} {mutant.path}:{mutant.line + 1} [{mutant.operator}] {what}"
+def print_table(results, name, key):
+    rows = collections.defaultdict(lambda: [0, 0])
+    for result in results:
+        rows[key(result.fault)][bool(result.caught)] += 1
+    print(f"\n{name:20} planted  caught  survived")
+    for row, (survived, caught) in sorted(rows.items()):
+        print(f"{row:20} {survived + caught:7} {caught:7} {survived:9}")
 
 
-def main():
+def report(results, seed, seconds):
+    print_table(results, "kind", lambda fault: fault.kind)
+    print_table(results, "room", lambda fault: room_of(fault.path))
+    survivors = [result for result in results if not result.caught]
+    caught = len(results) - len(survivors)
+    print(f"{'all':20} {len(results):7} {caught:7} {len(survivors):9}"
+          f"  ({100 * caught / max(1, len(results)):.0f} % caught, seed {seed}, {seconds:.0f} s)")
+    if survivors:
+        print("\nNo test caught:")
+        for result in survivors:
+            print("  " + described(result))
+
+
+def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--room", default="all", help="all, or a folder or file under " + ", ".join(ROOMS))
-    parser.add_argument("--seed", type=int)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--tests", type=int, help="run at most this many tests for a fault, the most specific ones")
+    parser.add_argument("--room", default="all", help="all, or a folder or file of core, app or ui")
+    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1_000_000))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests that run at the same time")
+    parser.add_argument("--program", help="build and run only this test program, such as test_core")
+    parser.add_argument("--seconds", type=float, default=60, help="time of the tests that run for a fault, at most")
     parser.add_argument("--at-least", type=float, default=0, help="exit with status 1 if a smaller share is caught")
-    options = parser.parse_args()
-    root = options.root.resolve()
-    wanted = list(ROOMS) if options.room == "all" else [options.room]
-    seed = random.SystemRandom().randrange(1_000_000) if options.seed is None else options.seed
-    candidates = draw(root, wanted, random.Random(seed))
-    if not any(is_candidate(path, wanted) for path in source_files(root)):
-        sys.exit(f"mutants: {options.room} contains no sources; use a folder or file under {', '.join(ROOMS)}")
-    print(f"mutants: {options.count} in {options.room}, seed {seed}", flush=True)
-
-    os.environ.setdefault("CCACHE_DIR", subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True,
-                                                       text=True).stdout.strip())
-    tests = Tests(root, options.tests)
-    workers = [Worker(root, i, tests) for i in range(min(options.jobs, options.count))]
-    lock, results, uncompiled, started = threading.Lock(), [], [0], time.time()
-
-    def work(worker):
-        while True:
-            with lock:
-                if len(results) >= options.count:
-                    return
-                mutant = next(candidates, None)
-            if mutant is None:
-                return
-            caught = worker.examine(mutant)
-            with lock:
-                if caught is None:
-                    uncompiled[0] += 1
-                elif len(results) < options.count:
-                    results.append((mutant, caught))
-                    print(f"{len(results):4} {describe(mutant, caught)}", flush=True)
-
-    with concurrent.futures.ThreadPoolExecutor(len(workers)) as pool:
-        for done in [pool.submit(work, worker) for worker in workers]:
-            done.result()
-
-    report(results, uncompiled[0], seed, time.time() - started)
-    caught = sum(1 for _, test in results if test)
-    sys.exit(0 if results and caught >= options.at_least * len(results) else 1)
+    return parser.parse_args()
 
 
-def report(results, uncompiled, seed, seconds):
-    per_room = collections.defaultdict(lambda: [0, 0])
-    for mutant, caught in results:
-        per_room[room_of(mutant.path)][0 if caught else 1] += 1
-    print(f"\n{'room':16} mutants  caught")
-    for room, (caught, survived) in sorted(per_room.items()):
-        print(f"{room:16} {caught + survived:7} {caught:7}")
-    caught = sum(1 for _, test in results if test)
-    share = 100 * caught / max(1, len(results))
-    print(f"{'all':16} {len(results):7} {caught:7}  ({share:.0f} %), seed {seed}, {uncompiled} did not compile, {seconds:.0f} s")
-    survivors = [one for one in results if not one[1]]
-    if survivors:
-        print("\nNo test caught:")
-        for mutant, _ in survivors:
-            print("  " + describe(mutant, "").removeprefix("SURVIVED").strip())
+def main():
+    chosen = options()
+    root, start = chosen.root.resolve(), time.time()
+    paths = candidates(root, chosen.room)
+    if not paths:
+        sys.exit(f"mutants: {chosen.room} contains no sources; use a folder or file of core, app or ui")
+    print(f"mutants: {chosen.count} in {chosen.room}, seed {chosen.seed}", flush=True)
+    drawn = draw(root, paths, int(SPARE * chosen.count) + 2, random.Random(chosen.seed))
+    build = builds.Build(root, dict(enumerate(drawn, start=1)))
+    build.write()
+    build.configure()
+    build.compile([chosen.program] if chosen.program else [])
+    print(f"mutants: built in {time.time() - start:.0f} s", flush=True)
+    numbers = sorted(build.faults)[:chosen.count]
+    results = examine_all(suites.Suite(build, chosen.program, chosen.seconds), numbers, root, chosen.jobs)
+    report(results, chosen.seed, time.time() - start)
+    caught = sum(1 for result in results if result.caught)
+    sys.exit(0 if results and caught >= chosen.at_least * len(results) else 1)
 
 
 if __name__ == "__main__":
