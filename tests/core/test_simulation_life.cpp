@@ -5,6 +5,7 @@
 #include "core/simulations.h"
 #include "mesh/error.h"
 #include "program.h"
+#include "property.h"
 
 namespace chainmail::test_simulation_life {
 

@@ -663,8 +663,8 @@ void Document::cancelDrag() {
   post(commands::DropState{handle->before});
 }
 
-/// Ends the drag. It becomes an undo step if anything moved. The solvers release the handle, because the next change may
-/// be refused for its elements.
+/// Ends the drag. It becomes an undo step if anything moved. The solvers release the handle, because the next change
+/// may be refused for its elements.
 void Document::endDrag() {
   if (const auto handle = std::exchange(handle_, {})) {
     if (!handle->elements.empty()) {
