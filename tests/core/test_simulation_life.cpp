@@ -57,6 +57,7 @@ void SimulationLifeTest::it_goes_on_as_a_new_one() {
   Simulation lived(some_meshes()[0], Algorithm::natural_queue, Precision::double_precision);
   for (int step = 0; step < steps; ++step) {
     const Algorithm before = lived.statistics().algorithm;
+    const std::uint64_t passes = lived.statistics().passes;
     Simulation fresh(lived.mesh_pointer(), before, Precision::double_precision);
     fresh.take(lived.hand_over(), before);
     QVERIFY(same_settings(fresh, lived) && same_bits(positions_of(fresh), positions_of(lived)));
@@ -69,7 +70,8 @@ void SimulationLifeTest::it_goes_on_as_a_new_one() {
       QCOMPARE(again, said);
       QVERIFY2(same_bits(positions_of(fresh), positions_of(lived)), where);
       QVERIFY2(fresh.valid() == lived.valid(), where);
-      QCOMPARE(fresh.statistics().last_pass.moved, lived.statistics().last_pass.moved);
+      QVERIFY(lived.statistics().passes == passes ||
+              fresh.statistics().last_pass.moved == lived.statistics().last_pass.moved);
     }
   }
 }

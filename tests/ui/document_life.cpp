@@ -47,7 +47,6 @@ enum class Kind {
   remove_panel,
   replace_mesh,
   reset,
-  forget_moves,
   load_moves,
   go_to,
   become_lesson,
@@ -456,8 +455,6 @@ Life::Step Life::step_of(const Action& action) const {
                    : d.replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
             d.setMeshFile(rework ? d.meshFile() : QStringLiteral("other.obj"));
           };
-    case Kind::forget_moves:
-      return [](Document& d, std::size_t) { d.forgetMoves(); };
     case Kind::load_moves:
       return [](Document& d, std::size_t skip) {
         auto moves = d.tape().commands();

@@ -35,6 +35,15 @@ void openAndDrag(Workbench& bench, const Point& by = Point(4, 3, 0)) {
   QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
 }
 
+/// Makes another far drag, the other way.
+void openAnotherPass(Workbench& bench) {
+  bench.document().grab(middle);
+  bench.document().drag(bench.document().mesh()->rest_position(middle) - Point(4, 3, 0));
+  bench.document().release();
+  bench.settle();
+  QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
+}
+
 QAbstractItemModel& list(Workbench& bench, int panel) {
   return *bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)))->model();
 }
@@ -238,6 +247,30 @@ class WindowPropagation : public QObject {
     bench.trigger("passBack");
     QCOMPARE(slider(bench, 0).value(), 7);
     QCOMPARE(slider(bench, 1).value(), 7);
+  }
+
+  void theChosenPanelIsRemovedAndAnotherOneSteps() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.settle();
+    openAndDrag(bench);
+    QTRY_VERIFY(slider(bench, 2).isEnabled());
+    bench.find<QCheckBox>("passTogether")->setChecked(false);
+    slider(bench, 2).setValue(3);  // the third panel is chosen
+    bench.trigger("removePanel");
+    QTRY_COMPARE(bench.document().panels(), 2);
+    bench.settle();
+    openAnotherPass(bench);
+    bench.trigger("passFirst");
+    bench.trigger("passForward");
+    bench.trigger("passForward");
+    const std::array steps{slider(bench, 0).value(), slider(bench, 1).value()};
+    QCOMPARE(std::ranges::count(steps, 2), 1);  // one panel steps, as the box says
+    auto* speed = bench.find<QComboBox>("passSpeed");
+    speed->setCurrentIndex(speed->findData(1000));
+    bench.trigger("passPlay");
+    QTRY_COMPARE(slider(bench, 1).value(), slider(bench, 1).maximum());
+    QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
   }
 
   void slowMotionRunsToTheEndAndStops() {

@@ -1,6 +1,8 @@
 // Tests recording and replay in a real window: moves are a script, can be reached with a slider, and give pictures.
 
+#include <QDateTime>
 #include <QFile>
+#include <QFileDialog>
 #include <QLabel>
 #include <QPainter>
 #include <QProcess>
@@ -14,6 +16,7 @@
 #include "files/session/moves.h"
 #include "io/pictures.h"
 #include "panels/panel_area.h"
+#include "safe_bench.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -142,6 +145,53 @@ std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mes
   return positions;
 }
 
+constexpr std::size_t drags = 40;  // so many that a state is saved behind them
+
+/// Returns a drag of many moves, sweeps, and another drag.
+std::vector<Command> dragRelaxAndDrag(const Mesh& mesh) {
+  std::vector<Command> moves{commands::Grab{31}};
+  for (std::size_t i = 1; i <= drags; ++i) {
+    moves.emplace_back(commands::Drag{mesh.rest_position(31) + 0.1 * double(i) * Point(1, -1, 0)});
+  }
+  moves.emplace_back(commands::Release{});
+  moves.emplace_back(commands::Relax{50, 1, RelaxationScheme::mean});
+  moves.emplace_back(commands::Grab{10});
+  moves.emplace_back(commands::Drag{mesh.rest_position(10) + Point(-1, 2, 0)});
+  moves.emplace_back(commands::Release{});
+  return moves;
+}
+
+QStringList filesIn(const QTemporaryDir& folder) {
+  return QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot, QDir::Name);
+}
+
+/// Saves a film in pictures, and waits for its end.
+void saveFilm(Workbench& bench, const QTemporaryDir& folder) {
+  const QSignalSpy saved(bench.find<ReplayDock>("replayDock"), &ReplayDock::saved);
+  bench.find<ReplayDock>("replayDock")->saveFilm(folder.path());
+  QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, 30'000);
+}
+
+/// Chooses a folder in the next dialog for one.
+class ChooseFolder : public QObject {
+ public:
+  explicit ChooseFolder(const QString& folder) {
+    timer_.setInterval(10);
+    connect(&timer_, &QTimer::timeout, this, [this, folder] {
+      if (auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) {
+        timer_.stop();
+        dialog->setDirectory(folder);
+        dialog->selectFile(folder);
+        QMetaObject::invokeMethod(dialog, "accept");
+      }
+    });
+    timer_.start();
+  }
+
+ private:
+  QTimer timer_;
+};
+
 /// Writes a script of one long drag.
 void writeDrags(const QString& path, int drags) {
   QFile file(path);
@@ -236,6 +286,39 @@ class WindowReplay : public QObject {
                      run(done, bench.document().mesh(), bench.document().algorithm(panel)),
                  qPrintable(QStringLiteral("after %1 commands").arg(place)));
       }
+    }
+  }
+
+  void goingOnBeforeSweepsEndGivesWhatAReplayWithoutAPauseGives_data() {
+    QTest::addColumn<int>("first");
+    QTest::addColumn<int>("then");
+    const int afterSweeps = int(drags + 3), end = int(drags + 6);
+    QTest::newRow("forward") << afterSweeps << end;
+    QTest::newRow("back") << end << end - 1;  // the state that was saved after the sweeps lacks some of them, too
+    QTest::newRow("back to the sweeps") << end << afterSweeps;
+  }
+
+  /// The solvers are held, so that the sweeps are still to come when the slider moves on.
+  void goingOnBeforeSweepsEndGivesWhatAReplayWithoutAPauseGives() {
+    QFETCH(int, first);
+    QFETCH(int, then);
+    Workbench bench;
+    Document& document = bench.document();
+    const std::vector<Command> moves = dragRelaxAndDrag(*document.mesh());
+    document.loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
+    bench.settle();
+    std::promise<void> gate;
+    const auto opened = gate.get_future().share();
+    for (int panel = 0; panel < document.panels(); ++panel) {
+      document.ask(panel, [opened](const Simulation&) { opened.wait(); });
+    }
+    document.goTo(std::size_t(first));
+    document.goTo(std::size_t(then));
+    gate.set_value();
+    bench.settle();
+    const std::vector<Command> done(moves.begin(), moves.begin() + then);
+    for (int panel = 0; panel < document.panels(); ++panel) {
+      QVERIFY(document.frame(panel)->positions == run(done, document.mesh(), document.algorithm(panel)));
     }
   }
 
@@ -439,6 +522,60 @@ class WindowReplay : public QObject {
     QVERIFY(!first.isNull() && first != last);
     bench.settle();
     QVERIFY(shapes(bench) == live);
+  }
+
+  /// The last pictures of the longer film would look like the end of the shorter one. Nothing else is removed.
+  void aShorterFilmLeavesNothingOfALongerOne() {
+    Workbench bench;
+    workInFewMoves(bench);
+    const QTemporaryDir folder;
+    saveFilm(bench, folder);
+    QCOMPARE(filesIn(folder).size(), 7);
+    // After a gap, and with other names: these are not of the film.
+    const QStringList others{QStringLiteral("move-000003 (copy).png"), QStringLiteral("move-000009.png"),
+                             QStringLiteral("move-4.png"), QStringLiteral("notes.txt")};
+    for (const QString& name : others) {
+      QVERIFY(QFile::copy(folder.filePath(QStringLiteral("move-000001.png")), folder.filePath(name)));
+    }
+    bench.document().loadMoves(
+        std::make_shared<const std::vector<Command>>(std::vector<Command>{
+            commands::Grab{31}, commands::Drag{bench.document().mesh()->rest_position(31) + Point(1, 1, 0)}}),
+        QStringLiteral("open"));
+    bench.settle();
+    saveFilm(bench, folder);
+    QStringList expected = others;
+    expected << QStringLiteral("move-000001.png") << QStringLiteral("move-000002.png");
+    expected.sort();
+    QCOMPARE(filesIn(folder), expected);
+  }
+
+  void aFilmAsksBeforeItReplacesAnother() {
+    Workbench bench;
+    workInFewMoves(bench);
+    const QTemporaryDir folder;
+    const auto film = [&](const QString& answer) {
+      const ChooseFolder choose(folder.path());
+      auto question = std::make_unique<Answer>(answer);
+      bench.trigger("savePictures");
+      bench.settle();
+      return question;
+    };
+    const QSignalSpy saved(dock(bench), &ReplayDock::saved);
+    QCOMPARE(film(QStringLiteral("Cancel"))->questions, 0);  // the folder is empty
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, 30'000);
+    const auto pictureTime = [&] {
+      return QFileInfo(folder.filePath(QStringLiteral("move-000001.png"))).lastModified();
+    };
+    const QDateTime before = pictureTime();
+    const auto kept = film(QStringLiteral("Cancel"));
+    QCOMPARE(kept->questions, 1);
+    QVERIFY2(kept->said.contains(QStringLiteral("a film of 7 pictures")), qPrintable(kept->said));
+    QCOMPARE(pictureTime(), before);
+    QCOMPARE(saved.size(), 1);
+    QCOMPARE(film(QStringLiteral("Replace"))->questions, 1);
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 2, 30'000);
+    QVERIFY(pictureTime() > before);
+    QCOMPARE(filesIn(folder).size(), 7);
   }
 
   void eachPictureOfAFilmIsWhatThePanelsShowAfterItsMove() {

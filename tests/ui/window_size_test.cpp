@@ -76,6 +76,21 @@ class WindowSizeTest : public QObject {
     QCOMPARE(bench.table().columnCount(), 2 + 3 * columnsOfAPanel);
   }
 
+  void aTableThatIsStillEmptyFollowsTheAlgorithms() {
+    SizeBench bench;
+    QVERIFY(bench.dock().isVisible());
+    const QString before = bench.verdicts();
+    QVERIFY(before.contains(QStringLiteral("B: ")) && !before.contains(QStringLiteral("B: Spiral</b>")));
+    bench.choose(1, "Spiral");
+    QVERIFY2(bench.verdicts().contains(QStringLiteral("B: Spiral</b>")), qPrintable(bench.verdicts()));
+    QCOMPARE(bench.table().columnCount(), 2 + contestants * columnsOfAPanel);
+    bench.choose(0, "Free-form deformation");  // takes no part
+    QVERIFY2(!bench.verdicts().contains(QStringLiteral("A: ")), qPrintable(bench.verdicts()));
+    QVERIFY(bench.find<QPushButton>("sizeTestRun")->isEnabled());
+    bench.choose(1, "Free-form deformation");
+    QVERIFY(!bench.find<QPushButton>("sizeTestRun")->isEnabled());
+  }
+
   void aTestFillsTheTableAndTheOwnObjectIsBackAsItWas() {
     SizeBench bench;
     const QPoint from = bench.place(0, 31);

@@ -3,7 +3,9 @@
 
 #include <QAbstractItemView>
 #include <QDockWidget>
+#include <QLabel>
 #include <QStatusBar>
+#include <QTableWidget>
 #include <QToolBar>
 #include <QToolButton>
 #include <cmath>
@@ -11,6 +13,7 @@
 
 #include "panels/algorithm_delegate.h"
 #include "panels/colour_selector.h"
+#include "panels/legend.h"
 #include "panels/violation_line.h"
 #include "window.h"
 
@@ -24,6 +27,35 @@ Statistics statisticsOf(double fraction, double largest, bool whole) {
   statistics.violation.max = largest;
   statistics.violation_of_whole_mesh = whole;
   return statistics;
+}
+
+constexpr int wide = 900;  // pixels, more than any sentence needs
+
+/// Four elements; the first two lie almost at one position.
+MeshPointer almostNoLength() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1e-307, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  parts.links = {{0, 1}, {1, 2}, {2, 3}};
+  return build_mesh(std::move(parts));
+}
+
+/// Returns what the window says in figures: labels, tables and legends.
+QStringList textsOf(Workbench& bench) {
+  QStringList texts;
+  for (const auto* label : bench.window.findChildren<QLabel*>()) {
+    texts << label->text() << label->toolTip();
+  }
+  for (const auto* table : bench.window.findChildren<QTableWidget*>()) {
+    for (int i = 0; i < table->rowCount() * table->columnCount(); ++i) {
+      const auto* item = table->item(i / table->columnCount(), i % table->columnCount());
+      texts << (item == nullptr ? QString() : item->text());
+    }
+  }
+  for (int panel = 0; panel < bench.document().panels(); ++panel) {
+    const Legend& legend = bench.window.panel(panel).legend();
+    texts << legend.lowest() << legend.highest() << bench.find<ViolationLine>("violation0")->sentence();
+  }
+  return texts;
 }
 
 }  // namespace
@@ -76,6 +108,58 @@ class WindowWords : public QObject {
     const ViolationLine line;
     QCOMPARE(line.sentence(), QStringLiteral("No figures yet"));
     QVERIFY(line.share() < 0);
+  }
+
+  void aNarrowLineSaysItShorterAndAWideOneAllAgain() {
+    ViolationLine line;
+    line.resize(wide, line.sizeHint().height());
+    line.QWidget::show();
+    QVERIFY(QTest::qWaitForWindowExposed(&line));
+    line.show(statisticsOf(0.304, 2.84, true), true, false);
+    const QString whole = QStringLiteral("30 % of links violated, worst 2.8 × rest length");
+    const auto* shown = line.findChild<QLabel*>();
+    QCOMPARE(shown->text(), whole);
+    // The figures stay the same, only the room changes.
+    const auto fit = [&](const QString& sentence, int more) {
+      const int bar = line.width() - shown->width();
+      line.resize(bar + shown->fontMetrics().horizontalAdvance(sentence) + more, line.height());
+    };
+    fit(whole, -1);
+    QTRY_COMPARE(shown->text(), QStringLiteral("30 % violated, worst 2.8 ×"));
+    fit(shown->text(), -1);
+    QTRY_VERIFY(shown->text().endsWith(QStringLiteral("…")));
+    fit(whole, 1);  // a width is rounded
+    QTRY_COMPARE(shown->text(), whole);
+  }
+
+  void aLengthThatIsNotFiniteIsNoNumberInANarrowLine() {
+    ViolationLine line;
+    line.show(statisticsOf(0.5, std::numeric_limits<double>::infinity(), true), true, false);
+    auto* shown = line.findChild<QLabel*>();
+    line.resize(wide, line.sizeHint().height());
+    shown->resize(shown->fontMetrics().horizontalAdvance(line.sentence()) - 1, shown->height());
+    line.show(statisticsOf(0.5, std::numeric_limits<double>::infinity(), true), true, false);
+    QCOMPARE(shown->text(), QStringLiteral("50 % violated, some not finite"));
+  }
+
+  /// The element of a link that has almost no length is pinned, and the other one is far away.
+  void figuresThatAreNotFiniteAreNoWordsOfTheLibrary() {
+    Workbench bench(almostNoLength());
+    bench.document().setPinned({0}, true);
+    bench.document().grab(1);
+    bench.document().drag({100, 0, 0});
+    bench.document().release();
+    QTest::keyClick(&bench.view(0), Qt::Key_I);  // shows the figures
+    bench.trigger("colourBy-violation");
+    bench.settleFigures();
+    QVERIFY(!std::isfinite(bench.document().frame(0)->statistics.violation.max));
+    bench.document().select({1});
+    bench.settleFigures();
+    static const QRegularExpression raw(QStringLiteral("\\b(inf|nan)\\b"), QRegularExpression::CaseInsensitiveOption);
+    for (const QString& text : textsOf(bench)) {
+      QVERIFY2(!text.contains(raw), qPrintable(text));
+    }
+    QVERIFY(bench.find<QLabel>("statistics0")->text().contains(QStringLiteral("max <b>∞</b>")));
   }
 
   void aRemarkOfTheSolverReplacesTheSentence() {

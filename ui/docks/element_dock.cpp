@@ -11,6 +11,7 @@
 
 #include "common/dock_scroll.h"
 #include "common/parameter_row.h"
+#include "common/shown_number.h"
 #include "common/text.h"
 #include "document/element_facts.h"
 
@@ -272,7 +273,7 @@ void ElementDock::showNeighbour(int row, EntryId entry) {
   for (int column = 1; column <= 3; ++column) {
     neighbours_->item(row, column)->setToolTip(energy);
   }
-  put(*neighbours_, row, 4, isCut ? QStringLiteral("cut") : QLocale().toString(violation, 'g', 3));
+  put(*neighbours_, row, 4, isCut ? QStringLiteral("cut") : shownNumber(violation, 'g', 3));
 }
 
 std::optional<LinkId> ElementDock::chosenLink() const {

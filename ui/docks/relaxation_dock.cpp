@@ -2,8 +2,10 @@
 
 #include <QHBoxLayout>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "common/panel_names.h"
+#include "common/shown_number.h"
 #include "common/text.h"
 #include "report/page/format.h"
 
@@ -91,7 +93,9 @@ void RelaxationDock::showResidual() {
   for (int panel = 0; panel < document_.panels(); ++panel) {
     const Frame* frame = document_.frame(panel);
     const auto residual = frame != nullptr ? frame->statistics.residual : std::nullopt;
-    const QString figure = residual ? QString::fromStdString(report::figure(*residual)) : QStringLiteral("–");
+    const QString figure = !residual                  ? QStringLiteral("–")
+                           : std::isfinite(*residual) ? QString::fromStdString(report::figure(*residual))
+                                                      : shownNumber(*residual, 'g', 3);
     residuals << QStringLiteral("%1 %2").arg(panelName(panel), figure);
   }
   residual_->setText(QStringLiteral("Residual (relative): ") + residuals.join(QStringLiteral(", ")));

@@ -1,9 +1,9 @@
 #include "document/element_facts.h"
 
-#include <QLocale>
 #include <QStringList>
 #include <algorithm>
 
+#include "common/shown_number.h"
 #include "measure/violation.h"
 
 namespace chainmail {
@@ -64,7 +64,7 @@ double violationIn(const Document& document, int panel, ElementId element) {
   return largest;
 }
 
-QString figure(double value) { return QLocale().toString(value, 'g', digits); }
+QString figure(double value) { return shownNumber(value, 'g', digits); }
 
 QString coordinates(const Mesh& mesh, const Point& point, const QString& prefix) {
   QStringList parts;

@@ -10,7 +10,9 @@
 #include "common/as_path.h"
 #include "common/write_bytes.h"
 #include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "io/pictures.h"
+#include "mesh/error.h"
 #include "mesh/failure.h"
 
 namespace chainmail {
@@ -52,6 +54,16 @@ Film::~Film() {
 }
 
 bool Film::canMakeVideos() { return !ffmpegPath().isEmpty(); }
+
+std::size_t Film::picturesIn(const QString& folder) {
+  std::size_t count = 0;
+  for (;; ++count) {
+    const QFileInfo picture(QDir(folder).filePath(pictureName(count + 1)));
+    if (!picture.isFile() || picture.isSymLink()) {
+      return count;
+    }
+  }
+}
 
 void Film::begin(const QString& path) {
   const Tape& tape = document_.tape();
@@ -181,13 +193,26 @@ void Film::finishPictures() {
     return;
   }
   put([&] {
+    const std::size_t earlier = picturesIn(path_);
     Outputs outputs;
     for (std::size_t number = 1; number <= positions_.size(); ++number) {
       const QString name = pictureName(number);
       outputs.take(asPath(QDir(path_).filePath(name)), asPath(folder_->filePath(name)));
     }
     outputs.commit();
+    removePictures(positions_.size() + 1, earlier);
   });
+}
+
+/// Removes the last pictures of an earlier, longer film: they would look like the end of this one.
+void Film::removePictures(std::size_t from, std::size_t to) const {
+  for (std::size_t number = from; number <= to; ++number) {
+    const QString path = QDir(path_).filePath(pictureName(number));
+    if (!QFile::remove(path)) {
+      throw Error(shown(asPath(path)), "the film is saved, but this picture of an earlier film cannot be removed",
+                  "remove it and those after it");
+    }
+  }
 }
 
 void Film::endVideo() {

@@ -15,7 +15,8 @@
 namespace chainmail {
 
 /// Plays all recorded moves and takes a picture of the panels after each move. Writes numbered PNG files into a folder,
-/// or a video if ffmpeg is installed. The window stays usable. An incomplete film is deleted.
+/// or a video if ffmpeg is installed. The window stays usable. An incomplete film is deleted. In a folder, the pictures
+/// of an earlier film are replaced, and those that the new one does not have are removed.
 class Film : public QObject {
   Q_OBJECT
 
@@ -26,6 +27,8 @@ class Film : public QObject {
   ~Film() override;
 
   static bool canMakeVideos();
+  /// Returns how many pictures a film has left in a folder: those of its numbers from 1 on, up to the first gap.
+  static std::size_t picturesIn(const QString& folder);
 
   bool running() const { return running_; }
   /// Starts a film: pictures if the path is a folder, else a video in the format of its extension.
@@ -50,6 +53,7 @@ class Film : public QObject {
   template <class Step>
   void put(Step step);
   void finishPictures();
+  void removePictures(std::size_t from, std::size_t to) const;
   void endVideo();
   void fail(const QString& sentence);
   void stopWriters();

@@ -1,22 +1,30 @@
 #include "io/questions.h"
 
+#include <QDir>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
 #include <array>
 
+#include "common/text.h"
+
 namespace chainmail {
 namespace {
 
-/// Asks with *Save as…*, another answer and *Cancel*. Returns 0, 1 or 2 for them; 2 if the box is closed.
-int ask(QWidget& window, const char* name, const QString& what, const QString& why, const QString& other) {
-  QMessageBox box(&window);
+/// Fills a box with a question and its explanation.
+void setUp(QMessageBox& box, const char* name, const QString& what, const QString& why) {
   box.setObjectName(QLatin1String(name));
   box.setWindowTitle(QStringLiteral("ChainMail workbench"));
   box.setIcon(QMessageBox::Warning);
   box.setTextFormat(Qt::PlainText);
   box.setText(what);
   box.setInformativeText(why);
+}
+
+/// Asks with *Save as…*, another answer and *Cancel*. Returns 0, 1 or 2 for them; 2 if the box is closed.
+int ask(QWidget& window, const char* name, const QString& what, const QString& why, const QString& other) {
+  QMessageBox box(&window);
+  setUp(box, name, what, why);
   const auto* saveAs = box.addButton(QStringLiteral("Save &as…"), QMessageBox::AcceptRole);
   const auto* second = box.addButton(other, QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QStringLiteral("&Cancel"), QMessageBox::RejectRole));
@@ -40,6 +48,20 @@ OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path) {
       ask(window, "overwriteQuestion", QStringLiteral("Another program has changed %1").arg(QFileInfo(path).fileName()),
           QStringLiteral("Saving replaces what it wrote since this window opened or saved it."),
           QStringLiteral("&Overwrite")))];
+}
+
+bool askBeforeReplacingFilm(QWidget& window, const QString& folder, std::size_t pictures) {
+  QMessageBox box(&window);
+  setUp(
+      box, "filmQuestion",
+      QStringLiteral("%1 already has a film of %2")
+          .arg(QDir(folder).dirName(), counted(pictures, QStringLiteral("picture"))),
+      QStringLiteral("Its numbered pictures are replaced. If the new film is shorter, the others are removed. To keep "
+                     "them, choose another folder."));
+  const auto* replace = box.addButton(QStringLiteral("&Replace"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QStringLiteral("&Cancel"), QMessageBox::RejectRole));
+  box.exec();
+  return box.clickedButton() == replace;
 }
 
 OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why) {

@@ -3,12 +3,12 @@
 #include "panels/colouring.h"
 
 #include <QElapsedTimer>
-#include <QLocale>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "common/panel_names.h"
+#include "common/shown_number.h"
 #include "common/text.h"
 #include "measure/violation.h"
 
@@ -385,10 +385,9 @@ QString Colouring::title(int panel) const {
 /// solution, so it is about 1 for an object that does not move.
 QString Colouring::errorText(const Work& work) const {
   const BackgroundReference::Answer& answer = *solution_.answer();
-  const QLocale locale;
   return QStringLiteral(" on the same cells: relative error %1 (nothing moves: %2), RMS %3")
-      .arg(locale.toString(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
-           locale.toString(answer.nothing, 'g', 3), locale.toString(work.rms, 'g', 3));
+      .arg(shownNumber(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
+           shownNumber(answer.nothing, 'g', 3), shownNumber(work.rms, 'g', 3));
 }
 
 }  // namespace chainmail

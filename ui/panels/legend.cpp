@@ -2,9 +2,9 @@
 
 #include <QEvent>
 #include <QLinearGradient>
-#include <QLocale>
 #include <QPainter>
 
+#include "common/shown_number.h"
 #include "common/text.h"
 #include "drawing/colour_map.h"
 
@@ -16,7 +16,7 @@ constexpr int gap = 6;           // pixels between the bar and its numbers
 constexpr int barHeight = 10;
 constexpr int widestBar = 280;
 
-QString legendNumber(float value) { return QLocale().toString(double(value), 'g', 3); }
+QString legendNumber(float value) { return shownNumber(double(value), 'g', 3); }
 
 /// Draws a text at the left of a line and removes its width from the line.
 void drawText(QPainter& painter, QRect& line, const QString& text) {

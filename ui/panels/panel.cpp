@@ -10,6 +10,7 @@
 
 #include "common/colours.h"
 #include "common/panel_names.h"
+#include "common/shown_number.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
 
@@ -170,15 +171,14 @@ QString Panel::describePass(const Statistics& statistics, bool briefly) {
 }
 
 QString Panel::describeViolation(const Statistics& statistics, bool briefly) {
-  const QLocale locale;
   const Violation& violation = statistics.violation;
   const QString of = briefly                              ? QString()
                      : statistics.violation_of_whole_mesh ? QStringLiteral(" of all links:")
                      : statistics.violation_of_sample     ? QStringLiteral(" of sampled touched links:")
                                                           : QStringLiteral(" of touched links:");
   return QStringLiteral("violation%1 max <b>%2</b> · RMS <b>%3</b> · <b>%4</b> %")
-      .arg(of, locale.toString(violation.max, 'g', 3), locale.toString(violation.rms, 'g', 3),
-           locale.toString(100 * violation.fraction, 'f', 1));
+      .arg(of, shownNumber(violation.max, 'g', 3), shownNumber(violation.rms, 'g', 3),
+           shownNumber(100 * violation.fraction, 'f', 1));
 }
 
 QString Panel::describeRemark(const Statistics& statistics) const {

@@ -76,7 +76,9 @@ void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool inMid
   const bool isViolated = statistics.remark.empty() && violation.fraction > 0;
   if (isViolated) {
     brief_ = QStringLiteral("%1 violated").arg(percentage(violation.fraction));
-    brief_ += inMidPass ? QString() : QStringLiteral(", worst %1 ×").arg(rounded(violation.max));
+    brief_ += inMidPass                      ? QString()
+              : std::isfinite(violation.max) ? QStringLiteral(", worst %1 ×").arg(rounded(violation.max))
+                                             : QStringLiteral(", some not finite");
   }
   if (inMidPass) {
     words_ = afterThePass(words_);

@@ -2,6 +2,7 @@
 
 #include <QStringList>
 
+#include "common/shown_number.h"
 #include "document/element_facts.h"
 #include "panels/view.h"
 
@@ -11,7 +12,7 @@ namespace {
 /// Returns a text such as 'rest 3, × 1.07'; without the ratio if the distance at rest is 0.
 QString restText(const Measurement::Figures& figures) {
   const QString rest = QStringLiteral("rest %1").arg(figure(figures.rest));
-  return figures.rest > 0 ? QStringLiteral("%1, × %2").arg(rest, QLocale().toString(figures.now / figures.rest, 'f', 3))
+  return figures.rest > 0 ? QStringLiteral("%1, × %2").arg(rest, shownNumber(figures.now / figures.rest, 'f', 3))
                           : rest;
 }
 
@@ -53,7 +54,7 @@ QString Measurement::sentence() const {
     const Figures of = figures(panel);
     panels << QStringLiteral("%1: <b>%2</b> (× %3; %4)")
                   .arg(panelName(panel), figure(of.now),
-                       of.rest > 0 ? QLocale().toString(of.now / of.rest, 'f', 3) : QStringLiteral("–"),
+                       of.rest > 0 ? shownNumber(of.now / of.rest, 'f', 3) : QStringLiteral("–"),
                        coordinates(*document_.mesh(), of.apart, QStringLiteral("d")));
   }
   return QStringLiteral("From element %L1 to %L2, at rest %3  ·  %4")

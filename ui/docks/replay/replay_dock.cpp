@@ -15,6 +15,7 @@
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
+#include "io/questions.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -316,7 +317,8 @@ void ReplayDock::askWhereFilm(bool video) {
       video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")},
                        asFileName(document_.name()) + QStringLiteral("-moves"))
             : askFolder(*window(), QStringLiteral("Save pictures into a folder"));
-  if (!path.isEmpty()) {
+  const std::size_t earlier = video || path.isEmpty() ? 0 : Film::picturesIn(path);
+  if (!path.isEmpty() && (earlier == 0 || askBeforeReplacingFilm(*window(), path, earlier))) {
     saveFilm(path);
   }
 }
