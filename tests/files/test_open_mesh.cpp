@@ -299,7 +299,7 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
       "5 1 0 1\n6 0 1 1\n$EndNodes\n$Elements\n1\n";
   QTest::newRow("third.msh") << msh + "1 26 2 0 1 1 2 3 4\n$EndElements\n"
-                             << "elements of higher order";
+                             << "third.msh:15: Gmsh's type 26 is of higher order";
   const QByteArray vtk = "# vtk DataFile Version 2.0\na\nASCII\nDATASET ";
   QTest::newRow("grid.vtk") << vtk + "TABLE\n"
                             << "'TABLE' is not supported; ";

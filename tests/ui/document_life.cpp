@@ -49,8 +49,6 @@ enum class Kind {
   reset,
   load_moves,
   go_to,
-  become_lesson,
-  go_to_in_lesson,
   select,
   reload,
   restart,
@@ -85,18 +83,19 @@ std::vector<MeshPointer> meshes() {
   return all;
 }
 
-/// Returns true once the solvers have done everything, and their frames have arrived.
-bool is_settled(Document& document) {
+/// Waits until the solvers have done everything, or, with `frames`, until their last frames have also arrived.
+bool has_done_all(Document& document, bool frames = false) {
   constexpr int patience = 60'000, again = 2;  // ms
   const QDeadlineTimer end(patience);
-  while (!document.settled() && !end.hasExpired()) {
+  const auto has = [&] { return frames ? document.settled() : document.idle(); };
+  while (!has() && !end.hasExpired()) {
     QEventLoop loop;
     QObject::connect(&document, &Document::frameReady, &loop, &QEventLoop::quit);
     QObject::connect(&document, &Document::becameIdle, &loop, &QEventLoop::quit);
     QTimer::singleShot(again, &loop, &QEventLoop::quit);
     loop.exec();
   }
-  return document.settled();
+  return has();
 }
 
 /// Everything of a document that a person could see or save.
@@ -123,21 +122,26 @@ std::string text_of(Session session, std::span<const Command> moves, std::size_t
   return text.str();
 }
 
-/// True if the solver of each panel has the values of the document.
-bool solvers_agree(Document& document) {
-  bool all = true;
-  for (int panel = 0; panel < document.panels(); ++panel) {
-    std::promise<bool> agrees;
-    document.ask(panel, [&](const Simulation& now) {
-      agrees.set_value(now.mesh_pointer() == document.mesh() && now.softness() == *document.wholeSoftness() &&
-                       now.elastic() == document.elastic() && now.relaxation() == document.relaxation() &&
-                       now.statistics().algorithm == document.algorithm(panel) &&
-                       std::ranges::equal(now.body().pins(), document.pins()) &&
-                       now.body().cuts().links() == document.cuts().links());
-    });
-    all = agrees.get_future().get() && all;
-  }
-  return all;
+/// The state of a panel's solver.
+struct SolverState {
+  bool agrees = false;  // with the values of the document
+  std::vector<float> positions;
+};
+
+SolverState state_of(Document& document, int panel) {
+  std::promise<SolverState> answer;
+  document.ask(panel, [&](const Simulation& now) {
+    SolverState state;
+    state.agrees = now.mesh_pointer() == document.mesh() && now.softness() == *document.wholeSoftness() &&
+                   now.elastic() == document.elastic() && now.relaxation() == document.relaxation() &&
+                   now.statistics().algorithm == document.algorithm(panel) &&
+                   std::ranges::equal(now.body().pins(), document.pins()) &&
+                   now.body().cuts().links() == document.cuts().links();
+    state.positions.resize(now.mesh().rest.size());
+    now.body().copy_positions(0, state.positions);
+    answer.set_value(std::move(state));
+  });
+  return answer.get_future().get();
 }
 
 /// The commands with which a document records an object that came without moves.
@@ -159,8 +163,7 @@ struct Prefix {
 };
 
 Seen see(Document& document, const Prefix& prefix = {}) {
-  RC_ASSERT(is_settled(document));
-  RC_ASSERT(solvers_agree(document));
+  RC_ASSERT(has_done_all(document));
   const Session session = SessionDraft(document, "{}").finished({});
   const std::size_t skip = prefix.in(document.tape());
   const auto moves = std::span(session.moves).subspan(skip);
@@ -175,10 +178,10 @@ Seen see(Document& document, const Prefix& prefix = {}) {
                     .arg(document.selection().elements.size())
                     .arg(document.selection().links.size());
   for (int panel = 0; panel < document.panels(); ++panel) {
-    const Frame* frame = document.frame(panel);
-    RC_ASSERT(frame != nullptr);
+    SolverState state = state_of(document, panel);
+    RC_ASSERT(state.agrees);
     seen.algorithms.push_back(document.algorithm(panel));
-    seen.positions.push_back(frame->positions);
+    seen.positions.push_back(std::move(state.positions));
     seen.facts << QStringLiteral("lacks pins %1").arg(document.lacksPins(panel));
   }
   return seen;
@@ -216,6 +219,15 @@ bool answers_again(Kind kind) {
 class Life {
  public:
   Life() : document_(std::make_unique<Document>(meshes()[0], QStringLiteral("first"))) { remember(see(*document_)); }
+
+  /// The frames show what the solvers have.
+  void look() {
+    RC_ASSERT(has_done_all(*document_, true));
+    for (int panel = 0; panel < document_->panels(); ++panel) {
+      RC_ASSERT(document_->frame(panel) != nullptr);
+      RC_ASSERT(document_->frame(panel)->positions == state_of(*document_, panel).positions);
+    }
+  }
 
   void act(const Action& action) {
     const Seen before = see(*document_);
@@ -281,7 +293,7 @@ class Life {
     QObject::connect(&document, &Document::noticed, &context, listen);
     QObject::connect(&document, &Document::unpinned, &context, [&](int panel) { said << QString::number(panel); });
     step(document, skip);
-    RC_ASSERT(is_settled(document));
+    RC_ASSERT(has_done_all(document, true));  // a refusal comes with a frame
     return said;
   }
 
@@ -340,9 +352,9 @@ Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) 
   return [=](Document& document, std::size_t) {
     document.grab(elements);
     document.dragBy(by / 2);
-    RC_ASSERT(is_settled(document));
+    RC_ASSERT(has_done_all(document));
     document.dragBy(by, rotation);
-    RC_ASSERT(is_settled(document));
+    RC_ASSERT(has_done_all(document));
     if (kind == Kind::cancel_drag) {
       document.cancelDrag();
     } else if (kind != Kind::drag_and_keep) {
@@ -464,23 +476,11 @@ Life::Step Life::step_of(const Action& action) const {
     case Kind::go_to:
       return
           [at = action.which % (document_->tape().length() + 1)](Document& d, std::size_t skip) { d.goTo(at + skip); };
-    case Kind::become_lesson:
     case Kind::reload: {
-      Session session = SessionDraft(*document_, "{}").finished({});
-      if (action.kind == Kind::become_lesson) {
-        session.lesson = {"title", {{"step", "text", session.moves_done, {}, {}, {}, {}, {}, {}}}};
-      }
-      return [shared = std::make_shared<const Session>(std::move(session))](Document& d, std::size_t) {
-        d.restore(shared, QStringLiteral("again.chainmail"), QStringLiteral("open"));
+      auto session = std::make_shared<const Session>(SessionDraft(*document_, "{}").finished({}));
+      return [session](Document& d, std::size_t) {
+        d.restore(session, QStringLiteral("again.chainmail"), QStringLiteral("open"));
       };
-    }
-    case Kind::go_to_in_lesson: {
-      std::vector<Algorithm> all;
-      for (int panel = 0; panel < document_->panels(); ++panel) {
-        all.push_back(document_->algorithm(panel));
-      }
-      const std::size_t length = document_->lesson() ? document_->lesson()->moves.size() : 0;
-      return [=, at = action.which % (length + 1)](Document& d, std::size_t) { d.goToInLesson(at, all); };
     }
     case Kind::select:
       return [=](Document& d, std::size_t) { d.select({element}); };
@@ -504,6 +504,7 @@ void DocumentLifeTest::it_is_always_what_its_session_holds() {
     for (const Action& action : *rc::gen::container<std::vector<Action>>(any_action())) {
       life.act(action);
     }
+    life.look();
   };
   constexpr int lives = 20;  // twice, of 50 steps on average
   QVERIFY(check_property("a document is always what its session holds", holds, lives));
