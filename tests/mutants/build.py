@@ -1,5 +1,6 @@
 """A copy of the source with all faults in one build. Faults that do not compile are left out."""
 
+import json
 import os
 import pathlib
 import re
@@ -10,6 +11,8 @@ import sys
 import process
 
 HEADER = "tests/mutants/fault.h"
+# The targets that are built first. Once they compile, the tests do so too, and are compiled only once.
+PROGRAMS = ["chainmail", "chainmail_python", "workbench"]
 PLACE = re.compile(r"\b((?:core|app|ui)/[\w/]+\.(?:cpp|h)):(\d+)")
 ERROR_PLACE = re.compile(PLACE.pattern + r"(?::\d+)?: (?:fatal )?error: ")
 # The program that imports foreign files gets only some variables of the environment. In the copy, these of faults too.
@@ -27,6 +30,10 @@ def source_files(root):
     return files
 
 
+def key(fault):
+    return f"{fault.path}:{fault.line} {fault.text}"
+
+
 def with_faults(text, faults, header):
     """Returns a source in which each of the numbered faults can be switched on. Each line moves down by one."""
     for number, fault in sorted(faults.items(), key=lambda item: -item[1].start):
@@ -39,7 +46,9 @@ class Build:
         self.root = root
         self.copy = root / "build/mutants/source"
         self.folder = self.copy / "build/release"
-        self.faults = faults  # by number
+        self.known = root / "build/mutants/refused.json"  # the faults that earlier builds refused
+        refused = set(json.loads(self.known.read_text())) if self.known.exists() else set()
+        self.faults = {number: fault for number, fault in faults.items() if key(fault) not in refused}
         cache = subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True, text=True).stdout.strip()
         self.environment = {"CCACHE_DIR": cache, **os.environ, "CCACHE_BASEDIR": str(self.copy)}
 
@@ -79,7 +88,7 @@ class Build:
         """Builds the targets, again and again without the faults that do not compile."""
         while True:
             self.write()
-            command = ["cmake", "--build", self.folder, *(["--target", *targets] if targets else []), "--", "-k", "0"]
+            command = ["cmake", "--build", self.folder, "--target", *targets, "--", "-k", "0"]
             code, output = process.run(command, self.copy, self.environment)
             if code == 0:
                 return
@@ -87,8 +96,12 @@ class Build:
             if not refused:
                 sys.exit(f"mutants: the copy could not be built:\n{output[-4000:]}")
             print(f"mutants: {len(refused)} faults do not compile and are left out", flush=True)
-            for number in refused:
-                del self.faults[number]
+            self.refuse(refused)
+
+    def refuse(self, numbers):
+        """Leaves faults out, also in the next builds."""
+        earlier = json.loads(self.known.read_text()) if self.known.exists() else []
+        self.known.write_text(json.dumps(earlier + [key(self.faults.pop(number)) for number in numbers]))
 
     def faults_at(self, pattern, output):
         """Returns the numbers of the faults in lines that the compiler names."""

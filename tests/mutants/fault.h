@@ -1,7 +1,7 @@
 #pragma once
 
-// Included by the copies of sources into which tests/mutants/mutants.py has put faults. All faults are in one build.
-// Each has a number, and the environment variable CHAINMAIL_FAULT switches one on. If CHAINMAIL_FAULTS_REACHED names a
+// Included by the copies of sources that contain faults of tests/mutants/mutants.py. All faults are in one build. Each
+// has a number, and the environment variable CHAINMAIL_FAULT switches one on. If CHAINMAIL_FAULTS_REACHED names a
 // file instead, the byte of each fault whose place is executed becomes 1.
 
 #include <fcntl.h>

@@ -119,9 +119,9 @@ def terms(source, span):
     for match in re.finditer(r"\s(?:&&|\|\|)\s+", source.code[span.start:span.end]):
         start, after = span.start + match.start(), span.start + match.end()
         yield source.changed("term", span, start, operand_end(source.code, after, span.end), "")
-    first = re.match(r"[^&|?,]*? && ", source.code[span.start:span.end])
-    if first and first.group().count("(") == first.group().count(")"):
-        yield source.changed("term", span, span.start, span.start + first.end(), "")
+    first = re.match(r"(.* = )?([^&|?,]*? && )", source.code[span.start:span.end])
+    if first and first[2].count("(") == first[2].count(")"):
+        yield source.changed("term", span, span.start + first.start(2), span.start + first.end(2), "")
 
 
 def check(source, span):

@@ -137,7 +137,7 @@ def options():
     parser.add_argument("--room", default="all", help="all, or a folder or file of core, app or ui")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1_000_000))
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests that run at the same time")
-    parser.add_argument("--program", help="build and run only this test program, such as test_core")
+    parser.add_argument("--programs", nargs="*", help="build and run only these test programs, such as test_core")
     parser.add_argument("--seconds", type=float, default=60, help="time of the tests that run for a fault, at most")
     parser.add_argument("--at-least", type=float, default=0, help="exit with status 1 if a smaller share is caught")
     return parser.parse_args()
@@ -154,10 +154,11 @@ def main():
     build = builds.Build(root, dict(enumerate(drawn, start=1)))
     build.write()
     build.configure()
-    build.compile([chosen.program] if chosen.program else [])
+    for targets in [chosen.programs] if chosen.programs else [builds.PROGRAMS, ["all"]]:
+        build.compile(targets)
     print(f"mutants: built in {time.time() - start:.0f} s", flush=True)
     numbers = sorted(build.faults)[:chosen.count]
-    results = examine_all(suites.Suite(build, chosen.program, chosen.seconds), numbers, root, chosen.jobs)
+    results = examine_all(suites.Suite(build, chosen.programs, chosen.seconds), numbers, root, chosen.jobs)
     report(results, chosen.seed, time.time() - start)
     caught = sum(1 for result in results if result.caught)
     sys.exit(0 if results and caught >= chosen.at_least * len(results) else 1)

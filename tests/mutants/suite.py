@@ -42,14 +42,14 @@ def recorded_seconds(root):
 
 
 class Suite:
-    def __init__(self, build, program, seconds):
+    def __init__(self, build, programs, seconds):
         self.build = build
         self.most_seconds = seconds  # that tests may run for one fault
         command = ["ctest", "--test-dir", build.folder, "--show-only=json-v1"]
         shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         known = recorded_seconds(build.root)
         tests = [Test(described, known) for described in json.loads(shown)["tests"]]
-        self.tests = [test for test in tests if test.program() and program in (None, test.program())]
+        self.tests = [test for test in tests if test.program() and (not programs or test.program() in programs)]
 
     def passes(self, test, home, limit, **variables):
         own = {"HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
