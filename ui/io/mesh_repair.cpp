@@ -169,18 +169,22 @@ void MeshRepair::weld() {
 
 void MeshRepair::removeLoose() {
   if (const Checked* known = ofTheObject()) {
-    const QString step = counted(QStringLiteral("remove"), known->defects->loose.size(), QStringLiteral("loose point"));
     start(
-        QStringLiteral("Removing loose points"), [step](const Repaired&) { return step; },
+        QStringLiteral("Removing loose points"),
+        [count = known->defects->loose.size()](const Repaired&) {
+          return counted(QStringLiteral("remove"), count, QStringLiteral("loose point"));
+        },
         [](const Mesh& mesh, const Progress& progress) { return remove_loose(mesh, progress); });
   }
 }
 
 void MeshRepair::closeHoles() {
   if (const Checked* known = ofTheObject()) {
-    const QString step = counted(QStringLiteral("close"), known->defects->holes.size(), QStringLiteral("hole"));
     start(
-        QStringLiteral("Closing holes"), [step](const Repaired&) { return step; },
+        QStringLiteral("Closing holes"),
+        [count = known->defects->holes.size()](const Repaired&) {
+          return counted(QStringLiteral("close"), count, QStringLiteral("hole"));
+        },
         [defects = known->defects](const Mesh& mesh, const Progress& progress) {
           return close_holes(mesh, defects->holes, progress);
         });
