@@ -208,61 +208,61 @@ Feature relaxed(const char* name, RelaxationScheme scheme) {
           }};
 }
 
+/// What an object can have.
+std::vector<Feature> object_features() {
+  const auto cut = [](Scene& s) { s.cuts = {{0, 1}, {7, 8}, {14, 15}}; };
+  const auto split = [](Scene& s) {
+    s.splits = true;
+    s.mesh = sheet();
+  };
+  const auto pin = [](Scene& s) { s.pins = {29, 12, 23}; };
+  const auto soften_links = [](Scene& s) { s.own = {{{0, 1}, {1, 1, 0}}, {{7, 8}, {0.5, 1.5, 0.3}}}; };
+  const auto soften = [](Scene& s) { s.global = {0.6, 1.4, 0.2}; };
+  const auto turn = [](Scene& s) { s.frame = {FrameKind::given, Point(0, 0, 20 * std::numbers::pi / 180)}; };
+  return {{"cut", cut, leave_cut_links_out},
+          {"split", split, split_before},
+          {"pin", pin, [](Scene& s) { std::ranges::reverse(s.pins); }},
+          {"softness of links", soften_links, give_all_links_their_own},
+          {"global softness", soften, give_all_links_their_own},
+          {"turned regions", turn, turn_back}};
+}
+
+/// What can be done with it.
+std::vector<Feature> move_features() {
+  const auto nothing = [](Scene&) {};
+  const auto grab_many = [](Scene& s) {
+    s.handle = {1, 0, 6};
+    s.degrees = 25;
+  };
+  const auto try_energies = [](Scene& s) {
+    s.energies.insert(s.energies.begin(), {EnergyKind::axial, EnergyKind::isotropic});
+  };
+  const auto try_algorithms = [](Scene& s) {
+    s.algorithms.insert(s.algorithms.begin(), {Algorithm::generalized, Algorithm::exact});
+  };
+  return {{"energy", [](Scene& s) { s.energies = {EnergyKind::corotated}; }, try_energies},
+          {"handle of many", grab_many, [](Scene& s) { std::ranges::reverse(s.handle); }},
+          relaxed("sweeps", RelaxationScheme::mean),
+          relaxed("sweeps by links", RelaxationScheme::link),
+          relaxed("equilibrium", RelaxationScheme::equilibrium),
+          {"undo", nothing, [](Scene& s) { s.undoes = true; }},
+          {"another algorithm before", nothing, try_algorithms}};
+}
+
+/// The formats that are read and written, and hold links.
+std::vector<Feature> format_features() {
+  std::vector<Feature> list;
+  for (const char* ending : {".obj", ".ply", ".vtu", ".msh"}) {
+    list.push_back({ending, [](Scene&) {}, [ending](Scene& s) { save_and_open(s, ending); }});
+  }
+  return list;
+}
+
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all = [] {
-    std::vector<Feature> list{
-        {"cut",
-         [](Scene& s) {
-           s.cuts = {{0, 1}, {7, 8}, {14, 15}};
-         },
-         leave_cut_links_out},
-        {"split",
-         [](Scene& s) {
-           s.splits = true;
-           s.mesh = sheet();
-         },
-         split_before},
-        {"pin",
-         [](Scene& s) {
-           s.pins = {29, 12, 23};
-         },
-         [](Scene& s) { std::ranges::reverse(s.pins); }},
-        {"softness of links",
-         [](Scene& s) {
-           s.own = {{{0, 1}, {1, 1, 0}}, {{7, 8}, {0.5, 1.5, 0.3}}};
-         },
-         give_all_links_their_own},
-        {"global softness",
-         [](Scene& s) {
-           s.global = {0.6, 1.4, 0.2};
-         },
-         give_all_links_their_own},
-        {"turned regions",
-         [](Scene& s) {
-           s.frame = {FrameKind::given, Point(0, 0, 20 * std::numbers::pi / 180)};
-         },
-         turn_back},
-        {"energy", [](Scene& s) { s.energies = {EnergyKind::corotated}; },
-         [](Scene& s) {
-           s.energies.insert(s.energies.begin(), {EnergyKind::axial, EnergyKind::isotropic});
-         }},
-        {"handle of many",
-         [](Scene& s) {
-           s.handle = {1, 0, 6};
-           s.degrees = 25;
-         },
-         [](Scene& s) { std::ranges::reverse(s.handle); }},
-        relaxed("sweeps", RelaxationScheme::mean),
-        relaxed("sweeps by links", RelaxationScheme::link),
-        relaxed("equilibrium", RelaxationScheme::equilibrium),
-        {"undo", [](Scene&) {}, [](Scene& s) { s.undoes = true; }},
-        {"another algorithm before", [](Scene&) {},
-         [](Scene& s) {
-           s.algorithms.insert(s.algorithms.begin(), {Algorithm::generalized, Algorithm::exact});
-         }},
-    };
-    for (const char* ending : {".obj", ".ply", ".vtu", ".msh"}) {
-      list.push_back({ending, [](Scene&) {}, [ending](Scene& s) { save_and_open(s, ending); }});
+    std::vector<Feature> list;
+    for (const auto& group : {object_features(), move_features(), format_features()}) {
+      list.insert(list.end(), group.begin(), group.end());
     }
     return list;
   }();

@@ -10,6 +10,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "core/families.h"
 #include "document/document.h"
 #include "document/session_draft.h"
 #include "mesh/generate.h"
@@ -77,9 +78,10 @@ rc::Gen<Action> any_action() {
 }
 
 std::vector<MeshPointer> meshes() {
-  static const std::vector<MeshPointer> all{
-      generate({MeshKind::grid, {5, 4, 1}, 1, {}}), generate({MeshKind::cloth, {4, 4, 1}, 0.7, {}}),
-      generate({MeshKind::tetra, {3, 2, 2}, 1, {}}), generate({MeshKind::line, {6, 1, 1}, 1, {}})};
+  static const std::vector<MeshPointer> all{jittered_triangles(4, 4, 2), generate({MeshKind::grid, {5, 4, 1}, 1, {}}),
+                                            generate({MeshKind::cloth, {4, 4, 1}, 0.7, {}}),
+                                            generate({MeshKind::tetra, {3, 2, 2}, 1, {}}),
+                                            generate({MeshKind::line, {6, 1, 1}, 1, {}})};
   return all;
 }
 
@@ -99,7 +101,7 @@ bool has_done_all(Document& document, bool frames = false) {
 }
 
 /// Everything of a document that a person could see or save.
-struct Seen {
+struct DocumentState {
   std::string object;  // as a session, without positions and moves
   std::string done;    // the same with the moves that are done
   std::string moves;   // the same with all moves
@@ -162,29 +164,29 @@ struct Prefix {
   }
 };
 
-Seen see(Document& document, const Prefix& prefix = {}) {
+DocumentState observed(Document& document, const Prefix& prefix = {}) {
   RC_ASSERT(has_done_all(document));
   const Session session = SessionDraft(document, "{}").finished({});
   const std::size_t skip = prefix.in(document.tape());
   const auto moves = std::span(session.moves).subspan(skip);
   const std::size_t done = session.moves_done - skip;
-  Seen seen{
+  DocumentState state{
       text_of(session, {}, 0), text_of(session, moves.first(done), done), text_of(session, moves, done), {}, {}, {}};
-  seen.facts << QStringLiteral("parts %1").arg(document.parts())
-             << QStringLiteral("unsplit %1").arg(document.unsplitMesh()->link_count())
-             << QStringLiteral("files ") + document.sessionFile() + ' ' + document.meshFile()
-             << QStringLiteral("last drag %1").arg(document.lastDrag().size())
-             << QStringLiteral("selected %1, %2")
-                    .arg(document.selection().elements.size())
-                    .arg(document.selection().links.size());
+  state.facts << QStringLiteral("parts %1").arg(document.parts())
+              << QStringLiteral("unsplit %1").arg(document.unsplitMesh()->link_count())
+              << QStringLiteral("files ") + document.sessionFile() + ' ' + document.meshFile()
+              << QStringLiteral("last drag %1").arg(document.lastDrag().size())
+              << QStringLiteral("selected %1, %2")
+                     .arg(document.selection().elements.size())
+                     .arg(document.selection().links.size());
   for (int panel = 0; panel < document.panels(); ++panel) {
-    SolverState state = state_of(document, panel);
-    RC_ASSERT(state.agrees);
-    seen.algorithms.push_back(document.algorithm(panel));
-    seen.positions.push_back(std::move(state.positions));
-    seen.facts << QStringLiteral("lacks pins %1").arg(document.lacksPins(panel));
+    SolverState solver = state_of(document, panel);
+    RC_ASSERT(solver.agrees);
+    state.algorithms.push_back(document.algorithm(panel));
+    state.positions.push_back(std::move(solver.positions));
+    state.facts << QStringLiteral("lacks pins %1").arg(document.lacksPins(panel));
   }
-  return seen;
+  return state;
 }
 
 /// How far positions of two documents may differ (mesh units): those of ChainMail are the same to the bit. Methods that
@@ -194,7 +196,7 @@ float tolerance_of(Algorithm algorithm) {
 }
 
 /// Describes the first position that differs; empty if there is none.
-std::string difference(const Seen& lived, const Seen& fresh, bool to_the_bit) {
+std::string difference(const DocumentState& lived, const DocumentState& fresh, bool to_the_bit) {
   for (std::size_t panel = 0; panel < lived.positions.size(); ++panel) {
     const auto &a = lived.positions[panel], &b = fresh.positions[panel];
     const float tolerance = to_the_bit ? 0 : tolerance_of(lived.algorithms[panel]);
@@ -218,7 +220,9 @@ bool answers_again(Kind kind) {
 /// A document, and what it looked like after each step that it can undo.
 class Life {
  public:
-  Life() : document_(std::make_unique<Document>(meshes()[0], QStringLiteral("first"))) { remember(see(*document_)); }
+  Life() : document_(std::make_unique<Document>(meshes()[0], QStringLiteral("first"))) {
+    remember(observed(*document_));
+  }
 
   /// The frames show what the solvers have.
   void look() {
@@ -230,28 +234,28 @@ class Life {
   }
 
   void act(const Action& action) {
-    const Seen before = see(*document_);
+    const DocumentState before = observed(*document_);
     Prefix prefix;
     auto fresh = renewed(prefix);
-    check(see(*fresh, prefix), before, "made from the session");
+    check(observed(*fresh, prefix), before, "made from the session");
     if (action.kind == Kind::undo || action.kind == Kind::redo) {
       return travel(action.kind == Kind::undo);
     }
     if (action.kind == Kind::restart) {
       document_ = std::move(fresh);
-      seen_.clear();
-      return remember(see(*document_));
+      states_.clear();
+      return remember(observed(*document_));
     }
     forget_undone();
     const auto step = step_of(action);
     const QStringList said = carried_out(*document_, step, 0);
-    const Seen after = see(*document_);
+    const DocumentState after = observed(*document_);
     if (action.kind != Kind::relax) {  // sweeps in idle time: their number differs
       RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->tape())).isEmpty() == said.isEmpty());
-      check(see(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
+      check(observed(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
     }
     if (action.kind == Kind::add_panel || action.kind == Kind::remove_panel) {
-      seen_.clear();
+      states_.clear();
     }
     remember(after);
   }
@@ -259,7 +263,8 @@ class Life {
  private:
   using Step = std::function<void(Document&, std::size_t skip)>;
 
-  static void check(const Seen& fresh, const Seen& lived, const char* when, bool with_positions = true) {
+  static void check(const DocumentState& fresh, const DocumentState& lived, const char* when,
+                    bool with_positions = true) {
     RC_LOG() << when << '\n';
     RC_ASSERT(fresh.object == lived.object);
     RC_ASSERT(fresh.moves == lived.moves);
@@ -300,8 +305,8 @@ class Life {
   void travel(bool back) {
     QUndoStack& stack = document_->undoStack();
     back ? document_->undo() : document_->redo();
-    const Seen now = see(*document_);
-    if (const auto known = seen_.find(stack.command(stack.index() - 1)); known != seen_.end()) {
+    const DocumentState now = observed(*document_);
+    if (const auto known = states_.find(stack.command(stack.index() - 1)); known != states_.end()) {
       RC_LOG() << (back ? "undone" : "done again") << '\n';
       RC_ASSERT(now.object == known->second.object);
       RC_ASSERT(now.done == known->second.done);
@@ -314,29 +319,35 @@ class Life {
   void forget_undone() {
     const QUndoStack& stack = document_->undoStack();
     for (int i = stack.index(); i < stack.count(); ++i) {
-      seen_.erase(stack.command(i));
+      states_.erase(stack.command(i));
     }
   }
 
-  void remember(const Seen& seen) {
+  void remember(const DocumentState& state) {
     const QUndoStack& stack = document_->undoStack();
-    std::map<const QUndoCommand*, Seen> kept;
+    std::map<const QUndoCommand*, DocumentState> kept;
     for (int i = 0; i < stack.index(); ++i) {
       const QUndoCommand* command = i == 0 ? nullptr : stack.command(i - 1);
-      if (seen_.contains(command) && (command != nullptr || stack.count() < stack.undoLimit())) {
-        kept[command] = seen_[command];
+      if (states_.contains(command) && (command != nullptr || stack.count() < stack.undoLimit())) {
+        kept[command] = states_[command];
       }
     }
-    kept[stack.command(stack.index() - 1)] = seen;
-    seen_ = std::move(kept);
+    kept[stack.command(stack.index() - 1)] = state;
+    states_ = std::move(kept);
   }
 
   Step step_of(const Action& action) const;
   Step drag_of(std::vector<ElementId> elements, const Action& action) const;
-  Step edit_of(const Action& action) const;
+  // Each returns the step of an action of its kinds, and none for others.
+  Step handle_step(const Action& action) const;
+  Step object_step(const Action& action) const;
+  Step softness_step(const Action& action) const;
+  Step setting_step(const Action& action) const;
+  Step panel_step(const Action& action) const;
+  Step move_step(const Action& action) const;
 
   std::unique_ptr<Document> document_;
-  std::map<const QUndoCommand*, Seen> seen_;  // by the last step that was done; null: before the first one
+  std::map<const QUndoCommand*, DocumentState> states_;  // by the last step that was done; null: before the first one
 };
 
 Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) const {
@@ -363,34 +374,62 @@ Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) 
   };
 }
 
-/// Steps that change the object or its settings.
-Life::Step Life::edit_of(const Action& action) const {
-  const Mesh& mesh = *document_->mesh();
-  const ElementId element = action.which % mesh.element_count();
-  const LinkId link = action.which % mesh.link_count(), other = action.how % mesh.link_count();
-  const LinkSoftness soft{1 - action.which % 5 / 8.0, 1 + action.how % 8 / 4.0, action.which % 3 / 10.0,
-                          action.how % 2 / 2.0,       1.0 + action.how % 3,     0};
+Life::Step Life::handle_step(const Action& action) const {
+  const ElementId count = document_->mesh()->element_count(), element = action.which % count;
   switch (action.kind) {
-    case Kind::cut:
+    case Kind::drag:
+    case Kind::drag_and_keep:
+    case Kind::cancel_drag:
+      return drag_of({element}, action);
+    case Kind::drag_many:
+      return drag_of({element, (element + 1 + action.how % 3) % count}, action);
+    case Kind::move_control_point:
       return [=](Document& d, std::size_t) {
-        std::vector<LinkId> links{link, other};
-        std::ranges::sort(links);
-        links.erase(std::ranges::unique(links).begin(), links.end());
-        std::erase_if(links, [&d](LinkId one) { return d.cuts().is_cut(one); });
-        d.cut(links);
-      };
-    case Kind::split:
-      return [which = action.which](Document& d, std::size_t) {
-        if (can_split(*d.mesh())) {
-          const std::uint32_t triangle = which % std::uint32_t(d.mesh()->triangles.size());
-          const auto [a, b, c] = d.mesh()->triangles[triangle];
-          const ElementId p = d.mesh()->element_count();
-          std::array corners{a, b, c};
-          std::ranges::sort(corners);
-          d.split(
-              make_split(d.mesh(), {{{corners, {0.25, 0.5}}}, {triangle}, {{a, b, p}, {b, c, p}, {c, a, p}}, {}, {}}));
+        if (d.algorithm(0) == Algorithm::free_form) {
+          d.grabControlPoint(action.which % 8);
+          d.dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
+          d.release();
         }
       };
+    case Kind::select:
+      return [=](Document& d, std::size_t) { d.select({element}); };
+    default:
+      return {};
+  }
+}
+
+void cut(Document& document, std::vector<LinkId> links) {
+  std::ranges::sort(links);
+  links.erase(std::ranges::unique(links).begin(), links.end());
+  std::erase_if(links, [&document](LinkId one) { return document.cuts().is_cut(one); });
+  document.cut(links);
+}
+
+/// Splits a triangle into three.
+void split(Document& document, std::uint32_t which) {
+  const Mesh& mesh = *document.mesh();
+  if (can_split(mesh)) {
+    const std::uint32_t triangle = which % std::uint32_t(mesh.triangles.size());
+    const auto [a, b, c] = mesh.triangles[triangle];
+    const ElementId p = mesh.element_count();
+    std::array corners{a, b, c};
+    std::ranges::sort(corners);
+    document.split(
+        make_split(document.mesh(), {{{corners, {0.25, 0.5}}}, {triangle}, {{a, b, p}, {b, c, p}, {c, a, p}}, {}, {}}));
+  }
+}
+
+Life::Step Life::object_step(const Action& action) const {
+  const Mesh& mesh = *document_->mesh();
+  const ElementId element = action.which % mesh.element_count();
+  switch (action.kind) {
+    case Kind::cut:
+      return
+          [one = action.which % mesh.link_count(), other = action.how % mesh.link_count()](Document& d, std::size_t) {
+            cut(d, {one, other});
+          };
+    case Kind::split:
+      return [=](Document& d, std::size_t) { split(d, action.which); };
     case Kind::pin:
     case Kind::unpin:
       return [=, pin = action.kind == Kind::pin](Document& d, std::size_t) {
@@ -398,6 +437,25 @@ Life::Step Life::edit_of(const Action& action) const {
           d.setPinned({element}, pin);
         }
       };
+    case Kind::replace_mesh:
+      return
+          [other = meshes()[action.which % meshes().size()], rework = action.how % 2 == 0](Document& d, std::size_t) {
+            rework ? d.reworkMesh(other, d.name(), QStringLiteral("repair"))
+                   : d.replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
+            d.setMeshFile(rework ? d.meshFile() : QStringLiteral("other.obj"));
+          };
+    case Kind::reset:
+      return [](Document& d, std::size_t) { d.resetObject(); };
+    default:
+      return {};
+  }
+}
+
+Life::Step Life::softness_step(const Action& action) const {
+  const LinkId count = document_->mesh()->link_count(), link = action.which % count, other = action.how % count;
+  const LinkSoftness soft{1 - action.which % 5 / 8.0, 1 + action.how % 8 / 4.0, action.which % 3 / 10.0,
+                          action.how % 2 / 2.0,       1.0 + action.how % 3,     0};
+  switch (action.kind) {
     case Kind::soften:
       return [=](Document& d, std::size_t) { d.setSoftness(soft, QStringLiteral("softness")); };
     case Kind::soften_links:
@@ -407,66 +465,63 @@ Life::Step Life::edit_of(const Action& action) const {
     case Kind::reset_softness:
       return [](Document& d, std::size_t) { d.resetSoftness(); };
     case Kind::change_energy:
-      return [=](Document& d, std::size_t) { d.setEnergy(EnergyKind(element % 3)); };
+      return [=](Document& d, std::size_t) { d.setEnergy(EnergyKind(action.which % 3)); };
     case Kind::turn_regions:
-      return [=](Document& d, std::size_t) { d.setFrame(element % 2 == 0 ? FrameKind::object : FrameKind::axes); };
-    case Kind::change_material:
-      return [=](Document& d, std::size_t) {
-        d.setElastic({{1.0 + element, 0.25}, {3, 3, 3}}, QStringLiteral("material"));
-      };
+      return [=](Document& d, std::size_t) { d.setFrame(action.which % 2 == 0 ? FrameKind::object : FrameKind::axes); };
     default:
-      return [](Document& d, std::size_t) { d.resetObject(); };
+      return {};
   }
 }
 
-Life::Step Life::step_of(const Action& action) const {
-  const Mesh& mesh = *document_->mesh();
-  const ElementId element = action.which % mesh.element_count();
+/// Lets idle time relax the object for a moment.
+void relax(Document& document) {
+  constexpr int patience = 1000;  // ms
+  auto relaxation = document.relaxation();
+  relaxation.on = true;
+  document.setRelaxation(relaxation);
+  const auto has_relaxed = [&document] {
+    return document.settled() || (document.frame(0) != nullptr && document.frame(0)->statistics.sweeps > 0);
+  };
+  (void)QTest::qWaitFor(has_relaxed, patience);
+  relaxation.on = false;
+  document.setRelaxation(relaxation);
+}
+
+Life::Step Life::setting_step(const Action& action) const {
   switch (action.kind) {
-    case Kind::drag:
-    case Kind::drag_and_keep:
-    case Kind::cancel_drag:
-      return drag_of({element}, action);
-    case Kind::drag_many:
-      return drag_of({element, ElementId((element + 1 + action.how % 3) % mesh.element_count())}, action);
-    case Kind::move_control_point:
-      return [=, panel = document_->algorithm(0) == Algorithm::free_form ? 0 : -1](Document& d, std::size_t) {
-        if (panel == 0) {
-          d.grabControlPoint(action.which % 8);
-          d.dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
-          d.release();
-        }
-      };
     case Kind::set_relaxation:
       return [=](Document& d, std::size_t) {
         d.setRelaxation({false, 0.25 + action.how % 3 / 4.0, relaxation_schemes[action.which % 3].scheme});
       };
     case Kind::relax:
-      return [](Document& d, std::size_t) {
-        auto relaxation = d.relaxation();
-        relaxation.on = true;
-        d.setRelaxation(relaxation);
-        (void)QTest::qWaitFor(
-            [&] { return d.settled() || (d.frame(0) != nullptr && d.frame(0)->statistics.sweeps > 0); }, 1000);
-        relaxation.on = false;
-        d.setRelaxation(relaxation);
+      return [](Document& d, std::size_t) { relax(d); };
+    case Kind::change_material:
+      return [=](Document& d, std::size_t) {
+        d.setElastic({{1.0 + action.which, 0.25}, {3, 3, 3}}, QStringLiteral("material"));
       };
-    case Kind::change_algorithm: {
-      const int panel = int(action.how) % document_->panels();
-      const Algorithm algorithm = algorithms()[action.which % algorithms().size()].algorithm;
-      return [=](Document& d, std::size_t) { d.setAlgorithm(panel, algorithm); };
-    }
+    default:
+      return {};
+  }
+}
+
+Life::Step Life::panel_step(const Action& action) const {
+  switch (action.kind) {
+    case Kind::change_algorithm:
+      return [panel = int(action.how) % document_->panels(),
+              algorithm = algorithms()[action.which % algorithms().size()].algorithm](Document& d, std::size_t) {
+        d.setAlgorithm(panel, algorithm);
+      };
     case Kind::add_panel:
       return [](Document& d, std::size_t) { d.addPanel(); };
     case Kind::remove_panel:
       return [](Document& d, std::size_t) { d.removePanel(); };
-    case Kind::replace_mesh:
-      return
-          [other = meshes()[action.which % meshes().size()], rework = action.how % 2 == 0](Document& d, std::size_t) {
-            rework ? d.reworkMesh(other, d.name(), QStringLiteral("repair"))
-                   : d.replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
-            d.setMeshFile(rework ? d.meshFile() : QStringLiteral("other.obj"));
-          };
+    default:
+      return {};
+  }
+}
+
+Life::Step Life::move_step(const Action& action) const {
+  switch (action.kind) {
     case Kind::load_moves:
       return [](Document& d, std::size_t skip) {
         auto moves = d.tape().commands();
@@ -476,17 +531,24 @@ Life::Step Life::step_of(const Action& action) const {
     case Kind::go_to:
       return
           [at = action.which % (document_->tape().length() + 1)](Document& d, std::size_t skip) { d.goTo(at + skip); };
-    case Kind::reload: {
-      auto session = std::make_shared<const Session>(SessionDraft(*document_, "{}").finished({}));
-      return [session](Document& d, std::size_t) {
+    case Kind::reload:
+      return [session = std::make_shared<const Session>(SessionDraft(*document_, "{}").finished({}))](Document& d,
+                                                                                                      std::size_t) {
         d.restore(session, QStringLiteral("again.chainmail"), QStringLiteral("open"));
       };
-    }
-    case Kind::select:
-      return [=](Document& d, std::size_t) { d.select({element}); };
     default:
-      return edit_of(action);
+      return {};
   }
+}
+
+Life::Step Life::step_of(const Action& action) const {
+  for (const auto kinds : {&Life::handle_step, &Life::object_step, &Life::softness_step, &Life::setting_step,
+                           &Life::panel_step, &Life::move_step}) {
+    if (Step step = (this->*kinds)(action)) {
+      return step;
+    }
+  }
+  RC_FAIL("a kind without a step");
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ void Film::begin(const QString& path) {
   const Tape& tape = document_.tape();
   path_ = path;
   video_ = !QFileInfo(path).isDir();
+  earlier_ = video_ ? 0 : picturesIn(path);
   positions_ = {0};
   for (std::size_t i = 0; i < tape.length(); ++i) {
     if (std::holds_alternative<commands::Drag>(tape.at(i))) {
@@ -193,14 +194,13 @@ void Film::finishPictures() {
     return;
   }
   put([&] {
-    const std::size_t earlier = picturesIn(path_);
     Outputs outputs;
     for (std::size_t number = 1; number <= positions_.size(); ++number) {
       const QString name = pictureName(number);
       outputs.take(asPath(QDir(path_).filePath(name)), asPath(folder_->filePath(name)));
     }
     outputs.commit();
-    removePictures(positions_.size() + 1, earlier);
+    removePictures(positions_.size() + 1, std::min(earlier_, picturesIn(path_)));
   });
 }
 

@@ -65,6 +65,7 @@ class Film : public QObject {
   bool running_ = false;
   bool video_ = false;
   QString path_;
+  std::size_t earlier_ = 0;             // pictures of an earlier film in this folder at the beginning
   std::vector<std::size_t> positions_;  // position in the recorded commands, per picture
   std::size_t next_ = 0;
   QSize size_;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -99,24 +98,25 @@ constexpr std::array<std::array<std::size_t, 8>, 8> hexahedra_of_hexahedron27{{{
                                                                                {22, 26, 24, 15, 17, 25, 19, 7}}};
 
 /// A solid of second order without middles of faces. What remains without its corners is bounded by middles.
+template <std::size_t Edges, std::size_t Faces>
 struct Middles {
-  /// The ends of the edges, in the order of their middles.
-  std::vector<std::array<std::size_t, 2>> edges;
   std::size_t corners;
-  /// The middles on each face of the solid, around it.
-  std::vector<std::vector<std::size_t>> faces;
+  /// The ends of the edges, in the order of their middles.
+  std::array<std::array<std::size_t, 2>, Edges> edges;
+  /// The middles on each face of the solid, around it. The last of three stands twice.
+  std::array<std::array<std::size_t, 4>, Faces> faces;
 };
 
-const Middles hexahedron20{
-    {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}},
+constexpr Middles<12, 6> hexahedron20{
     8,
-    {{8, 11, 13, 9}, {8, 12, 16, 10}, {9, 15, 17, 10}, {11, 14, 18, 12}, {13, 15, 19, 14}, {16, 18, 19, 17}}};
-const Middles prism15{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}},
-                      6,
-                      {{6, 9, 7}, {12, 14, 13}, {6, 10, 12, 8}, {7, 11, 13, 8}, {9, 11, 14, 10}}};
-const Middles pyramid13{{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}},
-                        5,
-                        {{5, 8, 10, 6}, {5, 9, 7}, {8, 11, 9}, {10, 12, 11}, {6, 7, 12}}};
+    {{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}},
+    {{{8, 11, 13, 9}, {8, 12, 16, 10}, {9, 15, 17, 10}, {11, 14, 18, 12}, {13, 15, 19, 14}, {16, 18, 19, 17}}}};
+constexpr Middles<9, 5> prism15{6,
+                                {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}},
+                                {{{6, 9, 7, 7}, {12, 14, 13, 13}, {6, 10, 12, 8}, {7, 11, 13, 8}, {9, 11, 14, 10}}}};
+constexpr Middles<8, 5> pyramid13{5,
+                                  {{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}},
+                                  {{{5, 8, 10, 6}, {5, 9, 7, 7}, {8, 11, 9, 9}, {10, 12, 11, 11}, {6, 7, 12, 12}}}};
 
 /// Divides what these sides bound into tetrahedra with the corner of the lowest id, which lies on the surface. Each
 /// side is divided at its own lowest, so that neighbours agree.
@@ -134,11 +134,11 @@ void add_convex(MeshParts& parts, std::vector<std::vector<ElementId>> sides) {
 }
 
 /// Cuts the corners off, and divides the rest.
-void add_middles(MeshParts& parts, const Middles& shape, std::span<const ElementId> v) {
+template <std::size_t Edges, std::size_t Faces>
+void add_middles(MeshParts& parts, const Middles<Edges, Faces>& shape, std::span<const ElementId> v) {
   std::vector<std::vector<ElementId>> sides;
-  for (const auto& face : shape.faces) {
-    sides.emplace_back();
-    std::transform(face.begin(), face.end(), std::back_inserter(sides.back()), [&](std::size_t i) { return v[i]; });
+  for (const auto& [a, b, c, d] : shape.faces) {
+    sides.push_back(c == d ? std::vector{v[a], v[b], v[c]} : std::vector{v[a], v[b], v[c], v[d]});
   }
   for (std::size_t corner = 0; corner < shape.corners; ++corner) {
     std::vector<ElementId> around;
@@ -158,11 +158,6 @@ void add_middles(MeshParts& parts, const Middles& shape, std::span<const Element
 }
 
 }  // namespace
-
-std::size_t corner_count(DividedKind kind) {
-  constexpr std::array<std::size_t, 13> counts{6, 5, 3, 6, 8, 9, 10, 13, 14, 15, 18, 20, 27};
-  return counts.at(std::size_t(kind));
-}
 
 void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId> corners) {
   MeshParts& parts = mesh.parts;

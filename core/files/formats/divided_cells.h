@@ -27,7 +27,10 @@ enum class DividedKind {
 };
 
 /// Returns the number of corners and middles.
-std::size_t corner_count(DividedKind kind);
+constexpr std::size_t corner_count(DividedKind kind) {
+  constexpr std::array<std::size_t, 13> counts{6, 5, 3, 6, 8, 9, 10, 13, 14, 15, 18, 20, 27};  // in the order of kinds
+  return counts.at(std::size_t(kind));
+}
 
 /// Adds a cell or face in parts, and counts it. Prisms and pyramids become tetrahedra, and neighbours share the
 /// diagonals of their sides (Dompierre et al. 1999). A cell or face of second order becomes several of first order,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/formats/mesh_pieces.h"
+#include "files/formats/msh_types.h"
 #include "files/text/text.h"
 
 namespace chainmail {
@@ -16,9 +17,10 @@ struct PieceType {
   std::uint32_t dimension;
   std::uint32_t type;
 };
-constexpr std::array piece_types{PieceType{Piece::line, 1, 1}, PieceType{Piece::triangle, 2, 2},
-                                 PieceType{Piece::polygon, 2, 3}, PieceType{Piece::tetrahedron, 3, 4},
-                                 PieceType{Piece::hexahedron, 3, 5}};
+constexpr std::array piece_types{PieceType{Piece::line, 1, msh_line}, PieceType{Piece::triangle, 2, msh_triangle},
+                                 PieceType{Piece::polygon, 2, msh_quadrangle},
+                                 PieceType{Piece::tetrahedron, 3, msh_tetrahedron},
+                                 PieceType{Piece::hexahedron, 3, msh_hexahedron}};
 constexpr std::size_t most_msh_corners = 4;
 
 class MshWriter {

@@ -10,6 +10,7 @@
 namespace chainmail {
 namespace {
 
+/// Passes through the nodes and elements of a file, as Gmsh does.
 class MshCheck {
  public:
   MshCheck(std::string_view text, const std::filesystem::path& path) : words_(text, path, nobody_) {}
@@ -20,11 +21,11 @@ class MshCheck {
         return;
       }
       if (word == "$Nodes") {
-        is_4_ ? read_blocks("node", &MshCheck::read_node_block)
-              : read_rows(words_.count(rows), "node", &MshCheck::read_node);
+        is_version_4_ ? read_blocks("node", &MshCheck::read_node_block)
+                      : read_rows(words_.count(rows), "node", &MshCheck::read_node);
       } else if (word == "$Elements") {
-        is_4_ ? read_blocks("element", &MshCheck::read_element_block)
-              : read_rows(words_.count(rows), "element", &MshCheck::read_element);
+        is_version_4_ ? read_blocks("element", &MshCheck::read_element_block)
+                      : read_rows(words_.count(rows), "element", &MshCheck::read_element);
       }
     }
   }
@@ -35,8 +36,8 @@ class MshCheck {
   /// Returns false if the rest is not known here.
   bool read_format() {
     const std::string_view version = words_.next();
-    is_4_ = version == "4.1";
-    return (is_4_ || version == "2" || version.starts_with("2.")) && words_.next() == "0";
+    is_version_4_ = version == "4.1";
+    return (is_version_4_ || version == "2" || version.starts_with("2.")) && words_.next() == "0";
   }
 
   /// Looks at rows, and at the end of their section.
@@ -72,7 +73,7 @@ class MshCheck {
 
   void end(const std::string& what) {
     if (const auto word = words_.next(); !word.starts_with("$End")) {
-      words_.fail("there is more than the " + what + "s that were stated", "export it again");
+      words_.fail("there are more " + what + "s than stated", "export it again");
     }
   }
 
@@ -107,7 +108,7 @@ class MshCheck {
   void read_element() {
     words_.count("the tag of an element");
     const std::uint32_t type = words_.count("the type of an element");
-    for (std::uint32_t i = words_.count("the number of tags"); i > 0; --i) {
+    for (std::uint32_t left = words_.count("the number of tags"); left > 0 && !words_.ends_line(); --left) {
       words_.next();
     }
     read_corners(type);
@@ -144,7 +145,7 @@ class MshCheck {
   Progress nobody_;
   Words words_;
   std::unordered_set<std::uint32_t> tags_;
-  bool is_4_ = false;
+  bool is_version_4_ = false;
 };
 
 }  // namespace

@@ -7,10 +7,13 @@
 
 namespace chainmail {
 
-/// A type of element of Gmsh (Geuzaine and Remacle 2009).
+/// Gmsh's numbers of the types of elements that have a counterpart here (Geuzaine and Remacle 2009).
+enum MshNumber { msh_line = 1, msh_triangle, msh_quadrangle, msh_tetrahedron, msh_hexahedron, msh_point = 15 };
+
+/// A type of element of Gmsh.
 struct MshType {
   int number;
-  std::size_t corners;
+  std::size_t corners;                 // with the middles
   std::optional<DividedKind> divided;  // of types that have no counterpart here
 };
 

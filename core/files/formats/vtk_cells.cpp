@@ -11,12 +11,38 @@ namespace {
 
 [[noreturn]] void fail(const std::string& problem, const std::string& remedy) { throw Error("", problem, remedy); }
 
+void check_size(VtkCells::Corners corners, std::size_t expected) {
+  if (corners.size() != expected) {
+    fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " + std::to_string(expected),
+         "export it again");
+  }
+}
+
 // VTK lists middles of edges by layers, Gmsh by their ends.
 constexpr std::array tetrahedron10_order{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::array pyramid13_order{0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12};
 constexpr std::array prism18_order{0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16};
 constexpr std::array hexahedron27_order{0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 16, 9,  17, 10,
                                         18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26};
+
+/// A type of VTK that has no counterpart here.
+struct DividedType {
+  int number;
+  DividedKind kind;
+  std::span<const int> order = {};  // the corner of VTK for each of Gmsh's, where they differ
+};
+constexpr std::array divided_types{DividedType{13, DividedKind::prism},
+                                   DividedType{14, DividedKind::pyramid},
+                                   DividedType{21, DividedKind::line3},
+                                   DividedType{22, DividedKind::triangle6},
+                                   DividedType{23, DividedKind::quadrangle8},
+                                   DividedType{24, DividedKind::tetrahedron10, tetrahedron10_order},
+                                   DividedType{25, DividedKind::hexahedron20, hexahedron27_order},
+                                   DividedType{26, DividedKind::prism15, prism18_order},
+                                   DividedType{27, DividedKind::pyramid13, pyramid13_order},
+                                   DividedType{28, DividedKind::quadrangle9},
+                                   DividedType{29, DividedKind::hexahedron27, hexahedron27_order},
+                                   DividedType{32, DividedKind::prism18, prism18_order}};
 
 }  // namespace
 
@@ -50,26 +76,24 @@ void VtkCells::add_face(Corners corners) {
 template <std::size_t Size>
 void VtkCells::add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners,
                          const std::array<int, Size>& order) {
-  if (corners.size() != Size) {
-    fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " + std::to_string(Size),
-         "export it again");
-  }
+  check_size(corners, Size);
   std::array<ElementId, Size> group{};
   std::transform(order.begin(), order.end(), group.begin(), [&](int place) { return id(corners[place]); });
   groups.push_back(group);
 }
 
-void VtkCells::add_divided_cell(DividedKind kind, Corners corners, std::span<const int> order) {
-  if (corners.size() != corner_count(kind)) {
-    fail("a cell has " + std::to_string(corners.size()) + " corners, but its type has " +
-             std::to_string(corner_count(kind)),
-         "export it again");
+void VtkCells::add_divided_cell(Corners corners, int type) {
+  const auto* const found = std::find_if(divided_types.begin(), divided_types.end(),
+                                         [type](const DividedType& one) { return one.number == type; });
+  if (found == divided_types.end()) {
+    fail("it contains cells of VTK's type " + std::to_string(type), "save them as cells of first or second order");
   }
+  check_size(corners, corner_count(found->kind));
   std::vector<ElementId> ids;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    ids.push_back(id(corners[order.empty() ? i : std::size_t(order[i])]));
+    ids.push_back(id(corners[found->order.empty() ? i : std::size_t(found->order[i])]));
   }
-  add_divided(mesh_, kind, ids);
+  add_divided(mesh_, found->kind, ids);
 }
 
 void VtkCells::add(Corners corners, int type) {
@@ -100,32 +124,8 @@ void VtkCells::add(Corners corners, int type) {
       return add_group(parts_.hexahedra, corners, {0, 1, 3, 2, 4, 5, 7, 6});
     case hexahedron:
       return add_group(parts_.hexahedra, corners, {0, 1, 2, 3, 4, 5, 6, 7});
-    case wedge:
-      return add_divided_cell(DividedKind::prism, corners);
-    case pyramid:
-      return add_divided_cell(DividedKind::pyramid, corners);
-    case line3:
-      return add_divided_cell(DividedKind::line3, corners);
-    case triangle6:
-      return add_divided_cell(DividedKind::triangle6, corners);
-    case quadrangle8:
-      return add_divided_cell(DividedKind::quadrangle8, corners);
-    case quadrangle9:
-      return add_divided_cell(DividedKind::quadrangle9, corners);
-    case tetrahedron10:
-      return add_divided_cell(DividedKind::tetrahedron10, corners, tetrahedron10_order);
-    case pyramid13:
-      return add_divided_cell(DividedKind::pyramid13, corners, pyramid13_order);
-    case prism15:
-      return add_divided_cell(DividedKind::prism15, corners, prism18_order);
-    case prism18:
-      return add_divided_cell(DividedKind::prism18, corners, prism18_order);
-    case hexahedron20:
-      return add_divided_cell(DividedKind::hexahedron20, corners, hexahedron27_order);
-    case hexahedron27:
-      return add_divided_cell(DividedKind::hexahedron27, corners, hexahedron27_order);
     default:
-      fail("it contains cells of VTK's type " + std::to_string(type), "save them as cells of first or second order");
+      return add_divided_cell(corners, type);
   }
 }
 

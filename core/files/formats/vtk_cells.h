@@ -13,7 +13,7 @@ namespace chainmail {
 /// Adds cells of VTK to a mesh that already has its points.
 class VtkCells {
  public:
-  /// VTK's numbers of the cell types.
+  /// VTK's numbers of the cell types that have a counterpart here.
   enum Type {
     vertex = 1,
     vertices,
@@ -26,19 +26,7 @@ class VtkCells {
     quad,
     tetrahedron,
     voxel,
-    hexahedron,
-    wedge,
-    pyramid,
-    line3 = 21,
-    triangle6,
-    quadrangle8,
-    tetrahedron10,
-    hexahedron20,
-    prism15,
-    pyramid13,
-    quadrangle9,
-    hexahedron27,
-    prism18 = 32
+    hexahedron
   };
 
   using Corners = std::span<const std::uint64_t>;
@@ -54,8 +42,7 @@ class VtkCells {
   void add_face(Corners corners);
   template <std::size_t Size>
   void add_group(std::vector<std::array<ElementId, Size>>& groups, Corners corners, const std::array<int, Size>& order);
-  /// `order` says which corner of VTK is each of Gmsh's, where they differ.
-  void add_divided_cell(DividedKind kind, Corners corners, std::span<const int> order = {});
+  void add_divided_cell(Corners corners, int type);
   ElementId id(std::uint64_t point) const;
 
   ImportedMesh& mesh_;

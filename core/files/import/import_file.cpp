@@ -14,8 +14,9 @@
 namespace chainmail {
 namespace {
 
-/// Bytes of a refused file in which its fault is looked for.
-constexpr std::size_t most_searched = std::size_t{1} << 24;
+// Bytes of a refused file in which its fault is looked for. Raw numbers may look like a decimal comma.
+constexpr std::size_t max_text = std::size_t{1} << 24;
+constexpr std::size_t max_maybe_binary = std::size_t{1} << 20;
 
 /// Throws Error at the first number with a decimal comma.
 void refuse_decimal_commas(std::string_view text, const std::filesystem::path& path) {
@@ -32,10 +33,10 @@ void refuse_decimal_commas(std::string_view text, const std::filesystem::path& p
 
 /// Throws Error at the line that is wrong, where it can be found: libraries do not say where it is.
 void find_fault(const std::string& task, const std::filesystem::path& path) {
-  std::string text(most_searched, '\0');
+  std::string text(max_text, '\0');
   text.resize(RegularFile(path).read(text));
-  refuse_decimal_commas(text, path);
-  if (task == "msh" && text.size() < most_searched) {
+  refuse_decimal_commas(std::string_view(text).substr(0, max_maybe_binary), path);
+  if (task == "msh" && text.size() < max_text) {
     check_msh(text, path);
   }
 }

@@ -15,9 +15,6 @@
 namespace chainmail::import {
 namespace {
 
-/// Gmsh's numbers of the types of elements (Geuzaine and Remacle 2009).
-enum GmshType { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5, point = 15 };
-
 /// Maps tags to elements, in the order of the tags, and stores their positions.
 class Points {
  public:
@@ -82,13 +79,13 @@ void take_divided(ImportedMesh& mesh, DividedKind kind, const std::vector<std::s
 void take_type(ImportedMesh& mesh, int type, const std::vector<std::size_t>& nodes, const Points& points) {
   MeshParts& parts = mesh.parts;
   switch (type) {
-    case point:
+    case msh_point:
       return;
-    case line:
+    case msh_line:
       return take(parts.links, nodes, points);
-    case triangle:
+    case msh_triangle:
       return take(parts.triangles, nodes, points);
-    case quadrangle:
+    case msh_quadrangle:
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (i % 4 == 0) {
           parts.polygons.push_back(4);
@@ -96,9 +93,9 @@ void take_type(ImportedMesh& mesh, int type, const std::vector<std::size_t>& nod
         parts.polygons.push_back(points.of(nodes[i]));
       }
       return;
-    case tetrahedron:
+    case msh_tetrahedron:
       return take(parts.tetrahedra, nodes, points);
-    case hexahedron:
+    case msh_hexahedron:
       return take(parts.hexahedra, nodes, points);
     default:
       return take_divided(mesh, divided_kind(type), nodes, points);

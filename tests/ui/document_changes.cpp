@@ -1,0 +1,120 @@
+// A document and its solvers have the same object, whatever comes together.
+
+#include <QSignalSpy>
+#include <QTest>
+#include <future>
+#include <sstream>
+
+#include "core/families.h"
+#include "document/document.h"
+#include "document/session_draft.h"
+#include "program.h"
+
+namespace chainmail::test_document_changes {
+
+using namespace chainmail::test;
+
+namespace {
+
+bool is_idle(Document& document) {
+  return QTest::qWaitFor([&document] { return document.idle(); }, 60'000);
+}
+
+/// Writes the session of a document, and reads it as the next start of the program does.
+std::shared_ptr<const Session> session_of(Document& document) {
+  std::ostringstream text;
+  write_session(text, SessionDraft(document, "{}").finished({}));
+  return std::make_shared<const Session>(parse_session(text.str(), "test.chainmail"));
+}
+
+std::vector<ElementId> pins_of_solver(Document& document, int panel) {
+  std::promise<std::vector<ElementId>> pins;
+  document.ask(panel, [&pins](const Simulation& now) {
+    pins.set_value({now.body().pins().begin(), now.body().pins().end()});
+  });
+  return pins.get_future().get();
+}
+
+SplitPointer split_of(const MeshPointer& mesh) {
+  const auto [a, b, c] = mesh->triangles[3];
+  const ElementId p = mesh->element_count();
+  std::array corners{a, b, c};
+  std::ranges::sort(corners);
+  return make_split(mesh, {{{corners, {0.25, 0.5}}}, {3}, {{a, b, p}, {b, c, p}, {c, a, p}}, {}, {}});
+}
+
+}  // namespace
+
+class DocumentChangesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_session_after_a_refused_drag_opens();
+  void a_change_ends_the_drag_in_the_solvers();
+  void a_split_keeps_the_mesh_file();
+  void a_split_in_a_lesson_keeps_the_settings_before_it();
+
+ private:
+  const MeshPointer mesh_ = jittered_triangles(5, 4, 2);
+};
+
+void DocumentChangesTest::the_session_after_a_refused_drag_opens() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  document.setPinned({3}, true);
+  for (const ElementId element : {3u, 7u}) {
+    document.grab(element);
+    document.dragBy(Point(0.5, 1, 0));
+    document.release();
+    QVERIFY(is_idle(document));
+  }
+  const auto session = session_of(document);
+  Document next(session->mesh, QStringLiteral("next"));
+  next.restore(session, {}, QStringLiteral("open"));
+  QCOMPARE(next.pins(), std::vector<ElementId>{3});
+  QCOMPARE(next.lastDrag().size(), std::size_t{2});  // the grab and the drag of element 7
+}
+
+void DocumentChangesTest::a_change_ends_the_drag_in_the_solvers() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  const QSignalSpy refused(&document, &Document::refused);
+  document.grab(7);
+  document.dragBy(Point(0.5, 1, 0));
+  document.setPinned({7}, true);
+  QVERIFY(is_idle(document));
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    QCOMPARE(pins_of_solver(document, panel), document.pins());
+  }
+  QVERIFY(refused.isEmpty());
+}
+
+void DocumentChangesTest::a_split_keeps_the_mesh_file() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  document.setMeshFile(QStringLiteral("sheet.obj"));
+  document.split(split_of(document.mesh()));
+  QCOMPARE(document.meshFile(), QStringLiteral("sheet.obj"));
+}
+
+void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  document.grab(7);
+  document.dragBy(Point(0.5, 1, 0));
+  document.release();
+  Session lesson = SessionDraft(document, "{}").finished({});
+  LessonStep step;
+  step.title = "step";
+  step.until = lesson.moves_done;
+  lesson.lesson = {"lesson", {step}};
+  const LinkSoftness own{0.5, 1.5, 0.3};
+  document.setSoftness(own, QStringLiteral("softness"));
+  document.restore(std::make_shared<const Session>(lesson), {}, QStringLiteral("open"));
+  QVERIFY(document.softness() == LinkSoftness());
+  document.split(split_of(document.mesh()));
+  document.replaceMesh(mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
+  QVERIFY(document.softness() == own);
+}
+
+CHAINMAIL_TEST(DocumentChangesTest)
+
+}  // namespace chainmail::test_document_changes
+
+#include "document_changes.moc"
