@@ -50,6 +50,7 @@ class DocumentChangesTest : public QObject {
 
  private slots:
   void the_session_after_a_refused_drag_opens();
+  void each_refused_grab_is_said();
   void a_change_ends_the_drag_in_the_solvers();
   void a_split_keeps_the_mesh_file();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
@@ -72,6 +73,16 @@ void DocumentChangesTest::the_session_after_a_refused_drag_opens() {
   next.restore(session, {}, QStringLiteral("open"));
   QCOMPARE(next.pins(), std::vector<ElementId>{3});
   QCOMPARE(next.lastDrag().size(), std::size_t{2});  // the grab and the drag of element 7
+}
+
+void DocumentChangesTest::each_refused_grab_is_said() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  const QSignalSpy refused(&document, &Document::refused);
+  document.setPinned({3}, true);
+  for (int attempt = 1; attempt <= 2; ++attempt) {
+    document.grab(3);
+    QTRY_COMPARE(refused.size(), qsizetype(attempt * document.panels()));
+  }
 }
 
 void DocumentChangesTest::a_change_ends_the_drag_in_the_solvers() {
