@@ -282,6 +282,7 @@ void Simulation::take_mesh(MeshPointer mesh) {
 void Simulation::forget_passes() {
   statistics_.last_pass = {};
   statistics_.last_pass_ms = 0;
+  statistics_.last_second = {};
   statistics_.remark.clear();
   statistics_.residual.reset();
   relaxation_fails_ = false;

@@ -33,6 +33,7 @@ class RampTest : public QObject {
   void every_attempt_has_drags_of_its_own();
   void a_budget_may_be_used_up();
   void a_lost_algorithm_is_out();
+  void each_size_shows_who_is_still_in();
   void a_hiccup_does_not_count();
   void what_others_take_does_not_count();
   void it_stops();
@@ -294,6 +295,29 @@ void RampTest::a_lost_algorithm_is_out() {
   text.str("");
   write_text(text, never, {});
   QVERIFY(text.str().find("never") != std::string::npos);
+}
+
+void RampTest::each_size_shows_who_is_still_in() {
+  Ramp ramp;
+  ramp.options.algorithms = {Algorithm::spiral, Algorithm::exact};
+  for (const auto& [width, algorithm, p99] :
+       {std::tuple(4U, Algorithm::spiral, 2.0), {4U, Algorithm::exact, 20.0}, {5U, Algorithm::spiral, 3.0}}) {
+    RampRow& row = ramp.rows.emplace_back();
+    row.width = width;
+    row.algorithm = algorithm;
+    row.median_ms = 1;
+    row.p99_ms = p99;
+    row.in_real_time = p99 < 16;
+  }
+  std::ostringstream text;
+  write_text(text, ramp, {});
+  const QStringList lines = QString::fromStdString(text.str()).split('\n');
+  const auto cells = [&](const QString& size) {
+    const auto line = std::ranges::find_if(lines, [&](const QString& one) { return one.startsWith(size); });
+    return line == lines.end() ? QStringList() : line->simplified().split(' ');
+  };
+  QCOMPARE(cells("4x4"), (QStringList{"4x4", "1/2", "1/20!"}));
+  QCOMPARE(cells("5x5"), (QStringList{"5x5", "1/3"}));
 }
 
 void RampTest::a_hiccup_does_not_count() {

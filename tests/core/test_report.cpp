@@ -31,6 +31,7 @@ class ReportTest : public QObject {
   void a_linear_axis_ends_at_a_round_number();
   void a_plot_has_every_contestant_on_it();
   void a_plot_is_well_formed();
+  void lines_and_texts_have_the_ink();
   void marks_stand_where_their_values_are();
   void a_long_legend_fits();
   void a_page_is_well_formed_and_needs_nothing_else();
@@ -222,6 +223,25 @@ void ReportTest::a_plot_is_well_formed() {
     const std::size_t marks = plot.panels.empty() ? 0 : 6 + plot.series.size();
     QCOMPARE(std::size_t(elements.count("path")), marks);
   }
+}
+
+void ReportTest::lines_and_texts_have_the_ink() {
+  std::ostringstream out;
+  write_svg(out, violation_plot(comparison().cases[0]), "#123 \"");
+  QXmlStreamReader reader(QByteArray::fromStdString(out.str()));
+  int lines = 0, texts = 0;
+  while (!reader.atEnd()) {
+    if (reader.readNext() == QXmlStreamReader::StartElement) {
+      const bool is_line = reader.name() == QLatin1String("line"), is_text = reader.name() == QLatin1String("text");
+      lines += is_line ? 1 : 0;
+      texts += is_text ? 1 : 0;
+      if (is_line || is_text) {
+        QCOMPARE(reader.attributes().value(is_line ? "stroke" : "fill").toString(), QString("#123 \""));
+      }
+    }
+  }
+  QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
+  QVERIFY(lines > 0 && texts > 0);
 }
 
 void ReportTest::marks_stand_where_their_values_are() {

@@ -473,10 +473,13 @@ void SimulationTest::what_passes_did_goes_with_them() {
     carry_out(simulation, commands::Pin{{0}});
     drag_by(simulation, 11, Point(50, 0, 0));
     QVERIFY(simulation.statistics().last_pass.stopped && simulation.statistics().last_pass.moved > 0);
+    simulation.refresh_statistics(false);
+    QCOMPARE(simulation.statistics().last_second.passes, 1);
     simulation.apply(change);
     QVERIFY(!simulation.statistics().last_pass.stopped);
     QCOMPARE(simulation.statistics().last_pass.moved, std::uint64_t{0});
     QCOMPARE(simulation.statistics().last_pass_ms, 0.0);
+    QCOMPARE(simulation.statistics().last_second.passes, 0);
   }
 }
 

@@ -305,11 +305,13 @@ void SplitTest::polygons_stay_polygons() {
     parts.polygons.insert(parts.polygons.end(), {4, a, a + 1, a + 5, a + 4});
     parts.links.insert(parts.links.end(), {{a, a + 1}, {a + 1, a + 5}, {a + 5, a + 4}, {a + 4, a}});
   }
+  parts.texture = std::make_shared<Texture>();
   const MeshPointer mesh = build_mesh(std::move(parts));
   const auto split = split_of(mesh, {{-20, 26}, {100, 34}});
   QCOMPARE(split->after->part_count, 2U);
   QCOMPARE(split->edit.removed_polygons, (std::vector<std::uint32_t>{3, 4, 5}));
   QVERIFY(split->edit.triangles.empty());
+  QVERIFY(mesh->texture != nullptr && split->after->texture == mesh->texture);
   QCOMPARE(split->edit.polygons.size(), 6U * 5);
   QVERIFY(std::abs(total_area(*split->after) - 6) < 1e-12);
   QCOMPARE(split->after->link_count(), mesh->link_count() + 2 * 3 + 4);  // along the cut on both sides; sides in two
