@@ -601,7 +601,7 @@ void Document::grab(std::vector<ElementId> elements) {
   std::vector<ElementId> free;
   std::ranges::set_difference(elements, pins(), std::back_inserter(free));
   if (free.empty()) {
-    lastRefusal_ = {};  // each attempt is answered
+    lastRefusal_ = {};                                  // each attempt is answered
     log_->replay(commands::Grab{std::move(elements)});  // the solvers refuse it, and nothing is recorded
     return;
   }
