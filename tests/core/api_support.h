@@ -45,14 +45,22 @@ struct State {
         cuts(body.cuts()),
         pins(body.pins().begin(), body.pins().end()),
         softness(body.softness()),
-        first(body.softness(0)),
-        elasticity(body.elasticity()) {}
+        elasticity(body.elasticity()),
+        energy(body.energy()),
+        frame(body.frame()) {
+    for (cm::LinkId link = 0; link < body.mesh().link_count(); ++link) {
+      softness_of_links.push_back(body.softness(link));
+    }
+  }
   bool operator==(const State&) const = default;
 
   std::vector<double> positions;
   std::vector<cm::LinkId> cuts;
   std::vector<cm::ElementId> pins;
-  cm::LinkSoftness softness, first;
+  cm::LinkSoftness softness;
   cm::Elasticity elasticity;
+  cm::EnergyKind energy;
+  cm::Rotation frame;
+  std::vector<cm::LinkSoftness> softness_of_links;
 };
 }  // namespace chainmail
