@@ -201,8 +201,8 @@ class WindowDamaged : public QObject {
     QVERIFY(bench.window.isVisible());
     const QString sentence = bench.window.messages().isVisible() ? bench.window.messages().sentence() : QString();
     QVERIFY2(!sentence.contains(QStringLiteral("internal error")), qPrintable(sentence));
-    for (const QChar letter : sentence) {
-      QVERIFY2(letter.isPrint() || letter.category() == QChar::Other_Format, qPrintable(sentence));
+    for (const uint letter : sentence.toUcs4()) {  // a name of a file may contain letters that no font has
+      QVERIFY2(QChar::category(letter) != QChar::Other_Control, qPrintable(sentence));
     }
     opened_ += sentence.isEmpty() ? 1 : 0;
     const QRect screen = bench.window.screen()->geometry();
