@@ -373,9 +373,17 @@ void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   }
 }
 
-/// Another frame rounds all positions.
+/// Another frame rounds all positions, also those at rest.
 void Simulation::note_frame(const RegionFrame& before) {
-  if (body().frame().rotation() != before.rotation() && !away_.empty()) {
+  if (body().frame().rotation() != before.rotation()) {
+    note_rounding();
+  }
+}
+
+/// All positions are rounded anew. What is at rest stays so for snapshots.
+void Simulation::note_rounding() {
+  changed_.insert_all();
+  if (!away_.empty()) {
     mark_all();
   }
 }
@@ -453,8 +461,8 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
   if (before == algorithm_) {
     return;
   }
-  if (info(before).from_rest != info(algorithm_).from_rest && !away_.empty()) {
-    mark_all();  // converting between displacements and positions rounds all positions
+  if (info(before).from_rest != info(algorithm_).from_rest && (!away_.empty() || body().frame().is_turned())) {
+    note_rounding();  // by converting between displacements and positions
   }
   statistics_.algorithm = algorithm_;
   forget_passes();

@@ -138,6 +138,15 @@ std::vector<Command> Tape::commands() const {
   return all;
 }
 
+bool Tape::holds() const {
+  for (std::size_t i = position_; i > 0; --i) {
+    if (is_one_of<commands::Grab, commands::Release>(at(i - 1))) {
+      return is_one_of<commands::Grab>(at(i - 1));
+    }
+  }
+  return false;
+}
+
 std::vector<Command> Tape::last_drag() const {
   std::vector<Command> drag;
   for (std::size_t i = position_; i > 0; --i) {

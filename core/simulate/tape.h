@@ -36,6 +36,8 @@ class Tape {
   std::vector<Command> commands() const;
   /// Returns the number of passes (drags) among the first `commands` commands.
   std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
+  /// True if the commands up to the current position grab elements and do not release them.
+  bool holds() const;
   /// Returns the last grab before the current position that has drags, with these drags; empty if there is none.
   std::vector<Command> last_drag() const;
 

@@ -20,6 +20,7 @@ class FramesTest : public QObject {
   void whoever_copies_what_changed_has_it_all();
   void what_stays_is_not_copied();
   void an_undone_reset_changes_what_it_brings_back();
+  void turned_axes_round_what_is_at_rest();
 };
 
 namespace {
@@ -141,6 +142,25 @@ void FramesTest::an_undone_reset_changes_what_it_brings_back() {
   // A second reset changes nothing.
   carry_out(scene.simulation, commands::Reset{});
   QVERIFY(scene.changed().empty());
+}
+
+void FramesTest::turned_axes_round_what_is_at_rest() {
+  const RegionFrame turned(FrameKind::given, Point(0, 0, 0.3));
+  for (const AlgorithmInfo& one : algorithms()) {
+    const MeshPointer mesh = jittered_triangles(9, 8, 2);
+    if (!fits(one.algorithm, *mesh)) {
+      continue;
+    }
+    Scene scene(mesh, one.algorithm);
+    for (const Command& command : std::vector<Command>{
+             commands::SetSoftness{Softness{{}, {}, standard_energy, turned}}, commands::SetAlgorithm{Algorithm::exact},
+             commands::SetAlgorithm{Algorithm::spiral}, commands::SetSoftness{Softness{}}}) {
+      scene.simulation.apply(command);
+      std::vector<float> positions(mesh->rest.size());
+      scene.simulation.body().copy_positions(0, positions);
+      QVERIFY2(scene.show().positions == positions, one.name.data());
+    }
+  }
 }
 
 CHAINMAIL_TEST(FramesTest)

@@ -52,6 +52,7 @@ class DocumentChangesTest : public QObject {
   void the_session_after_a_refused_drag_opens();
   void each_refused_grab_is_said();
   void a_change_ends_the_drag_in_the_solvers();
+  void a_change_after_a_session_saved_while_dragging_can_be_saved();
   void a_split_keeps_the_mesh_file();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
 
@@ -96,6 +97,27 @@ void DocumentChangesTest::a_change_ends_the_drag_in_the_solvers() {
     QCOMPARE(pins_of_solver(document, panel), document.pins());
   }
   QVERIFY(refused.isEmpty());
+}
+
+void DocumentChangesTest::a_change_after_a_session_saved_while_dragging_can_be_saved() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  document.grab(7);
+  document.dragBy(Point(0.5, 1, 0));
+  QVERIFY(is_idle(document));
+  Document next(mesh_, QStringLiteral("next"));
+  const QSignalSpy refused(&next, &Document::refused);
+  next.restore(session_of(document), {}, QStringLiteral("open"));
+  next.setPinned({7}, true);
+  QVERIFY(is_idle(next));
+  QCOMPARE(refused.size(), qsizetype{0});
+  const auto session = session_of(next);
+  QCOMPARE(session->pins, std::vector<ElementId>{7});
+  // The same after a replay that ends within the drag.
+  document.release();
+  document.goTo(2);
+  document.setPinned({7}, true);
+  QVERIFY(is_idle(document));
+  QCOMPARE(session_of(document)->pins, std::vector<ElementId>{7});
 }
 
 void DocumentChangesTest::a_split_keeps_the_mesh_file() {

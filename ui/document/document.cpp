@@ -76,6 +76,14 @@ bool startsFromRest(const Session& session) {
          std::ranges::all_of(session.panels, [](const auto& panel) { return panel.placement.is_at_rest(); });
 }
 
+/// True for a command that may be refused for elements that are grabbed.
+bool changesObject(const Command& command) {
+  return std::holds_alternative<commands::Cut>(command) || std::holds_alternative<commands::Uncut>(command) ||
+         std::holds_alternative<commands::Pin>(command) || std::holds_alternative<commands::Unpin>(command) ||
+         std::holds_alternative<commands::Split>(command) || std::holds_alternative<commands::Reset>(command) ||
+         std::holds_alternative<commands::SetSoftness>(command);
+}
+
 }  // namespace
 
 /// A change on the undo stack. The solvers save the state of the object before the step. Undo and redo exchange the
@@ -682,6 +690,10 @@ void Document::endDrag() {
 // The solvers: commands go there through one log, frames come back.
 
 void Document::post(const Command& command) {
+  // The recorded commands may end within a drag, as in a session that was saved while dragging.
+  if (!handle_ && changesObject(command) && tape().holds()) {
+    log_->post(commands::Release{});
+  }
   log_->post(command);
   replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
                             std::holds_alternative<commands::DropState>(command));
