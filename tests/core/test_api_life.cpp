@@ -129,7 +129,9 @@ class Acts {
         [=](cm::Body& body) { body.cut(links); },
         [](cm::Body& body) { body.uncut(body.cuts()); },
         [=](cm::Body& body) { body.pin(elements); },
-        [](cm::Body& body) { body.unpin({body.pins().begin(), body.pins().end()}); },
+        [](cm::Body& body) {
+          body.unpin({body.pins().begin(), body.pins().end()});
+        },
         [=](cm::Body& body) { body.set_softness(softness); },
         [=](cm::Body& body) { body.set_softness(links, softness); },
         [=](cm::Body& body) { body.clear_softness(links); },
