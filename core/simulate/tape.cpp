@@ -51,7 +51,9 @@ void Tape::add(const Command& command) {
     drop_unreachable();
   }
   const Node before = last();
-  nodes_.push_back({command, before, nodes_[before].passes + (is_one_of<commands::Drag>(command) ? 1U : 0U)});
+  nodes_.push_back(
+      {command, before, nodes_[before].passes + (is_one_of<commands::Drag>(command) ? 1U : 0U),
+       is_one_of<commands::Grab>(command) || (nodes_[before].holds && !is_one_of<commands::Release>(command))});
   timeline_.push_back(static_cast<Node>(nodes_.size() - 1));
   ++position_;
 }
@@ -136,15 +138,6 @@ std::vector<Command> Tape::commands() const {
     all.push_back(nodes_[node].command);
   }
   return all;
-}
-
-bool Tape::holds() const {
-  for (std::size_t i = position_; i > 0; --i) {
-    if (is_one_of<commands::Grab, commands::Release>(at(i - 1))) {
-      return is_one_of<commands::Grab>(at(i - 1));
-    }
-  }
-  return false;
 }
 
 std::vector<Command> Tape::last_drag() const {

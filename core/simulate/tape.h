@@ -37,7 +37,7 @@ class Tape {
   /// Returns the number of passes (drags) among the first `commands` commands.
   std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
   /// True if the commands up to the current position grab elements and do not release them.
-  bool holds() const;
+  bool holds() const { return nodes_[last()].holds; }
   /// Returns the last grab before the current position that has drags, with these drags; empty if there is none.
   std::vector<Command> last_drag() const;
 
@@ -67,6 +67,7 @@ class Tape {
     Command command;
     Node before;               // previous command; none for the beginning of a timeline, which is not a command
     std::uint32_t passes = 0;  // number of passes up to this command
+    bool holds = false;        // elements are grabbed after this command
   };
 
   void add(const Command& command);

@@ -447,7 +447,7 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
     QVERIFY(along_axes[std::pair(algorithm, false)][0].relative > 0.01);
     QVERIFY(along_axes[std::pair(algorithm, false)][1].max < 1e-9);  // axes turned by 90° are axes
     QVERIFY(std::abs(along_axes[std::pair(algorithm, true)][0].max / along_axes[std::pair(algorithm, false)][0].max -
-                     1) > 0.01);  // at equilibrium another state depends on the axes
+                     1) > 0.01);  // relaxation leads to another answer
     for (auto* all : {&along_object, &given}) {
       QVERIFY((*all)[std::pair(algorithm, false)][0].max < 1e-4);
       QVERIFY((*all)[std::pair(algorithm, false)][1].max < 1e-4);

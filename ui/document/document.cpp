@@ -76,7 +76,7 @@ bool startsFromRest(const Session& session) {
          std::ranges::all_of(session.panels, [](const auto& panel) { return panel.placement.is_at_rest(); });
 }
 
-/// True for a command that may be refused for elements that are grabbed.
+/// True for a change of the object. A handle must be released before it, or the change may be refused.
 bool changesObject(const Command& command) {
   return std::holds_alternative<commands::Cut>(command) || std::holds_alternative<commands::Uncut>(command) ||
          std::holds_alternative<commands::Pin>(command) || std::holds_alternative<commands::Unpin>(command) ||
