@@ -189,6 +189,11 @@ std::optional<Algorithm> find_algorithm(std::string_view name) {
   return found == all.end() ? std::nullopt : std::optional(found->algorithm);
 }
 
+WaitingHistory waiting_history(const RecordedPass& pass) {
+  const auto find = info(pass.algorithm).history;
+  return find == nullptr ? WaitingHistory() : find(pass);
+}
+
 bool fits(Algorithm algorithm, const Mesh& mesh) {
   const AlgorithmInfo& entry = info(algorithm);
   return (!entry.needs_grid || mesh.is_grid) && (!entry.elastic || fits(*entry.elastic, mesh));

@@ -7,27 +7,10 @@
 
 #include "elastic/elastic.h"
 #include "mesh/mesh.h"
+#include "solve/algorithm.h"
 #include "solve/method.h"
 
 namespace chainmail {
-
-/// Names an algorithm in code. Each one has exactly one entry in the table of algorithms.cpp.
-enum class Algorithm {
-  generalized,
-  spiral,
-  natural_queue,
-  enhanced,
-  chainmail_3d,
-  exact,
-  linear_fem,
-  neo_hookean,
-  boundary_elements,
-  free_form,
-  corotational,
-  arap,
-  xpbd,
-  projective
-};
 
 /// ChainMail, or the methods that ChainMail is compared with.
 enum class Family { chainmail, elastic };
@@ -94,6 +77,9 @@ std::span<const AlgorithmInfo> every_algorithm();
 const AlgorithmInfo& info(Algorithm algorithm);
 /// Returns the algorithm with this name or alias, if any.
 std::optional<Algorithm> find_algorithm(std::string_view name);
+
+/// Returns the waiting list at each step of a recorded pass. It is unknown if the algorithm has no list.
+WaitingHistory waiting_history(const RecordedPass& pass);
 
 /// True if the algorithm works on the mesh.
 bool fits(Algorithm algorithm, const Mesh& mesh);

@@ -8,7 +8,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/algorithms.h"
+#include "solve/algorithm.h"
 #include "solve/softness.h"
 #include "solve/trace.h"
 

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
-#include "solve/algorithms.h"
 #include "solve/follow_pass.h"
 
 namespace chainmail {
-
-WaitingHistory::WaitingHistory(const RecordedPass& pass) {
-  if (const auto history = info(pass.algorithm).history) {
-    *this = history(pass);
-  }
-}
 
 std::vector<std::uint32_t> WaitingHistory::at(std::size_t step) const {
   std::vector<std::uint32_t> waiting;

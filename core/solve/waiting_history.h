@@ -28,9 +28,6 @@ class WaitingHistory {
   /// Creates an unknown history.
   WaitingHistory() = default;
 
-  /// Finds the history of a pass, with the algorithm's entry in the table.
-  explicit WaitingHistory(const RecordedPass& pass);
-
   /// Creates a known history. `keys`, one per candidate, are used for TakingOrder::by_key only.
   WaitingHistory(TakingOrder order, std::vector<WaitingCandidate> candidates, std::vector<double> keys)
       : known_(true), order_(order), candidates_(std::move(candidates)), keys_(std::move(keys)) {}

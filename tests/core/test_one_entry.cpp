@@ -8,6 +8,7 @@
 #include "report/page/looks.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"
+#include "solve/algorithms.h"
 #include "solve/follow_pass.h"
 #include "solve/list_method.h"
 
@@ -151,9 +152,9 @@ void OneEntryTest::an_algorithm_is_replayed() {
   const auto mesh = make_mesh(MeshKind::grid, {5, 4, 1});
   Recorded recorded(mesh, dummy), spiral(mesh, Algorithm::spiral);
   const auto pass = recorded.drag(7, Point(4, -3, 0)), expected = spiral.drag(7, Point(4, -3, 0));
-  const WaitingHistory history(*pass);
+  const WaitingHistory history = waiting_history(*pass);
   QVERIFY(history.known() && !history.candidates().empty());
-  QCOMPARE(history.at(3), WaitingHistory(*expected).at(3));
+  QCOMPARE(history.at(3), waiting_history(*expected).at(3));
 }
 
 void OneEntryTest::an_entry_goes_with_its_object() {

@@ -4,6 +4,7 @@
 #include "core/recorded.h"
 #include "core/threads.h"
 #include "program.h"
+#include "solve/algorithms.h"
 
 namespace chainmail::test_recorded_pass {
 
@@ -128,7 +129,7 @@ void RecordedPassTest::the_next_one_on_the_list_is_the_one_that_is_taken() {
   for (const MeshFamily& family : families()) {
     for (const AlgorithmInfo& one : algorithms_for(*family.mesh)) {
       for_each_pass(family.mesh, one.algorithm, [&](const RecordedPass& pass) {
-        const WaitingHistory history(pass);
+        const WaitingHistory history = waiting_history(pass);
         QCOMPARE(history.known(), one.algorithm != Algorithm::exact);
         if (history.known()) {
           QVERIFY2(leads_through(pass, history), std::string(one.name).c_str());
@@ -144,7 +145,7 @@ void RecordedPassTest::the_lists_of_a_3x3_grid_by_hand() {
   const auto history_of = [&](Algorithm algorithm) {
     Recorded recorded(mesh, algorithm);
     recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
-    return WaitingHistory(*recorded.drag(0, Point(-5, -5, 0)));
+    return waiting_history(*recorded.drag(0, Point(-5, -5, 0)));
   };
   using List = std::vector<ElementId>;
   const auto generalized = history_of(Algorithm::generalized);
@@ -167,7 +168,7 @@ void RecordedPassTest::three_d_chainmail_empties_one_list_after_another() {
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   Recorded recorded(mesh, Algorithm::chainmail_3d);
   recorded.apply(commands::SetSoftness{{{1, 1, 0}, {}}});
-  const WaitingHistory history(*recorded.drag(4, Point(5, 5, 0)));
+  const WaitingHistory history = waiting_history(*recorded.drag(4, Point(5, 5, 0)));
   // Right, left, top, bottom of the centre. 5, on the right, feeds the lists right, top and bottom.
   QCOMPARE(elements_at(history, 0), (std::vector<ElementId>{5, 3, 7, 1}));
   QCOMPARE(elements_at(history, 1), (std::vector<ElementId>{3, 7, 8, 1, 2}));
@@ -176,9 +177,9 @@ void RecordedPassTest::three_d_chainmail_empties_one_list_after_another() {
 void RecordedPassTest::what_does_not_lead_through_the_list_is_not_known() {
   Recorded recorded(make_mesh(MeshKind::grid, {4, 4, 1}), Algorithm::spiral);
   auto pass = recorded.drag(5, Point(4, 4, 0));
-  QVERIFY(WaitingHistory(*pass).known());
+  QVERIFY(waiting_history(*pass).known());
   std::swap(pass->trace[1], pass->trace[3]);
-  QVERIFY(!WaitingHistory(*pass).known());
+  QVERIFY(!waiting_history(*pass).known());
 }
 
 void RecordedPassTest::nothing_is_recorded_unless_it_is_asked_for() {
@@ -206,7 +207,7 @@ void RecordedPassTest::another_thread_may_look_at_any_time() {
     if (const auto pass = solver.last_pass(seen)) {
       QVERIFY(pass->number > seen);
       seen = pass->number;
-      QVERIFY(WaitingHistory(*pass).known());
+      QVERIFY(waiting_history(*pass).known());
     }
     if (i % 100 == 50) {
       solver.record_passes(false);

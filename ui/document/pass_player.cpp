@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solve/algorithms.h"
+
 namespace chainmail {
 namespace {
 
@@ -15,7 +17,7 @@ std::uint64_t newSeries() {
 
 PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics)
     : pass_(std::move(pass)),
-      history_(stepCount() <= listedSteps ? WaitingHistory(*pass_) : WaitingHistory()),
+      history_(stepCount() <= listedSteps ? waiting_history(*pass_) : WaitingHistory()),
       updatedAt_(pass_->mesh->element_count(), never) {
   for (const ElementId pin : pass_->conditions->pins) {
     updatedAt_[pin] = 0;

@@ -1,0 +1,23 @@
+#pragma once
+
+namespace chainmail {
+
+/// Names an algorithm in code. Each one has exactly one entry in the table of algorithms.cpp.
+enum class Algorithm {
+  generalized,
+  spiral,
+  natural_queue,
+  enhanced,
+  chainmail_3d,
+  exact,
+  linear_fem,
+  neo_hookean,
+  boundary_elements,
+  free_form,
+  corotational,
+  arap,
+  xpbd,
+  projective
+};
+
+}  // namespace chainmail
