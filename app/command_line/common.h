@@ -8,12 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "equilibrium/relaxation_scheme.h"
 #include "files/mesh/open_mesh.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
-#include "solve/algorithms.h"
-#include "solve/relaxation_scheme.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::command_line {
 

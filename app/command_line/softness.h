@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "body/softness.h"
 #include "command_line/common.h"
-#include "solve/softness.h"
 
 namespace chainmail::command_line {
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "body/body.h"
 #include "command_line/common.h"
 #include "command_line/limited_work.h"
 #include "command_line/raster.h"
@@ -16,7 +17,6 @@
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "mesh/surface.h"
-#include "solve/body.h"
 
 namespace chainmail::command_line {
 namespace {

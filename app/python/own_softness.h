@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "solve/softness.h"
+#include "body/softness.h"
 
 namespace chainmail::python {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "api/access.h"
+#include "body/body_view.h"
 #include "python/arrays.h"
 #include "python/module.h"
-#include "solve/body_view.h"
 
 namespace chainmail::python {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::api {
 namespace {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "body/handle.h"
 #include "chainmail/chainmail.h"
 #include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "mesh/progress.h"
-#include "solve/handle.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail::api {
 

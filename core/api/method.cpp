@@ -1,7 +1,7 @@
 #include "chainmail/method.h"
 
 #include "api/access.h"
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::api {
 namespace {

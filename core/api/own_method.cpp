@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "api/access.h"
+#include "body/body_view.h"
+#include "body/method.h"
 #include "files/text/text.h"
-#include "solve/algorithms.h"
-#include "solve/body_view.h"
-#include "solve/method.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::api {
 namespace {

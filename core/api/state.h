@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "api/access.h"
-#include "solve/body.h"
-#include "solve/snapshot.h"
-#include "solve/solver.h"
+#include "body/body.h"
+#include "body/snapshot.h"
+#include "solver/solver.h"
 
 namespace chainmail::api {
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "body/body_view.h"
 #include "elastic/iterated.h"
 #include "mesh/error.h"
-#include "solve/body_view.h"
 
 namespace chainmail {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 

@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "body/softness.h"
 #include "elastic/material.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -13,7 +13,7 @@
 #include "mesh/cells.h"
 #include "mesh/error.h"
 #include "mesh/refine.h"
-#include "solve/elastic_deformation.h"
+#include "solver/elastic_deformation.h"
 
 namespace chainmail {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "body/handle.h"
 #include "measure/reference_solution.h"
-#include "solve/handle.h"
 
 namespace chainmail {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "mesh/mesh.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

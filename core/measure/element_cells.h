@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "body/positions.h"
 #include "mesh/mesh.h"
-#include "solve/positions.h"
 
 namespace chainmail {
 

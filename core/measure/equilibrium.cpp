@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "elastic/cholesky.h"
+#include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/link_energy.h"
 #include "measure/violation.h"
-#include "solve/equilibrium_solver.h"
-#include "solve/link_energy.h"
 
 namespace chainmail {
 namespace {

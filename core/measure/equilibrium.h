@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 
-/// The relaxed equilibrium: the minimum of the elastic energy (see solve/link_energy.h) while some elements are fixed.
-/// Valid regions are ignored.
+/// The relaxed equilibrium: the minimum of the elastic energy (see equilibrium/link_energy.h) while some elements are
+/// fixed. Valid regions are ignored.
 struct Equilibrium {
   /// Displacements from rest, element by element, space_dimension coordinates each (mesh units). Unlike positions, they
   /// lose no digits if the origin is far away or the object is large.

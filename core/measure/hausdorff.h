@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "body/positions.h"
 #include "mesh/mesh.h"
-#include "solve/positions.h"
 
 namespace chainmail {
 

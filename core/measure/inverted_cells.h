@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "body/positions.h"
 #include "mesh/mesh.h"
-#include "solve/positions.h"
 
 namespace chainmail {
 

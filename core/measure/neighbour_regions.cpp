@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "body/region.h"
 #include "measure/violation.h"
-#include "solve/region.h"
 
 namespace chainmail {
 namespace {

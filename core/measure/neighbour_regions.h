@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

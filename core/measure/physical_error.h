@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "measure/reference_solution.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/link_energy.h"
-#include "solve/region.h"
+#include "body/region.h"
+#include "equilibrium/link_energy.h"
 
 namespace chainmail {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 
@@ -77,8 +77,8 @@ class TouchedViolation {
   bool sampled_ = false;
 };
 
-/// Returns the elastic energy over the uncut links, of the kind that the softness names (see solve/link_energy.h), in
-/// double. The isotropic one, ½ Σ |(x_j − x_i) − r_ij|², is in mesh units squared.
+/// Returns the elastic energy over the uncut links, of the kind that the softness names (see
+/// equilibrium/link_energy.h), in double. The isotropic one, ½ Σ |(x_j − x_i) − r_ij|², is in mesh units squared.
 double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
 
 /// Returns the displacement of the elements from rest (mesh units), in double.

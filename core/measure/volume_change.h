@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "body/positions.h"
 #include "mesh/mesh.h"
-#include "solve/positions.h"
 
 namespace chainmail {
 

@@ -6,12 +6,12 @@
 #include <variant>
 #include <vector>
 
+#include "body/snapshot.h"
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/split.h"
-#include "solve/snapshot.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

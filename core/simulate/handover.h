@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulate/command.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <mutex>
 
+#include "chainmail/recorded_pass.h"
 #include "mesh/element_blocks.h"
 #include "simulate/simulation.h"
-#include "solve/recorded_pass.h"
 
 namespace chainmail {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "body/split_state.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
 #include "mesh/parameters.h"
-#include "solve/split_state.h"
 
 namespace chainmail {
 namespace {

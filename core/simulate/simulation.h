@@ -12,7 +12,7 @@
 #include "mesh/progress.h"
 #include "simulate/command.h"
 #include "simulate/handover.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

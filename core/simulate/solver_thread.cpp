@@ -4,10 +4,10 @@
 #include <future>
 #include <utility>
 
+#include "exact/thread_team.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
 #include "mesh/generate.h"
-#include "solve/thread_team.h"
 
 namespace chainmail {
 namespace {

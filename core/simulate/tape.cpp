@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "solve/split_state.h"
+#include "body/split_state.h"
 
 namespace chainmail {
 namespace {

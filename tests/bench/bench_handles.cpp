@@ -13,7 +13,7 @@
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 using namespace chainmail;
 

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "solve/positions.h"
-#include "solve/replay.h"
+#include "body/positions.h"
+#include "chainmail/replay.h"
 
 namespace chainmail::bench {
 

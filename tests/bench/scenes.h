@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail::bench {
 

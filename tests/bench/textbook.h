@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solve/region.h"
+#include "body/region.h"
 
 namespace chainmail::bench {
 

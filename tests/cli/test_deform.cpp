@@ -4,7 +4,7 @@
 #include "cli/chainmail_program.h"
 #include "folders.h"
 #include "program.h"
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::test_deform {
 

@@ -1,6 +1,6 @@
 #include "cli/chainmail_program.h"
 #include "program.h"
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::test_deform_model {
 

@@ -7,9 +7,9 @@
 #include <system_error>
 #include <vector>
 
-#include "solve/algorithms.h"
-#include "solve/body_view.h"
-#include "solve/method.h"
+#include "body/body_view.h"
+#include "body/method.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::test {
 

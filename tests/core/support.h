@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
+#include "body/region.h"
 #include "mesh/generate.h"
-#include "solve/region.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -32,12 +32,14 @@ def room_of(path):
 
 
 def candidates(root, wanted):
-    """Returns the sources that can have faults. Only the headers of core/solve contain more than declarations.
+    """Returns the sources that can have faults. Of headers, only those with templates contain more than
+    declarations.
 
     Examples of the library run only when it is installed.
     """
     return sorted(path for path in builds.source_files(root)
-                  if re.match(r"(?:core|app|ui)/.*\.cpp$|core/solve/.*\.h$", path) and "/examples/" not in path
+                  if re.match(r"(?:core|app|ui)/.*\.cpp$|core/(?:body|chainmail|exact|equilibrium|solver)/.*\.h$", path)
+                  and "/examples/" not in path
                   and (wanted == "all" or path == wanted or path.startswith(wanted.rstrip("/") + "/")))
 
 

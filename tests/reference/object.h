@@ -11,7 +11,7 @@
 #include "mesh/mesh.h"
 
 /// ChainMail written literally from Dean 2004, sections 3.1, 4.1 and 4.2, with lists and linear searches. It is slow on
-/// purpose, and shares no code with core/solve: of core it uses only the mesh. It gives the expected results of tests,
+/// purpose, and shares no code with the solvers: of core it uses only the mesh. It gives the expected results of tests,
 /// and the 2004 baseline of the benchmarks.
 namespace reference {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "reference/object.h"
-#include "solve/softness.h"
 
 namespace reference {
 

@@ -6,7 +6,7 @@
 
 class QWidget;
 
-/// All colours that are neither in the palette nor in the table of algorithms (solve/algorithms.cpp). Colour-blind
+/// All colours that are neither in the palette nor in the table of algorithms (solver/algorithms.cpp). Colour-blind
 /// users can distinguish the marks (Okabe and Ito 2008) on both grounds. The contrast to the ground is at least 3 for
 /// marks (WCAG 2.1, 1.4.11) and 4.5 for text.
 namespace chainmail::colours {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "body/split_state.h"
 #include "common/announce.h"
 #include "common/application.h"
 #include "common/held_memory.h"
@@ -14,7 +15,6 @@
 #include "common/text.h"
 #include "files/session/session.h"
 #include "mesh/error.h"
-#include "solve/split_state.h"
 
 namespace chainmail {
 namespace {

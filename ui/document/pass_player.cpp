@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 namespace {

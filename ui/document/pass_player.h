@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "chainmail/waiting_history.h"
 #include "simulate/frame.h"
-#include "solve/waiting_history.h"
 
 namespace chainmail {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "mesh/mesh.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "body/softness.h"
 #include "files/formats/volume.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/softness.h"
 
 namespace chainmail {
 

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string>
 
+#include "body/softness.h"
 #include "files/formats/imported.h"
 #include "files/formats/voxel_block.h"
 #include "files/mesh/flaws.h"
 #include "files/mesh/mesh_file.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/softness.h"
 
 namespace chainmail {
 

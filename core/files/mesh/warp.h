@@ -5,7 +5,7 @@
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/texture.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

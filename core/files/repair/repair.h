@@ -4,10 +4,10 @@
 #include <limits>
 #include <vector>
 
+#include "body/softness.h"
 #include "files/repair/defects.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "solve/softness.h"
 
 namespace chainmail {
 

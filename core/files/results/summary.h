@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "body/handle.h"
+#include "equilibrium/equilibrium_solver.h"
 #include "files/mesh/open_mesh.h"
 #include "files/repair/defects.h"
 #include "measure/violation.h"
 #include "mesh/mesh.h"
-#include "solve/equilibrium_solver.h"
-#include "solve/handle.h"
 
 namespace chainmail {
 

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <vector>
 
-#include "solve/trace.h"
+#include "body/trace.h"
 
 namespace chainmail {
 

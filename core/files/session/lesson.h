@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "body/snapshot.h"
+#include "body/softness.h"
 #include "files/session/lesson.h"
 #include "files/text/replacement.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
-#include "solve/snapshot.h"
-#include "solve/softness.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "body/softness.h"
 #include "mesh/mesh.h"
-#include "solve/softness.h"
 
 namespace chainmail {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solve/softness.h"
+#include "body/softness.h"
 
 namespace chainmail {
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "body/softness.h"
+#include "equilibrium/relaxation_scheme.h"
 #include "files/text/limits.h"
 #include "mesh/parameters.h"
-#include "solve/relaxation_scheme.h"
-#include "solve/softness.h"
 
 namespace chainmail {
 

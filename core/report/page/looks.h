@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "solve/algorithms.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::report {
 

@@ -9,7 +9,7 @@
 
 #include "report/run/clocks.h"
 #include "report/run/growth.h"
-#include "solve/solver.h"
+#include "solver/solver.h"
 
 namespace chainmail::report {
 

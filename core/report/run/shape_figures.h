@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "body/positions.h"
+#include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solve/positions.h"
-#include "solve/softness.h"
 
 namespace chainmail::report {
 

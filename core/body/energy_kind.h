@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace chainmail {
+
+/// The elastic energy of links. Each kind has one entry in the table of energy_kind.cpp; the formulas are in
+/// equilibrium/link_energy.h.
+enum class EnergyKind { isotropic, axial, corotated };
+
+/// The energy of a new object.
+inline constexpr EnergyKind standard_energy = EnergyKind::corotated;
+
+/// One row of the table: everything that other code knows about a kind of energy.
+struct EnergyKindInfo {
+  EnergyKind kind;
+  std::string_view name;   // on the command line and in files
+  std::string_view label;  // in the window
+  std::string_view help;   // one sentence
+  double lateral;          // lateral stiffness that suits most objects
+};
+
+/// All kinds, in the order of the constants.
+std::span<const EnergyKindInfo> energy_kinds();
+const EnergyKindInfo& info(EnergyKind kind);
+/// Returns the kind of this name. Throws Error, with all names, if there is none.
+EnergyKind energy_kind_of(std::string_view name);
+
+}  // namespace chainmail

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "body/handle.h"
+#include "body/trace.h"
+#include "mesh/progress.h"
+
+namespace chainmail {
+
+/// What a pass reports besides its numbers.
+struct PassOutput {
+  /// The elements that the pass moved, in order of update if it has one, without the handle. Between passes, nothing
+  /// but the method changes it.
+  std::vector<ElementId>& moved;
+  Trace* trace = nullptr;  // if given, receives every processed candidate
+  int threads = 1;         // that the pass may use; their number changes no position
+  Progress progress = {};  // of long preparations and solutions. When it throws Cancelled, nothing has moved
+};
+
+/// What answers a move of the handle on a body: one algorithm. It belongs to one body, and may keep what it can use
+/// again in the next move, with the revisions of the body that it was made for.
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  /// Moves the handle to its target and answers: one pass. No element of the handle is pinned. Throws Error if a target
+  /// is not a finite number of the body's precision, and if there is no answer; nothing has moved then.
+  virtual PassCount move(Body& body, HandleMove& move, PassOutput output) = 0;
+
+  /// Prepares the first move of an element, in idle time, as if it moved the whole object: that move may then be as
+  /// fast as a later one. No position may depend on it. Throws Cancelled.
+  virtual void prepare(Body& /*body*/, ElementId /*element*/, int /*threads*/, const Progress& /*progress*/) {}
+
+  /// Reason why the last pass did not reach its target or did not converge. Usually empty.
+  virtual std::string remark() const { return {}; }
+
+  /// Returns what a new method of this kind needs in order to continue from a copy of the body as this one does, bit
+  /// for bit. This one forgets everything else that its coming answers may depend on, in their last bits.
+  virtual std::vector<double> hand_over(const Body& /*body*/) { return {}; }
+  /// Continues as the method that handed this over. Throws Error, at the next move, if it does not fit.
+  virtual void take_over(const Body& /*body*/, const std::vector<double>& /*memory*/) {}
+
+  /// Returns the current positions of control points that a user may drag, space_dimension coordinates each (mesh
+  /// units), and prepares them; empty for most methods.
+  virtual std::span<const double> control_points(Body& /*body*/, const Progress& /*progress*/) { return {}; }
+  /// Moves a control point to a target (mesh units): one pass without a handle.
+  virtual PassCount move_control_point(Body& /*body*/, std::size_t /*point*/, const Point& /*target*/,
+                                       PassOutput /*output*/) {
+    return {};
+  }
+};
+
+/// Makes a method for bodies of a precision and a space dimension. A method that is added by a program outside may
+/// carry data of its own.
+using MakeMethod = std::function<std::unique_ptr<Method>(Precision precision, int dimension)>;
+
+/// Makes a method that is a template of the scalar and the space dimension.
+template <template <class Scalar, int Dimension> class Typed>
+std::unique_ptr<Method> make_method(Precision precision, int dimension) {
+  const auto make = [dimension]<class Scalar>(Scalar) -> std::unique_ptr<Method> {
+    switch (dimension) {
+      case 1:
+        return std::make_unique<Typed<Scalar, 1>>();
+      case 2:
+        return std::make_unique<Typed<Scalar, 2>>();
+      default:
+        return std::make_unique<Typed<Scalar, 3>>();
+    }
+  };
+  return precision == Precision::single_precision ? make(float{}) : make(double{});
+}
+
+}  // namespace chainmail

@@ -1,0 +1,41 @@
+#include "body/positions.h"
+
+#include <array>
+#include <limits>
+#include <numeric>
+
+namespace chainmail {
+
+double position_limit(Precision precision) {
+  return precision == Precision::single_precision ? double(std::numeric_limits<float>::max() / 16)
+                                                  : std::numeric_limits<double>::max() / 16;
+}
+
+Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {
+  std::array<double, 3> carried{};
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    carried[k] = positions(element, k);
+  }
+  return mesh.to_point(carried.data());
+}
+
+std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions,
+                                     std::span<const ElementId> elements) {
+  const auto dimension = static_cast<std::size_t>(mesh.space_dimension);
+  std::vector<double> displacements;
+  displacements.reserve(dimension * elements.size());
+  for (const ElementId element : elements) {
+    for (std::size_t k = 0; k < dimension; ++k) {
+      displacements.push_back(positions(element, static_cast<int>(k)) - mesh.rest[element * dimension + k]);
+    }
+  }
+  return displacements;
+}
+
+std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions) {
+  std::vector<ElementId> all(mesh.element_count());
+  std::iota(all.begin(), all.end(), ElementId{0});
+  return displacements_of(mesh, positions, all);
+}
+
+}  // namespace chainmail

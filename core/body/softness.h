@@ -1,0 +1,190 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body/energy_kind.h"
+#include "body/region_frame.h"
+#include "mesh/mesh.h"
+#include "mesh/parameters.h"
+
+namespace chainmail {
+
+/// The softness of a link. The first three numbers say how far it may shorten, lengthen and lean, relative to its rest
+/// vector: they decide on its valid region. The others say how strongly it returns to its rest vector: they decide on
+/// its energy (see equilibrium/link_energy.h). See mesh/parameters.h for the ranges.
+struct LinkSoftness {
+  double compression = parameters::compression.standard;
+  double stretch = parameters::stretch.standard;
+  double shear = parameters::shear.standard;
+  double lateral = parameters::lateral.standard;      // stiffness across the link, per its stiffness along it
+  double stiffness = parameters::stiffness.standard;  // along the link, relative to other links
+  double exponent = parameters::exponent.standard;    // of the rest length, which the stiffness is multiplied by
+
+  bool operator==(const LinkSoftness&) const = default;
+};
+
+/// A number of a link's softness, with its entry in the table of parameters.
+struct SoftnessNumber {
+  const Parameter* parameter;
+  double LinkSoftness::*value;
+};
+
+/// The numbers of a link's softness in the order in which files, docks and help texts have them.
+inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
+    {&parameters::compression, &LinkSoftness::compression},
+    {&parameters::stretch, &LinkSoftness::stretch},
+    {&parameters::shear, &LinkSoftness::shear},
+    {&parameters::lateral, &LinkSoftness::lateral},
+    {&parameters::stiffness, &LinkSoftness::stiffness},
+    {&parameters::exponent, &LinkSoftness::exponent},
+}};
+/// Those that decide on the valid region come first. The others decide on the energy.
+inline constexpr std::size_t region_numbers = 3;
+
+/// Throws Error, with the name of the parameter, if a number is out of range.
+void check(const LinkSoftness& softness);
+
+/// The softness of links that have their own.
+///
+/// Links are in groups that share one softness. The group of each link is in an array that copies share: to change the
+/// softness of a whole group, like a slider does for a selection, copies no link.
+class OwnSoftness {
+ public:
+  using Entry = std::pair<LinkId, LinkSoftness>;
+  class Iterator;
+
+  OwnSoftness() = default;
+  OwnSoftness(const OwnSoftness& other);
+  OwnSoftness(OwnSoftness&& other) noexcept;
+  OwnSoftness& operator=(const OwnSoftness& other);
+  OwnSoftness& operator=(OwnSoftness&& other) noexcept;
+  ~OwnSoftness() = default;
+  OwnSoftness(std::initializer_list<Entry> entries);
+  template <class First>
+  OwnSoftness(First first, First last) {
+    for (; first != last; ++first) {
+      set(first->first, first->second);
+    }
+  }
+
+  bool empty() const { return count_ == 0; }
+  /// Number of links with their own softness.
+  std::size_t size() const { return count_; }
+  /// Returns the softness of a link, or null if it has none of its own.
+  const LinkSoftness* find(LinkId link) const {
+    const std::uint32_t group = group_of(link);
+    return group == 0 ? nullptr : &groups_[group - 1].softness;
+  }
+  bool contains(LinkId link) const { return group_of(link) != 0; }
+
+  /// Sets the softness of links, which are all different.
+  void set(LinkId link, const LinkSoftness& softness) { set(std::span(&link, 1), softness); }
+  void set(std::span<const LinkId> links, const LinkSoftness& softness);
+  /// Removes the softness of links; those without one are ignored.
+  void erase(LinkId link) { erase(std::span(&link, 1)); }
+  void erase(std::span<const LinkId> links);
+
+  /// The links with their own softness, ascending.
+  Iterator begin() const;
+  Iterator end() const;
+
+  bool operator==(const OwnSoftness& other) const;
+
+ private:
+  struct Group {
+    LinkSoftness softness;
+    LinkId count = 0;  // links in the group
+  };
+
+  std::uint32_t group_of(LinkId link) const {
+    return group_of_ == nullptr || link >= group_of_->size() ? 0 : (*group_of_)[link];
+  }
+  std::vector<std::uint32_t>& writable(LinkId last);
+  std::uint32_t group_for(const LinkSoftness& softness, std::size_t links);
+  void put(std::vector<std::uint32_t>& group_of, LinkId link, std::uint32_t group);
+
+  /// Of each link up to the last one that has its own softness: its group, counted from 1; 0 if it has none.
+  std::shared_ptr<const std::vector<std::uint32_t>> group_of_;
+  std::vector<Group> groups_;
+  std::size_t count_ = 0;
+  /// True while no other object has the array. It is not derived from the number of owners: another thread may have
+  /// just read the array before it dropped its share.
+  mutable std::atomic<bool> is_exclusive_ = false;
+};
+
+/// Goes through the links with their own softness, ascending.
+class OwnSoftness::Iterator {
+ public:
+  using iterator_category = std::input_iterator_tag;  // NOLINT(readability-identifier-naming)
+  using value_type = Entry;                           // NOLINT(readability-identifier-naming)
+  using difference_type = std::ptrdiff_t;             // NOLINT(readability-identifier-naming)
+  using pointer = const Entry*;                       // NOLINT(readability-identifier-naming)
+  using reference = const Entry&;                     // NOLINT(readability-identifier-naming)
+
+  Iterator() = default;
+  Iterator(const OwnSoftness& own, LinkId link) : own_(&own), entry_(link, {}) { settle(); }
+
+  reference operator*() const { return entry_; }
+  pointer operator->() const { return &entry_; }
+  Iterator& operator++() {
+    ++entry_.first;
+    settle();
+    return *this;
+  }
+  Iterator operator++(int) {
+    const Iterator before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const Iterator& other) const { return entry_.first == other.entry_.first; }
+
+ private:
+  void settle();
+
+  const OwnSoftness* own_ = nullptr;
+  Entry entry_;
+};
+
+/// The softness of an object: a global one, different ones for single links, the kind of energy of all links, and the
+/// axes along which their valid regions lie.
+struct Softness {
+  LinkSoftness global;
+  OwnSoftness links;
+  EnergyKind energy = standard_energy;
+  RegionFrame frame = {};
+
+  const LinkSoftness& of(LinkId link) const {
+    const LinkSoftness* own = links.find(link);
+    return own == nullptr ? global : *own;
+  }
+
+  bool operator==(const Softness&) const = default;
+};
+
+/// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
+void set_energy(Softness& softness, EnergyKind kind);
+
+/// Returns what another object keeps of a softness: all but that of single links.
+Softness kept_for(const Mesh& mesh, const Softness& softness);
+
+/// True if the valid regions of all links follow from the global softness.
+bool has_global_regions(const Softness& softness);
+
+/// What differs between two softnesses of the same object.
+struct SoftnessChange {
+  bool regions = false;  // the valid region of a link
+  bool energy = false;   // the kind of energy, or the energy of a link
+
+  bool operator==(const SoftnessChange&) const = default;
+};
+SoftnessChange change_of(const Softness& before, const Softness& after);
+
+}  // namespace chainmail

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "chainmail/replay.h"
+
+namespace chainmail {
+
+/// The propagation that answers a move: one loop for all algorithms that differ in their waiting list only.
+///
+/// The elements of the handle (ascending) are at their targets already and count as updated; then their neighbours are
+/// admitted, handle element by handle element. `moved` receives the elements that moved, in order of update, without
+/// the handle; it must be unchanged since the last pass. `record`, a PassRecord or a substitute, receives the processed
+/// candidates. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
+template <class List, class Body, class Record>
+void propagate(Body& body, List& list, Record& record, std::span<const ElementId> handle,
+               std::vector<ElementId>& moved) {
+  const auto admit = [&](Candidate candidate, ElementId neighbour) {
+    if constexpr (requires { List::by_violation; }) {
+      list.admit(candidate, body.violation(neighbour, candidate.sponsor, candidate.entry));
+    } else if constexpr (requires { list.admits(candidate); }) {
+      if (list.admits(candidate)) {
+        list.admit(candidate);
+      }
+    } else {
+      list.admit(candidate);
+    }
+  };
+  const auto admit_neighbours = [&](ElementId sponsor) {
+    body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
+      if (List::admits_updated || !body.updated(neighbour)) {
+        admit({entry, sponsor}, neighbour);
+      }
+    });
+  };
+  if constexpr (requires { List::by_violation; }) {
+    record.begin_anew(body, handle, moved);
+  } else if (record.begin(body, handle, moved)) {
+    return;
+  }
+  if constexpr (requires { list.begin(*body.mesh); }) {
+    list.begin(*body.mesh);
+  }
+  moved.clear();
+  body.begin_pass();
+  std::ranges::for_each(handle, [&](ElementId element) { body.mark_updated(element); });
+  std::ranges::for_each(handle, admit_neighbours);
+  while (!list.empty()) {
+    const Candidate candidate = list.take();
+    const ElementId element = body.mesh->neighbours[candidate.entry];
+    if (body.updated(element)) {
+      continue;
+    }
+    if (record.update(body, candidate, moved)) {
+      admit_neighbours(element);
+    }
+  }
+  record.end();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,203 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body/body_view.h"
+#include "body/trace.h"
+#include "chainmail/waiting_list.h"
+#include "mesh/large_pages.h"
+
+namespace chainmail {
+
+/// One processed candidate of a pass, in the form that is kept for the next one.
+struct Step {
+  std::uint32_t element_and_moved;
+  ElementId sponsor;
+  std::uint32_t region;  // 12 bytes in all
+
+  static constexpr std::uint32_t moved_bit = std::uint32_t{1} << 31;
+  static_assert(element_limit < moved_bit);
+  ElementId element() const { return element_and_moved & ~moved_bit; }
+  bool has_moved() const { return (element_and_moved & moved_bit) != 0; }
+  void note(bool moved) { element_and_moved = element() | (moved ? moved_bit : 0); }
+};
+
+/// Number of steps by which positions are prefetched: about the latency of memory.
+inline constexpr std::size_t fetched_ahead = 64;
+
+/// Runs the steps of the last pass again, as long as each element moves, or stays, as it did then. Returns the number
+/// of steps that agreed.
+///
+/// For one object, the next candidate depends only on which elements moved. So while the outcomes agree this is the
+/// pass, without its waiting list. And since the steps are known in advance, their positions are prefetched from
+/// memory.
+template <class Scalar, int Dimension>
+std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step> steps) {
+  auto* const positions = body.positions.data();
+  const auto* const regions = body.regions.data();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Step& later = steps[std::min(i + fetched_ahead, steps.size() - 1)];
+    __builtin_prefetch(&positions[later.element()], 1);
+    __builtin_prefetch(&regions[later.region]);
+    const Step& step = steps[i];
+    const ElementId element = step.element();
+    const Scalar* about = positions[step.sponsor].at;
+    const auto next = clamped(positions[element], about, about, regions[step.region]);
+    if ((next != positions[element]) != step.has_moved()) {
+      return i;
+    }
+    positions[element] = next;
+  }
+  return steps.size();
+}
+
+/// The processed candidates of the last pass, for the next pass of the same handle. Or those of a pass that has not
+/// happened: one that moves every element, for the first pass of a handle.
+///
+/// The next pass begins with a replay. Where that ends at a difference, an algorithm goes on from there (Natural
+/// Queue), so that a replay never costs anything; or it runs its list again, and the record saves clamping up to there.
+/// Such a replay has failed if it agrees for less than half of its steps. After two failures in a row, some passes are
+/// not replayed: 1, then 2, 4, 8 and so on, until a replay succeeds.
+class PassRecord {
+ public:
+  /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
+  /// step agreed(), and end() must be called. `goes_on`: the pass can run from there.
+  template <class View>
+  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved, bool goes_on = false) {
+    make_room(body);
+    const Conditions conditions = conditions_of(body);
+    const bool is_known = is_of(body, handle);
+    const bool tries = is_known && unused_ == 0;
+    agreed_ = tries ? replay(body, steps()) : 0;
+    if (std::exchange(is_assumed_, false) && agreed_ > 0) {
+      list_moved(moved);
+    }
+    if (agreed_ > 0 && agreed_ == count_) {
+      failures_ = 0;
+      return true;
+    }
+    if (!is_known || (tries && (goes_on || 2 * agreed_ >= count_))) {
+      failures_ = unused_ = 0;
+    } else if (tries) {
+      failures_ = std::min(failures_ + 1, most_failures);
+      unused_ = failures_ < 2 ? 0 : 1 << (failures_ - 2);
+    } else {
+      --unused_;
+    }
+    conditions_ = conditions;
+    handle_.assign(handle.begin(), handle.end());
+    next_ = 0;
+    return false;
+  }
+
+  /// Begins a pass of an algorithm whose order of candidates depends on positions: it is never replayed.
+  template <class View>
+  void begin_anew(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
+    handle_.clear();
+    begin(body, handle, moved);
+  }
+
+  /// True if the steps are those of a pass of this handle on the body as it is.
+  template <class View>
+  bool knows(const View& body, std::span<const ElementId> handle) const {
+    return count_ > 0 && is_of(body, handle);
+  }
+
+  /// Begins the record of a pass that has not happened. Its steps follow, by note() or in queue(), then end().
+  template <class View>
+  void assume(View& body, std::span<const ElementId> handle) {
+    make_room(body);
+    conditions_ = conditions_of(body);
+    handle_.assign(handle.begin(), handle.end());
+    failures_ = unused_ = 0;
+    count_ = next_ = agreed_ = 0;
+    is_assumed_ = true;
+  }
+
+  /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
+  std::size_t agreed() const { return agreed_; }
+
+  /// Processes a candidate whose element has not been updated: clamps the element into its valid region about its
+  /// sponsor. Returns true if it moved. The element counts as updated in either case (thesis 3.1).
+  template <class View>
+  bool update(View& body, Candidate candidate, std::vector<ElementId>& moved) {
+    const ElementId element = body.mesh->neighbours[candidate.entry];
+    const bool has_moved =
+        next_ < agreed_ ? steps_[next_].has_moved() : body.clamp(element, candidate.sponsor, candidate.entry);
+    note(body, candidate, has_moved);
+    if (has_moved) {
+      moved.push_back(element);
+    }
+    return has_moved;
+  }
+
+  /// Adds a step. The element counts as updated.
+  template <class View>
+  void note(View& body, Candidate candidate, bool has_moved) {
+    const ElementId element = body.mesh->neighbours[candidate.entry];
+    body.mark_updated(element);
+    steps_[next_] = {element, candidate.sponsor, body.regions.id(candidate.entry)};
+    steps_[next_++].note(has_moved);
+  }
+
+  void end() { count_ = next_; }
+
+  /// Takes memory for the steps of this body, if that has not been done.
+  template <class View>
+  void make_room(const View& body) {
+    if (!steps_) {
+      steps_ = LargeArray<Step>(body.positions.size() + 1);
+    }
+  }
+
+  /// The steps of the last pass.
+  std::span<const Step> steps() const { return {steps_.get(), count_}; }
+
+  /// For a pass whose queue is its record: the steps, with room for one more than there are elements; and the call at
+  /// the end of the pass.
+  Step* queue() { return steps_.get(); }
+  void end(std::size_t count) { count_ = count; }
+
+ private:
+  /// What a record is valid for, with the handle.
+  struct Conditions {
+    std::uint64_t cuts = 0, pins = 0, softness = 0;
+    bool operator==(const Conditions&) const = default;
+  };
+
+  template <class View>
+  static Conditions conditions_of(const View& body) {
+    return {body.revisions().cuts, body.revisions().pins, body.revisions().softness};
+  }
+  template <class View>
+  bool is_of(const View& body, std::span<const ElementId> handle) const {
+    return conditions_of(body) == conditions_ && std::ranges::equal(handle, handle_);
+  }
+  /// Lists the elements that the replayed steps moved.
+  void list_moved(std::vector<ElementId>& moved) const {
+    moved.clear();
+    for (const Step& step : steps().first(agreed_)) {
+      if (step.has_moved()) {
+        moved.push_back(step.element());
+      }
+    }
+  }
+
+  static constexpr int most_failures = 8;  // at most 64 passes without a replay
+
+  LargeArray<Step> steps_;
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+  std::size_t agreed_ = 0;
+  Conditions conditions_;
+  std::vector<ElementId> handle_;  // of the last pass; empty before it
+  bool is_assumed_ = false;        // the steps are of a pass that has not happened
+  int failures_ = 0;               // replays in a row that failed
+  int unused_ = 0;                 // number of coming passes that are not replayed
+};
+
+}  // namespace chainmail

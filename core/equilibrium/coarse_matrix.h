@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "exact/block_rows.h"
+
+namespace chainmail {
+
+/// The matrix of a coarse level.
+template <int Rows>
+struct CoarseMatrix {
+  using Square = Eigen::Matrix<float, Rows, Rows>;
+  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vectors = std::vector<Vector>;
+
+  std::uint32_t size() const { return rows.size(); }
+  void apply(const Vectors& x, Vectors& product) const {
+    product.resize(x.size());
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      const auto columns = rows.columns(i);
+      const auto blocks = rows.blocks(i);
+      Vector sum = Vector::Zero();
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        sum.noalias() += blocks[k] * x[columns[k]];
+      }
+      product[i] = sum;
+    }
+  }
+  template <class Visit>
+  void for_each_in_row(std::uint32_t row, Visit visit) const {
+    const auto columns = rows.columns(row);
+    const auto blocks = rows.blocks(row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      visit(columns[k], blocks[k]);
+    }
+  }
+
+  BlockRows<Square> rows;
+};
+
+/// A row of a sparse matrix while it is being summed up.
+template <class Block>
+struct RowSum {
+  void clear() {
+    columns.clear();
+    blocks.clear();
+  }
+  Block& at(std::uint32_t column) {
+    const auto found = std::ranges::find(columns, column);
+    if (found != columns.end()) {
+      return blocks[static_cast<std::size_t>(found - columns.begin())];
+    }
+    columns.push_back(column);
+    blocks.push_back(Block::Zero());
+    return blocks.back();
+  }
+
+  std::vector<std::uint32_t> columns;
+  std::vector<Block> blocks;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "equilibrium/block_vectors.h"
+#include "equilibrium/preconditioner.h"
+
+namespace chainmail {
+
+/// Conjugate gradients with a preconditioner, one step at a time. The iterate belongs to the caller.
+template <int D>
+class ConjugateGradients {
+ public:
+  using Matrix = LinkMatrix<double, D>;
+  using Vectors = typename Matrix::Vectors;
+
+  /// Begins with this negative gradient.
+  Vectors& begin() {
+    is_fresh_ = true;
+    return rest_;
+  }
+
+  /// Runs a step. Returns by how much the energy decreases.
+  double step(const Matrix& matrix, Preconditioner<D>& preconditioner, Vectors& x) {
+    preconditioner.apply(rest_, scaled_);
+    const double slope = dot(rest_, scaled_);
+    if (!(slope > 0)) {
+      slope_ = 0;
+      return 0;
+    }
+    // After Polak and Ribière, which forgives a preconditioner in float.
+    const double bend = is_fresh_ ? 0 : std::max(0.0, -step_ * dot(product_, scaled_) / slope_);
+    direction_.resize(rest_.size());
+    for (std::size_t i = 0; i < direction_.size(); ++i) {
+      direction_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * direction_[i];
+    }
+    slope_ = slope;
+    is_fresh_ = false;
+    matrix.apply(direction_, product_);
+    const double curvature = dot(direction_, product_), along = dot(rest_, direction_);
+    if (!(curvature > 0)) {
+      return 0;
+    }
+    step_ = along / curvature;
+    const double before = dot(rest_, rest_);
+    double after = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] += step_ * direction_[i];
+      rest_[i] -= step_ * product_[i];
+      after += rest_[i].squaredNorm();
+    }
+    shrunk_ = before > 0 ? std::sqrt(after / before) : 0;
+    return step_ * along / 2;
+  }
+
+  /// Estimates the distance of the iterate from the minimum after the last step: √(twice the energy of the distance).
+  double distance() const { return std::sqrt(std::max(0.0, slope_)) * shrunk_; }
+
+ private:
+  bool is_fresh_ = true;
+  double slope_ = 0, step_ = 0, shrunk_ = 1;
+  Vectors rest_, scaled_, direction_, product_;
+};
+
+}  // namespace chainmail

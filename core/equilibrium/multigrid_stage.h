@@ -1,0 +1,470 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "equilibrium/coarse_matrix.h"
+#include "equilibrium/rigid_frame.h"
+#include "mesh/progress.h"
+
+namespace chainmail {
+
+/// The way from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each.
+template <int Rows, int Dimension>
+class MultigridStage {
+ public:
+  static constexpr int modes = rigid_modes<Dimension>;
+  using Square = Eigen::Matrix<float, Rows, Rows>;
+  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vectors = std::vector<Vector>;
+  using Transfer = Eigen::Matrix<float, Rows, modes>;
+  using Frames = std::vector<RigidFrame<Dimension>>;
+  using Coarse = CoarseMatrix<modes>;
+
+  /// Prepares the smoother.
+  template <class Matrix>
+  void build_smoother(const Matrix& matrix) {
+    inverse_.resize(matrix.size());
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      update_inverse(matrix, row);
+    }
+    radius_ = estimate_radius(matrix);
+  }
+
+  /// Forms the aggregates, and returns their number. `frames`: of the rows.
+  template <class Matrix>
+  std::uint32_t aggregate(const Matrix& matrix, Frames frames) {
+    frames_ = std::move(frames);
+    find_aggregates(matrix);
+    return static_cast<std::uint32_t>(members_.size());
+  }
+
+  template <class Matrix>
+  void build_coarse(const Matrix& matrix, Coarse& coarse, const Progress& progress) {
+    coarse_frames_.resize(members_.size());
+    for (std::uint32_t a = 0; a < members_.size(); ++a) {
+      coarse_frames_[a] = frame_of(a);
+    }
+    transfer_.resize(matrix.size());
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      progress.part(0, 0.5).report(row, matrix.size());
+      update_transfer(matrix, row);
+    }
+    coarse.rows.resize(static_cast<std::uint32_t>(members_.size()));
+    sums_.assign(members_.size(), {});
+    for (std::uint32_t row = 0; row < matrix.size(); ++row) {
+      progress.part(0.5, 1).report(row, matrix.size());
+      add_to_coarse(matrix, row);
+    }
+    for (std::uint32_t a = 0; a < sums_.size(); ++a) {
+      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
+    }
+    sums_.clear();
+    sums_.shrink_to_fit();
+  }
+
+  template <class Matrix>
+  void smooth(const Matrix& matrix, const Vectors& right, Vectors& x, bool from_zero) {
+    // Chebyshev polynomial of degree 2 (Adams et al. 2003).
+    const float high = 1.02F * radius_, low = radius_ / 8;
+    const float middle = (high + low) / 2, half = (high - low) / 2;
+    const float sigma = middle / half;
+    if (from_zero) {
+      x.assign(right.size(), Vector::Zero());
+      residual_ = right;
+    } else {
+      subtract(matrix, right, x);
+    }
+    step_.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      step_[i].noalias() = inverse_[i] * residual_[i];
+      step_[i] /= middle;
+      x[i] += step_[i];
+    }
+    const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
+    subtract(matrix, right, x);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const Vector scaled = inverse_[i] * residual_[i];
+      x[i] += next * rho * step_[i] + 2 * next / half * scaled;
+    }
+  }
+
+  /// Writes the residual's coarse right-hand side.
+  template <class Matrix>
+  void restrict_residual(const Matrix& matrix, const Vectors& right, const Vectors& x,
+                         typename Coarse::Vectors& coarse_right) {
+    subtract(matrix, right, x);
+    coarse_right.assign(members_.size(), Coarse::Vector::Zero());
+    for (std::uint32_t row = 0; row < residual_.size(); ++row) {
+      const auto columns = transfer_.columns(row);
+      const auto blocks = transfer_.blocks(row);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual_[row];
+      }
+    }
+  }
+
+  void prolong(const typename Coarse::Vectors& coarse, Vectors& x) const {
+    for (std::uint32_t row = 0; row < x.size(); ++row) {
+      const auto columns = transfer_.columns(row);
+      const auto blocks = transfer_.blocks(row);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        x[row].noalias() += blocks[k] * coarse[columns[k]];
+      }
+    }
+  }
+
+  /// Adds rows, each of which joins the aggregate of an older row.
+  void append(const std::vector<std::uint32_t>& like, const Frames& all_frames) {
+    frames_ = all_frames;
+    for (const std::uint32_t row : like) {
+      aggregate_.push_back(aggregate_[row]);
+      if (aggregate_.back() != none) {
+        members_[aggregate_.back()].push_back(static_cast<std::uint32_t>(aggregate_.size() - 1));
+      }
+    }
+    inverse_.resize(aggregate_.size(), Square::Zero());
+    transfer_.resize(static_cast<std::uint32_t>(aggregate_.size()));
+  }
+
+  const Frames& frames_of_aggregates() const { return coarse_frames_; }
+
+  /// What a repair changes on the next level.
+  struct Changes {
+    std::vector<std::uint32_t> rows;  // rows of the coarse matrix that changed
+    std::vector<std::uint32_t> like;  // of each new row of the coarse matrix: the row that it was split from
+  };
+
+  /// Updates everything that depends on these rows of the matrix. If links were cut, aggregates that have come apart
+  /// are split.
+  template <class Matrix>
+  Changes repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
+    Changes changes;
+    std::vector<std::uint32_t> moved = rows;  // rows whose way to the coarse level changes
+    for (const std::uint32_t row : rows) {
+      update_inverse(matrix, row);
+    }
+    if (cut) {
+      const std::vector<std::uint32_t> split = with_neighbours(matrix, split_aggregates(matrix, rows, changes.like));
+      moved.insert(moved.end(), split.begin(), split.end());
+      make_unique(moved);
+      coarse.rows.resize(static_cast<std::uint32_t>(members_.size()));
+    }
+    const auto touch = [&](const std::vector<std::uint32_t>& some) {
+      for (const std::uint32_t row : some) {
+        const auto columns = transfer_.columns(row);
+        changes.rows.insert(changes.rows.end(), columns.begin(), columns.end());
+      }
+    };
+    touch(with_neighbours(matrix, moved));
+    for (const std::uint32_t row : moved) {
+      update_transfer(matrix, row);
+    }
+    touch(moved);
+    make_unique(changes.rows);
+    update_coarse_rows(matrix, changes.rows, coarse);
+    return changes;
+  }
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  /// Two rows whose coupling is below this share of their diagonal blocks do not join an aggregate.
+  static constexpr float weak_coupling = 0.01F;
+  static constexpr int power_iterations = 10;
+
+  /// Returns the inverse of a symmetric block, with a little added to its diagonal: it may be singular.
+  static Square safe_inverse(const Square& block) {
+    const float mean = block.trace() / float(Rows);
+    if (!(mean > std::numeric_limits<float>::min())) {
+      return Square::Zero();
+    }
+    const Square lifted = block / mean + 1e-5F * Square::Identity();
+    return lifted.inverse() / mean;
+  }
+
+  static void make_unique(std::vector<std::uint32_t>& ids) {
+    std::ranges::sort(ids);
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
+  template <class Matrix>
+  static std::vector<std::uint32_t> with_neighbours(const Matrix& matrix, const std::vector<std::uint32_t>& rows) {
+    std::vector<std::uint32_t> result = rows;
+    for (const std::uint32_t row : rows) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square&) { result.push_back(column); });
+    }
+    make_unique(result);
+    return result;
+  }
+
+  /// Splits the aggregates of these rows where no couplings hold them together. Returns the rows that got another
+  /// aggregate, and adds to `like` the aggregate that each new one was split from.
+  template <class Matrix>
+  std::vector<std::uint32_t> split_aggregates(const Matrix& matrix, const std::vector<std::uint32_t>& rows,
+                                              std::vector<std::uint32_t>& like) {
+    std::vector<std::uint32_t> suspects, moved;
+    for (const std::uint32_t row : rows) {
+      if (aggregate_[row] != none) {
+        suspects.push_back(aggregate_[row]);
+      }
+    }
+    make_unique(suspects);
+    for (const std::uint32_t a : suspects) {
+      std::vector<std::vector<std::uint32_t>> parts = parts_of(matrix, a);
+      for (std::size_t i = 1; i < parts.size(); ++i) {
+        const auto fresh = static_cast<std::uint32_t>(members_.size());
+        for (const std::uint32_t row : parts[i]) {
+          aggregate_[row] = fresh;
+        }
+        moved.insert(moved.end(), parts[i].begin(), parts[i].end());
+        members_.push_back(std::move(parts[i]));
+        coarse_frames_.push_back(frame_of(fresh));
+        like.push_back(a);
+      }
+      members_[a] = std::move(parts[0]);
+    }
+    return moved;
+  }
+
+  /// Returns the members of an aggregate, in parts that couplings hold together. Fixed rows are in the first part.
+  template <class Matrix>
+  std::vector<std::vector<std::uint32_t>> parts_of(const Matrix& matrix, std::uint32_t aggregate) {
+    std::vector<std::vector<std::uint32_t>> parts(1);
+    std::vector<std::uint32_t> left;
+    for (const std::uint32_t row : members_[aggregate]) {
+      (inverse_[row].isZero(0) ? parts[0] : left).push_back(row);
+    }
+    while (!left.empty()) {
+      std::vector<std::uint32_t> part{left.back()};
+      left.pop_back();
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        matrix.for_each_in_row(part[i], [&](std::uint32_t column, const Square& block) {
+          const auto found = block.isZero(0) ? left.end() : std::ranges::find(left, column);
+          if (found != left.end()) {
+            part.push_back(column);
+            left.erase(found);
+          }
+        });
+      }
+      parts.push_back(std::move(part));
+    }
+    if (parts[0].empty() && parts.size() > 1) {
+      parts.erase(parts.begin());
+    }
+    return parts;
+  }
+
+  template <class Matrix>
+  void update_coarse_rows(const Matrix& matrix, const std::vector<std::uint32_t>& touched, Coarse& coarse) {
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t a : touched) {
+      rows.insert(rows.end(), members_[a].begin(), members_[a].end());
+    }
+    rows = with_neighbours(matrix, rows);
+    sums_.resize(members_.size());
+    std::vector<bool> wanted(members_.size());
+    for (const std::uint32_t a : touched) {
+      wanted[a] = true;
+    }
+    for (const std::uint32_t row : rows) {
+      add_to_coarse(matrix, row, &wanted);
+    }
+    for (const std::uint32_t a : touched) {
+      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
+    }
+    sums_.clear();
+  }
+
+  template <class Matrix>
+  void update_inverse(const Matrix& matrix, std::uint32_t row) {
+    Square diagonal = Square::Zero();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      if (column == row) {
+        diagonal = block;
+      }
+    });
+    inverse_[row] = safe_inverse(diagonal);
+  }
+
+  /// Returns the largest eigenvalue of the matrix after division by its diagonal blocks.
+  template <class Matrix>
+  float estimate_radius(const Matrix& matrix) {
+    if constexpr (Rows == Dimension) {
+      return 2;  // a bound for every energy of links, since |a − b|² ≤ 2|a|² + 2|b|²
+    }
+    Vectors x(matrix.size()), product;
+    std::uint32_t state = 1;
+    for (Vector& one : x) {
+      for (int k = 0; k < Rows; ++k) {
+        state = state * 1664525U + 1013904223U;
+        one[k] = float(state >> 8) / float(1 << 24) - 0.5F;
+      }
+    }
+    float radius = 1;
+    for (int i = 0; i < power_iterations; ++i) {
+      matrix.apply(x, product);
+      double square = 0;
+      for (std::size_t row = 0; row < x.size(); ++row) {
+        x[row] = inverse_[row] * product[row];
+        square += double(x[row].squaredNorm());
+      }
+      radius = float(std::sqrt(square));
+      if (!(radius > 0)) {
+        return 1;
+      }
+      for (Vector& one : x) {
+        one /= radius;
+      }
+    }
+    return 1.1F * radius;
+  }
+
+  template <class Matrix>
+  void find_aggregates(const Matrix& matrix) {
+    const std::uint32_t size = matrix.size();
+    aggregate_.assign(size, none);
+    std::vector<float> scale(size);
+    for (std::uint32_t row = 0; row < size; ++row) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+        if (column == row) {
+          scale[row] = block.norm();
+        }
+      });
+    }
+    const auto for_each_strong = [&](std::uint32_t row, auto visit) {
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+        if (column != row && block.squaredNorm() > weak_coupling * weak_coupling * scale[row] * scale[column]) {
+          visit(column, block);
+        }
+      });
+    };
+    members_.clear();
+    for (std::uint32_t row = 0; row < size; ++row) {
+      if (aggregate_[row] != none) {
+        continue;
+      }
+      bool is_free = true, is_alone = true;
+      for_each_strong(row, [&](std::uint32_t column, const Square&) {
+        is_free = is_free && aggregate_[column] == none;
+        is_alone = false;
+      });
+      if (is_free && !is_alone) {
+        const auto a = static_cast<std::uint32_t>(members_.size());
+        aggregate_[row] = a;
+        members_.push_back({row});
+        for_each_strong(row, [&](std::uint32_t column, const Square&) {
+          aggregate_[column] = a;
+          members_[a].push_back(column);
+        });
+      }
+    }
+    std::vector<std::uint32_t> joined(size, none);
+    for (std::uint32_t row = 0; row < size; ++row) {
+      float strongest = 0;
+      if (aggregate_[row] == none) {
+        for_each_strong(row, [&](std::uint32_t column, const Square& block) {
+          const float strength = block.squaredNorm() / scale[column];
+          if (aggregate_[column] != none && strength > strongest) {
+            strongest = strength;
+            joined[row] = aggregate_[column];
+          }
+        });
+      }
+    }
+    for (std::uint32_t row = 0; row < size; ++row) {
+      if (joined[row] != none) {
+        aggregate_[row] = joined[row];
+        members_[joined[row]].push_back(row);
+      }
+    }
+  }
+
+  RigidFrame<Dimension> frame_of(std::uint32_t aggregate) const {
+    RigidFrame<Dimension> frame;
+    for (const std::uint32_t row : members_[aggregate]) {
+      frame.centre += frames_[row].centre;
+    }
+    frame.centre /= float(members_[aggregate].size());
+    float square = 0;
+    for (const std::uint32_t row : members_[aggregate]) {
+      square += (frames_[row].centre - frame.centre).squaredNorm() + frames_[row].size * frames_[row].size;
+    }
+    frame.size = std::sqrt(square / float(members_[aggregate].size()));
+    if (!(frame.size > 0)) {
+      frame.size = 1;
+    }
+    return frame;
+  }
+
+  Transfer rigid(std::uint32_t row) const {
+    return rigid_motion<Rows, Dimension>(frames_[row], coarse_frames_[aggregate_[row]]);
+  }
+
+  /// Rigid motions of the aggregates, smoothed by one step of damped Jacobi.
+  template <class Matrix>
+  void update_transfer(const Matrix& matrix, std::uint32_t row) {
+    transfer_sum_.clear();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      if (aggregate_[column] != none) {
+        const Transfer motion = rigid(column);
+        const Square damped = (-4.0F / 3 / radius_) * (inverse_[row] * block);
+        Transfer& sum = transfer_sum_.at(aggregate_[column]);
+        sum.noalias() += damped * motion;
+        if (column == row) {
+          sum += motion;
+        }
+      }
+    });
+    transfer_.set_row(row, transfer_sum_.columns, transfer_sum_.blocks);
+  }
+
+  /// Adds what a row of the matrix contributes to Pᵀ A P, into the wanted coarse rows.
+  template <class Matrix>
+  void add_to_coarse(const Matrix& matrix, std::uint32_t row, const std::vector<bool>* wanted = nullptr) {
+    if (transfer_.columns(row).empty()) {
+      return;
+    }
+    product_sum_.clear();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      const auto columns = transfer_.columns(column);
+      const auto blocks = transfer_.blocks(column);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        product_sum_.at(columns[k]).noalias() += block * blocks[k];
+      }
+    });
+    const auto columns = transfer_.columns(row);
+    const auto blocks = transfer_.blocks(row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (wanted == nullptr || (*wanted)[columns[k]]) {
+        for (std::size_t c = 0; c < product_sum_.columns.size(); ++c) {
+          sums_[columns[k]].at(product_sum_.columns[c]).noalias() += blocks[k].transpose() * product_sum_.blocks[c];
+        }
+      }
+    }
+  }
+
+  template <class Matrix>
+  void subtract(const Matrix& matrix, const Vectors& right, const Vectors& x) {
+    matrix.apply(x, residual_);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      residual_[i] = right[i] - residual_[i];
+    }
+  }
+
+  std::vector<Square> inverse_;  // of the diagonal blocks
+  float radius_ = 1;             // largest eigenvalue of the matrix after division by the diagonal blocks
+  Frames frames_, coarse_frames_;
+  std::vector<std::uint32_t> aggregate_;             // of each row, or none
+  std::vector<std::vector<std::uint32_t>> members_;  // of each aggregate
+  BlockRows<Transfer> transfer_;
+  Vectors residual_, step_;
+  std::vector<RowSum<typename Coarse::Square>> sums_;
+  RowSum<Transfer> transfer_sum_, product_sum_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "equilibrium/block_vectors.h"
+#include "equilibrium/preconditioner.h"
+
+namespace chainmail {
+
+/// A quasi-Newton method with a preconditioner in place of the first approximation of the inverse (L-BFGS; Nocedal
+/// 1980), one step at a time. What it has learned about the curvature stays when the handle moves.
+template <int D>
+class QuasiNewton {
+ public:
+  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
+
+  void forget() { pairs_.clear(); }
+
+  /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
+  /// returns the energy. Returns false if no step lowers the energy.
+  template <class Evaluate>
+  bool step(Evaluate evaluate, Preconditioner<D>& preconditioner, Vectors& x, double& energy, Vectors& force) {
+    find_direction(preconditioner, force);
+    const double slope = dot(direction_, force);
+    slope_ = std::max(0.0, slope);
+    if (!(slope > 0)) {
+      forget();
+      return false;
+    }
+    before_ = force;
+    start_ = x;
+    double length = 1;
+    for (int i = 0; i < most_tries; ++i, length *= 0.5) {
+      for (std::size_t e = 0; e < x.size(); ++e) {
+        x[e] = start_[e] + length * direction_[e];
+      }
+      const double next = evaluate(x, force);
+      if (next <= energy - 1e-4 * length * slope + 1e-13 * energy) {
+        energy = next;
+        learn(length, force);
+        const double was = dot(before_, before_);
+        shrunk_ = was > 0 ? std::min(1.0, std::sqrt(dot(force, force) / was)) : 0;
+        return true;
+      }
+    }
+    x = start_;
+    force = before_;
+    forget();
+    return false;
+  }
+
+  /// Estimates the distance from the minimum after the last step: √(twice the energy of the distance).
+  double distance() const { return std::sqrt(slope_) * shrunk_; }
+
+ private:
+  static constexpr std::size_t most_pairs = 6;
+  static constexpr int most_tries = 12;
+
+  struct Pair {
+    Vectors step, change;  // of the position, and of the gradient
+    double product = 0;    // step · change
+  };
+
+  void find_direction(Preconditioner<D>& preconditioner, const Vectors& force) {
+    rest_ = force;
+    std::vector<double> shares(pairs_.size());
+    for (std::size_t i = pairs_.size(); i-- > 0;) {
+      shares[i] = dot(pairs_[i].step, rest_) / pairs_[i].product;
+      add(rest_, -shares[i], pairs_[i].change);
+    }
+    preconditioner.apply(rest_, direction_);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      add(direction_, shares[i] - dot(pairs_[i].change, direction_) / pairs_[i].product, pairs_[i].step);
+    }
+  }
+
+  void learn(double length, const Vectors& force) {
+    Pair pair;
+    if (pairs_.size() == most_pairs) {
+      pair = std::move(pairs_.front());
+      pairs_.erase(pairs_.begin());
+    }
+    pair.step.assign(direction_.size(), Eigen::Matrix<double, D, 1>::Zero());
+    add(pair.step, length, direction_);
+    pair.change = before_;
+    add(pair.change, -1, force);
+    pair.product = dot(pair.step, pair.change);
+    if (pair.product > 1e-12 * std::sqrt(dot(pair.step, pair.step) * dot(pair.change, pair.change))) {
+      pairs_.push_back(std::move(pair));
+    }
+  }
+
+  std::vector<Pair> pairs_;  // oldest first
+  Vectors rest_, direction_, before_, start_;
+  double slope_ = 0, shrunk_ = 1;
+};
+
+}  // namespace chainmail

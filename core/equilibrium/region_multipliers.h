@@ -1,0 +1,131 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "body/region.h"
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// The valid regions in a minimisation, by the alternating direction method of multipliers (Glowinski and Marroco 1975;
+/// Boyd et al. 2011): per link, a copy of its difference of displacements that stays inside the region, and a
+/// multiplier, which is the region's force.
+///
+/// `links` in its functions calls visit(link, i, j, region, stiffness) for each link that counts, with the region of
+/// element j about i and the stiffness of the link.
+template <int Dimension>
+class RegionMultipliers {
+ public:
+  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vectors = std::vector<Vector>;
+
+  /// Stiffness against the distance between a link and its copy, as a multiple of the link's own stiffness.
+  double penalty() const { return penalty_; }
+
+  /// Begins without forces, from these displacements.
+  template <class Links>
+  void begin(LinkId link_count, Links links, const Vectors& at) {
+    multiplier_.assign(link_count, Vector::Zero());
+    inside_.resize(link_count);
+    links([&](LinkId link, ElementId i, ElementId j, const auto& region, double) {
+      inside_[link] = clamped_to(region, at[j] - at[i]);
+    });
+    begin_checks();
+  }
+
+  /// Checks the penalty after a few steps again, for another problem.
+  void begin_checks() {
+    steps_ = 0;
+    next_check_ = first_check;
+  }
+
+  /// Forgets the force of a cut link.
+  void drop(LinkId link) {
+    multiplier_[link].setZero();
+    inside_[link].setZero();
+  }
+
+  /// Adds the forces that pull the links to their copies.
+  template <class Links>
+  void add_forces(Links links, const Vectors& at, Vectors& force) const {
+    links([&](LinkId link, ElementId i, ElementId j, const auto&, double stiffness) {
+      const Vector apart = at[j] - at[i];
+      const Vector pull = penalty_ * stiffness * (inside_[link] - multiplier_[link] - apart);
+      force[i] -= pull;
+      force[j] += pull;
+    });
+  }
+
+  /// What a step has changed; sums over the links, weighted by their stiffness.
+  struct Step {
+    double outside = 0;  // squared distance between links and their copies
+    double stepped = 0;  // squared step of the copies
+    double size = 0;     // squared difference of displacements
+    bool forced = false;
+  };
+
+  /// Moves the copies into the regions, and updates the multipliers.
+  template <class Links>
+  Step step(Links links, const Vectors& at) {
+    Step result;
+    links([&](LinkId link, ElementId i, ElementId j, const auto& region, double stiffness) {
+      const double weight = penalty_ * stiffness;
+      const Vector apart = at[j] - at[i], before = inside_[link];
+      const Vector wanted = over_relaxation * apart + (1 - over_relaxation) * before + multiplier_[link];
+      inside_[link] = clamped_to(region, wanted);
+      multiplier_[link] = wanted - inside_[link];  // exactly 0 inside the region
+      result.outside += weight * (apart - inside_[link]).squaredNorm();
+      result.stepped += weight * (before - inside_[link]).squaredNorm();
+      result.size += weight * apart.squaredNorm();
+      result.forced = result.forced || !multiplier_[link].isZero(0);
+    });
+    return result;
+  }
+
+  /// Changes the penalty if one of the two residuals of a step is much larger than the other. Returns true if it did.
+  bool adapt(const Step& step) {
+    if (++steps_ < next_check_) {
+      return false;
+    }
+    next_check_ *= 2;
+    const double ratio = step.outside > 0 ? std::sqrt(step.stepped / step.outside) : 1;
+    const double wanted = ratio > too_stiff ? penalty_ / factor : ratio < too_soft ? penalty_ * factor : penalty_;
+    if (wanted == penalty_ || wanted < least || wanted > largest) {
+      return false;
+    }
+    for (Vector& one : multiplier_) {
+      one *= penalty_ / wanted;
+    }
+    penalty_ = wanted;
+    return true;
+  }
+
+  /// Returns the force of a link's region.
+  Vector force(LinkId link, double stiffness) const { return penalty_ * stiffness * multiplier_[link]; }
+
+  static Vector clamped_to(const Region<double, Dimension>& region, Vector apart) {
+    for (int k = 0; k < Dimension; ++k) {
+      apart[k] = std::min(std::max(apart[k], region.low[k]), region.high[k]);
+    }
+    return apart;
+  }
+
+ private:
+  // The penalty at the beginning, and its limits. Few binding links converge best with little, many with much.
+  static constexpr double first = 2, least = 0.2, largest = 100;
+  // The penalty changes by this factor after 6, 12, 24, ... steps if one of the two residuals is larger than the other
+  // by these ratios (after Boyd et al. 2011, section 3.4.1; the ratios were found by trials on sheets and blocks).
+  static constexpr double factor = 3, too_stiff = 1.9, too_soft = 0.7;
+  static constexpr int first_check = 6;
+  static constexpr double over_relaxation = 1.7;
+
+  double penalty_ = first;
+  int steps_ = 0, next_check_ = first_check;
+  Vectors inside_;      // of each link: its copy
+  Vectors multiplier_;  // of each link: its force, divided by the penalty
+};
+
+}  // namespace chainmail

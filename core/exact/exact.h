@@ -1,0 +1,382 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "body/rigid_handle.h"
+#include "body/trace.h"
+#include "chainmail/replay.h"
+#include "exact/handle_regions.h"
+
+namespace chainmail {
+
+/// Exact ChainMail: moves every element, on every axis, as little as any valid answer to the move can.
+///
+/// HandleRegions computes the region about the handle in which each element may lie. A pass clamps each element into
+/// its own region, like a neighbour of the handle. No element waits for another one, so no order changes a bit of the
+/// answer, and no rounding adds up along the links.
+template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
+class ExactPropagation {
+ public:
+  using State = BodyView<Scalar, Dimension>;
+  using Reach = HandleReach<Scalar, Dimension>;
+
+  /// Moves a handle. The state must be valid, except for links inside a handle of many. On axes on which pins stop it,
+  /// the handle moves as far as they allow. A rotation ends where the handle would contradict itself, or pins, through
+  /// links outside it. `move` gets the pose that was reached. `moved` receives the elements that moved, without the
+  /// handle. `trace`, if given, receives the same elements, the largest move first, ties by id.
+  /// The pass may use `threads`; their number does not change a bit of the answer, but the order in `moved`.
+  PassCount propagate(State& body, HandleMove& move, std::vector<ElementId>& moved, Trace* trace, int threads = 1) {
+    remark_.clear();
+    visits_ = 0;
+    ThreadTeam team(threads);
+    const Reach reach =
+        move.handle.has_one() ? extend_one(body, move, threads, team) : extend_many(body, move, threads, team);
+    if (trace != nullptr) {
+      write_trace(body, reach, *trace);
+    }
+    this->move(body, reach, moved, team);
+    drop_idle_regions(moved.size());
+    const bool stopped = std::find(reach.stopped, reach.stopped + Dimension, true) != reach.stopped + Dimension;
+    return {moved.size(), moved.size(), stopped || !remark_.empty(), visits_};
+  }
+
+  /// Prepares the first move of an element: computes the regions of all elements. They are used if that move, too,
+  /// would have computed them all, so no bit depends on them. Throws Cancelled.
+  void prepare(const State& body, const Handle& handle, int threads, const Progress& progress) {
+    const Prepared wanted{conditions_of(body, handle), threads};
+    if (prepared_for_ == wanted || is_made_for(body, handle, threads)) {
+      return;
+    }
+    prepared_for_ = {};  // until all is done
+    prepared_.begin(body, handle.elements(), {}, threads);
+    ThreadTeam team(threads);
+    prepared_.extend_everywhere(body, team, progress);
+    prepared_for_ = wanted;
+  }
+
+  /// Forgets the regions, and where a handle of many was when its first pass began.
+  void forget() {
+    made_for_ = {};
+    prepared_for_ = {};
+    idle_passes_ = 0;
+  }
+
+  /// Reason why the last pass did not reach its rotation. Usually empty.
+  const std::string& remark() const { return remark_; }
+
+ private:
+  using Offset = Position<Scalar, Dimension>;
+
+  /// What the regions are valid for.
+  struct Conditions {
+    std::uint64_t cuts = 0, pins = 0, softness = 0;
+    ElementId first = no_element;  // of the handle
+    std::uint64_t grab = 0;        // of a handle of many
+    std::uint64_t positions = 0;   // of a handle of many, whose offsets come from them
+    bool operator==(const Conditions&) const = default;
+  };
+
+  /// What the prepared regions are valid for.
+  struct Prepared {
+    Conditions conditions;
+    int threads = 0;
+    bool operator==(const Prepared&) const = default;
+  };
+
+  static Conditions conditions_of(const State& body, const Handle& handle) {
+    const Revisions& now = body.revisions();
+    return {
+        now.cuts, now.pins, now.softness, handle.elements()[0], handle.grab(), handle.has_one() ? 0 : now.positions};
+  }
+  bool is_made_for(const State& body, const Handle& handle, int threads) const {
+    return conditions_of(body, handle) == made_for_ && threads == threads_ && is_where_it_was(body, handle);
+  }
+
+  void begin_one(const State& body, const Handle& handle, const Reach& reach, int threads) {
+    if (is_made_for(body, handle, threads)) {
+      return;
+    }
+    offsets_.clear();
+    const Prepared wanted{conditions_of(body, handle), threads};
+    if (prepared_for_ == wanted && prepared_.moves_all(body, reach)) {
+      std::swap(regions_, prepared_);
+      prepared_for_ = {};
+    } else {
+      regions_.begin(body, handle.elements(), offsets_, threads);
+    }
+    threads_ = threads;
+    made_for_ = wanted.conditions;
+  }
+
+  void begin_many(const State& body, const Handle& handle, int threads) {
+    if (is_made_for(body, handle, threads)) {
+      return;
+    }
+    shape_.begin(body, handle);
+    offsets_ = shape_.offsets(rotation_ = handle.pose().rotation);
+    std::fill_n(at_.at, Dimension, Scalar{0});
+    threads_ = threads;
+    regions_.begin(body, handle.elements(), offsets_, threads);
+    made_for_ = conditions_of(body, handle);
+  }
+
+  /// True if nothing has moved an element of a handle of many since the last pass. Relaxation may, after a release.
+  bool is_where_it_was(const State& body, const Handle& handle) const {
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        if (body.positions[handle.elements()[i]][k] != at_[k] + offsets_[i][k]) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void extend(const State& body, Reach& reach, ThreadTeam& team) {
+    const std::uint64_t before = regions_.visits();
+    regions_.extend(body, reach, team);
+    visits_ += regions_.visits() - before;
+  }
+
+  Reach extend_one(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
+    const ElementId element = move.handle.elements()[0];
+    Reach reach(body.positions[element], stored_target(body, element, move.pose.pivot).at);
+    begin_one(body, move.handle, reach, threads);
+    extend(body, reach, team);
+    for (int k = 0; k < Dimension; ++k) {
+      if (reach.stopped[k]) {
+        move.pose.pivot[body.mesh->axes[std::size_t(k)]] = body.origin(element, k) + double(reach.to[k]);
+      }
+    }
+    return reach;
+  }
+
+  Reach extend_many(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
+    begin_many(body, move.handle, threads);
+    const Pose target = move.pose;
+    const Offset to = shape_.at(target);
+    std::optional<Offset> turned;
+    if (target.rotation != rotation_) {
+      turned = turn(body, move.handle, target.rotation, to, team);
+    }
+    Reach reach = turned ? Reach(*turned) : Reach(at_, to.at);
+    if (turned) {
+      for (int k = 0; k < Dimension; ++k) {
+        reach.stopped[k] = (*turned)[k] != to[k];
+      }
+    } else {
+      extend(body, reach, team);
+    }
+    std::copy_n(reach.to, Dimension, at_.at);
+    if (at_ != to) {
+      move.pose.pivot = shape_.pivot_at(at_);
+    }
+    move.pose.rotation = rotation_;
+    return reach;
+  }
+
+  /// Finds regions for a rotation of the handle, or for the furthest possible one. Returns where the handle is then, as
+  /// near to `to` as pins allow; nothing if it cannot rotate. The regions are those of rotation_ in either case.
+  std::optional<Offset> turn(const State& body, const Handle& handle, const Point& target, const Offset& to,
+                             ThreadTeam& team) {
+    const Point from = rotation_;
+    auto reached = try_rotation(body, handle, target, to, team);
+    if (reached) {
+      return reached;
+    }
+    double possible = 0, impossible = 1;
+    const double angle = angle_between(from, target);
+    while ((impossible - possible) * angle > finest_angle) {
+      const double fraction = (possible + impossible) / 2;
+      (try_rotation(body, handle, rotation_between(from, target, fraction), to, team) ? possible : impossible) =
+          fraction;
+    }
+    reached = try_rotation(body, handle, rotation_between(from, target, possible), to, team);
+    char text[96];
+    std::snprintf(text, sizeof text, "stopped at %.3g degrees by links outside the handle, or by pins",
+                  rotation_.norm() * (180 / std::numbers::pi));
+    remark_ = text;
+    return possible > 0 ? reached : std::nullopt;
+  }
+
+  std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation,
+                                     const Offset& target, ThreadTeam& team) {
+    Offset to = target;
+    rotation_ = rotation;
+    offsets_ = shape_.offsets(rotation);
+    regions_.begin(body, handle.elements(), offsets_, threads_);
+    for (int i = 0; i < most_corrections; ++i) {
+      Reach reach(to);
+      extend(body, reach, team);
+      if (!regions_.hold(body, to)) {
+        break;
+      }
+    }
+    double size = 0;
+    for (int k = 0; k < Dimension; ++k) {
+      size = std::max({size, std::abs(double(to[k])), std::abs(double(offsets_.front()[k]))});
+    }
+    // The same tolerance as for the links of a state that is taken to be valid.
+    const double tolerance = 8 * std::numeric_limits<Scalar>::epsilon() * size;
+    return regions_.agree(body, to, static_cast<Scalar>(tolerance)) ? std::optional(to) : std::nullopt;
+  }
+
+  static constexpr double finest_angle = 1e-6;  // radians
+  // Of the position of a rotated handle, as the search finds more pins.
+  static constexpr int most_corrections = 8;
+
+  /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
+  /// dropped after enough idle passes to pay for a new search.
+  void drop_idle_regions(std::size_t moved) {
+    const std::size_t known = regions_.known() - offsets_.size();
+    idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
+    if (idle_passes_ == passes_of_a_search) {
+      made_for_ = {};
+      idle_passes_ = 0;
+    }
+  }
+
+  static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
+
+  /// Elements of one share, clamped by one thread.
+  struct Piece {
+    std::span<const ElementId> elements;
+    const Region<Scalar, Dimension>* regions;
+    ElementId* moved;       // where the elements that move are listed
+    std::size_t count = 0;  // of these
+  };
+
+  void move(State& body, const Reach& reach, std::vector<ElementId>& moved, ThreadTeam& team) {
+    moved.resize(regions_.known());
+    pieces_.clear();
+    ElementId* to = moved.data();
+    const auto shares = regions_.shares();
+    // Neighbours on a cache line belong to one share. A single share is cut in as few places as possible.
+    const std::size_t per_share = shares.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
+    for (const auto& share : shares) {
+      const std::size_t size = share.elements().size(), piece = std::max(size / per_share + 1, fewest_for_thread);
+      for (std::size_t i = share.handle_size(), end = 0; i < size; i = end) {
+        end = std::min(size, i + piece);
+        pieces_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
+        to += end - i;
+      }
+    }
+    if (pieces_.size() > 1 && moved.size() >= 2 * fewest_for_thread) {
+      team.call_helpers();
+    }
+    team.run(pieces_.size(), [&](std::size_t i) { clamp(body, reach, pieces_[i]); });
+    std::size_t count = 0;
+    for (const Piece& piece : pieces_) {
+      if (piece.moved != moved.data() + count) {
+        std::copy_n(piece.moved, piece.count, moved.data() + count);
+      }
+      count += piece.count;
+    }
+    moved.resize(count);
+    const auto handle = regions_.handle();
+    std::copy_n(reach.to, Dimension, body.positions[handle[0]].at);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      for (int k = 0; k < Dimension; ++k) {
+        body.positions[handle[i]][k] = reach.to[k] + offsets_[i][k];
+      }
+    }
+  }
+
+  static void clamp(const State& body, const Reach& reach, Piece& piece) {
+    const ElementId* const elements = piece.elements.data();
+    const std::size_t size = piece.elements.size();
+    const Region<Scalar, Dimension>* const regions = piece.regions;
+    auto* const positions = body.positions.data();
+    ElementId* const moved = piece.moved;
+    const Reach to = reach;  // so that no write seems to change it
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      __builtin_prefetch(&positions[elements[std::min(i + fetched_ahead, size - 1)]], 1);
+      auto& position = positions[elements[i]];
+      const auto next = clamped(position, to.low, to.high, regions[i]);
+      if (next != position) {
+        position = next;
+        moved[count++] = elements[i];
+      }
+    }
+    piece.count = count;
+  }
+
+  // Elements that a thread must have to clamp before it pays.
+  static constexpr std::size_t fewest_for_thread = 16'384;
+
+  struct Row {
+    double way;
+    TraceRow row;
+  };
+
+  void write_trace(const State& body, const Reach& reach, Trace& trace) const {
+    std::vector<Row> rows;
+    for (const auto& share : regions_.shares()) {
+      for (std::size_t i = share.handle_size(); i < share.elements().size(); ++i) {
+        add_row(body, reach, share.elements()[i], share.regions()[i], rows);
+      }
+    }
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+      return a.way != b.way ? a.way > b.way : a.row.element < b.row.element;
+    });
+    for (const Row& row : rows) {
+      trace.push_back(row.row);
+    }
+  }
+
+  void add_row(const State& body, const Reach& reach, ElementId element, const Region<Scalar, Dimension>& region,
+               std::vector<Row>& rows) const {
+    const auto next = clamped(body.positions[element], reach.low, reach.high, region);
+    double ways[Dimension];
+    for (int k = 0; k < Dimension; ++k) {
+      ways[k] = std::abs(double(next[k]) - double(body.positions[element][k]));
+    }
+    const double* furthest = std::max_element(ways, ways + Dimension);
+    if (*furthest > 0) {
+      const auto k = static_cast<int>(furthest - ways);
+      rows.push_back(
+          {*furthest, {element, binding_neighbour(body, element, k, next[k] > body.positions[element][k]), true}});
+    }
+  }
+
+  /// Returns the neighbour with the lowest id on the shortest path to the element, along an axis, up or down. The
+  /// region of a link seen from its other end is mirrored, to the bit.
+  ElementId binding_neighbour(const State& body, ElementId element, int k, bool up) const {
+    const auto& to = *regions_.find(element);
+    ElementId binding = no_element;
+    body.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
+      const auto* from = regions_.find(neighbour);
+      const auto& link = body.regions[entry];
+      if (from != nullptr &&
+          (up ? from->low[k] - link.high[k] == to.low[k] : from->high[k] - link.low[k] == to.high[k])) {
+        binding = std::min(binding, neighbour);
+      }
+    });
+    return binding;
+  }
+
+  Offset at_{};  // of a handle of many: its displacement after the last pass
+  HandleRegions<Scalar, Dimension, Schedule> regions_;
+  HandleRegions<Scalar, Dimension, Schedule> prepared_;  // of all elements, for the first move of an element
+  Prepared prepared_for_;
+  Conditions made_for_;
+  int threads_ = 1;                       // the regions were made with
+  std::vector<Piece> pieces_;             // of this pass
+  RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too
+  std::vector<Offset> offsets_;           // for rotation_; empty for a handle of one
+  Point rotation_ = Point::Zero();
+  std::string remark_;
+  std::uint64_t visits_ = 0;  // in this pass
+  int idle_passes_ = 0;       // passes in a row that moved few of the known elements
+};
+
+}  // namespace chainmail

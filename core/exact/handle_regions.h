@@ -1,0 +1,252 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "exact/exact_schedule.h"
+#include "exact/region_share.h"
+#include "exact/thread_team.h"
+#include "mesh/progress.h"
+
+namespace chainmail {
+
+/// The region about the handle in which each element may lie, for any state of the object. Its bounds are the shortest
+/// paths of links from the handle, up and down along each axis; the length of a link is the bound of its region. A path
+/// from an element of a handle of many begins at its offset. Links inside the handle are part of no path: the handle is
+/// rigid, and holds their ends itself.
+///
+/// A link is two difference constraints per axis. In a valid state the slacks along a path add up to the path's length
+/// less the distance of its ends. So the shortest path depends on softness and links only, not on positions, and the
+/// regions are valid for a whole drag. They are computed as the drag needs them: the neighbours of an element get
+/// theirs once it moves (as candidates are admitted in every ChainMail), and no schedule changes a bit of them. The
+/// derivation is this project's own.
+///
+/// So threads may search too. Each has a share of the elements; they work in rounds, in which no share reads what
+/// another one writes. Pins that are found stop the handle while the search goes on, and then the order matters for
+/// which elements become known: an object with pins has one share.
+///
+/// The body stores displacements from rest. One search handles all axes.
+template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
+class HandleRegions {
+ public:
+  using State = BodyView<Scalar, Dimension>;
+  using Reach = HandleReach<Scalar, Dimension>;
+  using Bounds = Region<Scalar, Dimension>;
+  using Offset = Position<Scalar, Dimension>;
+  using Share = RegionShare<Scalar, Dimension, Schedule>;
+
+  /// Drops all regions. Call this for a new handle, when offsets or links, softness or pins have changed. A handle of
+  /// one element has no offsets; one of many has an offset for each element. The search will use `threads` at most.
+  void begin(const State& body, std::span<const ElementId> handle, std::span<const Offset> offsets, int threads = 1) {
+    search_.index.resize(body.positions.size(), Search::unknown);
+    for (Share& share : shares_) {
+      share.clear(search_);
+    }
+    divide(body, threads);
+    search_.handle.assign(handle.begin(), handle.end());
+    for (int k = 0; k < Dimension; ++k) {
+      const auto of_axis = [k](const Offset& one) { return one[k]; };
+      search_.least[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::min_element(offsets, {}, of_axis));
+      search_.most[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
+    }
+    for (std::size_t i = 0; i < handle.size(); ++i) {
+      shares_[search_.share_of(handle[i])].add_to_handle(search_, handle[i], offsets.empty() ? Offset{} : offsets[i]);
+    }
+  }
+
+  /// True if every element and every pin can lie in its region while the handle is at a displacement, up to a
+  /// tolerance (mesh units). False if the handle has rotated so far that it contradicts itself.
+  bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
+    bool agree = true;
+    for (const Share& share : shares_) {
+      for (const Bounds& region : share.regions()) {
+        for (int k = 0; k < Dimension; ++k) {
+          agree &= region.low[k] <= region.high[k] + tolerance;
+        }
+      }
+      for (const auto& pin : share.pins()) {
+        for (int k = 0; k < Dimension; ++k) {
+          const Scalar at = body.positions[pin.element][k] - handle[k];
+          agree &= pin.region.low[k] <= at + tolerance && at <= pin.region.high[k] + tolerance;
+        }
+      }
+    }
+    return agree;
+  }
+
+  /// Moves the displacement of a handle, on each axis, as little as the known pins require. Returns true if it moved.
+  bool hold(const State& body, Offset& handle) const {
+    const Offset before = handle;
+    for (const Share& share : shares_) {
+      for (const auto& pin : share.pins()) {
+        for (int k = 0; k < Dimension; ++k) {
+          const Scalar at = body.positions[pin.element][k];
+          handle[k] = std::min(std::max(handle[k], at - pin.region.high[k]), at - pin.region.low[k]);
+        }
+      }
+    }
+    return handle != before;
+  }
+
+  /// Computes the regions of all elements, before it is known where the handle goes.
+  void extend_everywhere(const State& body, ThreadTeam& team, const Progress& progress) {
+    Reach reach = Reach::everywhere();
+    extend(body, reach, team, progress);
+  }
+
+  /// True if a handle with this reach moves all elements that have a region, and no pin stops it: then the search would
+  /// have found just these regions.
+  bool moves_all(const State& body, const Reach& reach) const {
+    Reach held = reach;
+    for (const Share& share : shares_) {
+      for (const auto& pin : share.pins()) {
+        held.hold(body.positions[pin.element], pin.region);
+      }
+    }
+    return std::ranges::none_of(held.stopped, std::identity()) &&
+           std::ranges::all_of(shares_, [&](const Share& share) { return share.moves_all(body, reach); });
+  }
+
+  /// Computes the regions of all elements that a handle with this reach moves. Pins that it finds stop the handle.
+  void extend(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress = {}) {
+    for (const Share& share : shares_) {
+      for (const auto& pin : share.pins()) {
+        reach.hold(body.positions[pin.element], pin.region);
+      }
+    }
+    for (Share& share : shares_) {
+      share.begin(body, reach);
+    }
+    if constexpr (Schedule::has_rounds) {
+      if (shares_.size() > 1) {
+        extend_in_rounds(body, reach, team, progress);
+        return;
+      }
+    }
+    shares_.front().run(search_, body, reach, [&](Share& share) {
+      progress.report(share.visits(), body.positions.size());
+      if constexpr (Schedule::adapts) {
+        if (share.schedule().must_adapt(share.visits(), share.elements().size())) {
+          share.adapt(bucket_width(body));
+        }
+      }
+    });
+  }
+
+  std::span<const Share> shares() const { return shares_; }
+  std::span<const ElementId> handle() const { return search_.handle; }  // ascending
+  /// Number of elements with a region.
+  std::size_t known() const {
+    std::size_t known = 0;
+    for (const Share& share : shares_) {
+      known += share.elements().size();
+    }
+    return known;
+  }
+  /// Returns the region of an element, or null if the drag has not come near it.
+  const Bounds* find(ElementId element) const {
+    const auto index = search_.index[element];
+    return index == Search::unknown ? nullptr : &shares_[search_.share_of(element)].regions()[index];
+  }
+  /// Number of visits of elements in this drag, on all axes together.
+  std::uint64_t visits() const {
+    std::uint64_t visits = 0;
+    for (const Share& share : shares_) {
+      visits += share.visits();
+    }
+    return visits;
+  }
+
+ private:
+  using Search = typename Share::Search;
+
+  /// Divides the elements into shares, if that can pay.
+  void divide(const State& body, int threads) {
+    const std::size_t elements = body.positions.size();
+    bool divides = false;
+    if constexpr (Schedule::has_rounds) {
+      divides = threads > 1 && body.pin_count == 0 && elements >= Schedule::fewest_to_share;
+    }
+    search_.share_count = divides ? std::bit_ceil(static_cast<unsigned>(std::min(threads, most_shares))) : 1;
+    const std::size_t stripes = std::max<std::size_t>(32, 8 * search_.share_count);
+    search_.stripe = divides ? std::bit_width(std::max<std::size_t>(1, elements / stripes)) - 1 : 31;
+    if (shares_.size() != search_.share_count) {
+      shares_ = std::vector<Share>(search_.share_count);
+    }
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      shares_[i].set_number(i, shares_.size());
+    }
+  }
+
+  void extend_in_rounds(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress) {
+    for (;;) {
+      progress.report(0);
+      std::size_t waiting = 0;
+      auto lowest = std::numeric_limits<typename Schedule::Number>::max();
+      bool has_messages = false;
+      for (Share& share : shares_) {
+        waiting += share.schedule().size();
+        has_messages |= share.has_messages();
+        lowest = std::min(lowest, share.schedule().lowest());
+      }
+      if (waiting == 0 && !has_messages) {
+        return;
+      }
+      for (Share& share : shares_) {
+        share.schedule().begin_round(lowest);
+      }
+      const auto run = [&](std::size_t i) { shares_[i].run_round(search_, body, reach, shares_, round_); };
+      if (waiting >= fewest_for_helpers) {
+        team.call_helpers();
+        team.run(shares_.size(), run);
+      } else {
+        for (std::size_t i = 0; i < shares_.size(); ++i) {
+          run(i);
+        }
+      }
+      ++round_;
+      if constexpr (Schedule::adapts) {
+        if (shares_.front().schedule().must_adapt(visits(), known())) {
+          const Scalar width = bucket_width(body);
+          std::ranges::for_each(shares_, [width](Share& share) { share.adapt(width); });
+        }
+      }
+    }
+  }
+
+  /// Returns the width of buckets in which few elements are visited again: a fraction of the mean length of the links
+  /// of some known elements.
+  Scalar bucket_width(const State& body) const {
+    double sum = 0;
+    std::size_t count = 0;
+    const std::size_t step = known() / sampled_elements + 1;
+    for (const Share& share : shares_) {
+      for (std::size_t i = 0; i < share.elements().size(); i += step) {
+        body.for_each_neighbour(share.elements()[i], [&](ElementId, EntryId entry) {
+          const Bounds& link = body.regions[entry];
+          for (int k = 0; k < Dimension; ++k) {
+            sum += double(link.high[k]) - double(link.low[k]);
+          }
+          count += 2 * Dimension;
+        });
+      }
+    }
+    const auto width = static_cast<Scalar>(width_in_links * sum / double(std::max<std::size_t>(1, count)));
+    return width > 0 ? width : Scalar{1};
+  }
+
+  static constexpr std::size_t sampled_elements = 256;
+  static constexpr double width_in_links = 0.05;  // measured by bench_passes
+  static constexpr int most_shares = 64;
+  static constexpr std::size_t fewest_for_helpers = 128;  // waiting elements, of which a round visits some
+
+  Search search_;
+  std::vector<Share> shares_;
+  std::uint64_t round_ = 0;
+};
+
+}  // namespace chainmail

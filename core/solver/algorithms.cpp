@@ -1,0 +1,225 @@
+#include "solver/algorithms.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "chainmail/direction_lists.h"
+#include "chainmail/follow_pass.h"
+#include "chainmail/list_method.h"
+#include "exact/exact_method.h"
+#include "mesh/error.h"
+#include "solver/elastic_deformation.h"
+
+namespace chainmail {
+namespace {
+
+/// The table. To add an algorithm, add a constant to `enum class Algorithm` and an entry here, in its family.
+///
+/// Shapes differ, so that marks can be told apart without colour. The colours start from those of Okabe and Ito (2008).
+/// Any two differ by at least 24 (CIE 1976), also after the window has adapted them to text on a dark or light ground.
+std::vector<AlgorithmInfo> make_table() {
+  return {
+      {.algorithm = Algorithm::generalized,
+       .name = "generalized",
+       .label = "Generalized ChainMail",
+       .source = "Li and Brodlie 2003; Dean 2004, 3.1",
+       .summary = "candidates enter at the front of the list, all are admitted",
+       .look = {"M-.9-.9H.9V.9H-.9Z", "#d55e00"},  // square
+       .make = make_generalized,
+       .history = follow_list<FrontList>},
+      {.algorithm = Algorithm::spiral,
+       .name = "spiral",
+       .label = "Spiral",
+       .source = "Dean 2004, 3.2",
+       .summary = "candidates enter at the back of the list, all are admitted",
+       .look = {"M0-1.2L1.15.85H-1.15Z", "#2fb4cf"},  // triangle
+       .make = make_list_method<SpiralList>,
+       .history = follow_list<SpiralList>},
+      {.algorithm = Algorithm::natural_queue,
+       .name = "natural-queue",
+       .label = "Natural Queue ChainMail",
+       .source = "Dean 2004, 4.1",
+       .summary = "candidates enter at the back, only those not yet updated are admitted",
+       .look = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#1f64d6"},  // circle
+       .make = make_natural_queue,
+       .history = follow_natural_queue},
+      {.algorithm = Algorithm::enhanced,
+       .name = "enhanced",
+       .label = "Enhanced ChainMail",
+       .source = "Schill et al. 1998",
+       .summary = "the candidate with the largest violation is taken first",
+       .look = {"M0 1.2L1.15-.85H-1.15Z", "#009e73"},  // triangle on its tip
+       .make = make_list_method<EnhancedList>,
+       .history = follow_list<EnhancedList>},
+      {.algorithm = Algorithm::chainmail_3d,
+       .name = "original",
+       .alias = "3d",
+       .label = "3D ChainMail",
+       .source = "Frisken-Gibson 1997; Dean 2004, 2.1",
+       .summary = "one list per direction, on grids and blocks only",
+       .look = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#d667c0"},  // cross
+       .make = make_list_method<DirectionLists>,
+       .history = follow_list<DirectionLists>,
+       .needs_grid = true},
+      {.algorithm = Algorithm::exact,
+       .name = "exact",
+       .label = "Exact ChainMail",
+       .source = "this project",
+       .summary = "every element moves as little as any valid answer allows",
+       .look = {"M0-1.4L1.1 0L0 1.4L-1.1 0Z", ""},  // diamond
+       .make = make_method<ExactMethod>,
+       .holds_links = true,
+       .from_rest = true},
+      {.algorithm = Algorithm::linear_fem,
+       .name = "fem",
+       .label = "Linear FEM",
+       .source = "Bro-Nielsen and Cotin 1996",
+       .summary = "linear elasticity on the cells, for small deformations",
+       .look = {"M-1.2-.55H1.2V.55H-1.2Z", "#8a9a00"},  // bar
+       .make = make_elastic_method<ElasticMethod::linear_fem>,
+       .elastic = ElasticMethod::linear_fem,
+       .needs_pins = true},
+      {.algorithm = Algorithm::neo_hookean,
+       .name = "neo-hookean",
+       .label = "Neo-Hookean FEM",
+       .source = "Bonet and Wood 1997",
+       .summary = "nonlinear elasticity on the cells: the reference solution",
+       .look = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
+                "#d99400"},  // star
+       .make = make_elastic_method<ElasticMethod::neo_hookean>,
+       .elastic = ElasticMethod::neo_hookean,
+       .needs_pins = true},
+      {.algorithm = Algorithm::boundary_elements,
+       .name = "bem",
+       .label = "BEM",
+       .source = "James and Pai 1999",
+       .summary = "linear elasticity on a closed surface of triangles",
+       .look = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
+                "#a0254f"},  // diagonal cross
+       .make = make_elastic_method<ElasticMethod::boundary>,
+       .elastic = ElasticMethod::boundary,
+       .needs_pins = true},
+      {.algorithm = Algorithm::free_form,
+       .name = "ffd",
+       .label = "Free-form deformation",
+       .source = "Sederberg and Parry 1986; Hsu et al. 1992",
+       .summary = "a lattice of control points deforms space",
+       .look = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#7d55d8"},  // hexagon
+       .make = make_elastic_method<ElasticMethod::free_form>,
+       .elastic = ElasticMethod::free_form,
+       .has_control_points = true},
+      {.algorithm = Algorithm::corotational,
+       .name = "corotational",
+       .label = "Corotational FEM",
+       .source = "Mueller and Gross 2004; Sifakis and Barbic 2012",
+       .summary = "linear elasticity on the cells, in frames that turn with them",
+       .look = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#ff4d55"},  // two squares that overlap
+       .make = make_elastic_method<ElasticMethod::corotational>,
+       .elastic = ElasticMethod::corotational,
+       .needs_pins = true},
+      {.algorithm = Algorithm::arap,
+       .name = "arap",
+       .label = "ARAP",
+       .source = "Sorkine and Alexa 2007; Chao et al. 2010",
+       .summary = "every part turns as a rigid body would, as far as the others let it",
+       .look = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#784b3c"},  // pentagon
+       .make = make_elastic_method<ElasticMethod::arap>,
+       .elastic = ElasticMethod::arap,
+       .needs_pins = true},
+      {.algorithm = Algorithm::xpbd,
+       .name = "xpbd",
+       .label = "XPBD",
+       .source = "Macklin et al. 2016",
+       .summary = "springs and volumes as constraints that give way, solved one after another",
+       .look = {"M-1.2-.9H1.2L.35.9H-.35Z", "#b400e1"},  // trapezium
+       .make = make_elastic_method<ElasticMethod::xpbd>,
+       .elastic = ElasticMethod::xpbd,
+       .needs_pins = true,
+       .obeys_iterations = true},
+      {.algorithm = Algorithm::projective,
+       .name = "projective",
+       .label = "Projective Dynamics",
+       .source = "Bouaziz et al. 2014",
+       .summary = "springs and turning cells, with one matrix for all iterations",
+       .look = {"M-1 1V-1L1 1Z", "#5fd35f"},  // right triangle
+       .make = make_elastic_method<ElasticMethod::projective>,
+       .elastic = ElasticMethod::projective,
+       .needs_pins = true,
+       .obeys_iterations = true},
+  };
+}
+
+std::vector<AlgorithmInfo>& algorithm_table() {
+  static std::vector<AlgorithmInfo> table = make_table();
+  return table;
+}
+
+/// Number of entries of the ChainMail family, which come first.
+std::size_t family_size() {
+  return static_cast<std::size_t>(std::ranges::count(algorithm_table(), Family::chainmail, &AlgorithmInfo::family));
+}
+
+/// Numbers of algorithms that are added while the program runs start here.
+constexpr auto first_added = Algorithm(10'000);
+
+/// Inserts an entry at the end of its family.
+Algorithm insert(const AlgorithmInfo& entry) {
+  auto& table = algorithm_table();
+  const auto end = entry.family() == Family::chainmail ? table.begin() + std::ptrdiff_t(family_size()) : table.end();
+  return table.insert(end, entry)->algorithm;
+}
+
+}  // namespace
+
+std::span<const AlgorithmInfo> algorithms() { return every_algorithm().first(family_size()); }
+
+std::span<const AlgorithmInfo> elastic_algorithms() { return every_algorithm().subspan(family_size()); }
+
+std::span<const AlgorithmInfo> every_algorithm() { return algorithm_table(); }
+
+const AlgorithmInfo& info(Algorithm algorithm) {
+  return *std::ranges::find(algorithm_table(), algorithm, &AlgorithmInfo::algorithm);
+}
+
+std::optional<Algorithm> find_algorithm(std::string_view name) {
+  const auto all = every_algorithm();
+  const auto found = std::ranges::find_if(
+      all, [name](const AlgorithmInfo& one) { return one.name == name || (!one.alias.empty() && one.alias == name); });
+  return found == all.end() ? std::nullopt : std::optional(found->algorithm);
+}
+
+WaitingHistory waiting_history(const RecordedPass& pass) {
+  const auto find = info(pass.algorithm).history;
+  return find == nullptr ? WaitingHistory() : find(pass);
+}
+
+bool fits(Algorithm algorithm, const Mesh& mesh) {
+  const AlgorithmInfo& entry = info(algorithm);
+  return (!entry.needs_grid || mesh.is_grid) && (!entry.elastic || fits(*entry.elastic, mesh));
+}
+
+void check(Algorithm algorithm, const Mesh& mesh) {
+  const AlgorithmInfo& entry = info(algorithm);
+  if (entry.needs_grid && !mesh.is_grid) {
+    throw Error(std::string(entry.label), "it works only on grids, with links along the axes, and this mesh is not one",
+                "choose another algorithm, or generate a grid or a block");
+  }
+  if (entry.elastic) {
+    check(*entry.elastic, mesh);
+  }
+}
+
+Algorithm add_algorithm(AlgorithmInfo entry) {
+  const auto last = std::ranges::max_element(algorithm_table(), {}, &AlgorithmInfo::algorithm);
+  entry.algorithm = std::max(first_added, Algorithm(int(last->algorithm) + 1));
+  return insert(entry);
+}
+
+ExtraAlgorithm::ExtraAlgorithm(const AlgorithmInfo& entry) : algorithm_(insert(entry)) {}
+
+ExtraAlgorithm::~ExtraAlgorithm() {
+  std::erase_if(algorithm_table(), [this](const AlgorithmInfo& one) { return one.algorithm == algorithm_; });
+}
+
+}  // namespace chainmail

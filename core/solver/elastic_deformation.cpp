@@ -1,0 +1,218 @@
+#include "solver/elastic_deformation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "body/body_view.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+std::vector<double> pin_displacements(const Body& body) {
+  return displacements_of(body.mesh(), body.positions(), body.pins());
+}
+
+/// Returns a handle in the coordinates that exist. The motion of one element is its displacement from rest.
+ElasticHandle elastic_handle(const Mesh& mesh, const Handle& handle) {
+  if (handle.has_one()) {
+    return ElasticHandle::of(handle.elements()[0]);
+  }
+  ElasticHandle result;
+  result.elements.assign(handle.elements().begin(), handle.elements().end());
+  for (std::size_t i = 0; i < result.elements.size(); ++i) {
+    const Point displacement = handle.target(i, {}) - mesh.rest_position(result.elements[i]);
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      result.displacements.push_back(displacement[mesh.axes[std::size_t(k)]]);
+      result.arms.push_back(handle.arm(i)[mesh.axes[std::size_t(k)]]);
+    }
+  }
+  return result;
+}
+
+// Largest rotation in one step of a method that depends on the path (radians).
+constexpr double largest_turn = 0.25;
+
+}  // namespace
+
+ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion) {
+  const int n = mesh.space_dimension;
+  ElasticMotion result{SmallMatrix(n, n), SmallVector(n)};
+  for (int row = 0; row < n; ++row) {
+    const int axis = mesh.axes[std::size_t(row)];
+    result.translation[row] = motion.translation[axis];
+    for (int column = 0; column < n; ++column) {
+      result.turn(row, column) = motion.turn(axis, mesh.axes[std::size_t(column)]);
+    }
+  }
+  return result;
+}
+
+PassCount ElasticDeformation::move(Body& body, HandleMove& move, PassOutput output) {
+  std::array<double, 3> displacement{};  // of a handle of one element
+  body.with_view([&]<class View>(const View& view) {
+    for_each_target(view, move, [&](ElementId element, const Position<typename View::Scalar, View::Dimension>& target) {
+      for (int k = 0; k < View::Dimension; ++k) {
+        displacement[std::size_t(k)] =
+            double(target[k]) - view.mesh->rest[std::size_t{element} * View::Dimension + std::size_t(k)];
+      }
+    });
+  });
+  prepare(body, output.progress);
+  hold(body, move.handle, output.progress);
+  if (move.handle.has_one()) {
+    const auto dimension = std::size_t(body.mesh().space_dimension);
+    solver_->move(ElasticMotion::by(std::span(displacement).first(dimension)), output.progress);
+  } else {
+    move_rigidly(body.mesh(), move, output.progress);
+  }
+  check_answer(body);
+  return take_answer(body, move.handle.elements(), output.moved);
+}
+
+/// A method that depends on the path follows a rotation in steps: on a straight line, the handle would shrink. If a
+/// step does not converge, the handle has the pose of the one before.
+void ElasticDeformation::move_rigidly(const Mesh& mesh, HandleMove& move, const Progress& progress) {
+  const Pose from = move.handle.pose(), target = std::exchange(move.pose, from);
+  const double angle = angle_between(from.rotation, target.rotation);
+  const int steps = solver_->follows_path() ? std::max(1, int(std::ceil(angle / largest_turn))) : 1;
+  for (int step = 1; step <= steps; ++step) {
+    const double share = double(step) / steps;
+    const Pose to = step == steps ? target
+                                  : Pose{from.pivot + share * (target.pivot - from.pivot),
+                                         rotation_between(from.rotation, target.rotation, share)};
+    solver_->move(elastic_motion(mesh, move.handle.motion(to)), progress.part(double(step - 1) / steps, share));
+    if (!solver_->reached()) {
+      return;
+    }
+    move.pose = to;
+  }
+}
+
+void ElasticDeformation::hold(const Body& body, const Handle& handle, const Progress& progress) {
+  const Grab grab{handle.elements()[0], handle.grab()};
+  if (held_ != grab) {
+    held_ = {};
+    solver_->hold(elastic_handle(body.mesh(), handle), progress);
+    held_ = grab;
+  }
+}
+
+std::span<const double> ElasticDeformation::control_points(Body& body, const Progress& progress) {
+  prepare(body, progress);
+  return solver_->control_points();
+}
+
+PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, const Point& target,
+                                                 PassOutput output) {
+  prepare(body, output.progress);
+  std::array<double, 3> to{};
+  const auto dimension = std::size_t(body.mesh().space_dimension);
+  for (std::size_t k = 0; k < dimension; ++k) {
+    to[k] = target[body.mesh().axes[k]];
+  }
+  solver_->move_control_point(point, std::span(to).first(dimension));
+  check_answer(body);
+  return take_answer(body, {}, output.moved);
+}
+
+ElasticDeformation::Conditions ElasticDeformation::conditions_of(const Body& body) {
+  const Revisions& now = body.revisions();
+  return {now.cuts, now.pins, now.elastic};
+}
+
+std::uint64_t ElasticDeformation::positions_of(const Body& body) {
+  return body.revisions().positions + body.revisions().relaxed;
+}
+
+/// A solver that would begin anew at the next move is dropped: the one of the copy is new, too.
+std::vector<double> ElasticDeformation::hand_over(const Body& body) {
+  held_ = {};
+  if (!solver_ || conditions_of(body) != made_for_ || positions_of(body) != positions_) {
+    const bool waits = !solver_ && conditions_of(body) == made_for_ && positions_of(body) == positions_;
+    solver_.reset();
+    return waits ? memory_ : std::vector<double>();
+  }
+  std::vector<double> memory = solver_->memory();
+  solver_->recall(memory);
+  return memory;
+}
+
+void ElasticDeformation::take_over(const Body& body, const std::vector<double>& memory) {
+  memory_ = memory;
+  made_for_ = conditions_of(body);
+  positions_ = positions_of(body);
+}
+
+void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
+  const Conditions conditions = conditions_of(body);
+  const std::uint64_t positions = positions_of(body);
+  const bool knows_positions = solver_ && positions_ == positions;
+  if (solver_ && conditions == made_for_ && (knows_positions || pin_displacements(body) == pinned_)) {
+    if (!knows_positions) {
+      held_ = {};
+      solver_->reset();
+      body.is_at_rest() ? void() : take_positions(body);
+      positions_ = positions;
+    }
+    return;
+  }
+  solver_.reset();
+  held_ = {};
+  pinned_ = pin_displacements(body);
+  solver_ = make_elastic(
+      method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
+      progress);
+  const bool remembers = !memory_.empty() && made_for_ == conditions && positions_ == positions;
+  made_for_ = conditions;
+  positions_ = positions;
+  const std::vector<double> memory = std::exchange(memory_, {});
+  remembers ? solver_->recall(memory) : take_positions(body);
+}
+
+void ElasticDeformation::take_positions(const Body& body) {
+  solver_->start_from(displacements_of(body.mesh(), body.positions()));
+}
+
+/// Throws Error if the body cannot store the answer. Numbers overflow where an object is deformed beyond measure. The
+/// next move begins at the positions that the body has.
+void ElasticDeformation::check_answer(const Body& body) {
+  const std::vector<double>& answer = solver_->displacements();
+  const std::vector<double>& rest = body.mesh().rest;
+  const double limit = position_limit(body.precision());
+  for (std::size_t i = 0; i < answer.size(); ++i) {
+    if (!(std::abs(rest[i] + answer[i]) <= limit)) {
+      solver_.reset();
+      held_ = {};
+      throw Error("positions", "the answer of the method is no finite number of the precision",
+                  "move the handle less, or reset the object");
+    }
+  }
+}
+
+/// Sets the position of every element, and collects those that moved.
+PassCount ElasticDeformation::take_answer(Body& body, std::span<const ElementId> handle,
+                                          std::vector<ElementId>& moved) const {
+  const std::vector<double>& answer = solver_->displacements();
+  moved.clear();
+  auto next_held = handle.begin();
+  body.with_view([&]<class View>(const View& view) {
+    for (ElementId e = 0; e < view.mesh->element_count(); ++e) {
+      const auto before = view.positions[e];
+      for (int k = 0; k < View::Dimension && !view.pinned(e); ++k) {
+        const std::size_t at = std::size_t{e} * View::Dimension + std::size_t(k);
+        view.set_position(e, k, view.mesh->rest[at] + answer[at]);
+      }
+      if (next_held != handle.end() && *next_held == e) {
+        ++next_held;
+      } else if (view.positions[e] != before) {
+        moved.push_back(e);
+      }
+    }
+  });
+  return {body.mesh().element_count(), moved.size()};
+}
+
+}  // namespace chainmail

@@ -1,0 +1,235 @@
+#include "solver/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "exact/thread_team.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+
+Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
+    : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
+  store_for(algorithm_);
+}
+
+/// Stores positions as the algorithm needs them. Valid regions lie along the axes of their frame: so does the ChainMail
+/// family. All others have no such axes, or have their own.
+void Solver::store_for(const AlgorithmInfo& algorithm) {
+  body_.work_in_frame(algorithm.family() == Family::chainmail);
+  body_.store_displacements(algorithm.from_rest);
+}
+
+void Solver::set_algorithm(Algorithm algorithm) {
+  check(algorithm, body_.mesh());
+  if (algorithm == algorithm_.algorithm) {
+    return;
+  }
+  store_for(info(algorithm));
+  algorithm_ = info(algorithm);
+  method_.reset();
+}
+
+Method& Solver::method() {
+  if (!method_) {
+    method_ = algorithm_.make(body_.precision(), body_.mesh().space_dimension);
+  }
+  return *method_;
+}
+
+/// Runs a pass. If it fails in the middle, for lack of memory for example, the next pass uses nothing of it.
+template <class Pass>
+PassCount Solver::run(Pass pass) {
+  const RunningPass running;
+  try {
+    const PassCount count = pass(method());
+    body_.note_move();
+    return count;
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    body_.note_move();
+    moved_.clear();
+    method_.reset();
+    throw;
+  }
+}
+
+SolverMemory Solver::hand_over() {
+  equilibrium_is_handed_over_ = true;
+  return {scheme_,
+          threads_,
+          moved_,
+          relaxation_.hand_over(body_),
+          awake_at_ == body_.revisions().positions,
+          method_ ? method_->hand_over(body_) : std::vector<double>()};
+}
+
+void Solver::take_over(const SolverMemory& memory) {
+  check(memory, body_);
+  set_relaxation(memory.relaxation);
+  threads_ = memory.threads;
+  moved_ = memory.moved;
+  relaxation_.take_over(body_, memory.pending);
+  awake_at_ = memory.is_awake ? std::optional(body_.revisions().positions) : std::nullopt;
+  method().take_over(body_, memory.method);
+}
+
+PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
+  check_free(body_, handle.elements());
+  if (body_.frame().is_turned()) {
+    return move_in_frame(handle, target, trace);
+  }
+  HandleMove move{handle, target};
+  const PassCount count = run([&](Method& method) {
+    return method.move(body_, move, {moved_, trace, threads_, progress_});
+  });
+  handle.set_pose(move.pose);
+  return count;
+}
+
+/// The same in the coordinates of the body's frame. A target that is reached, and a pose that is kept, are not rounded.
+PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace) {
+  const RegionFrame& frame = body_.frame();
+  const Handle turned = handle.in_frame(frame);
+  const ElementId first = handle.elements()[0];
+  Pose to = into_frame(frame, target);
+  if (handle.has_one() && target.pivot == point_of(body_.mesh(), body_.positions(), first)) {
+    to.pivot = point_of(*body_.stored_mesh(), body_.stored_positions(), first);
+  }
+  HandleMove move{turned, to};
+  const PassCount count = run([&](Method& method) {
+    return method.move(body_, move, {moved_, trace, threads_, progress_});
+  });
+  handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(frame, move.pose));
+  return count;
+}
+
+PassCount Solver::move(ElementId element, const Point& target, Trace* trace) {
+  if (!single_ || single_->elements()[0] != element) {
+    single_.emplace(body_, std::vector<ElementId>{element});
+  }
+  return move(*single_, {target, Point::Zero()}, trace);
+}
+
+void Solver::prepare(ElementId element) {
+  if (body_.is_pinned(element)) {
+    return;
+  }
+  const RunningPass running;
+  try {
+    method().prepare(body_, element, threads_, progress_);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    method_.reset();  // the move will say so
+  }
+}
+
+std::span<const double> Solver::control_points() {
+  return algorithm_.has_control_points ? method().control_points(body_, progress_) : std::span<const double>();
+}
+
+PassCount Solver::move_control_point(std::size_t point, const Point& target) {
+  if (point >= control_points().size() / static_cast<std::size_t>(body_.mesh().space_dimension)) {
+    throw Error("control point " + std::to_string(point), "there is no such point",
+                "choose free-form deformation, and one of its points");
+  }
+  return run([&](Method& method) {
+    return method.move_control_point(body_, point, target, {moved_, nullptr, threads_, progress_});
+  });
+}
+
+void Solver::wake(std::span<const ElementId> elements) {
+  relaxation_.wake(body_, elements);
+  awake_at_ = body_.revisions().positions;
+}
+
+void Solver::wake_all() {
+  relaxation_.wake_all(body_);
+  awake_at_ = body_.revisions().positions;
+}
+
+void Solver::sleep() {
+  relaxation_.sleep();
+  awake_at_.reset();
+}
+
+void Solver::set_relaxation(RelaxationScheme scheme) {
+  scheme_ = scheme;
+  if (info(scheme).sweeps) {
+    relaxation_.set_scheme(scheme);
+  }
+}
+
+RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
+  const RunningPass running;
+  if (info(scheme_).sweeps) {
+    return relaxation_.sweep(body_, step, budget, held);
+  }
+  if (awake_at_ != body_.revisions().positions) {
+    return {0, true, 0};  // asleep, or the positions were set since
+  }
+  return equilibrate([&] { equilibrium_->iterate(body_, held, progress_); });
+}
+
+RelaxationResult Solver::settle(double until, int most, std::span<const ElementId> held, const Progress& progress) {
+  const RunningPass running;
+  return equilibrate([&] { equilibrium_->solve(body_, held, until, most, progress); });
+}
+
+/// Runs iterations toward the equilibrium. If they fail in the middle, the next ones use nothing of them.
+template <class Solve>
+RelaxationResult Solver::equilibrate(Solve solve) {
+  try {
+    if (std::exchange(equilibrium_is_handed_over_, false)) {
+      equilibrium_.reset();
+    }
+    if (!equilibrium_) {
+      equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
+    }
+    solve();
+  } catch (const Error&) {
+    throw;  // nothing has moved
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    body_.note_relaxation();
+    equilibrium_.reset();
+    throw;
+  }
+  return {body_.mesh().element_count(), true, equilibrium_->largest_step(), equilibrium_->residual(),
+          equilibrium_->has_prepared()};
+}
+
+std::span<const ElementId> Solver::relaxed() const {
+  if (info(scheme_).sweeps) {
+    return relaxation_.moved();
+  }
+  return equilibrium_ ? equilibrium_->moved() : std::span<const ElementId>();
+}
+
+std::optional<EquilibriumCertificate> Solver::certificate() {
+  return equilibrium_ ? equilibrium_->certificate(body_) : std::nullopt;
+}
+
+void check(const SolverMemory& memory, const Body& body) {
+  for (const auto* elements : {&memory.moved, &memory.pending.now, &memory.pending.next}) {
+    std::ranges::for_each(*elements, [&](ElementId element) { check_element(body.mesh(), element); });
+  }
+  const double limit = position_limit(body.precision());
+  const auto fits = [limit](double one) { return std::abs(one) <= limit; };
+  if (memory.threads < 1 || !fits(memory.pending.largest_step) || !std::ranges::all_of(memory.method, fits)) {
+    throw Error("memory of the solver", "a number is out of its range", "use one that a solver handed over");
+  }
+}
+
+std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
+  return std::make_unique<Solver>(mesh, algorithm, precision);
+}
+
+}  // namespace chainmail

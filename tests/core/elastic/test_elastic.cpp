@@ -1,0 +1,445 @@
+#include <Eigen/Geometry>
+#include <QtTest>
+#include <numeric>
+
+#include "core/elastic/elastic_problems.h"
+#include "elastic/energy.h"
+#include "elastic/newton.h"
+#include "elastic/stiffening.h"
+#include "elastic/stiffness.h"
+#include "mesh/cells.h"
+#include "mesh/error.h"
+#include "program.h"
+
+namespace chainmail::test_elastic {
+
+using namespace chainmail::test;
+
+/// Checks finite elements against known solutions of mechanics.
+class ElasticTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void uniform_strain_is_exact_data();
+  void uniform_strain_is_exact();
+  void rigid_motion_costs_nothing();
+  void stiffness_at_rest_is_that_of_textbooks();
+  void derivatives_are_those_of_differences();
+  void stiffening_derivatives_are_those_of_differences();
+  void stiffening_equals_linear_elasticity_at_small_strains();
+  void stretches_are_those_of_the_closed_form();
+  void the_limit_of_strain_is_kept();
+  void a_bent_sheet_converges();
+  void a_bent_solid_converges();
+  void a_cantilever_bends_as_beams_do();
+  void small_moves_are_linear();
+  void the_hand_and_the_pins_are_where_they_are();
+};
+
+namespace {
+
+MeshPointer of_dimension(int dimension) {
+  return dimension == 1   ? make_mesh(MeshKind::line, {6, 1, 1})
+         : dimension == 2 ? jittered(make_mesh(MeshKind::cloth, {5, 4, 1}))
+                          : jittered(make_mesh(MeshKind::tetra, {4, 4, 3}));
+}
+
+/// Returns random displacements of the corners of a simplex that do not invert it.
+CornerDisplacements some_corners(int dimension, std::mt19937_64& random) {
+  CornerDisplacements at(dimension, dimension + 1);
+  for (double& one : at.reshaped()) {
+    one = uniform(random, -0.08, 0.08);
+  }
+  return at;
+}
+
+}  // namespace
+
+void ElasticTest::uniform_strain_is_exact_data() {
+  QTest::addColumn<int>("dimension");
+  QTest::addColumn<int>("method");
+  for (const int dimension : {1, 2, 3}) {
+    for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean}) {
+      QTest::addRow("%dD, method %d", dimension, int(method)) << dimension << int(method);
+    }
+  }
+}
+
+/// The patch test: for any cells, the method finds a field that linear elements can represent.
+void ElasticTest::uniform_strain_is_exact() {
+  QFETCH(const int, dimension);
+  QFETCH(const int, method);
+  const MeshPointer mesh = of_dimension(dimension);
+  Eigen::Matrix3d strain;
+  strain << 0.2, -0.05, 0.1, 0.15, -0.1, 0.02, -0.07, 0.03, 0.12;
+  const Field field = [&](const Point& at) { return Point(strain * at); };
+  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, boundary(*mesh), field, 0.35));
+  // Newton's method stops after a step below 1e-9 cells, and that step leaves a quadratically smaller error.
+  const Field flat = [&](const Point& at) {
+    Point to = field(at);
+    for (int k = dimension; k < 3; ++k) {
+      to[k] = 0;
+    }
+    return to;
+  };
+  const double error = furthest_from(*mesh, solver->displacements(), flat);
+  QVERIFY2(error < 1e-10, qPrintable(QString::number(error)));
+  QVERIFY(mesh->element_count() > boundary(*mesh).size());
+}
+
+void ElasticTest::rigid_motion_costs_nothing() {
+  for (const int dimension : {2, 3}) {
+    const MeshPointer mesh = of_dimension(dimension);
+    const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+    Eigen::Matrix3d turn = Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    if (dimension == 3) {
+      turn = turn * Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized());
+    }
+    std::vector<double> displacements;
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      const Point at = mesh->rest_position(e), to = turn * at + Point(4, -2, 0);
+      for (int k = 0; k < dimension; ++k) {
+        displacements.push_back(to[k] - at[k]);
+      }
+    }
+    const Newton newton(simplices, lame({3, 0.4}), mesh->element_count(), {}, {});
+    // Young's modulus is 3 and the object a few units large, so these are roundings.
+    QVERIFY(std::abs(newton.energy(displacements)->value) < 1e-12);
+    for (const double force : newton.gradient(displacements)) {
+      QVERIFY(std::abs(force) < 1e-12);
+    }
+    // A linear material resists no infinitesimal rotation: K (ω × x) = 0.
+    for (std::size_t s = 0; s < simplices.count(); ++s) {
+      CornerVector spin(dimension * (dimension + 1));
+      for (int a = 0; a <= dimension; ++a) {
+        const Point at = mesh->rest_position(simplices.corners_of(s)[std::size_t(a)]);
+        const Point to = (dimension == 3 ? Point(1, -2, 0.5) : Point(0, 0, 1)).cross(at) + Point(1, 2, 3);
+        spin.segment(dimension * a, dimension) = to.head(dimension);
+      }
+      QVERIFY((stiffness(simplices, s, lame({3, 0.4})) * spin).norm() < 1e-12);
+    }
+  }
+}
+
+/// Moduli: E for a bar, E / (1 − ν²) for a sheet that is held laterally, and E (1 − ν) / ((1 + ν)(1 − 2ν)) for a solid
+/// that is held laterally.
+void ElasticTest::stiffness_at_rest_is_that_of_textbooks() {
+  constexpr double young = 7, poisson = 0.25;
+  const std::array<double, 3> moduli{young, young / (1 - poisson * poisson),
+                                     young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))};
+  for (const int dimension : {1, 2, 3}) {
+    const MeshPointer mesh = of_dimension(dimension);
+    const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+    double energy = 0, volume = 0;
+    for (std::size_t s = 0; s < simplices.count(); ++s) {
+      CornerVector stretched = CornerVector::Zero(dimension * (dimension + 1));
+      for (int a = 0; a <= dimension; ++a) {
+        stretched[dimension * a] = mesh->rest_position(simplices.corners_of(s)[std::size_t(a)]).x();
+      }
+      energy += 0.5 * stretched.dot(stiffness(simplices, s, lame({young, poisson})) * stretched);
+      volume += simplices.volumes[s];
+    }
+    QCOMPARE(energy, 0.5 * moduli[std::size_t(dimension - 1)] * volume);  // to 1e-12
+  }
+}
+
+void ElasticTest::derivatives_are_those_of_differences() {
+  std::mt19937_64 random(3);
+  const Lame material = lame({2, 0.45});
+  for (const int dimension : {1, 2, 3}) {
+    const MeshPointer mesh = of_dimension(dimension);
+    const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+    for (int trial = 0; trial < 20; ++trial) {
+      const std::size_t s = std::size_t(trial) % simplices.count();
+      const CornerDisplacements at = some_corners(dimension, random);
+      const SimplexEnergy here = neo_hookean(simplices, s, at, material, Want::hessian);
+      QVERIFY(!here.inverted);
+      constexpr double step = 1e-6;  // the error of central differences is step² and rounding / step: 1e-10
+      for (int i = 0; i < dimension * (dimension + 1); ++i) {
+        CornerDisplacements forward = at, back = at;
+        forward.reshaped()[i] += step;
+        back.reshaped()[i] -= step;
+        const auto ahead = neo_hookean(simplices, s, forward, material, Want::gradient);
+        const auto behind = neo_hookean(simplices, s, back, material, Want::gradient);
+        QVERIFY(std::abs((ahead.energy - behind.energy) / (2 * step) - here.gradient[i]) < 1e-8);
+        const CornerVector column = (ahead.gradient - behind.gradient) / (2 * step);
+        QVERIFY((column - here.hessian.col(i)).norm() < 1e-7 * (1 + here.hessian.norm()));
+      }
+    }
+  }
+}
+
+namespace {
+
+constexpr StrainLaw gent{StrainLaw::Kind::gent, 1.5, 0.5}, fung{StrainLaw::Kind::fung, 2, 0.7};
+
+/// The slope of the energy by I₁, f', written as in the papers.
+double slope_by_i1(const StrainLaw& law, double i1, double mu) {
+  return law.kind == StrainLaw::Kind::gent ? mu / 2 * law.gent_limit / (law.gent_limit - (i1 - 3))
+                                           : mu / 2 * std::exp(law.fung_exponent * (i1 - 3));
+}
+
+/// The principal stress by the area at rest along an axis with this stretch: 2 f' s + (λ' ln J − μ) / s.
+double stress_along(double stretch, const std::array<double, 3>& all, const StrainLaw& law, const Lame& lame) {
+  const double f = slope_by_i1(law, all[0] * all[0] + all[1] * all[1] + all[2] * all[2], lame.mu);
+  const double correction =
+      law.kind == StrainLaw::Kind::gent ? 2 * lame.mu / law.gent_limit : 2 * lame.mu * law.fung_exponent;
+  const double log_volume = std::log(all[0] * all[1] * all[2]);
+  return 2 * f * stretch + ((lame.lambda - correction) * log_volume - lame.mu) / stretch;
+}
+
+/// The root of a function that grows, by bisection.
+double root_of(const std::function<double(double)>& value, double low, double high) {
+  for (int turn = 0; turn < 100; ++turn) {
+    const double middle = (low + high) / 2;
+    (value(middle) > 0 ? high : low) = middle;
+  }
+  return low;
+}
+
+/// The stresses that an object's energy gives: its derivatives by F, of a simplex with F = diag(stretches).
+std::vector<double> stresses_of(const std::vector<double>& stretches, const StrainLaw& law, const Lame& lame) {
+  const int n = int(stretches.size());
+  const MeshPointer mesh = of_dimension(n);
+  const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+  CornerDisplacements at(n, n + 1), corners(n, n + 1);
+  for (int a = 0; a <= n; ++a) {
+    const Point rest = mesh->rest_position(simplices.corners_of(0)[std::size_t(a)]);
+    for (int k = 0; k < n; ++k) {
+      corners(k, a) = rest[k];
+      at(k, a) = (stretches[std::size_t(k)] - 1) * rest[k];
+    }
+  }
+  const CornerVector gradient = model_of(law)(simplices, 0, at, lame, Want::gradient).gradient;
+  std::vector<double> stresses;
+  for (int k = 0; k < n; ++k) {
+    double work = 0;  // of moving all corners in proportion to this coordinate
+    for (int a = 0; a <= n; ++a) {
+      work += gradient[n * a + k] * corners(k, a);
+    }
+    stresses.push_back(work / simplices.volumes[0]);
+  }
+  return stresses;
+}
+
+}  // namespace
+
+void ElasticTest::stiffening_derivatives_are_those_of_differences() {
+  std::mt19937_64 random(5);
+  const Lame material = lame({2, 0.45});
+  for (const StrainLaw& law : {gent, fung}) {
+    const SimplexModel model = model_of(law);
+    for (const int dimension : {1, 2, 3}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      for (int trial = 0; trial < 20; ++trial) {
+        const std::size_t s = std::size_t(trial) % simplices.count();
+        const CornerDisplacements at = 2 * some_corners(dimension, random);
+        const SimplexEnergy here = model(simplices, s, at, material, Want::hessian);
+        QVERIFY(!here.inverted);
+        constexpr double step = 1e-6;
+        for (int i = 0; i < dimension * (dimension + 1); ++i) {
+          CornerDisplacements forward = at, back = at;
+          forward.reshaped()[i] += step;
+          back.reshaped()[i] -= step;
+          const auto ahead = model(simplices, s, forward, material, Want::gradient);
+          const auto behind = model(simplices, s, back, material, Want::gradient);
+          QVERIFY(std::abs((ahead.energy - behind.energy) / (2 * step) - here.gradient[i]) < 1e-7);
+          const CornerVector column = (ahead.gradient - behind.gradient) / (2 * step);
+          QVERIFY((column - here.hessian.col(i)).norm() < 1e-6 * (1 + here.hessian.norm()));
+        }
+      }
+    }
+  }
+}
+
+void ElasticTest::stiffening_equals_linear_elasticity_at_small_strains() {
+  for (const StrainLaw& law : {gent, fung}) {
+    for (const int dimension : {1, 2, 3}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      const CornerDisplacements rest = CornerDisplacements::Zero(dimension, dimension + 1);
+      const SimplexEnergy at_rest = model_of(law)(simplices, 0, rest, lame({3, 0.4}), Want::hessian);
+      const CornerMatrix linear = stiffness(simplices, 0, lame({3, 0.4}));
+      QVERIFY((at_rest.hessian - linear).norm() < 1e-12 * linear.norm());
+      QVERIFY(std::abs(at_rest.energy) < 1e-14 && at_rest.gradient.norm() < 1e-13);
+    }
+  }
+}
+
+/// Uniaxial stretch (a bar, and a solid with its sides free) and equibiaxial stretch (a sheet): the other stretches are
+/// the roots of the equations that the stress along them is 0.
+void ElasticTest::stretches_are_those_of_the_closed_form() {
+  const Lame material = lame({3, 0.45});
+  for (const StrainLaw& law : {gent, fung}) {
+    for (const double stretch : {0.8, 0.9, 1.05, 1.2, 1.3}) {
+      // The roots are between narrow stretches and those at which I₁ − 3 is 1.5, the limit.
+      const double square = stretch * stretch;
+      const double side = root_of(
+          [&](double s) {
+            return stress_along(s, {stretch, s, s}, law, material);
+          },
+          0.5, 0.999 * std::sqrt((4.5 - square) / 2));
+      const double expected = stress_along(stretch, {stretch, side, side}, law, material);
+      QVERIFY(std::abs(stresses_of({stretch}, law, material)[0] - expected) < 1e-11);
+      const auto solid = stresses_of({stretch, side, side}, law, material);
+      QVERIFY(std::abs(solid[0] - expected) < 1e-11 && std::abs(solid[1]) < 1e-11 && std::abs(solid[2]) < 1e-11);
+      const double thickness = root_of(
+          [&](double s) {
+            return stress_along(s, {stretch, stretch, s}, law, material);
+          },
+          0.3, 0.999 * std::sqrt(4.5 - 2 * square));
+      const double biaxial = stress_along(stretch, {stretch, stretch, thickness}, law, material);
+      for (const double stress : stresses_of({stretch, stretch}, law, material)) {
+        QVERIFY(std::abs(stress - biaxial) < 1e-11);
+      }
+    }
+    // It stiffens: at a stretch of 1.3 the stress is well above the neo-Hookean one.
+    QVERIFY(stresses_of({1.3}, law, material)[0] > 1.05 * stresses_of({1.3}, {}, material)[0]);
+  }
+}
+
+/// The energy is infinite from the limit on, and a pull that a neo-Hookean bar follows is refused.
+void ElasticTest::the_limit_of_strain_is_kept() {
+  const Lame material = lame({3, 0.45});
+  for (const int dimension : {1, 2, 3}) {
+    for (const auto& [stretch, exists] : {std::pair(1.3, true), std::pair(2.5, false)}) {
+      const MeshPointer mesh = of_dimension(dimension);
+      const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+      CornerDisplacements at = CornerDisplacements::Zero(dimension, dimension + 1);
+      for (int a = 0; a <= dimension; ++a) {
+        at(0, a) = (stretch - 1) * mesh->rest_position(simplices.corners_of(0)[std::size_t(a)]).x();
+      }
+      QCOMPARE(!model_of(gent)(simplices, 0, at, material, Want::energy).inverted, exists);
+      QVERIFY(!model_of(fung)(simplices, 0, at, material, Want::energy).inverted);
+    }
+  }
+  const MeshPointer bar = make_mesh(MeshKind::tetra, {7, 2, 2});
+  for (const auto& [law, far, reached] : {std::tuple(StrainLaw(), 8.0, true), std::tuple(gent, 8.0, false),
+                                          std::tuple(gent, 2.0, true), std::tuple(fung, 2.0, true)}) {
+    ElasticProblem problem = pinned(bar, layer(*bar, *find_side("left")), 0.45);
+    problem.law = law;
+    const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
+    const std::vector<ElementId> end = layer(*bar, *find_side("right"));
+    const std::vector<double> none(3 * end.size(), 0.0);
+    solver->hold({end, none, none});
+    solver->move(ElasticMotion::by(std::vector<double>{far, 0, 0}));
+    QCOMPARE(solver->remark().empty(), reached);
+  }
+  QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::gent, 0.1, 1}, Material{1, 0.3}));
+  QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::fung, 1, 0.8}, Material{1, 0.3}));
+  check(StrainLaw{StrainLaw::Kind::fung, 1, 0.75}, Material{1, 0.3});
+}
+
+/// A cantilever under an end load in plane stress (Timoshenko and Goodier 1951). Both ends have the displacements of
+/// that solution, and the long sides are free. The error of linear elements shrinks with the square of their size.
+void ElasticTest::a_bent_sheet_converges() {
+  constexpr double length = 8, height = 2, poisson = 0.3;
+  const Field field = [](const Point& at) {
+    const double x = at.x(), y = at.y() - height / 2, scale = 1e-4;
+    return Point(-scale * y * ((6 * length - 3 * x) * x + (2 + poisson) * (y * y - height * height / 4)),
+                 scale * (3 * poisson * y * y * (length - x) + (4 + 5 * poisson) * height * height * x / 4 +
+                          (3 * length - x) * x * x),
+                 0);
+  };
+  std::vector<double> sizes, errors;
+  for (const std::uint32_t parts : {2U, 4U, 8U}) {
+    const auto mesh = make_mesh(MeshKind::cloth, {4 * parts + 1, parts + 1, 1}, {}, height / parts);
+    const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
+    sizes.push_back(height / parts);
+    errors.push_back(furthest_from(*mesh, solver->displacements(), field));
+  }
+  qInfo() << "a sheet under an end load: order" << order_of(sizes, errors) << "errors" << errors;
+  QVERIFY(order_of(sizes, errors) > 1.7);
+}
+
+/// The same for a solid beam in pure bending (Saint-Venant).
+void ElasticTest::a_bent_solid_converges() {
+  constexpr double poisson = 0.3;
+  const Field field = [](const Point& at) {
+    const double x = at.x(), y = at.y() - 1, z = at.z() - 1, bend = 1e-3;
+    return Point(-bend * x * y, bend / 2 * (x * x + poisson * (y * y - z * z)), bend * poisson * y * z);
+  };
+  std::vector<double> sizes, errors;
+  for (const std::uint32_t parts : {4U, 8U}) {
+    const auto mesh = make_mesh(MeshKind::tetra, {2 * parts + 1, parts + 1, parts + 1}, {}, 2.0 / parts);
+    const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
+    sizes.push_back(2.0 / parts);
+    errors.push_back(rms_from(*mesh, solver->displacements(), field));
+  }
+  qInfo() << "a solid in pure bending: order" << order_of(sizes, errors) << "errors" << errors;
+  QVERIFY(order_of(sizes, errors) > 1.7);
+}
+
+/// A beam that is clamped at one end and grabbed at the other. Its line is the cubic of Euler and Bernoulli plus
+/// Timoshenko's shear, which is small because the length is ten heights.
+void ElasticTest::a_cantilever_bends_as_beams_do() {
+  constexpr std::uint32_t parts = 8;
+  constexpr double height = 1, length = 10, poisson = 0.3;
+  const auto mesh = make_mesh(MeshKind::cloth, {10 * parts + 1, parts + 1, 1}, {}, height / parts);
+  const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, layer(*mesh, *find_side("left")), poisson));
+  const ElementId middle_row = parts / 2 * (10 * parts + 1);
+  solver->hold(ElasticHandle::of(middle_row + 10 * parts));
+  solver->move(ElasticMotion::by(std::array{0.0, 0.1}));
+  const auto deflection = [&](double x) {
+    return solver->displacements()[2 * (middle_row + std::size_t(x * parts)) + 1];
+  };
+  const auto beam = [&](double x) {
+    const double shear = 2 * (1 + poisson) / (5.0 / 6) * height * height / 12;  // E I / (κ G A)
+    return (3 * length - x) * x * x / 6 + shear * x;
+  };
+  for (const double x : {2.5, 5.0, 7.5}) {
+    const double ratio = deflection(x) / deflection(9) / (beam(x) / beam(9));
+    QVERIFY2(std::abs(ratio - 1) < 0.02, qPrintable(QString::number(ratio)));  // clamping also fixes the width
+  }
+}
+
+/// The difference between the two models grows with the square of the handle's displacement.
+void ElasticTest::small_moves_are_linear() {
+  for (const int dimension : {2, 3}) {
+    const MeshPointer mesh = of_dimension(dimension);
+    const ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")));
+    const auto linear = make_elastic(ElasticMethod::linear_fem, problem);
+    const auto whole = make_elastic(ElasticMethod::neo_hookean, problem);
+    std::vector<double> apart;
+    for (const double way : {0.02, 0.01}) {
+      const std::vector<double> to{0.3 * way, way, 0.5 * way};
+      for (ElasticSolver* solver : {linear.get(), whole.get()}) {
+        solver->hold(ElasticHandle::of(mesh->element_count() - 1));
+        solver->move(ElasticMotion::by(std::span(to).first(std::size_t(dimension))));
+      }
+      QVERIFY(whole->remark().empty());
+      apart.push_back(largest_step(linear->displacements(), whole->displacements()));
+    }
+    const double order = std::log2(apart[0] / apart[1]);
+    QVERIFY2(std::abs(order - 2) < 0.1, qPrintable(QString::number(order)));
+  }
+}
+
+void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
+  const MeshPointer mesh = of_dimension(3);
+  const auto left = layer(*mesh, *find_side("left"));
+  const ElasticProblem problem = pinned(mesh, left);
+  for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::free_form}) {
+    const auto solver = make_elastic(method, problem);
+    const std::array<double, 3> first{0.4, 0.3, -0.2}, second{-0.3, 0.1, 0.6};
+    for (const auto& [element, to] : {std::pair{mesh->element_count() - 1, first}, std::pair{ElementId{23}, second}}) {
+      solver->hold(ElasticHandle::of(element));
+      solver->move(ElasticMotion::by(to));
+      for (std::size_t k = 0; k < 3; ++k) {
+        QCOMPARE(solver->displacements()[3 * element + k], to[k]);
+        for (const ElementId pin : left) {
+          QCOMPARE(solver->displacements()[3 * pin + k], 0.0);
+        }
+      }
+    }
+    solver->reset();
+    QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return one == 0; }));
+  }
+}
+
+CHAINMAIL_TEST(ElasticTest)
+
+}  // namespace chainmail::test_elastic
+
+#include "test_elastic.moc"

@@ -1,0 +1,316 @@
+#include <QtTest>
+
+#include "core/elastic/elastic_problems.h"
+#include "mesh/error.h"
+#include "program.h"
+#include "simulate/simulation.h"
+
+namespace chainmail::test_elastic_simulation {
+
+using namespace chainmail::test;
+
+/// Methods of elasticity as algorithms of a panel: they support the same commands and the same undo.
+class ElasticSimulationTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void all_are_offered();
+  void a_drag_is_answered_data() { every_method(); }
+  void a_drag_is_answered();
+  void undo_is_exact_data() { every_method(); }
+  void undo_is_exact();
+  void a_drag_after_an_undo_knows_nothing_of_what_was_undone();
+  void a_drag_after_a_placement_goes_on_from_there();
+  void pins_that_were_moved_hold_where_they_are_now_data() { every_method(); }
+  void pins_that_were_moved_hold_where_they_are_now();
+  void cuts_and_pins_between_drags_count_data();
+  void cuts_and_pins_between_drags_count();
+  void a_shape_is_kept_when_exact_takes_over();
+  void without_pins_nothing_moves();
+  void a_change_of_algorithm_or_material_answers_at_once();
+  void relaxation_leaves_a_static_answer_alone();
+  void control_points_are_for_free_form_alone();
+  void a_remark_comes_and_goes();
+  void a_pass_is_given_up_data() { every_method(); }
+  void a_pass_is_given_up();
+
+ private:
+  static void every_method() {
+    QTest::addColumn<int>("algorithm");
+    for (const AlgorithmInfo& one : elastic_algorithms()) {
+      if (one.algorithm != Algorithm::boundary_elements) {  // needs a closed surface, and has its own tests
+        QTest::newRow(one.name.data()) << int(one.algorithm);
+      }
+    }
+  }
+};
+
+namespace {
+
+struct Bar : Simulation {
+  explicit Bar(Algorithm algorithm, bool is_pinned = true, Precision precision = Precision::double_precision)
+      : Simulation(make_mesh(MeshKind::tetra, {5, 3, 3}), algorithm, precision) {
+    if (is_pinned) {
+      apply(commands::Pin{layer(mesh(), *find_side("left"))});
+    }
+  }
+
+  void drag(ElementId element, const Point& target) {
+    apply(commands::Grab{element});
+    apply(commands::Drag{target});
+    apply(commands::Release{});
+  }
+  std::vector<double> all() const { return positions_of(solver(), mesh()); }
+  Point at(ElementId element) const { return position_of(solver(), mesh(), element); }
+};
+
+constexpr ElementId tip = 4;
+
+}  // namespace
+
+void ElasticSimulationTest::all_are_offered() {
+  QCOMPARE(every_algorithm().size(), algorithms().size() + elastic_algorithms().size());
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    QVERIFY(find_algorithm(one.name) == one.algorithm);
+    QCOMPARE(info(one.algorithm).name, one.name);
+  }
+  for (const AlgorithmInfo& one : algorithms()) {
+    QVERIFY(!info(one.algorithm).elastic);
+  }
+}
+
+void ElasticSimulationTest::a_drag_is_answered() {
+  QFETCH(const int, algorithm);
+  for (const Precision precision : precisions) {
+    Bar bar(Algorithm(algorithm), true, precision);
+    const auto rest = bar.all();
+    bar.drag(tip, Point(4.5, 0.5, 0.25));
+    QCOMPARE(bar.at(tip), Point(4.5, 0.5, 0.25));
+    QVERIFY(bar.statistics().last_pass.moved > 10);
+    for (const ElementId pin : bar.body().pins()) {
+      QCOMPARE(bar.at(pin), bar.mesh().rest_position(pin));
+    }
+    bar.apply(commands::Reset{});
+    QVERIFY(same_bits(bar.all(), rest));
+    QVERIFY_THROWS_EXCEPTION(Error, bar.drag(0, Point(1, 1, 1)));  // pinned
+  }
+}
+
+void ElasticSimulationTest::undo_is_exact() {
+  QFETCH(const int, algorithm);
+  Bar bar{Algorithm(algorithm)};
+  bar.drag(tip, Point(4.2, 0.3, 0));
+  bar.apply(commands::KeepState{1});
+  const auto kept = bar.all();
+  bar.drag(44, Point(4, 3, 2));
+  const auto after = bar.all();
+  QVERIFY(!same_bits(after, kept));
+  bar.apply(commands::RestoreState{1});
+  QVERIFY(same_bits(bar.all(), kept));
+  bar.drag(44, Point(4, 3, 2));
+  // The same equilibrium again: Newton's method reaches it within its tolerance of 1e-9 cells.
+  QVERIFY(largest_step(bar.all(), after) < 1e-8);
+}
+
+/// Free-form deformation continues from the current shape of the object, also after an undo.
+void ElasticSimulationTest::a_drag_after_an_undo_knows_nothing_of_what_was_undone() {
+  Bar bar(Algorithm::free_form), never(Algorithm::free_form);
+  for (Bar* one : {&bar, &never}) {
+    one->drag(tip, Point(4.2, 0.3, 0));
+  }
+  bar.apply(commands::KeepState{1});
+  bar.drag(44, Point(6, 4, 1));
+  bar.apply(commands::RestoreState{1});
+  for (Bar* one : {&bar, &never}) {
+    one->drag(24, Point(5, 1, 2));
+  }
+  QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
+  bar.apply(commands::KeepState{2});
+  never.drag(24, Point(4, 2, 2));
+  bar.drag(24, Point(5, 3, 3));
+  bar.apply(commands::RestoreState{2});
+  bar.drag(24, Point(4, 2, 2));  // also for the element that was grabbed before the undo
+  QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
+}
+
+/// A restored snapshot, as a recording keeps it, is where the next drag starts, also for the element that was grabbed.
+void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
+  for (const ElementId next : {ElementId{24}, ElementId{44}}) {
+    Bar bar(Algorithm::free_form), fresh(Algorithm::free_form);
+    bar.drag(tip, Point(4.2, 0.3, 0));
+    const auto placement = std::make_shared<const Snapshot>(bar.snapshot());
+    bar.drag(44, Point(6, 4, 1));
+    for (Bar* one : {&bar, &fresh}) {
+      one->apply(commands::SetPositions{placement});
+      one->drag(next, Point(5, 1, 2));
+    }
+    QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-9);
+  }
+}
+
+/// A reset moves the pinned elements to rest. A method must not use what it prepared for their old positions.
+void ElasticSimulationTest::pins_that_were_moved_hold_where_they_are_now() {
+  QFETCH(const int, algorithm);
+  Bar bar(Algorithm::natural_queue, false), fresh{Algorithm(algorithm)};
+  const auto left = layer(bar.mesh(), *find_side("left"));
+  for (const ElementId pin : left) {
+    bar.drag(pin, bar.mesh().rest_position(pin) + Point(-0.3, 0.1, 0));
+  }
+  bar.apply(commands::Pin{left});
+  bar.apply(commands::SetAlgorithm{Algorithm(algorithm)});
+  bar.drag(tip, Point(4.2, 0.3, 0.1));
+  QVERIFY(bar.at(left.front()) != bar.mesh().rest_position(left.front()));
+  bar.apply(commands::Reset{});
+  for (Bar* one : {&bar, &fresh}) {
+    one->drag(tip, Point(4.2, 0.3, 0.1));
+  }
+  for (const ElementId pin : left) {
+    QCOMPARE(bar.at(pin), bar.mesh().rest_position(pin));
+  }
+  QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-8);
+}
+
+void ElasticSimulationTest::cuts_and_pins_between_drags_count_data() {
+  QTest::addColumn<int>("algorithm");
+  QTest::newRow("linear FEM") << int(Algorithm::linear_fem);
+  QTest::newRow("neo-Hookean FEM") << int(Algorithm::neo_hookean);
+}
+
+/// An answer depends on the object as it is now, not on the object of the last drag.
+void ElasticSimulationTest::cuts_and_pins_between_drags_count() {
+  QFETCH(const int, algorithm);
+  const Point target(4.2, 0.3, 0.1);
+  const auto answer = [&](const std::vector<Command>& before) {
+    Bar bar{Algorithm(algorithm)};
+    for (const Command& command : before) {
+      bar.apply(command);
+    }
+    bar.drag(tip, target);
+    return bar.all();
+  };
+  Bar bar{Algorithm(algorithm)};
+  const std::vector<LinkId> links{*find_link(bar.mesh(), 2, 3), *find_link(bar.mesh(), 7, 8)};
+  const Command cut = commands::Cut{links}, pin = commands::Pin{{22, 23}};
+  const auto plain = answer({}), when_cut = answer({cut}), when_pinned = answer({pin});
+  QVERIFY(largest_step(plain, when_cut) > 1e-3 && largest_step(plain, when_pinned) > 1e-3);
+  const auto now = [&](const Command& change) {
+    bar.apply(change);
+    bar.drag(tip, target);
+    return bar.all();
+  };
+  QVERIFY(largest_step(now(commands::Release{}), plain) < 1e-8);
+  QVERIFY(largest_step(now(cut), when_cut) < 1e-8);
+  QVERIFY(largest_step(now(commands::Uncut{links}), plain) < 1e-8);
+  bar.apply(commands::Reset{});
+  QVERIFY(largest_step(now(pin), when_pinned) < 1e-8);
+  QVERIFY(largest_step(now(commands::Unpin{{22, 23}}), plain) < 1e-8);
+}
+
+/// Exact stores positions as displacements from rest. The change must not treat the object as being at rest.
+void ElasticSimulationTest::a_shape_is_kept_when_exact_takes_over() {
+  Bar bar(Algorithm::free_form, false);
+  bar.apply(commands::MoveControlPoint{63, Point(4.2, 2.1, 2)});
+  const auto shaped = bar.all();
+  bar.apply(commands::SetAlgorithm{Algorithm::exact});
+  QVERIFY(largest_step(bar.all(), shaped) < 1e-12);
+}
+
+void ElasticSimulationTest::without_pins_nothing_moves() {
+  for (const Algorithm algorithm : {Algorithm::linear_fem, Algorithm::neo_hookean}) {
+    Bar bar(algorithm, false);
+    const auto rest = bar.all();
+    bar.apply(commands::Grab{tip});
+    try {
+      bar.apply(commands::Drag{Point(5, 1, 0)});
+      QFAIL("it has no solution");
+    } catch (const Error& error) {
+      QVERIFY(QString::fromStdString(error.what()).contains("nothing pins it"));
+    }
+    QVERIFY(same_bits(bar.all(), rest));
+    QCOMPARE(bar.statistics().passes, std::uint64_t(0));
+    bar.apply(commands::Pin{layer(bar.mesh(), *find_side("left"))});
+    bar.apply(commands::Drag{Point(5, 1, 0)});  // once it is pinned, there is an answer
+    QCOMPARE(bar.at(tip), Point(5, 1, 0));
+  }
+}
+
+void ElasticSimulationTest::a_change_of_algorithm_or_material_answers_at_once() {
+  Bar bar(Algorithm::natural_queue), linear(Algorithm::linear_fem);
+  const Point target(5, 1, 0);
+  bar.drag(tip, target);
+  linear.drag(tip, target);
+  QVERIFY(!same_bits(bar.all(), linear.all()));
+  bar.apply(commands::SetAlgorithm{Algorithm::linear_fem});
+  QVERIFY(same_bits(bar.all(), linear.all()));
+  ElasticOptions options;
+  options.material.poisson = 0.45;
+  bar.apply(commands::SetElastic{options});
+  QVERIFY(largest_step(bar.all(), linear.all()) > 1e-3);
+  QCOMPARE(bar.at(tip), target);
+  options.material.poisson = 0.5;
+  QVERIFY_THROWS_EXCEPTION(Error, bar.apply(commands::SetElastic{options}));
+  QCOMPARE(bar.elastic().material.poisson, 0.45);
+  Simulation other(bar.mesh_pointer(), Algorithm::linear_fem, Precision::double_precision);
+  other.take(bar.hand_over(), Algorithm::linear_fem);
+  QCOMPARE(other.elastic().material.poisson, 0.45);
+}
+
+void ElasticSimulationTest::relaxation_leaves_a_static_answer_alone() {
+  Bar bar(Algorithm::neo_hookean);
+  bar.apply(commands::SetRelaxation{true, 1, RelaxationScheme::mean});
+  bar.drag(tip, Point(5, 1, 0));
+  const auto answer = bar.all();
+  QVERIFY(!bar.step());
+  bar.relax(5, 1);
+  QVERIFY(same_bits(bar.all(), answer));
+}
+
+void ElasticSimulationTest::control_points_are_for_free_form_alone() {
+  Bar bar(Algorithm::free_form, false);
+  QCOMPARE(bar.control_points().size(), std::size_t(3 * 64));
+  const auto rest = bar.all();
+  const commands::MoveControlPoint up{63, Point(4, 3, 2)};  // the corner of x 4, y 2, z 2
+  bar.apply(up);
+  QCOMPARE(bar.at(44), Point(4, 3, 2));
+  QVERIFY(bar.statistics().last_pass.moved > 0);
+  QVERIFY_THROWS_EXCEPTION(Error, bar.apply(commands::MoveControlPoint{64, Point(1, 1, 1)}));
+  bar.apply(commands::Reset{});
+  QVERIFY(same_bits(bar.all(), rest));
+  QCOMPARE(bar.control_points()[3 * 63 + 1], 2.0);
+
+  Bar chain(Algorithm::natural_queue);
+  QVERIFY(chain.control_points().empty());
+  chain.apply(up);  // has no control points, so nothing moves
+  QVERIFY(same_bits(chain.all(), rest));
+}
+
+void ElasticSimulationTest::a_remark_comes_and_goes() {
+  Bar bar(Algorithm::neo_hookean);
+  bar.apply(commands::Grab{22});
+  bar.apply(commands::Drag{Point(-6, 1, 1)});  // through the wall that holds it
+  QVERIFY(QString::fromStdString(bar.statistics().remark).contains("last converged state"));
+  bar.apply(commands::Drag{Point(2.1, 1, 1)});
+  QVERIFY(bar.statistics().remark.empty());
+}
+
+void ElasticSimulationTest::a_pass_is_given_up() {
+  QFETCH(const int, algorithm);
+  Bar bar{Algorithm(algorithm)};
+  const auto rest = bar.all();
+  JobState job;
+  bar.set_progress(Progress(job));
+  job.cancelled = true;
+  bar.apply(commands::Grab{tip});
+  const commands::Drag drag{bar.at(tip) + Point(0.1, 0.2, 0.1)};
+  QVERIFY_THROWS_EXCEPTION(Cancelled, bar.apply(drag));
+  QVERIFY(same_bits(bar.all(), rest));
+  job.cancelled = false;
+  bar.apply(drag);
+  QCOMPARE(bar.at(tip), drag.target);
+}
+
+CHAINMAIL_TEST(ElasticSimulationTest)
+
+}  // namespace chainmail::test_elastic_simulation
+
+#include "test_elastic_simulation.moc"

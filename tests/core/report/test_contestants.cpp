@@ -1,0 +1,534 @@
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <QtTest>
+#include <map>
+#include <numbers>
+
+#include "core/elastic/elastic_problems.h"
+#include "core/report/plain_minimum.h"
+#include "mesh/error.h"
+#include "program.h"
+
+namespace chainmail::test_contestants {
+
+using namespace chainmail::test;
+
+/// Corotational FEM, ARAP, XPBD and Projective Dynamics, against their energies' minima and under rotations.
+class ContestantsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void corotational_is_at_the_least_energy_data() { dimensions(); }
+  void corotational_is_at_the_least_energy();
+  void projective_is_at_the_least_energy_data() { dimensions(); }
+  void projective_is_at_the_least_energy();
+  void xpbd_is_at_the_least_energy_data() { dimensions(); }
+  void xpbd_is_at_the_least_energy();
+  void xpbd_shortens_its_step_where_it_diverges();
+  void xpbd_hardly_changes_after_50_iterations_data() { dimensions(); }
+  void xpbd_hardly_changes_after_50_iterations();
+  void too_few_iterations_are_told_data();
+  void too_few_iterations_are_told();
+  void what_has_no_cells_is_refused();
+  void a_turned_object_gives_the_turned_answer_data() { objects(); }
+  void a_turned_object_gives_the_turned_answer();
+  void a_rigid_motion_strains_nothing_data() { objects(true); }
+  void a_rigid_motion_strains_nothing();
+  void a_handle_of_many_turns_the_object_data() { objects(); }
+  void a_handle_of_many_turns_the_object();
+  void a_cut_removes_its_cells_data() { objects(); }
+  void a_cut_removes_its_cells();
+  void the_answer_does_not_depend_on_the_start_data() { objects(); }
+  void the_answer_does_not_depend_on_the_start();
+  void cancelling_keeps_the_last_answer_data() { objects(true); }
+  void cancelling_keeps_the_last_answer();
+
+ private:
+  static void dimensions();
+  static void objects(bool wrinkles = false);
+};
+
+namespace {
+
+constexpr std::array methods{ElasticMethod::corotational, ElasticMethod::arap, ElasticMethod::xpbd,
+                             ElasticMethod::projective};
+
+enum class Object { sheet, solid, surface };
+
+MeshPointer make(Object object) {
+  switch (object) {
+    case Object::sheet:
+      return jittered(make_mesh(MeshKind::cloth, {4, 4, 1}));
+    case Object::solid:
+      return jittered(make_mesh(MeshKind::tetra, {3, 3, 3}));
+    default:
+      return jittered(make_mesh(MeshKind::cloth, {5, 4, 1}, 3));
+  }
+}
+
+MeshParts parts_of(const Mesh& mesh) {
+  MeshParts parts;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    parts.rest.push_back(mesh.rest_position(e));
+  }
+  parts.links = mesh.links;
+  parts.triangles = mesh.triangles;
+  parts.tetrahedra = mesh.tetrahedra;
+  parts.space_dimension = mesh.space_dimension;
+  return parts;
+}
+
+MeshPointer turned(const Mesh& mesh, const Eigen::Matrix3d& turn) {
+  MeshParts parts = parts_of(mesh);
+  for (Point& at : parts.rest) {
+    at = turn * at;
+  }
+  return build_mesh(std::move(parts));
+}
+
+Eigen::Matrix3d turn_by(double degrees, const Mesh& mesh) {
+  const Point axis = mesh.space_dimension == 2 ? Point(0, 0, 1) : Point(Point(1, 2, 2) / 3);
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis).toRotationMatrix();
+}
+
+/// Moves the last element by a vector of the space.
+void drag(ElasticSolver& solver, const Mesh& mesh, const Point& by) {
+  solver.hold(ElasticHandle::of(mesh.element_count() - 1));
+  solver.move(ElasticMotion::by(std::span(by.data(), std::size_t(mesh.space_dimension))));
+}
+
+const Point far{0.5, 0.6, -0.3};
+
+/// The three elements with the lowest x: they do not lie on one line.
+std::vector<ElementId> first_column(const Mesh& mesh) { return layer(mesh, *find_side("left")); }
+
+/// Pins that hold a surface in space as well, which has only one layer.
+std::vector<ElementId> pins_of(const Mesh& mesh) {
+  return mesh.space_dimension == 3 && mesh.tetrahedra.empty() ? std::vector<ElementId>{0, 1, 2, 5, 6, 10, 15}
+                                                              : first_column(mesh);
+}
+
+/// The minimum of an energy of the displacements of all elements, with pins and the last element where they are.
+std::vector<double> least(const Mesh& mesh, const ElasticProblem& problem, const Point& by,
+                          const std::function<double(const std::vector<double>&)>& energy) {
+  const auto n = std::size_t(mesh.space_dimension);
+  std::vector<double> all(mesh.rest.size(), 0.0);
+  std::copy_n(by.data(), n, all.end() - std::ptrdiff_t(n));
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i + n < all.size(); ++i) {
+    if (!std::ranges::binary_search(problem.pins, ElementId(i / n))) {
+      free.push_back(i);
+    }
+  }
+  const auto with = [&](const Eigen::VectorXd& unknown) {
+    std::vector<double> whole = all;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      whole[free[i]] = unknown[Eigen::Index(i)];
+    }
+    return whole;
+  };
+  return with(plain_minimum([&](const Eigen::VectorXd& unknown) { return energy(with(unknown)); },
+                            Eigen::VectorXd::Zero(Eigen::Index(free.size()))));
+}
+
+/// Deformation gradient and volume of a triangle or tetrahedron.
+struct Shape {
+  Eigen::MatrixXd deformation;
+  double volume = 0;
+};
+template <class Corners>
+Shape shape_of(const Mesh& mesh, const Corners& corners, const std::vector<double>& displacements) {
+  const int n = mesh.space_dimension;
+  Eigen::MatrixXd rest(n, n), now(n, n);
+  for (int column = 0; column < n; ++column) {
+    for (int k = 0; k < n; ++k) {
+      const std::size_t to = std::size_t(corners[std::size_t(column) + 1] * ElementId(n) + ElementId(k)),
+                        from = std::size_t(corners[0] * ElementId(n) + ElementId(k));
+      rest(k, column) = mesh.rest[to] - mesh.rest[from];
+      now(k, column) = rest(k, column) + displacements[to] - displacements[from];
+    }
+  }
+  return {now * rest.inverse(), std::abs(rest.determinant()) / (n == 3 ? 6 : 2)};
+}
+
+/// Calls visit(Shape) for each cell.
+template <class Visit>
+void for_each_shape(const Mesh& mesh, const std::vector<double>& displacements, Visit visit) {
+  for (const auto& corners : mesh.tetrahedra) {
+    visit(shape_of(mesh, corners, displacements));
+  }
+  for (const auto& corners : mesh.triangles) {
+    if (mesh.tetrahedra.empty()) {
+      visit(shape_of(mesh, corners, displacements));
+    }
+  }
+}
+
+/// Calls visit(first, second, sum of the volumes of the cells at this edge) for each edge.
+template <class Visit>
+void for_each_edge(const Mesh& mesh, Visit visit) {
+  std::map<std::array<ElementId, 2>, double> volumes;
+  const auto add = [&](const auto& corners) {
+    const double volume = shape_of(mesh, corners, std::vector<double>(mesh.rest.size())).volume;
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        volumes[{std::min(corners[a], corners[b]), std::max(corners[a], corners[b])}] += volume;
+      }
+    }
+  };
+  std::ranges::for_each(mesh.tetrahedra, add);
+  if (mesh.tetrahedra.empty()) {
+    std::ranges::for_each(mesh.triangles, add);
+  }
+  for (const auto& [edge, volume] : volumes) {
+    visit(edge[0], edge[1], volume);
+  }
+}
+
+/// The energy of springs whose stiffness is `modulus` times the volume at the edge over the square of its length.
+double spring_energy(const Mesh& mesh, double modulus, const std::vector<double>& displacements) {
+  double sum = 0;
+  for_each_edge(mesh, [&](ElementId a, ElementId b, double volume) {
+    const auto n = std::size_t(mesh.space_dimension);
+    const Point rest = mesh.rest_position(b) - mesh.rest_position(a);
+    const Point now = rest + mesh.to_point(displacements.data() + b * n) - mesh.to_point(displacements.data() + a * n);
+    const double longer = now.norm() - rest.norm();
+    sum += modulus * volume / rest.squaredNorm() * longer * longer / 2;
+  });
+  return sum;
+}
+
+/// Lamé's parameters of a solid, or of a sheet in plane stress.
+struct Moduli {
+  double mu = 0, lambda = 0;
+};
+Moduli moduli(const Mesh& mesh, double young, double poisson) {
+  return {young / (2 * (1 + poisson)), mesh.space_dimension == 2
+                                           ? young * poisson / (1 - poisson * poisson)
+                                           : young * poisson / ((1 + poisson) * (1 - 2 * poisson))};
+}
+
+/// The closest rotation, by singular values.
+Eigen::MatrixXd rotation_of(const Eigen::MatrixXd& deformation) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(deformation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::MatrixXd left = svd.matrixU();
+  if ((left * svd.matrixV().transpose()).determinant() < 0) {
+    left.col(left.cols() - 1) *= -1;
+  }
+  return left * svd.matrixV().transpose();
+}
+
+}  // namespace
+
+void ContestantsTest::dimensions() {
+  QTest::addColumn<int>("object");
+  QTest::newRow("sheet") << int(Object::sheet);
+  QTest::newRow("solid") << int(Object::solid);
+}
+
+/// XPBD and Projective Dynamics make a surface in space wrinkle like cloth, in many ways that are about as good. So the
+/// tests that need one answer leave it out.
+void ContestantsTest::objects(bool wrinkles) {
+  QTest::addColumn<int>("method");
+  QTest::addColumn<int>("object");
+  for (const ElasticMethod method : methods) {
+    for (const Object object : {Object::sheet, Object::solid, Object::surface}) {
+      const bool is_cloth = object == Object::surface && method != ElasticMethod::arap;
+      if (fits(method, *make(object)) && (wrinkles || !is_cloth)) {
+        QTest::addRow("method %d, object %d", int(method), int(object)) << int(method) << int(object);
+      }
+    }
+  }
+}
+
+/// The energy of Sifakis and Barbič (2012), in plane stress for a sheet.
+void ContestantsTest::corotational_is_at_the_least_energy() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  constexpr double poisson = 0.35;
+  const auto [mu, lambda] = moduli(*mesh, 3, poisson);
+  const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+  const auto solver = make_elastic(ElasticMethod::corotational, problem);
+  drag(*solver, *mesh, far);
+  QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+  const auto energy = [&, mu = mu, lambda = lambda](const std::vector<double>& displacements) {
+    double sum = 0;
+    for_each_shape(*mesh, displacements, [&](const Shape& shape) {
+      const Eigen::MatrixXd rotation = rotation_of(shape.deformation);
+      const double longer = (rotation.transpose() * shape.deformation).trace() - double(rotation.rows());
+      sum += shape.volume * (mu * (shape.deformation - rotation).squaredNorm() + lambda / 2 * longer * longer);
+    });
+    return sum;
+  };
+  const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
+  QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+}
+
+/// The springs take the material's λ, or 3/4 of its μ if that is less, and the cells the rest of μ.
+void ContestantsTest::projective_is_at_the_least_energy() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  for (const double poisson : {0.1, 0.35}) {
+    const auto [mu, lambda] = moduli(*mesh, 3, poisson);
+    const double of_springs = std::min(lambda, 0.75 * mu), of_cells = mu - of_springs;
+    const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    const auto solver = make_elastic(ElasticMethod::projective, problem);
+    drag(*solver, *mesh, far);
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    const auto energy = [&](const std::vector<double>& displacements) {
+      double sum = spring_energy(*mesh, (mesh->space_dimension == 3 ? 2.5 : 8.0 / 3) * of_springs, displacements);
+      for_each_shape(*mesh, displacements, [&](const Shape& shape) {
+        sum += shape.volume * of_cells * (shape.deformation - rotation_of(shape.deformation)).squaredNorm();
+      });
+      return sum;
+    };
+    const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
+    QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+  }
+}
+
+/// Springs have the material's μ; what they lack of λ is the resistance of the volumes.
+void ContestantsTest::xpbd_is_at_the_least_energy() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  for (const double poisson : {0.1, 0.4}) {
+    const auto [mu, lambda] = moduli(*mesh, 3, poisson);
+    const double of_volumes = std::max(0.0, lambda - mu);
+    const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
+    drag(*solver, *mesh, far);
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    const auto energy = [&, mu = mu](const std::vector<double>& displacements) {
+      double sum = spring_energy(*mesh, (mesh->space_dimension == 3 ? 2.5 : 8.0 / 3) * mu, displacements);
+      for_each_shape(*mesh, displacements, [&](const Shape& shape) {
+        const double larger = shape.deformation.determinant() - 1;
+        sum += of_volumes * shape.volume * larger * larger / 2;
+      });
+      return sum;
+    };
+    const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
+    QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+  }
+}
+
+/// A stretched sheet of a material that hardly changes its volume: with a long time step, iterations diverge.
+void ContestantsTest::xpbd_shortens_its_step_where_it_diverges() {
+  const MeshPointer mesh = generate({MeshKind::cloth, {32, 32, 1}});
+  for (const double poisson : {0.3, 0.45}) {
+    ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    problem.options.iterations = 5000;
+    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
+    drag(*solver, *mesh, far);
+    for (const double displacement : solver->displacements()) {
+      QVERIFY(std::isfinite(displacement) && std::abs(displacement) < 2 * far.norm());
+    }
+    QVERIFY2(solver->remark().find("diverged") == std::string::npos, solver->remark().c_str());
+  }
+}
+
+void ContestantsTest::xpbd_hardly_changes_after_50_iterations() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  std::vector<std::vector<double>> answers;
+  for (const std::uint32_t iterations : {50U, 200U}) {
+    ElasticProblem problem = pinned(mesh, first_column(*mesh));
+    problem.options.iterations = iterations;
+    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
+    drag(*solver, *mesh, far);
+    answers.push_back(solver->displacements());
+  }
+  const double change = largest_step(answers[0], answers[1]);
+  QVERIFY2(change < 0.01 * far.norm(), qPrintable(QString::number(change)));
+}
+
+void ContestantsTest::too_few_iterations_are_told_data() {
+  QTest::addColumn<int>("method");
+  QTest::newRow("XPBD") << int(ElasticMethod::xpbd);
+  QTest::newRow("Projective Dynamics") << int(ElasticMethod::projective);
+}
+
+/// The handle and the pins are at their positions all the same, and the next move goes on from there.
+void ContestantsTest::too_few_iterations_are_told() {
+  QFETCH(const int, method);
+  const MeshPointer mesh = make(Object::solid);
+  ElasticProblem problem = pinned(mesh, first_column(*mesh));
+  problem.options.iterations = 3;
+  const auto solver = make_elastic(ElasticMethod(method), problem);
+  drag(*solver, *mesh, far);
+  QVERIFY2(QString::fromStdString(solver->remark()).startsWith("it did not converge in 3 iterations: elements still"),
+           solver->remark().c_str());
+  QVERIFY(solver->reached());
+  for (std::size_t k = 0; k < 3; ++k) {
+    QCOMPARE(solver->displacements()[solver->displacements().size() - 3 + k], far[Eigen::Index(k)]);
+    QCOMPARE(solver->displacements()[k], 0.0);
+  }
+  for (int again = 0; again < 2000 && !solver->remark().empty(); ++again) {
+    drag(*solver, *mesh, far);
+  }
+  QVERIFY(solver->remark().empty());
+  const auto patient = make_elastic(ElasticMethod(method), pinned(mesh, problem.pins));
+  drag(*patient, *mesh, far);
+  QVERIFY(largest_step(solver->displacements(), patient->displacements()) < 1e-6);
+}
+
+void ContestantsTest::what_has_no_cells_is_refused() {
+  const MeshPointer chain = make_mesh(MeshKind::line, {9, 1, 1}, 3), solid = make(Object::solid);
+  for (const ElasticMethod method : {ElasticMethod::arap, ElasticMethod::xpbd, ElasticMethod::projective}) {
+    QVERIFY(!fits(method, *chain));
+    try {
+      check(method, *chain);
+    } catch (const Error& error) {
+      QVERIFY(QString(error.what()).contains("the object has no faces or cells; use a mesh with faces"));
+    }
+    QVERIFY_THROWS_EXCEPTION(Error, make_elastic(method, pinned(solid, {})));
+    QVERIFY_THROWS_EXCEPTION(Error, make_elastic(method, pinned(solid, {0, 1})));  // free to turn
+    QVERIFY(fits(method, *make_mesh(MeshKind::line, {9, 1, 1})));
+    QVERIFY(fits(method, *make_mesh(MeshKind::block, {3, 3, 3})));
+  }
+}
+
+void ContestantsTest::a_turned_object_gives_the_turned_answer() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  Point by = far;
+  by.tail(3 - mesh->space_dimension).setZero();
+  drag(*solver, *mesh, by);
+  QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+  for (const double degrees : {45.0, 90.0}) {
+    const Eigen::Matrix3d turn = turn_by(degrees, *mesh);
+    const MeshPointer other = turned(*mesh, turn);
+    const auto of_turned = make_elastic(ElasticMethod(method), pinned(other, pins_of(*mesh)));
+    drag(*of_turned, *other, turn * by);
+    QVERIFY(of_turned->remark().empty());
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      const Point expected = turn * mesh->to_point(solver->displacements().data() + e * mesh->space_dimension);
+      const Point found = mesh->to_point(of_turned->displacements().data() + e * mesh->space_dimension);
+      QVERIFY2((found - expected).norm() < 1e-6, qPrintable(QString::number((found - expected).norm())));
+    }
+  }
+}
+
+void ContestantsTest::a_rigid_motion_strains_nothing() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  for (const double degrees : {0.0, 30.0, 90.0, 170.0}) {
+    const Eigen::Matrix3d turn = turn_by(degrees, *mesh);
+    Point by(1, -2, 0.5);
+    by.tail(3 - mesh->space_dimension).setZero();
+    const Field field = [&](const Point& at) { return Point(turn * at + by - at); };
+    const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh), field, 0.3));
+    const double of_pins = furthest_from(*mesh, solver->displacements(), field);
+    QVERIFY2(of_pins < 1e-7, qPrintable(QString("%1 at %2 degrees").arg(of_pins).arg(degrees)));
+    drag(*solver, *mesh, field(mesh->rest_position(mesh->element_count() - 1)));
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    QVERIFY(furthest_from(*mesh, solver->displacements(), field) < 1e-7);
+  }
+}
+
+/// Elements that are bound to the handle and no pin turn with it.
+void ContestantsTest::a_handle_of_many_turns_the_object() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  const auto n = std::size_t(mesh->space_dimension);
+  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  ElasticHandle handle;
+  for (ElementId e = mesh->element_count(); handle.elements.size() < 3; --e) {
+    if (!std::ranges::binary_search(pins_of(*mesh), e - 1)) {
+      handle.elements.insert(handle.elements.begin(), e - 1);
+    }
+  }
+  const Point pivot = mesh->rest_position(handle.elements[1]);
+  for (const ElementId element : handle.elements) {
+    const Point arm = mesh->rest_position(element) - pivot;
+    handle.arms.insert(handle.arms.end(), arm.data(), arm.data() + n);
+    handle.displacements.insert(handle.displacements.end(), n, 0.0);
+  }
+  const Eigen::Matrix3d turn = turn_by(12, *mesh) - Eigen::Matrix3d::Identity();
+  const auto size = Eigen::Index(n);
+  solver->hold(handle);
+  solver->move({SmallMatrix(turn.topLeftCorner(size, size)), SmallVector(Point(0.2, 0.1, 0.1).head(size))});
+  QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+  for (const ElementId element : handle.elements) {
+    const Point arm = mesh->rest_position(element) - pivot, expected = turn * arm + Point(0.2, 0.1, 0.1);
+    for (std::size_t k = 0; k < n; ++k) {
+      QVERIFY(std::abs(solver->displacements()[element * n + k] - expected[Eigen::Index(k)]) < 1e-15);
+    }
+  }
+  for (const ElementId pin : pins_of(*mesh)) {
+    for (std::size_t k = 0; k < n; ++k) {
+      QCOMPARE(solver->displacements()[pin * n + k], 0.0);
+    }
+  }
+  solver->reset();
+  QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return one == 0; }));
+}
+
+/// A cut link leaves the answer of the same object without the cells at that link.
+void ContestantsTest::a_cut_removes_its_cells() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  ElasticProblem problem = pinned(mesh, pins_of(*mesh));
+  const ElementId last = mesh->element_count() - 1, before = last - 1;
+  problem.cuts.cut(*find_link(*mesh, before, last));
+  MeshParts parts = parts_of(*mesh);
+  const auto has_link = [&](const auto& cell) {
+    return std::ranges::count(cell, before) + std::ranges::count(cell, last) == 2;
+  };
+  std::erase_if(parts.triangles, has_link);
+  std::erase_if(parts.tetrahedra, has_link);
+  const MeshPointer without = build_mesh(std::move(parts));
+  const auto cut = make_elastic(ElasticMethod(method), problem);
+  const auto expected = make_elastic(ElasticMethod(method), pinned(without, problem.pins));
+  const auto whole = make_elastic(ElasticMethod(method), pinned(mesh, problem.pins));
+  for (ElasticSolver* one : {cut.get(), expected.get(), whole.get()}) {
+    drag(*one, *mesh, far);
+  }
+  QVERIFY(largest_step(cut->displacements(), expected->displacements()) < 1e-7);
+  QVERIFY(largest_step(cut->displacements(), whole->displacements()) > 1e-3);
+}
+
+void ContestantsTest::the_answer_does_not_depend_on_the_start() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  const ElasticProblem problem = pinned(mesh, pins_of(*mesh));
+  const auto fresh = make_elastic(ElasticMethod(method), problem);
+  drag(*fresh, *mesh, far);
+  const auto other = make_elastic(ElasticMethod(method), problem);
+  std::mt19937_64 random(5);
+  std::vector<double> from(mesh->rest.size());
+  for (double& one : from) {
+    one = uniform(random, -0.1, 0.1);
+  }
+  other->start_from(from);
+  drag(*other, *mesh, far);
+  const double apart = largest_step(fresh->displacements(), other->displacements());
+  QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+}
+
+void ContestantsTest::cancelling_keeps_the_last_answer() {
+  QFETCH(const int, method);
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  drag(*solver, *mesh, far);
+  const std::vector<double> answer = solver->displacements();
+  JobState job;
+  job.cancelled = true;
+  const auto n = std::size_t(mesh->space_dimension);
+  QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), Progress(job)));
+  QVERIFY(solver->displacements() == answer);
+  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
+}
+
+CHAINMAIL_TEST(ContestantsTest)
+
+}  // namespace chainmail::test_contestants
+
+#include "test_contestants.moc"

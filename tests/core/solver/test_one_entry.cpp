@@ -1,0 +1,235 @@
+#include <QtTest>
+#include <sstream>
+
+#include "chainmail/follow_pass.h"
+#include "chainmail/list_method.h"
+#include "command_line/common.h"
+#include "core/chainmail/recorded.h"
+#include "files/results/report_json.h"
+#include "report/page/csv.h"
+#include "report/page/looks.h"
+#include "report/page/table.h"
+#include "report/run/ramp.h"
+#include "solver/algorithms.h"
+
+using namespace chainmail;
+using namespace chainmail::test;
+using command_line::add_parameter;
+using command_line::add_value;
+using command_line::algorithms_help;
+using command_line::algorithms_of;
+using command_line::names_of;
+
+/// An algorithm is one entry of a table, and so is a parameter. Every list of them includes a new entry.
+class OneEntryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void an_algorithm_is_listed();
+  void an_algorithm_is_parsed();
+  void an_algorithm_is_written();
+  void an_algorithm_runs();
+  void an_algorithm_is_replayed();
+  void an_entry_goes_with_its_object();
+  void names_are_unique();
+  void a_parameter_is_an_option();
+  void a_parameter_is_checked();
+  void defaults_and_limits_are_those_of_the_table();
+};
+
+namespace {
+
+constexpr auto dummy = Algorithm(1000);
+
+/// A waiting list like the one of Spiral.
+struct DummyList : BackList {
+  static constexpr bool admits_updated = true;
+  static constexpr TakingOrder order = TakingOrder::first_in;
+};
+
+AlgorithmInfo dummy_entry() {
+  return {.algorithm = dummy,
+          .name = "dummy",
+          .alias = "another-name",
+          .label = "Dummy ChainMail",
+          .source = "nobody 2000",
+          .summary = "does what Spiral does",
+          .look = {"M0 0H1V1Z", "#123456"},
+          .make = make_list_method<DummyList>,
+          .history = follow_list<DummyList>};
+}
+
+constexpr Parameter dummy_parameter{.name = "dummy",
+                                    .label = "Dummy",
+                                    .unit = "of nothing",
+                                    .standard = 2.5,
+                                    .lowest = 1,
+                                    .highest = 4,
+                                    .slider_highest = 4,
+                                    .step = 0.5,
+                                    .decimals = 1,
+                                    .help = "a number without a meaning"};
+
+/// Parses a command line with one option, and calls `use` with the option.
+template <class Use>
+auto parsed(const std::string& name, const std::vector<std::string>& arguments, Use use) {
+  CLI::App app;
+  CLI::Option* option = add_value(app, name, "TEXT", "help");
+  auto reversed = arguments;
+  std::ranges::reverse(reversed);
+  app.parse(reversed);
+  return use(option);
+}
+
+std::string message(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+void OneEntryTest::an_algorithm_is_listed() {
+  const std::size_t family = algorithms().size(), others = elastic_algorithms().size();
+  const ExtraAlgorithm extra(dummy_entry());
+  QCOMPARE(algorithms().size(), family + 1);
+  QCOMPARE(elastic_algorithms().size(), others);
+  QVERIFY(algorithms().back().algorithm == dummy);
+  QVERIFY(elastic_algorithms().front().algorithm == Algorithm::linear_fem);
+  QVERIFY(std::ranges::count(names_of(every_algorithm()), "another-name") == 1);
+  QVERIFY(contains(algorithms_help(algorithms()), "another-name   Dummy ChainMail: does what Spiral does\n"));
+  QCOMPARE(report::look_at(report::look_of(dummy)).colour, std::string_view("#123456"));
+  QCOMPARE(report::label(report::Contestant{dummy, 3}), std::string("Dummy ChainMail, 3 sweeps"));
+}
+
+void OneEntryTest::an_algorithm_is_parsed() {
+  const auto chosen = [](const std::string& list) {
+    return parsed("--algorithms", {"--algorithms", list},
+                  [](const CLI::Option* option) { return algorithms_of(option, algorithms()); });
+  };
+  QVERIFY(contains(message([&] { chosen("dummy"); }), "'dummy' is not known"));
+  const ExtraAlgorithm extra(dummy_entry());
+  QVERIFY((chosen("spiral,dummy") == std::vector{Algorithm::spiral, dummy}));
+  QVERIFY(chosen("another-name") == std::vector{dummy});
+  QVERIFY(contains(message([&] { chosen("dummy,another-name"); }), "is given twice"));
+  QVERIFY(contains(message([&] { chosen("none"); }), "exact or another-name"));
+  QVERIFY(chosen("original") == chosen("3d"));
+}
+
+void OneEntryTest::an_algorithm_is_written() {
+  const ExtraAlgorithm extra(dummy_entry());
+  const report::Comparison comparison{
+      {}, {{"object", "", 9, 12, {{"drag", "", 1, {{{dummy, 0}, std::nullopt, "no"}}, ""}}}}, false};
+  std::ostringstream json, csv;
+  write_json(json, comparison, {});
+  report::write_csv(csv, comparison);
+  QVERIFY(contains(json.str(), "\"algorithm\": \"dummy\""));
+  QVERIFY(contains(csv.str(), ",dummy,0,"));
+}
+
+void OneEntryTest::an_algorithm_runs() {
+  const ExtraAlgorithm extra(dummy_entry());
+  for (const MeshPointer& mesh : {make_mesh(MeshKind::line, {9, 1, 1}), make_mesh(MeshKind::cloth, {6, 5, 1}),
+                                  make_mesh(MeshKind::tetra, {4, 3, 3})}) {
+    for (const Precision precision : precisions) {
+      const auto solver = make_solver(mesh, dummy, precision), spiral = make_solver(mesh, Algorithm::spiral, precision);
+      for (const double by : {2.0, -1.5}) {
+        const Point target = mesh->rest_position(1) + Point(by, 0, 0);
+        QCOMPARE(solver->move(1, target).moved, spiral->move(1, target).moved);
+        QVERIFY(same_bits(positions_of(*solver, *mesh), positions_of(*spiral, *mesh)));
+      }
+    }
+  }
+}
+
+void OneEntryTest::an_algorithm_is_replayed() {
+  const ExtraAlgorithm extra(dummy_entry());
+  const auto mesh = make_mesh(MeshKind::grid, {5, 4, 1});
+  Recorded recorded(mesh, dummy), spiral(mesh, Algorithm::spiral);
+  const auto pass = recorded.drag(7, Point(4, -3, 0)), expected = spiral.drag(7, Point(4, -3, 0));
+  const WaitingHistory history = waiting_history(*pass);
+  QVERIFY(history.known() && !history.candidates().empty());
+  QCOMPARE(history.at(3), waiting_history(*expected).at(3));
+}
+
+void OneEntryTest::an_entry_goes_with_its_object() {
+  const std::size_t before = every_algorithm().size();
+  { const ExtraAlgorithm extra(dummy_entry()); }
+  QCOMPARE(every_algorithm().size(), before);
+  QVERIFY(!find_algorithm("dummy") && !find_algorithm("another-name"));
+}
+
+void OneEntryTest::names_are_unique() {
+  std::set<std::string_view> names, shapes;
+  std::size_t count = 0;
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    for (const std::string_view name : {one.name, one.alias}) {
+      names.insert(name);
+      count += name.empty() ? 0 : 1;
+    }
+    QVERIFY(!one.label.empty() && !one.source.empty() && !one.summary.empty());
+    shapes.insert(one.look.path);
+  }
+  names.erase("");
+  QCOMPARE(names.size(), count);
+  QCOMPARE(shapes.size(), every_algorithm().size());
+}
+
+void OneEntryTest::a_parameter_is_an_option() {
+  CLI::App app;
+  CLI::Option* option = add_parameter(app, dummy_parameter);
+  QVERIFY(contains(app.help(), "--dummy"));
+  QVERIFY(contains(app.help(), "a number without a meaning [2.5]"));
+  QCOMPARE(command_line::value_of(option, dummy_parameter), 2.5);
+  app.parse(std::vector<std::string>{"3.5", "--dummy"});
+  QCOMPARE(command_line::value_of(option, dummy_parameter), 3.5);
+  app.parse(std::vector<std::string>{"5", "--dummy"});
+  QCOMPARE(message([&] { command_line::value_of(option, dummy_parameter); }),
+           std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
+}
+
+void OneEntryTest::a_parameter_is_checked() {
+  QCOMPARE(message([] { check(dummy_parameter, 0.5); }), std::string("dummy: Dummy 0.5 is out of range; use 1 to 4"));
+  for (const double accepted : {1.0, 2.5, 4.0}) {
+    QCOMPARE(message([=] { check(dummy_parameter, accepted); }), std::string());
+  }
+  for (const double refused : {std::nextafter(1.0, 0.0), std::nextafter(4.0, 5.0), std::nan("")}) {
+    QVERIFY(!message([=] { check(dummy_parameter, refused); }).empty());
+  }
+  Parameter open = dummy_parameter;
+  open.highest = parameters::no_highest;
+  QCOMPARE(range_of(open), std::string("1 or more"));
+  open.lowest = parameters::above_zero;
+  QCOMPARE(range_of(open), std::string("a number above 0"));
+  QVERIFY(!message([=] { check(open, 0); }).empty());
+  QVERIFY(!message([=] { check(open, std::numeric_limits<double>::infinity()); }).empty());
+}
+
+void OneEntryTest::defaults_and_limits_are_those_of_the_table() {
+  const LinkSoftness softness;
+  QCOMPARE(softness.compression, parameters::compression.standard);
+  QCOMPARE(softness.stretch, parameters::stretch.standard);
+  QCOMPARE(softness.shear, parameters::shear.standard);
+  check(LinkSoftness{parameters::compression.highest, parameters::stretch.lowest, parameters::shear.lowest});
+  QVERIFY(contains(message([] {
+                     check(LinkSoftness{1.01, 1, 0});
+                   }),
+                   "compression: Compression 1.01 is out of range; use 0 to 1"));
+  ElasticOptions elastic;
+  QCOMPARE(elastic.material.young, parameters::young.standard);
+  QCOMPARE(elastic.material.poisson, parameters::poisson.standard);
+  QCOMPARE(double(elastic.lattice[2]), parameters::lattice.standard);
+  elastic.material.poisson = parameters::poisson.highest;
+  check(elastic);
+  elastic.lattice[1] = static_cast<std::uint32_t>(parameters::lattice.highest) + 1;
+  QVERIFY(contains(message([&] { check(elastic); }), "lattice: Control points 9 is out of range; use 2 to 8"));
+  QCOMPARE(MeshRecipe().spacing, parameters::spacing.standard);
+}
+
+QTEST_APPLESS_MAIN(OneEntryTest)
+#include "test_one_entry.moc"
