@@ -10,7 +10,7 @@ namespace {
 
 /// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
 void read_relax(const CLI::Option* option, const std::string& usual, report::CompareOptions& result) {
-  constexpr std::uint32_t most_sweeps = 1'000'000;
+  constexpr std::uint32_t max_sweeps = 1'000'000;
   result.sweeps.clear();
   for (const std::string& word : words_of("--relax", value_of(option).value_or(usual))) {
     if (word == info(RelaxationScheme::equilibrium).name) {
@@ -18,7 +18,7 @@ void read_relax(const CLI::Option* option, const std::string& usual, report::Com
       continue;
     }
     const auto count = parse_count(word);
-    if (!count || *count > most_sweeps) {
+    if (!count || *count > max_sweeps) {
       throw Error("--relax", in_quotes(word) + " is not a number of sweeps",
                   "write whole numbers up to 1000000, or equilibrium, separated by commas");
     }

@@ -21,7 +21,7 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr int most_shards = 1000;
+constexpr int max_shards = 1000;
 
 /// Throws Error for an option that the given mode does not take.
 void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken) {
@@ -43,7 +43,7 @@ report::Shard shard_of(const CLI::Option* option) {
   const auto slash = text.find('/');
   const auto index = slash == std::string::npos ? std::nullopt : parse_count(text.substr(0, slash));
   const auto count = slash == std::string::npos ? std::nullopt : parse_count(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > most_shards) {
+  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
     throw Error("--shard", in_quotes(text) + " is not a part of a whole", "write I/N, such as 2/4, with N up to 1000");
   }
   return {int(*index), int(*count)};

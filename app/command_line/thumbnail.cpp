@@ -186,8 +186,8 @@ Raster draw(const Shown& shown, std::uint32_t size) {
   const auto faces = faces_of(shown);
   draw_faces(picture, look, faces);
   // Links inside a volume are hidden anyway, and so many on a large surface that they would hide it.
-  constexpr std::size_t most_links = 3000;
-  if (faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= most_links)) {
+  constexpr std::size_t max_links = 3000;
+  if (faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= max_links)) {
     draw_links(picture, look, shown);
   }
   return picture;

@@ -11,7 +11,7 @@ namespace {
 
 using api::Error;
 
-constexpr std::int64_t most_ids = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t max_ids = std::numeric_limits<std::uint32_t>::max();
 
 std::string shape_in_words(const py::array& array) {
   std::string words = "(";
@@ -58,7 +58,7 @@ Flat<double> real_numbers(const py::array& array, const std::string& name) {
 }
 
 std::uint32_t checked_id(std::int64_t id, const char* what) {
-  if (id < 0 || id >= most_ids) {
+  if (id < 0 || id >= max_ids) {
     throw Error(std::string(what) + " " + std::to_string(id), std::string("there is no such ") + what,
                 "use a number from 0");
   }

@@ -207,7 +207,7 @@ void look(Search search, const Variables& variables, Bench& bench, const Trial& 
 
 /// Sweeps are whole numbers, and their effect grows with their logarithm, so each number gets its own search.
 void search_with_sweeps(Bench& bench, const CalibrationOptions& options, Trial& best) {
-  const auto end = std::ranges::upper_bound(every_sweeps, options.most_sweeps);
+  const auto end = std::ranges::upper_bound(every_sweeps, options.max_sweeps);
   const std::span tried(every_sweeps.begin(), end);
   const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
   for (const int sweeps : tried) {

@@ -24,7 +24,7 @@ struct CalibrationOptions {
   int drags = 4;
   int held_out = 4;                  // number of drags that only test the result; they grab other elements if possible
   int evaluations = 200;             // each evaluation runs all drags
-  int most_sweeps = 100;             // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
+  int max_sweeps = 100;              // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
   EnergyKind energy = standard_energy;

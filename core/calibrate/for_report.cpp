@@ -8,7 +8,7 @@ namespace chainmail {
 namespace {
 
 // A hundred sweeps would take most of the time of a comparison.
-constexpr int drags = 3, evaluations = 60, most_sweeps = 10;
+constexpr int drags = 3, evaluations = 60, max_sweeps = 10;
 // The equilibrium has more numbers to find, and its evaluations are short.
 constexpr int drags_at_equilibrium = 6, evaluations_at_equilibrium = 150;
 
@@ -37,7 +37,7 @@ report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
     options.drags = equilibrium ? drags_at_equilibrium : drags;
     options.held_out = 0;
     options.evaluations = equilibrium ? evaluations_at_equilibrium : evaluations;
-    options.most_sweeps = most_sweeps;
+    options.max_sweeps = max_sweeps;
     options.not_these = handles;
     return run(object, options, stop);
   };

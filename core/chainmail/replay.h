@@ -83,7 +83,7 @@ class PassRecord {
     if (!is_known || (tries && (goes_on || 2 * agreed_ >= count_))) {
       failures_ = unused_ = 0;
     } else if (tries) {
-      failures_ = std::min(failures_ + 1, most_failures);
+      failures_ = std::min(failures_ + 1, max_failures);
       unused_ = failures_ < 2 ? 0 : 1 << (failures_ - 2);
     } else {
       --unused_;
@@ -187,7 +187,7 @@ class PassRecord {
     }
   }
 
-  static constexpr int most_failures = 8;  // at most 64 passes without a replay
+  static constexpr int max_failures = 8;  // at most 64 passes without a replay
 
   LargeArray<Step> steps_;
   std::size_t count_ = 0;

@@ -9,7 +9,7 @@ namespace {
 
 // Columns join a supernode although their rows differ by up to this many: a few zeros cost less than another small
 // block.
-constexpr int most_zeros = 8;
+constexpr int max_zeros = 8;
 
 // Columns of a front between two progress reports: a few tenths of a second at most.
 constexpr Eigen::Index columns_at_once = 128;
@@ -58,7 +58,7 @@ void Cholesky::find_supernodes(const Sparse& lower) {
   const Columns columns(lower);
   for (std::size_t j = 0; j < columns.parent.size(); ++j) {
     const bool joins = j > 0 && columns.parent[j - 1] == static_cast<int>(j) &&
-                       columns.length[j] + 1 - columns.length[j - 1] <= most_zeros;
+                       columns.length[j] + 1 - columns.length[j - 1] <= max_zeros;
     if (!joins) {
       supernodes_.push_back({static_cast<int>(j), 0, {}, {}, 0});
     }

@@ -38,11 +38,11 @@ inline Eigen::Matrix3d closest_by_singular_values(const Eigen::Matrix3d& matrix)
 /// In space, by Newton's method for the angles. All maxima of tr RᵀA have the same value, so a stationary point with
 /// negative curvature is the answer. Where Newton finds none in a few steps, the singular values decide.
 inline void turn_to_closest(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation) {
-  constexpr int most_steps = 8;
+  constexpr int max_steps = 8;
   constexpr double enough = 1e-8;           // radians; the error after a step is of the order of its square
   constexpr double least_curvature = 1e-6;  // of the size of the matrix
   const double size = matrix.norm();
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     const Eigen::Matrix3d product = matrix * rotation.transpose();
     const Eigen::Vector3d torque(product(2, 1) - product(1, 2), product(0, 2) - product(2, 0),
                                  product(1, 0) - product(0, 1));

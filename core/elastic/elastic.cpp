@@ -13,7 +13,7 @@ namespace chainmail {
 namespace {
 
 // Largest number of elements by space dimension, for acceptable time and memory of a factorization (measured).
-constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, most_fem_elements};
+constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, max_fem_elements};
 constexpr std::array<std::uint64_t, 4> nonlinear_limit{0, 100'000, 20'000, 6'000};
 constexpr std::array<std::uint64_t, 4> edge_limit{0, 1'000'000, 150'000, 100'000};
 constexpr std::uint64_t boundary_limit = 2'800;        // triangles; takes 28 s and 560 MB

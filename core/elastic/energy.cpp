@@ -7,13 +7,13 @@
 namespace chainmail {
 namespace {
 
-constexpr int most_turns = 60;  // far more than Newton needs for a convex function of one unknown
+constexpr int max_turns = 60;  // far more than Newton needs for a convex function of one unknown
 
 /// Returns ln s for the stretch s on the axes that are free of stress: μ (s² − 1) + λ (ln J + m ln s) = 0.
 double log_of_free_stretch(double log_volume, const Lame& lame, int free_axes) {
   // The linear answer is to the right of the root, and the function is convex, so Newton does not overshoot.
   double a = -lame.lambda * log_volume / (2 * lame.mu + free_axes * lame.lambda);
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     const double squared = std::exp(2 * a);
     const double value = lame.mu * (squared - 1) + lame.lambda * (log_volume + free_axes * a);
     const double step = value / (2 * lame.mu * squared + free_axes * lame.lambda);

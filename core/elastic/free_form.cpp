@@ -14,7 +14,7 @@ namespace {
 // displacement.
 constexpr double pin_weight = 1e6;
 // Largest number of elements to which control points are fitted. More would not change a few hundred points much.
-constexpr std::size_t most_fitted = 20'000;
+constexpr std::size_t max_fitted = 20'000;
 
 /// Free-form deformation (Sederberg and Parry 1986) by direct manipulation (Hsu et al. 1992): of all motions of the
 /// control points that bring the grabbed element to its target, takes the smallest. Pins stay as well as the lattice
@@ -197,7 +197,7 @@ class FreeForm final : public ElasticSolver {
     // A small weight on all motion decides where the elements leave control points free.
     Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(volume_.count(), dimension_);
-    const std::size_t stride = std::max<std::size_t>(1, mesh_->element_count() / most_fitted);
+    const std::size_t stride = std::max<std::size_t>(1, mesh_->element_count() / max_fitted);
     for (std::size_t e = 0; e < mesh_->element_count(); e += stride) {
       const Eigen::VectorXd weights = volume_.weights(static_cast<ElementId>(e));
       normal += weights * weights.transpose();

@@ -6,8 +6,8 @@
 namespace chainmail {
 namespace {
 
-constexpr int most_steps = 30;  // if it converges, it rarely needs more than ten
-constexpr int most_halvings = 30;
+constexpr int max_steps = 30;  // if it converges, it rarely needs more than ten
+constexpr int max_halvings = 30;
 // Newton's convergence is quadratic: the step after one this short (in cell lengths) is rounding.
 constexpr double converged_below = 1e-9;
 // Rounding error of the energy, as a share of the magnitude of its terms: a few roundings of a double.
@@ -137,7 +137,7 @@ bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& 
   const Energy before = *energy(displacements);
   const Eigen::VectorXd from = unknowns_.gather(displacements);
   double share = 1;
-  for (int halving = 0; halving < most_halvings; ++halving, share /= 2) {
+  for (int halving = 0; halving < max_halvings; ++halving, share /= 2) {
     unknowns_.scatter(from + share * step, displacements);
     const auto after = energy(displacements);
     // Close to the minimum, the gain is smaller than the rounding error of the energy.
@@ -155,11 +155,11 @@ bool Newton::solve(std::vector<double>& displacements, const std::vector<double>
     }
     return energy(displacements).has_value();
   }
-  if (!predict(displacements, increment, progress.part(0, 1.0 / (most_steps + 1)))) {
+  if (!predict(displacements, increment, progress.part(0, 1.0 / (max_steps + 1)))) {
     return false;
   }
-  for (int i = 0; i < most_steps; ++i) {
-    const Progress of_step = progress.part(double(i + 1) / (most_steps + 1), double(i + 2) / (most_steps + 1));
+  for (int i = 0; i < max_steps; ++i) {
+    const Progress of_step = progress.part(double(i + 1) / (max_steps + 1), double(i + 2) / (max_steps + 1));
     of_step.report(0.0);
     const Eigen::VectorXd slope = unknowns_.gather(gradient(displacements));
     if (!factor(displacements, of_step)) {

@@ -8,7 +8,7 @@ namespace chainmail {
 namespace {
 
 // Springs resist at most with this share of the shear modulus, so that the cells keep some resistance of their own.
-constexpr double most_of_springs = 0.75;
+constexpr double max_spring_fraction = 0.75;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::unique_ptr<ElasticSolver> make_projective(const ElasticProblem& problem, co
   energy.cells = build_edge_cells(*problem.mesh, problem.cuts, progress.part(0, 0.1));
   const int n = energy.cells.dimension;
   const Lame material = lame_of_dimension(lame(problem.options.material), n);
-  const double of_springs = n == 1 ? material.mu : std::min(material.lambda, most_of_springs * material.mu);
+  const double of_springs = n == 1 ? material.mu : std::min(material.lambda, max_spring_fraction * material.mu);
   if (of_springs > 0) {
     energy.springs = springs_of(energy.cells, *problem.mesh, spring_modulus(of_springs, n));
   }

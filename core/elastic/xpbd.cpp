@@ -17,7 +17,7 @@ namespace {
 // The time step makes the mean spring this many times as stiff as the inertia of an element. It decides on how fast the
 // iterations converge, not on the answer. If they diverge, it is halved, at most so often (measured).
 constexpr double springs_over_inertia = 2;
-constexpr int most_step_halvings = 6;
+constexpr int max_step_halvings = 6;
 // Iterations diverge if one moves an element by this many mean edge lengths.
 constexpr double diverging_move = 100;
 // An answer has converged if it is estimated to be this close to the equilibrium, or hardly moves (mean edge lengths).
@@ -234,7 +234,7 @@ class Xpbd final : public IteratedSolver {
       progress.report(double(i) / iterations_);
       largest = iterate(displacements);
       if (largest > diverging_move * length_) {
-        if (halvings++ == most_step_halvings) {
+        if (halvings++ == max_step_halvings) {
           break;
         }
         displacements = start;
@@ -248,13 +248,13 @@ class Xpbd final : public IteratedSolver {
         return {};
       }
     }
-    if (halvings > most_step_halvings) {
+    if (halvings > max_step_halvings) {
       displacements = start;
       forget_forces();
     }
     last_ = displacements;
-    return halvings > most_step_halvings ? "it diverged; the elements stay, but for the handle"
-                                         : not_converged(iterations_, largest / length_);
+    return halvings > max_step_halvings ? "it diverged; the elements stay, but for the handle"
+                                        : not_converged(iterations_, largest / length_);
   }
 
   /// One time step. Returns how far it moves an element, or infinity if that is not a number.

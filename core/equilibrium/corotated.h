@@ -42,9 +42,9 @@ inline bool solve_positive(const Eigen::Matrix3d& matrix, const Eigen::Vector3d&
 /// In space, by Newton's method from the present rotation on. Far from the answer, it takes the step of
 /// Müller, Bender, Chentanez and Macklin (2016), which always turns toward the answer.
 inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
-  constexpr int most_steps = 50;
+  constexpr int max_steps = 50;
   constexpr double enough = 1e-7;  // radians; the error after a step of Newton's method is the square of the step
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     const Eigen::Matrix3d product = sum * rotation.transpose();
     const Eigen::Vector3d torque(product(2, 1) - product(1, 2), product(0, 2) - product(2, 0),
                                  product(1, 0) - product(0, 1));

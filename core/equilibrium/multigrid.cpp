@@ -10,7 +10,7 @@ namespace chainmail {
 namespace {
 
 /// A coarsest level with at most this many unknowns is solved directly.
-constexpr std::uint32_t most_direct_unknowns = 240;
+constexpr std::uint32_t max_direct_unknowns = 240;
 
 }  // namespace
 
@@ -73,9 +73,9 @@ class Multigrid<Dimension>::Levels {
     typename Coarse::Vectors right, x;
   };
 
-  static bool is_coarsest(std::uint32_t count) { return count * modes <= most_direct_unknowns; }
+  static bool is_coarsest(std::uint32_t count) { return count * modes <= max_direct_unknowns; }
   /// After cuts, the coarsest level may have grown.
-  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * most_direct_unknowns; }
+  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * max_direct_unknowns; }
 
   static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
     std::vector<RigidFrame<Dimension>> frames(mesh.element_count());

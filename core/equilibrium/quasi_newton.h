@@ -33,7 +33,7 @@ class QuasiNewton {
     before_ = force;
     start_ = x;
     double length = 1;
-    for (int i = 0; i < most_tries; ++i, length *= 0.5) {
+    for (int i = 0; i < max_tries; ++i, length *= 0.5) {
       for (std::size_t e = 0; e < x.size(); ++e) {
         x[e] = start_[e] + length * direction_[e];
       }
@@ -56,8 +56,8 @@ class QuasiNewton {
   double distance() const { return std::sqrt(slope_) * shrunk_; }
 
  private:
-  static constexpr std::size_t most_pairs = 6;
-  static constexpr int most_tries = 12;
+  static constexpr std::size_t max_pairs = 6;
+  static constexpr int max_tries = 12;
 
   struct Pair {
     Vectors step, change;  // of the position, and of the gradient
@@ -79,7 +79,7 @@ class QuasiNewton {
 
   void learn(double length, const Vectors& force) {
     Pair pair;
-    if (pairs_.size() == most_pairs) {
+    if (pairs_.size() == max_pairs) {
       pair = std::move(pairs_.front());
       pairs_.erase(pairs_.begin());
     }

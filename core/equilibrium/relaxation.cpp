@@ -48,7 +48,7 @@ class Relaxation::Slice {
     Lanes rest, low, high;
   };
   // Larger tables would take longer to fill than some slices last.
-  static constexpr std::size_t most_shapes = 64;
+  static constexpr std::size_t max_shapes = 64;
 
   /// The intersection of the valid regions about an element's neighbours.
   struct Box {
@@ -161,7 +161,7 @@ class Relaxation::Slice {
   void fill_shapes() {
     const std::size_t count = body_.mesh->shapes.size() / Dimension;
     const bool visits_elements = relaxation_.scheme_ == RelaxationScheme::mean && energy_ == EnergyKind::isotropic;
-    if (Dimension != 3 || !visits_elements || !body_.regions.by_shape() || count > most_shapes) {
+    if (Dimension != 3 || !visits_elements || !body_.regions.by_shape() || count > max_shapes) {
       return;
     }
     shape_count_ = count;
@@ -390,7 +390,7 @@ class Relaxation::Slice {
     return std::sqrt(square);
   }
 
-  std::array<Shape, most_shapes> shapes_;
+  std::array<Shape, max_shapes> shapes_;
   std::size_t shape_count_ = 0;  // 0: the table is not used
   Relaxation& relaxation_;
   double step_;

@@ -213,7 +213,7 @@ class ExactPropagation {
     rotation_ = rotation;
     offsets_ = shape_.offsets(rotation);
     regions_.begin(body, handle.elements(), offsets_, threads_);
-    for (int i = 0; i < most_corrections; ++i) {
+    for (int i = 0; i < max_corrections; ++i) {
       Reach reach(to);
       extend(body, reach, team);
       if (!regions_.hold(body, to)) {
@@ -231,7 +231,7 @@ class ExactPropagation {
 
   static constexpr double finest_angle = 1e-6;  // radians
   // Of the position of a rotated handle, as the search finds more pins.
-  static constexpr int most_corrections = 8;
+  static constexpr int max_corrections = 8;
 
   /// A drag that reached far and then moves little would still clamp all elements that it reached. So the regions are
   /// dropped after enough idle passes to pay for a new search.
@@ -262,14 +262,14 @@ class ExactPropagation {
     // Neighbours on a cache line belong to one share. A single share is cut in as few places as possible.
     const std::size_t per_share = shares.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
     for (const auto& share : shares) {
-      const std::size_t size = share.elements().size(), piece = std::max(size / per_share + 1, fewest_for_thread);
+      const std::size_t size = share.elements().size(), piece = std::max(size / per_share + 1, min_for_thread);
       for (std::size_t i = share.handle_size(), end = 0; i < size; i = end) {
         end = std::min(size, i + piece);
         pieces_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
         to += end - i;
       }
     }
-    if (pieces_.size() > 1 && moved.size() >= 2 * fewest_for_thread) {
+    if (pieces_.size() > 1 && moved.size() >= 2 * min_for_thread) {
       team.call_helpers();
     }
     team.run(pieces_.size(), [&](std::size_t i) { clamp(body, reach, pieces_[i]); });
@@ -311,7 +311,7 @@ class ExactPropagation {
   }
 
   // Elements that a thread must have to clamp before it pays.
-  static constexpr std::size_t fewest_for_thread = 16'384;
+  static constexpr std::size_t min_for_thread = 16'384;
 
   struct Row {
     double way;

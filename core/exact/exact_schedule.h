@@ -124,7 +124,7 @@ class AdaptiveSchedule {
   static constexpr bool adapts = true;
   static constexpr bool has_rounds = true;
   /// Elements of an object that threads share: in smaller ones a round is too short. Measured in tests/bench.
-  static constexpr std::size_t fewest_to_share = 100'000;
+  static constexpr std::size_t min_to_share = 100'000;
   using Number = typename BucketSchedule<Scalar>::Number;
 
   bool keeps_position() const { return !sets_labels_; }

@@ -169,9 +169,9 @@ class HandleRegions {
     const std::size_t elements = body.positions.size();
     bool divides = false;
     if constexpr (Schedule::has_rounds) {
-      divides = threads > 1 && body.pin_count == 0 && elements >= Schedule::fewest_to_share;
+      divides = threads > 1 && body.pin_count == 0 && elements >= Schedule::min_to_share;
     }
-    search_.share_count = divides ? std::bit_ceil(static_cast<unsigned>(std::min(threads, most_shares))) : 1;
+    search_.share_count = divides ? std::bit_ceil(static_cast<unsigned>(std::min(threads, max_shares))) : 1;
     const std::size_t stripes = std::max<std::size_t>(32, 8 * search_.share_count);
     search_.stripe = divides ? std::bit_width(std::max<std::size_t>(1, elements / stripes)) - 1 : 31;
     if (shares_.size() != search_.share_count) {
@@ -200,7 +200,7 @@ class HandleRegions {
         share.schedule().begin_round(lowest);
       }
       const auto run = [&](std::size_t i) { shares_[i].run_round(search_, body, reach, shares_, round_); };
-      if (waiting >= fewest_for_helpers) {
+      if (waiting >= min_for_helpers) {
         team.call_helpers();
         team.run(shares_.size(), run);
       } else {
@@ -241,8 +241,8 @@ class HandleRegions {
 
   static constexpr std::size_t sampled_elements = 256;
   static constexpr double width_in_links = 0.05;  // measured by bench_passes
-  static constexpr int most_shares = 64;
-  static constexpr std::size_t fewest_for_helpers = 128;  // waiting elements, of which a round visits some
+  static constexpr int max_shares = 64;
+  static constexpr std::size_t min_for_helpers = 128;  // waiting elements, of which a round visits some
 
   Search search_;
   std::vector<Share> shares_;

@@ -69,8 +69,8 @@ struct ThreadTeam::Shared {
   std::mutex mutex;
   std::exception_ptr error;  // the first; guarded by the mutex
 
-  static std::uint64_t parts(std::uint64_t of) { return of >> 16 & most_parts; }
-  static std::uint64_t taken(std::uint64_t of) { return of & most_parts; }
+  static std::uint64_t parts(std::uint64_t of) { return of >> 16 & max_parts; }
+  static std::uint64_t taken(std::uint64_t of) { return of & max_parts; }
 
   /// Does a part, if one is left.
   bool take() {
@@ -129,16 +129,16 @@ class Helpers {
     busy = passes_here;
   }
 
-  /// Sends helpers to a team: those that are free, but at most `most`.
-  void send(ThreadTeam::Shared& team, int most) {
+  /// Sends helpers to a team: those that are free, but at most `max_helpers`.
+  void send(ThreadTeam::Shared& team, int max_helpers) {
     {
       const std::lock_guard lock(mutex_);
-      for (std::size_t i = 0; most > 0 && busy.load() < core_count() && (i < helpers_.size() || start()); ++i) {
+      for (std::size_t i = 0; max_helpers > 0 && busy.load() < core_count() && (i < helpers_.size() || start()); ++i) {
         if (Helper& helper = helpers_[i]; helper.team == nullptr) {
           helper.team = &team;
           ++team.helpers;
           ++busy;
-          --most;
+          --max_helpers;
         }
       }
     }
@@ -218,13 +218,13 @@ const HelpersOfProcess helpers_of_process;
 
 }  // namespace
 
-ThreadTeam::ThreadTeam(int most) : most_(most) {}
+ThreadTeam::ThreadTeam(int max_threads) : max_threads_(max_threads) {}
 
 void ThreadTeam::call_helpers() {
-  if (!has_called_ && std::min(most_, core_count()) > 1 && busy.load() < core_count()) {
+  if (!has_called_ && std::min(max_threads_, core_count()) > 1 && busy.load() < core_count()) {
     shared_.reset(new (std::nothrow) Shared);  // without memory for it, the team stays alone
     if (shared_) {
-      Helpers::all().send(*shared_, most_ - 1);
+      Helpers::all().send(*shared_, max_threads_ - 1);
     }
   }
   has_called_ = true;

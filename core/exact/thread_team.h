@@ -23,8 +23,8 @@ class RunningPass {
 /// keeps its core busy.
 class ThreadTeam {
  public:
-  /// A team of at most `most` threads, this one included. It has no helpers yet, and costs nothing.
-  explicit ThreadTeam(int most);
+  /// A team of at most `max_threads` threads, this one included. It has no helpers yet, and costs nothing.
+  explicit ThreadTeam(int max_threads);
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
   ~ThreadTeam();
@@ -32,7 +32,7 @@ class ThreadTeam {
   /// Gets helpers, unless the team has called them already. It takes some 10 µs until they are there.
   void call_helpers();
 
-  /// Calls work(part) once for each part below `parts`, of which there may be at most `most_parts`, and returns when
+  /// Calls work(part) once for each part below `parts`, of which there may be at most `max_parts`, and returns when
   /// all are done. Parts run at the same time, in no order. Throws what a part threw, when no part runs any more.
   template <class Work>
   void run(std::size_t parts, Work work) {
@@ -40,7 +40,7 @@ class ThreadTeam {
         parts, [](void* context, std::size_t part) { (*static_cast<Work*>(context))(part); }, &work);
   }
 
-  static constexpr std::size_t most_parts = 0xFFFF;
+  static constexpr std::size_t max_parts = 0xFFFF;
 
   struct Shared;  // what the threads of a team see
 
@@ -48,7 +48,7 @@ class ThreadTeam {
   using Call = void (*)(void* context, std::size_t part);
   void run(std::size_t parts, Call call, void* context);
 
-  int most_;
+  int max_threads_;
   bool has_called_ = false;
   std::unique_ptr<Shared> shared_;  // null: no helper
 };

@@ -152,7 +152,7 @@ void ConvergingReference::add_level() {
   const Level& before = *levels_.back();
   const Mesh& coarse = *before.refinement.mesh;
   const std::uint64_t count = std::uint64_t{coarse.element_count()} + coarse.link_count();
-  const std::uint64_t most = options_.most_elements[static_cast<std::size_t>(coarse.space_dimension)];
+  const std::uint64_t most = options_.max_elements[static_cast<std::size_t>(coarse.space_dimension)];
   if (count > most) {
     throw Error("reference solution",
                 "the next level has " + std::to_string(count) + " elements, more than " + std::to_string(most),
@@ -211,7 +211,7 @@ bool ConvergingReference::is_last(ConvergedReference& result, double expected) c
   result.converged = change && *change < options_.change;
   if (result.converged) {
     result.end = "it has converged";
-  } else if (int(result.levels.size()) >= options_.most_levels) {
+  } else if (int(result.levels.size()) >= options_.max_levels) {
     result.end = "there are no further levels";
   } else if (expected > options_.seconds) {
     result.end = "its time is used up";

@@ -48,8 +48,8 @@ struct ConvergedReference : Convergence {
 struct ConvergingOptions {
   double change = converged_change;
   double seconds = 30;  // no level is begun that would probably exceed it
-  int most_levels = 6;
-  std::array<std::uint64_t, 4> most_elements{0, 100'000, 50'000, 12'000};  // by space dimension
+  int max_levels = 6;
+  std::array<std::uint64_t, 4> max_elements{0, 100'000, 50'000, 12'000};  // by space dimension
 };
 
 /// Computes the reference solution on cells that are refined uniformly until the answer at the object's own elements

@@ -238,7 +238,7 @@ class System {
 bool settle(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::span<const ElementId> fixed,
             const PositionView& positions, Equilibrium& equilibrium, const Progress& progress) {
   constexpr double enough = 1e-8;
-  constexpr int most_iterations = 1000;
+  constexpr int max_iterations = 1000;
   Body body(MeshPointer(std::shared_ptr<void>(), &mesh), Precision::double_precision);
   std::vector<double> at(mesh.rest.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -249,7 +249,7 @@ bool settle(const Mesh& mesh, const Softness& softness, const Cuts& cuts, std::s
   body.set_softness(softness);
   body.cut(cuts.links());
   body.pin(fixed);
-  if (!EquilibriumSolver::make(mesh.space_dimension, false)->solve(body, {}, enough, most_iterations, progress)) {
+  if (!EquilibriumSolver::make(mesh.space_dimension, false)->solve(body, {}, enough, max_iterations, progress)) {
     return false;
   }
   const std::vector<double> found = displacements_of(mesh, body.positions());

@@ -109,7 +109,7 @@ class Ears {
 
 void divide_polygon(std::span<const ElementId> corners, std::span<const Point> at,
                     std::vector<std::array<ElementId, 3>>& triangles) {
-  Ears ears(corners.size() > most_concave_corners ? std::vector<Flat>() : seen_along_normal(at));
+  Ears ears(corners.size() > max_concave_corners ? std::vector<Flat>() : seen_along_normal(at));
   if (corners.size() > 3 && !ears.is_convex()) {
     ears.cut([&](std::size_t a, std::size_t b, std::size_t c) {
       triangles.push_back({corners[a], corners[b], corners[c]});

@@ -10,7 +10,7 @@ namespace chainmail {
 
 /// Polygons with more corners are divided from their first corner, whatever their shape: dividing a concave one takes
 /// time that grows with the square of its corners.
-inline constexpr std::size_t most_concave_corners = 1000;
+inline constexpr std::size_t max_concave_corners = 1000;
 
 /// Divides a polygon into two triangles less than it has corners, and appends them. A convex polygon is a fan from its
 /// first corner. From a concave one, ears are cut (Meisters 1975), so that no triangle is outside; it is seen along its

@@ -388,11 +388,11 @@ void Division::run() {
 
 /// Cuts a face from one element on its sides to another.
 void Division::connect(Divided& face, ElementId from, ElementId to) {
-  constexpr int most_steps = 1000;
+  constexpr int max_steps = 1000;
   if (from == to || run_along_side(face, from, to)) {
     return;
   }
-  for (int i = 0; i < most_steps && from != nobody && !join(face, from, to); ++i) {
+  for (int i = 0; i < max_steps && from != nobody && !join(face, from, to); ++i) {
     from = step(face, from, to);
   }
 }

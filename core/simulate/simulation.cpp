@@ -25,7 +25,7 @@ constexpr double settled_below = 1e-4;
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 20'000;
 // Elements whose links are measured while something is dragged. It takes some milliseconds.
-constexpr std::size_t most_measured = 20'000;
+constexpr std::size_t max_measured = 20'000;
 
 }  // namespace
 
@@ -235,7 +235,7 @@ void Simulation::refresh_statistics(bool whole_mesh) {
   statistics_.violation_of_sample = false;
   if (last_handle_) {
     statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
-                                             {last_handle_->elements(), solver_->moved()}, most_measured);
+                                             {last_handle_->elements(), solver_->moved()}, max_measured);
     statistics_.violation_of_sample = touched_.sampled();
   } else {
     statistics_.violation = {};

@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t most_unreachable = 10'000;
+constexpr std::size_t max_unreachable = 10'000;
 
 template <class... Kinds>
 bool is_one_of(const Command& command) {
@@ -47,7 +47,7 @@ void Tape::add(const Command& command) {
     ++timeline_number_;
   }
   // Splits contain meshes.
-  if (is_one_of<commands::Split>(command) || nodes_.size() > 2 * reachable_ + most_unreachable) {
+  if (is_one_of<commands::Split>(command) || nodes_.size() > 2 * reachable_ + max_unreachable) {
     drop_unreachable();
   }
   const Node before = last();

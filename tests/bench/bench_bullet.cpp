@@ -20,10 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int frames = 60;                // per second
-constexpr int frames_of_the_drag = 60;    // after them, the handle is held
-constexpr int most_frames = 60 * frames;  // after them, the object counts as not settled
-constexpr double settled_step = 1e-5;     // largest movement of an element in a frame, in spacings
+constexpr int frames = 60;               // per second
+constexpr int frames_of_the_drag = 60;   // after them, the handle is held
+constexpr int max_frames = 60 * frames;  // after them, the object counts as not settled
+constexpr double settled_step = 1e-5;    // largest movement of an element in a frame, in spacings
 
 /// A cloth in the plane with a pinned bottom side. The handle is the element in the middle of the top side. It moves up
 /// and to the side by a tenth of the height each.
@@ -165,7 +165,7 @@ std::vector<Point> positions(const Task& task, const Dragged& object) {
 
 struct Settled {
   std::vector<double> ms;  // per frame
-  int frames = 0;          // until it came to rest, or most_frames
+  int frames = 0;          // until it came to rest, or max_frames
 };
 
 /// Runs the drag, then frames with the handle held, until no element moves by more than settled_step.
@@ -173,8 +173,7 @@ Settled settle(const Task& task, Dragged& object) {
   Settled result;
   auto before = positions(task, object);
   for (double largest = 1;
-       result.frames < most_frames && (result.frames <= frames_of_the_drag || largest > settled_step);
-       ++result.frames) {
+       result.frames < max_frames && (result.frames <= frames_of_the_drag || largest > settled_step); ++result.frames) {
     const auto begin = Clock::now();
     object.frame(task.target(std::min(1.0, double(result.frames + 1) / frames_of_the_drag)));
     result.ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());

@@ -51,7 +51,7 @@ double untilShown(MainWindow& window, const QElapsedTimer& clock, ElementId elem
   const int before = application().viewPaints;
   window.panel(0).view().update();
   window.panel(1).view().update();
-  return until(clock, "drawing", [&] { return application().viewPaints >= before + Document::fewestPanels; });
+  return until(clock, "drawing", [&] { return application().viewPaints >= before + Document::minPanels; });
 }
 
 struct FrameMilliseconds {
@@ -206,7 +206,7 @@ int showFirstFrame(const char* startNanoseconds) {
   MainWindow window(generate(sample), recipeName(sample));
   bool said = false;
   const auto look = [&] {
-    if (!said && application().viewsPainted.size() == Document::fewestPanels) {
+    if (!said && application().viewsPainted.size() == Document::minPanels) {
       said = true;
       timespec now{};
       clock_gettime(CLOCK_MONOTONIC, &now);
@@ -215,7 +215,7 @@ int showFirstFrame(const char* startNanoseconds) {
       QCoreApplication::quit();
     }
   };
-  for (int panel = 0; panel < Document::fewestPanels; ++panel) {
+  for (int panel = 0; panel < Document::minPanels; ++panel) {
     // Qt emits frameSwapped when the screen shows the painted frame.
     QObject::connect(&window.panel(panel).view(), &QOpenGLWidget::frameSwapped, &window, look);
   }

@@ -16,7 +16,7 @@ namespace chainmail::test {
 
 inline std::atomic<std::uint64_t> allocations = 0;
 inline std::atomic<std::size_t> bytes_held = 0;
-inline std::atomic<std::size_t> most_bytes_held = 0;  // since it was last set to bytes_held; exact only for one thread
+inline std::atomic<std::size_t> max_bytes_held = 0;  // since it was last set to bytes_held; exact only for one thread
 
 /// Allocations of more bytes fail, in all threads.
 inline std::atomic<std::size_t> largest_allocation = std::numeric_limits<std::size_t>::max();
@@ -38,8 +38,8 @@ inline void* counted(std::size_t bytes, std::size_t alignment) noexcept {
   void* taken = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   const std::size_t size = malloc_usable_size(taken);
   const std::size_t held = bytes_held.fetch_add(size, std::memory_order_relaxed) + size;
-  if (held > most_bytes_held.load(std::memory_order_relaxed)) {
-    most_bytes_held.store(held, std::memory_order_relaxed);
+  if (held > max_bytes_held.load(std::memory_order_relaxed)) {
+    max_bytes_held.store(held, std::memory_order_relaxed);
   }
   return taken;
 }

@@ -429,13 +429,13 @@ void MovesTest::a_large_file_takes_little_memory_besides_its_commands() {
   constexpr std::size_t items = 100'000;
   const std::string text = (begin + item.repeated(items) + end).toStdString();
   const std::size_t before = bytes_held;
-  most_bytes_held = before;
+  max_bytes_held = before;
   const auto moves = read(text);
   QVERIFY(!moves.empty());
   // A growing vector takes up to three times its size; a number that is not yet checked takes 16 bytes.
   const std::size_t bound = items * (3 * of_item + (of_item < sizeof(Command) ? 2 * 3 * 16 : 0)) + (1U << 16);
-  QVERIFY2(most_bytes_held - before < bound,
-           qPrintable(QString("%1 bytes an item").arg((most_bytes_held - before) / items)));
+  QVERIFY2(max_bytes_held - before < bound,
+           qPrintable(QString("%1 bytes an item").arg((max_bytes_held - before) / items)));
 }
 
 /// A short command asks for the principal axes, which takes time in proportion to the object.

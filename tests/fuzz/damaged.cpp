@@ -23,7 +23,7 @@ using namespace chainmail;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double most_seconds = 20;  // for one small file, on a busy machine
+constexpr double max_seconds = 20;  // for one small file, on a busy machine
 
 /// A file and the files that belong to it, by their names.
 struct Sample {
@@ -93,7 +93,7 @@ Outcome open_one(const fs::path& path) {
   } catch (const std::exception& error) {
     outcome.fault = std::string("another exception: ") + error.what();
   }
-  if (const double seconds = std::chrono::duration<double>(Clock::now() - start).count(); seconds > most_seconds) {
+  if (const double seconds = std::chrono::duration<double>(Clock::now() - start).count(); seconds > max_seconds) {
     outcome.fault += "it took " + std::to_string(seconds) + " s";
   }
   return outcome;

@@ -44,7 +44,7 @@ def recorded_seconds(root):
 class Suite:
     def __init__(self, build, programs, seconds):
         self.build = build
-        self.most_seconds = seconds  # that tests may run for one fault
+        self.max_seconds = seconds  # that tests may run for one fault
         command = ["ctest", "--test-dir", build.folder, "--show-only=json-v1"]
         shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         known = recorded_seconds(build.root)
@@ -91,7 +91,7 @@ class Suite:
         """Returns the name of the first test that catches a fault, '' if none does, and how many of them reached it."""
         spent, reaching = 0, 0
         for test in self.ordered(self.build.faults[number]):
-            if spent < self.most_seconds and number in self.reached_by(test, home):
+            if spent < self.max_seconds and number in self.reached_by(test, home):
                 reaching += 1
                 spent += test.seconds
                 if self.fails(test, home, number):

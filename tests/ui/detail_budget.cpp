@@ -15,22 +15,22 @@ class DetailBudgetTest : public QObject {
   void slowPicturesLeadToFewerShapes() {
     DetailBudget budget;
     for (int frame = 0; frame < 30; ++frame) {
-      budget.tookQuick(budget.mostShapes(), double(budget.mostShapes()) / 3'000);  // 3,000 shapes per ms
+      budget.tookQuick(budget.maxShapes(), double(budget.maxShapes()) / 3'000);  // 3,000 shapes per ms
     }
-    QVERIFY(budget.mostShapes() > 90'000 && budget.mostShapes() < 110'000);  // about 33 ms
+    QVERIFY(budget.maxShapes() > 90'000 && budget.maxShapes() < 110'000);  // about 33 ms
   }
   void fastPicturesLeadToMoreShapes() {
     DetailBudget budget;
     for (int frame = 0; frame < 30; ++frame) {
       budget.tookQuick(200'000, 2);
     }
-    QCOMPARE(budget.mostShapes(), DetailBudget::mostAtRest);
+    QCOMPARE(budget.maxShapes(), DetailBudget::maxAtRest);
   }
   void smallPicturesSayNothing() {
     DetailBudget budget;
-    const std::size_t before = budget.mostShapes();
+    const std::size_t before = budget.maxShapes();
     budget.tookQuick(100, 500);
-    QCOMPARE(budget.mostShapes(), before);
+    QCOMPARE(budget.maxShapes(), before);
   }
   void completePicturesFollowTheMouseIfTheyAreFast() {
     DetailBudget budget;

@@ -70,7 +70,7 @@ void Monkey::saveSomething() {
     case 0:
       return files.savePath(path);
     case 1:
-      return files.saveShapePath(int(below(Document::mostPanels)), path);
+      return files.saveShapePath(int(below(Document::maxPanels)), path);
     case 2:
       return bench_.window.findChild<PictureActions*>()->savePath(folder_ + QStringLiteral("/picture.") + drawing);
     case 3:

@@ -81,7 +81,7 @@ struct Workbench {
 
   /// Waits until the panels show the results of their solvers. While relaxation runs, waits for a later state.
   void awaitFrames() {
-    std::vector<int> frames(Document::mostPanels, 0);
+    std::vector<int> frames(Document::maxPanels, 0);
     QObject context;
     QObject::connect(&document(), &Document::frameReady, &context, [&](int panel) { ++frames[std::size_t(panel)]; });
     const auto seen = [&] {

@@ -39,7 +39,7 @@ double contrastOf(const QColor& one, const QColor& other) {
 std::vector<QColor> coloursOfPanels() {
   std::vector<QColor> all;
   for (const AlgorithmInfo& one : every_algorithm()) {
-    for (int copy = 0; copy < Document::mostPanels; ++copy) {
+    for (int copy = 0; copy < Document::maxPanels; ++copy) {
       all.emplace_back(algorithmColour(one.algorithm, copy));
     }
   }

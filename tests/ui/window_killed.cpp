@@ -67,7 +67,7 @@ class WindowKilled : public QObject {
   /// CHAINMAIL_KILLS is the number of rounds. Many take longer than Qt lets a test run (QTEST_FUNCTION_TIMEOUT).
   void littleWorkIsLost() {
     const int rounds = std::max(1, qEnvironmentVariableIntValue("CHAINMAIL_KILLS"));
-    qint64 mostLost = 0;
+    qint64 maxLost = 0;
     for (int round = 0; round < rounds; ++round) {
       QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
       QProcess program;
@@ -83,13 +83,13 @@ class WindowKilled : public QObject {
       const QStringList found = unsaved_work::all();
       const std::size_t kept = found.isEmpty() ? 0 : unsaved_work::read(found.first()).pins.size();
       const qint64 lost = kept < std::size_t(times.size()) ? killedAt - times[qsizetype(kept)].toLongLong() : 0;
-      mostLost = std::max(mostLost, lost);
+      maxLost = std::max(maxLost, lost);
       QVERIFY2(lost <= promisedMilliseconds, qPrintable(QStringLiteral("round %1: %2 ms").arg(round).arg(lost)));
       if (!found.isEmpty()) {
         opensAsItWasWritten(found.first());
       }
     }
-    qInfo("%d kills, at most %lld ms of work lost", rounds, static_cast<long long>(mostLost));
+    qInfo("%d kills, at most %lld ms of work lost", rounds, static_cast<long long>(maxLost));
   }
 
  private:

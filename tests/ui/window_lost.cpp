@@ -175,7 +175,7 @@ class WindowLost : public QObject {
   /// The clock does not say which work is new.
   void aClockThatGoesBackDeletesNothingNew() {
     const QDateTime future = QDateTime::currentDateTime().addDays(3);
-    for (int i = 1; i <= unsaved_work::mostClosed; ++i) {
+    for (int i = 1; i <= unsaved_work::maxClosed; ++i) {
       put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), future.addSecs(-i));
     }
     {
@@ -184,7 +184,7 @@ class WindowLost : public QObject {
       bench.settle();
       QVERIFY(bench.window.close());
     }
-    QCOMPARE(kept().size(), unsaved_work::mostClosed);
+    QCOMPARE(kept().size(), unsaved_work::maxClosed);
     QVERIFY(!kept().contains(QStringLiteral("1-a.closed-1.chainmail")));
     SafeBench again;
     again.find<QPushButton>("restoreWork")->click();
@@ -193,7 +193,7 @@ class WindowLost : public QObject {
   }
 
   void whatAnotherWindowOffersIsNotDeleted() {
-    for (int i = 1; i <= unsaved_work::mostClosed; ++i) {
+    for (int i = 1; i <= unsaved_work::maxClosed; ++i) {
       put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), QDateTime::currentDateTime());
     }
     const QString oldest = QDir(unsaved_work::folder()).filePath(QStringLiteral("1-a.closed-1.chainmail"));
@@ -206,7 +206,7 @@ class WindowLost : public QObject {
     offered.unlock();
     unsaved_work::discardOldest();
     QVERIFY(!QFile::exists(oldest));
-    QCOMPARE(kept().size(), unsaved_work::mostClosed);
+    QCOMPARE(kept().size(), unsaved_work::maxClosed);
   }
 
   void restoredWorkStaysUntilItIsSavedElsewhere() {

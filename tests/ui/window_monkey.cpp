@@ -28,13 +28,13 @@ struct State {
   std::vector<LinkId> cuts;
   std::vector<ElementId> pins;
   Softness softness;
-  std::array<Algorithm, Document::fewestPanels> algorithms;
-  std::array<std::vector<float>, Document::fewestPanels> positions;  // of the panels that cannot be removed
+  std::array<Algorithm, Document::minPanels> algorithms;
+  std::array<std::vector<float>, Document::minPanels> positions;  // of the panels that cannot be removed
 
   static State of(const Document& document) {
     State state{
         document.mesh(), document.name(), document.cuts().links(), document.pins(), *document.wholeSoftness(), {}, {}};
-    for (int panel = 0; panel < Document::fewestPanels; ++panel) {
+    for (int panel = 0; panel < Document::minPanels; ++panel) {
       state.algorithms[std::size_t(panel)] = document.algorithm(panel);
       state.positions[std::size_t(panel)] = document.frame(panel)->positions;
     }

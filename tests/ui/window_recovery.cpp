@@ -369,7 +369,7 @@ class WindowRecovery : public QObject {
 
   /// The newest five files of closed windows are kept.
   void theOldestOfClosedWindowsWorkMakesRoom() {
-    for (int number = 1; number <= unsaved_work::mostClosed; ++number) {
+    for (int number = 1; number <= unsaved_work::maxClosed; ++number) {
       put(qPrintable(QStringLiteral("%1-a.closed-%1.chainmail").arg(number)), "{", 60);
     }
     {

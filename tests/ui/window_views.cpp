@@ -11,10 +11,10 @@ namespace chainmail::window_views {
 
 namespace {
 
-// Renderers round differently, for example the position of a line. Pixels may differ by `mostApart` (of 255), and a
-// share of `mostDifferent` may differ by more.
-constexpr int mostApart = 48;
-constexpr double mostDifferent = 0.002;
+// Renderers round differently, for example the position of a line. Pixels may differ by `maxApart` (of 255), and a
+// share of `maxDifferent` may differ by more.
+constexpr int maxApart = 48;
+constexpr double maxDifferent = 0.002;
 
 constexpr QSize viewSize(280, 210);  // logical pixels
 
@@ -27,7 +27,7 @@ std::pair<double, QImage> compared(const QImage& now, const QImage& looked) {
       const QRgb a = now.pixel(x, y), b = looked.pixel(x, y);
       const int apart =
           std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)), std::abs(qBlue(a) - qBlue(b))});
-      if (apart > mostApart) {
+      if (apart > maxApart) {
         marked.setPixel(x, y, qRgb(255, 0, 255));
         ++different;
       }
@@ -52,7 +52,7 @@ QString differs(const QImage& picture, const QString& name) {
     return QStringLiteral("%1 has other pixels: %2 x %3").arg(path).arg(looked.width()).arg(looked.height());
   }
   const auto [share, marked] = compared(now, looked);
-  if (share <= mostDifferent) {
+  if (share <= maxDifferent) {
     return {};
   }
   QDir().mkpath(builtFile("pictures"));

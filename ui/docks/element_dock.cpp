@@ -20,7 +20,7 @@ namespace {
 
 constexpr int elementRefreshMilliseconds = 100;
 // The hub of a star may have as many neighbours as there are elements.
-constexpr int mostRows = 200;
+constexpr int maxRows = 200;
 constexpr int shownRows = 6;
 
 void put(QTableWidget& table, int row, int column, const QString& words) {
@@ -245,12 +245,12 @@ void ElementDock::showNeighbours() {
   const Mesh& mesh = *document_.mesh();
   const EntryId first = element_ ? mesh.first_entry[*element_] : 0;
   const int count = element_ ? int(mesh.first_entry[*element_ + 1] - first) : 0;
-  neighbours_->setRowCount(std::min(count, mostRows));
+  neighbours_->setRowCount(std::min(count, maxRows));
   for (int row = 0; row < neighbours_->rowCount(); ++row) {
     showNeighbour(row, first + EntryId(row));
   }
-  if (count > mostRows) {
-    state_->setText(QStringLiteral("%1, of which the list shows the first %2").arg(state_->text()).arg(mostRows));
+  if (count > maxRows) {
+    state_->setText(QStringLiteral("%1, of which the list shows the first %2").arg(state_->text()).arg(maxRows));
   }
 }
 

@@ -11,9 +11,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int mostSteps = 1000;
+constexpr int maxSteps = 1000;
 constexpr int standardSteps = 10;
-constexpr double mostDegrees = 3600;
+constexpr double maxDegrees = 3600;
 constexpr int byDistance = 1;  // index of the choice
 
 /// Returns the typed number; empty if it is not a number, or beyond the limit.
@@ -31,7 +31,7 @@ ElementMove::ElementMove(Document& document)
       how_(new QComboBox),
       turn_(new QLabel),
       axis_(new QComboBox),
-      degrees_(numberField("moveDegrees", QStringLiteral("Angle of the rotation (degrees)"), mostDegrees)),
+      degrees_(numberField("moveDegrees", QStringLiteral("Angle of the rotation (degrees)"), maxDegrees)),
       steps_(new QSpinBox),
       go_(new QPushButton(QStringLiteral("&Move"))) {
   how_->setObjectName(QStringLiteral("moveHow"));
@@ -47,7 +47,7 @@ ElementMove::ElementMove(Document& document)
       QStringLiteral("Angle of the rotation about the middle of the elements (degrees), counterclockwise as seen from "
                      "the positive end of the axis"));
   steps_->setObjectName(QStringLiteral("moveSteps"));
-  steps_->setRange(1, mostSteps);
+  steps_->setRange(1, maxSteps);
   steps_->setValue(standardSteps);
   steps_->setKeyboardTracking(false);
   steps_->setToolTip(QStringLiteral("Number of equal steps along a straight line; each is a pass in every panel"));
@@ -185,7 +185,7 @@ QString ElementMove::whyNot() const {
          : pinned           ? hasMany() ? QStringLiteral("All selected elements are pinned: unpin some first")
                                         : QStringLiteral("This element is pinned: unpin it first")
                    : !typed() ? QStringLiteral("Type a number on each axis")
-         : !typedRotation() ? QStringLiteral("Type an angle from −%L1 to %L1 degrees").arg(int(mostDegrees))
+         : !typedRotation() ? QStringLiteral("Type an angle from −%L1 to %L1 degrees").arg(int(maxDegrees))
                             : QString();
 }
 
@@ -205,7 +205,7 @@ std::optional<Rotation> ElementMove::typedRotation() const {
   if (degrees_->isHidden()) {
     return Rotation();
   }
-  const auto degrees = numberIn(*degrees_, mostDegrees);
+  const auto degrees = numberIn(*degrees_, maxDegrees);
   return degrees ? std::optional(Rotation{Point::Unit(axis_->currentIndex()), *degrees}) : std::nullopt;
 }
 

@@ -13,13 +13,13 @@ namespace chainmail {
 namespace {
 
 constexpr int sectionSteps = 1000;
-constexpr int mostDecimals = 9;
+constexpr int maxDecimals = 9;
 
 QString noDepth() { return QStringLiteral("Not available: this object is in 2D and has no inside"); }
 
 /// Returns the number of decimals that show one step of the slider.
 int decimalsFor(double extent) {
-  return extent > 0 ? std::clamp(int(std::ceil(std::log10(sectionSteps / extent))), 0, mostDecimals) : 2;
+  return extent > 0 ? std::clamp(int(std::ceil(std::log10(sectionSteps / extent))), 0, maxDecimals) : 2;
 }
 
 }  // namespace

@@ -42,14 +42,14 @@ struct DocumentObject {
 /// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not
 /// elements or links.
 struct Contents {
-  static constexpr int mostPanels = 4;
+  static constexpr int maxPanels = 4;
 
   std::shared_ptr<DocumentObject> object;
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   int panels = 0;
-  std::array<Algorithm, mostPanels> algorithms{};  // one per panel; the last one of a removed panel
+  std::array<Algorithm, maxPanels> algorithms{};  // one per panel; the last one of a removed panel
 };
 
 /// One undo step, as data. Document::apply carries it out.

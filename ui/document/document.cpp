@@ -173,7 +173,7 @@ Document::Document(MeshPointer mesh, const QString& name) {
   contents_.object = std::make_shared<DocumentObject>(std::move(mesh), name);
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   log_ = std::make_unique<CommandLog>(std::vector<SolverThread*>());
-  for (int panel = 0; panel < fewestPanels; ++panel) {
+  for (int panel = 0; panel < minPanels; ++panel) {
     addSolver(std::make_unique<SolverThread>(this->mesh(), algorithm(panel), frameAnnouncer(panel), idleAnnouncer()));
   }
   undoStack_.setUndoLimit(undoSteps);
@@ -822,7 +822,7 @@ void Document::addSolver(std::unique_ptr<SolverThread> solver) {
 }
 
 void Document::addPanel() {
-  if (panels() < mostPanels) {
+  if (panels() < maxPanels) {
     const Algorithm algorithm = unusedAlgorithm();
     log_->flush();
     // May find no memory or no thread, so it comes before any change.
@@ -837,7 +837,7 @@ void Document::addPanel() {
 }
 
 void Document::removePanel() {
-  if (panels() > fewestPanels) {
+  if (panels() > minPanels) {
     emit panelLeaves(panels() - 1);
     log_->remove(*solvers_.back());
     solvers_.pop_back();

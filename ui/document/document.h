@@ -39,7 +39,7 @@ class Document : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int fewestPanels = 2, mostPanels = Contents::mostPanels;
+  static constexpr int minPanels = 2, maxPanels = Contents::maxPanels;
 
   Document(MeshPointer mesh, const QString& name);
   ~Document() override;
@@ -66,7 +66,7 @@ class Document : public QObject {
 
   // Panels: each has a solver and an algorithm.
 
-  /// Number of panels, from fewestPanels to mostPanels.
+  /// Number of panels, from minPanels to maxPanels.
   int panels() const { return int(solvers_.size()); }
   /// Adds a panel. It copies the object of the first panel, including the states for undo, and runs an algorithm that
   /// no other panel runs.
@@ -304,7 +304,7 @@ class Document : public QObject {
     bool moved = false;
   };
   std::optional<Handle> handle_;
-  std::array<QString, mostPanels> lastRefusal_;  // one per panel, during the current drag or edit
+  std::array<QString, maxPanels> lastRefusal_;  // one per panel, during the current drag or edit
 
   // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
   std::map<std::size_t, commands::StateId> waypoints_;
@@ -314,11 +314,11 @@ class Document : public QObject {
   std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
 
   // True while an announcement of a solver thread (new frame, idle) waits in the event queue. Prevents a second one.
-  std::array<std::atomic<bool>, mostPanels> frameAnnounced_{};
+  std::array<std::atomic<bool>, maxPanels> frameAnnounced_{};
   std::atomic<bool> idleAnnounced_ = false;
   std::vector<std::unique_ptr<SolverThread>> solvers_;
-  std::array<const Frame*, mostPanels> frames_{};
-  std::array<const Frame*, mostPanels> instead_{};  // null if the panel shows its own frame
+  std::array<const Frame*, maxPanels> frames_{};
+  std::array<const Frame*, maxPanels> instead_{};  // null if the panel shows its own frame
   bool recordsPasses_ = false;
   std::unique_ptr<CommandLog> log_;
   QUndoStack undoStack_;  // the last member: its edits post to the log when they are deleted

@@ -13,9 +13,9 @@ namespace {
 constexpr int travelGesture = std::numeric_limits<int>::max();
 constexpr int lessonGesture = travelGesture - 1;
 // Waypoints: largest number of saved states, and smallest number of commands between two of them.
-constexpr std::size_t mostWaypoints = 16;
+constexpr std::size_t maxWaypoints = 16;
 constexpr std::size_t leastApart = 32;
-constexpr std::uint64_t mostSweepsNoted = 1'000'000;
+constexpr std::uint64_t maxSweepsNoted = 1'000'000;
 
 template <class T>
 std::vector<T> without(const std::vector<T>& all, const std::vector<T>& some) {
@@ -38,7 +38,7 @@ void Document::noteRelaxation() {
     return;
   }
   relaxationNoted_ = now->statistics.passes;
-  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, mostSweepsNoted);
+  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, maxSweepsNoted);
   log_->tape().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation().step, relaxation().scheme});
   emit tapeChanged();
 }
@@ -194,7 +194,7 @@ void Document::goToBeginning(const MeshPointer& first) {
 /// Saves a waypoint if the previous one is far enough away. It does so only between two drags, because a state does not
 /// include the handle.
 void Document::keepWaypoint(std::size_t position) {
-  const std::size_t apart = std::max(leastApart, tape().length() / mostWaypoints);
+  const std::size_t apart = std::max(leastApart, tape().length() / maxWaypoints);
   const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
   if (position >= last + apart && std::holds_alternative<commands::Grab>(tape().at(position))) {
     waypoints_[position] = newState();

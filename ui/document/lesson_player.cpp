@@ -11,7 +11,7 @@ namespace {
 
 constexpr int moveMilliseconds = 16;        // between two moves
 constexpr int candidateMilliseconds = 160;  // between two candidates of a pass
-constexpr int mostTicksForPasses = 200;     // a panel may have refused the move, so that it has no pass
+constexpr int maxTicksForPasses = 200;      // a panel may have refused the move, so that it has no pass
 
 }  // namespace
 
@@ -230,7 +230,7 @@ void LessonPlayer::playCandidates() {
   if (!document_.idle()) {
     return;
   }
-  if (!passesAreComplete() && ++waited_ < mostTicksForPasses) {
+  if (!passesAreComplete() && ++waited_ < maxTicksForPasses) {
     return;
   }
   const std::size_t wanted = std::min<std::size_t>(*lesson().steps[step_].candidate, propagation_.stepCount());

@@ -13,7 +13,7 @@ constexpr int fetchShare = 10;
 
 }  // namespace
 
-Propagation::Propagation(Document& document) : document_(document), players_(Document::mostPanels) {
+Propagation::Propagation(Document& document) : document_(document), players_(Document::maxPanels) {
   fetch_.setSingleShot(true);
   connect(&fetch_, &QTimer::timeout, this, &Propagation::takePasses);
   clock_.setInterval(tickMilliseconds);
@@ -38,7 +38,7 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
 
 Propagation::~Propagation() {
   players_.clear();
-  players_.resize(Document::mostPanels);
+  players_.resize(Document::maxPanels);
   emit changed();  // widgets that show the passes are deleted later
 }
 
@@ -68,7 +68,7 @@ void Propagation::setShown(bool shown) {
 void Propagation::forget() {
   letGo();
   follows_ = true;
-  chosen_ = std::min(chosen_, Document::fewestPanels - 1);  // other panels may be removed
+  chosen_ = std::min(chosen_, Document::minPanels - 1);  // other panels may be removed
   for (auto& player : players_) {
     player.reset();
   }

@@ -17,26 +17,26 @@ class DetailBudget {
   /// Takes note of a quick picture with this many links and faces. Small pictures say little about large ones. Slow
   /// pictures count more than fast ones, because a lag is felt more than missing detail.
   void tookQuick(std::size_t shapes, double milliseconds) {
-    if (shapes > fewestShapes / 2) {
+    if (shapes > minShapes / 2) {
       const double affordable = double(shapes) * longestFrame / std::max(milliseconds, 0.1);
-      const double weight = affordable < most_ ? 0.7 : 0.3;
-      most_ = std::clamp(most_ + weight * (affordable - most_), double(fewestShapes), double(mostAtRest));
+      const double weight = affordable < max_shapes_ ? 0.7 : 0.3;
+      max_shapes_ = std::clamp(max_shapes_ + weight * (affordable - max_shapes_), double(minShapes), double(maxAtRest));
     }
   }
 
   /// Number of links and faces that may be drawn while the object moves.
-  std::size_t mostShapes() const { return std::size_t(most_); }
+  std::size_t maxShapes() const { return std::size_t(max_shapes_); }
   /// True if complete pictures are fast enough to follow the mouse.
   bool affordsComplete() const { return complete_ && *complete_ < shortFrame; }
 
-  static constexpr std::size_t fewestShapes = 60'000;  // always drawn
-  static constexpr std::size_t mostAtRest = 3'000'000;
+  static constexpr std::size_t minShapes = 60'000;  // always drawn
+  static constexpr std::size_t maxAtRest = 3'000'000;
 
  private:
   static constexpr double longestFrame = 33, shortFrame = 12;  // ms
 
   std::optional<double> complete_;  // duration of the last complete picture (ms)
-  double most_ = 300'000;
+  double max_shapes_ = 300'000;
 };
 
 }  // namespace chainmail

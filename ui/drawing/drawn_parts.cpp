@@ -11,10 +11,10 @@ namespace chainmail {
 namespace {
 
 // A plane object or the links of an object with more links and faces than this are drawn by clusters. They are drawn
-// more coarsely if the links of a lattice are shorter than `fewestPixels`, or if the view shows more than the scene
+// more coarsely if the links of a lattice are shorter than `minPixels`, or if the view shows more than the scene
 // allows.
-constexpr std::size_t fewestShapes = DetailBudget::fewestShapes;
-constexpr double fewestPixels = 3;  // per link
+constexpr std::size_t minShapes = DetailBudget::minShapes;
+constexpr double minPixels = 3;  // per link
 constexpr unsigned coarsestStep = MeshLevels::coarsestStep;
 
 /// Returns the approximate number of links and faces per element of a level.
@@ -84,9 +84,9 @@ DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Scene& scene, const O
   const bool valued = paint.values != nullptr && paint.values->ofLinks;
   const auto [faces, links] = countSurface(ofSurface);
   parts.tooFine = !valued && !ObjectDrawing::distinguishesEdges(*mesh_, pixelsPerUnit);
-  parts.links = !parts.tooFine && (valued || faces + links <= scene.mostShapes);
-  if (valued && faces + links > scene.mostShapes) {
-    const std::size_t room = std::max(scene.mostShapes - std::min(faces, scene.mostShapes), scene.mostShapes / 4);
+  parts.links = !parts.tooFine && (valued || faces + links <= scene.maxShapes);
+  if (valued && faces + links > scene.maxShapes) {
+    const std::size_t room = std::max(scene.maxShapes - std::min(faces, scene.maxShapes), scene.maxShapes / 4);
     parts.nthLink = (links + room - 1) / room;
   }
   return parts;
@@ -106,14 +106,14 @@ void DrawnParts::chooseStep(const ObjectDrawing::Scene& scene, double pixelsPerU
   step_ = 1;
   const double pixels = mesh_->mean_link_length * pixelsPerUnit;
   const std::size_t all = parts_.solid ? mesh_->triangles.size() : mesh_->links.size() + mesh_->triangles.size();
-  if (all <= (parts_.solid ? scene.mostShapes : fewestShapes) || !(pixels > 0)) {
+  if (all <= (parts_.solid ? scene.maxShapes : minShapes) || !(pixels > 0)) {
     return;
   }
-  while (mesh_->lattice && !parts_.solid && step_ < coarsestStep && pixels * step_ < fewestPixels) {
+  while (mesh_->lattice && !parts_.solid && step_ < coarsestStep && pixels * step_ < minPixels) {
     step_ = MeshLevels::after(step_, *mesh_);
   }
   const auto shapes = [&] { return MeshLevels::elementsAt(*mesh_, step_) * shapesPerElement(*mesh_, step_); };
-  const auto most = double(scene.mostShapes);
+  const auto most = double(scene.maxShapes);
   if (shapes() <= most) {
     return;
   }
@@ -132,7 +132,7 @@ double DrawnParts::shareInView(const ObjectDrawing::Scene& scene) {
 
 std::vector<std::uint32_t> DrawnParts::visibleClusters(const ObjectDrawing::Scene& scene, const MeshLevelPointer& level,
                                                        ClusterBoxes& boxes) const {
-  if (parts_.solid || level->links.size() + level->faces.size() <= fewestShapes) {
+  if (parts_.solid || level->links.size() + level->faces.size() <= minShapes) {
     std::vector<std::uint32_t> all(level->clusterCount());
     std::iota(all.begin(), all.end(), 0U);
     return all;

@@ -6,7 +6,7 @@
 namespace chainmail {
 namespace {
 
-constexpr ElementId mostElementsMarked = 20'000;
+constexpr ElementId maxElementsMarked = 20'000;
 constexpr double pixelsBetweenMarks = 9;
 constexpr float planeFaceOpacity = 0.12F;
 // Edges on a surface are invisible below the first length and fully visible above the second (pixels).
@@ -17,7 +17,7 @@ constexpr float linksFade = 0.75F, solidFade = 0.3F;
 }  // namespace
 
 bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
-  return mesh.element_count() <= mostElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
+  return mesh.element_count() <= maxElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
 }
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {

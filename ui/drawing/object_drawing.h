@@ -32,7 +32,7 @@ class ObjectDrawing {
     float pixelRatio = 1;
     DetailBudget::Detail detail = DetailBudget::Detail::complete;
     /// Largest number of links and faces to draw.
-    std::size_t mostShapes = DetailBudget::mostAtRest;
+    std::size_t maxShapes = DetailBudget::maxAtRest;
     /// True if the object hides marks behind it, which are then drawn faintly.
     bool hidesMarks = false;
 

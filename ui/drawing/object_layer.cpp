@@ -9,7 +9,7 @@ namespace {
 
 constexpr GLint samplesWanted = 4;
 // Multisampled pictures with more pixels than this would take too much memory: 16 bytes per sample and pixel.
-constexpr qint64 mostPixelsSampled = 16'000'000;
+constexpr qint64 maxPixelsSampled = 16'000'000;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void ObjectLayer::allocate(QSize size) {
 void ObjectLayer::makeSampled(QSize size) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  const GLint samples = qint64{size.width()} * size.height() > mostPixelsSampled ? 0 : std::min(samplesWanted, most);
+  const GLint samples = qint64{size.width()} * size.height() > maxPixelsSampled ? 0 : std::min(samplesWanted, most);
   glGenFramebuffers(1, &sampled_.framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
   glGenRenderbuffers(2, sampled_.attachments.data());

@@ -18,9 +18,9 @@ namespace {
 
 // Lines with more indices than this are not smoothed. Smooth lines take about twice as long, and the difference would
 // not be visible.
-constexpr GLsizei mostIndicesSmoothed = 30'000;
+constexpr GLsizei maxIndicesSmoothed = 30'000;
 // More rings would hide each other and take time.
-constexpr std::size_t mostRingsPainted = 50'000;
+constexpr std::size_t maxRingsPainted = 50'000;
 // Valued shapes are drawn nearer to the eye by this fraction of the object's depth, so that faces next to them do not
 // hide parts of them.
 constexpr float valuedLift = 0.04F;
@@ -492,7 +492,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pix
   }
   useRest(paint.look);
   links_.bind();
-  if (count <= mostIndicesSmoothed) {
+  if (count <= maxIndicesSmoothed) {
     glLineWidth((byValues ? valuedWidth : 1) * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
   }
@@ -546,7 +546,7 @@ void ObjectPainter::drawElements(const Scene& scene, std::span<const ElementId> 
 }
 
 void ObjectPainter::setSelection(const std::vector<ElementId>& elements) {
-  selectedIndices_ = upload(selected_, thinned(elements, mostRingsPainted));
+  selectedIndices_ = upload(selected_, thinned(elements, maxRingsPainted));
 }
 
 void ObjectPainter::drawSelection(const Scene& scene, QColor colour, float diameter) {

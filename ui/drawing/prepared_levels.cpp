@@ -10,7 +10,7 @@ namespace chainmail {
 namespace {
 
 // The levels of smaller meshes are computed when they are needed, in some milliseconds.
-constexpr ElementId fewestElements = 100'000;
+constexpr ElementId minElements = 100'000;
 
 std::mutex mutex;
 std::vector<MeshLevelPointer> prepared;  // guarded by the mutex
@@ -18,18 +18,18 @@ std::vector<MeshLevelPointer> prepared;  // guarded by the mutex
 }  // namespace
 
 void prepareLevels(const MeshPointer& mesh, const Progress& progress) {
-  if (mesh->element_count() < fewestElements) {
+  if (mesh->element_count() < minElements) {
     return;
   }
   progress.report(0);
   std::vector<MeshLevelPointer> levels{wholeLevel(mesh)};
   // Which one is drawn first depends on the size of the view. The finest are drawn only after a zoom.
-  for (unsigned step = 2; step <= MeshLevels::coarsestStep && levels.back()->elements.size() >= fewestElements;
+  for (unsigned step = 2; step <= MeshLevels::coarsestStep && levels.back()->elements.size() >= minElements;
        step = MeshLevels::after(step, *mesh)) {
     progress.report(double(step) / MeshLevels::coarsestStep);
     if (!mesh->lattice) {
       levels.push_back(coarser(*levels.back()));
-    } else if (MeshLevels::elementsAt(*mesh, step) < 10 * fewestElements) {
+    } else if (MeshLevels::elementsAt(*mesh, step) < 10 * minElements) {
       levels.push_back(coarseLattice(mesh, step));
     }
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float barPixels = 9;  // on each side of the line
 constexpr float dashPixels = 4;
-constexpr int mostDashes = 400;  // per edge: more are indistinguishable
+constexpr int maxDashes = 400;  // per edge: more are indistinguishable
 
 }  // namespace
 
@@ -64,7 +64,7 @@ std::vector<QVector3D> RegionShape::dashedEdges() const {
   for (std::size_t i = 0; i < whole.size(); i += 2) {
     const QVector3D along = whole[i + 1] - whole[i];
     const double dashes = along.length() / (dashPixels * up_.length());
-    const int count = int(std::min<double>(mostDashes, std::ceil(dashes))) | 1;  // odd, so that both ends are drawn
+    const int count = int(std::min<double>(maxDashes, std::ceil(dashes))) | 1;  // odd, so that both ends are drawn
     for (int dash = 0; dash < count; dash += 2) {
       ends.push_back(whole[i] + along * (float(dash) / float(count)));
       ends.push_back(whole[i] + along * (float(dash + 1) / float(count)));

@@ -9,7 +9,7 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t mostCellsAtOnce = 100'000;  // about 30 ms
+constexpr std::size_t maxCellsAtOnce = 100'000;  // about 30 ms
 
 std::unique_ptr<Surface> makeSurface(const MeshPointer& mesh, const Progress& progress = {}) {
   return std::make_unique<Surface>(std::make_shared<CellTable>(mesh, progress));
@@ -50,7 +50,7 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
   surface_.reset();
   table_.reset();
   failure_ = nullptr;
-  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= mostCellsAtOnce || !beginInBackground(mesh)) {
+  if (mesh->tetrahedra.size() + mesh->hexahedra.size() <= maxCellsAtOnce || !beginInBackground(mesh)) {
     std::promise<std::unique_ptr<Surface>> promise;
     result_ = promise.get_future();
     try {

@@ -8,7 +8,7 @@ namespace chainmail {
 namespace {
 
 // If more elements than this fraction are outdated, computing all of them is faster.
-constexpr double fewestForAll = 0.4;
+constexpr double minForAll = 0.4;
 // An element is at a crease if the normal of a face around it differs more than this from their mean (cosine of 38°).
 constexpr float creaseCosine = 0.79F;
 
@@ -48,7 +48,7 @@ void SurfaceNormals::follow(const Frame& frame) {
   if (known) {
     collect(frame);
   }
-  if (!known || double(outdated_.size()) > fewestForAll * double(normals_.size())) {
+  if (!known || double(outdated_.size()) > minForAll * double(normals_.size())) {
     computeAll(frame);
   } else {
     computeAround(frame);

@@ -20,7 +20,7 @@ constexpr int shadesOfALink = 8;     // largest number, if the values at its end
 constexpr float seamWidth = 0.7F;    // pixels; closes the gaps between faces
 // Faces whose smooth normal differs more than this from their own lie at a crease (cosine of the angle).
 constexpr float printedCrease = 0.65F;
-constexpr std::size_t mostRingsPrinted = 5'000;  // more rings would hide each other
+constexpr std::size_t maxRingsPrinted = 5'000;  // more rings would hide each other
 
 /// Returns the mean colour of a few texels in a triangle. `corners` are its rest positions.
 QColor texelsOf(const Texture& texture, const std::array<Point, 3>& corners) {
@@ -361,7 +361,7 @@ void VectorPainter::drawElements(const Scene& scene, std::span<const ElementId> 
 }
 
 void VectorPainter::drawSelection(const Scene& scene, QColor colour, float diameter) {
-  drawElements(scene, thinned(selected_, mostRingsPrinted), colour, diameter,
+  drawElements(scene, thinned(selected_, maxRingsPrinted), colour, diameter,
                diameter < smallestRing ? Mark::disc : Mark::ring);
 }
 

@@ -24,7 +24,7 @@ namespace {
 using std::chrono::milliseconds;
 
 // Longest time from a change to the written file: the wait and, at worst, two writes.
-constexpr milliseconds mostBehind(4500), shortestWait(500), longestWait(4000);
+constexpr milliseconds maxBehind(4500), shortestWait(500), longestWait(4000);
 constexpr milliseconds shortestRetry(10'000), longestRetry(300'000);
 
 /// Returns the memory that writing the work takes at most: the positions of all panels, those of one panel up to four
@@ -376,7 +376,7 @@ void Autosave::receive() {
   reportSuccess();
   hasPositions_ = true;
   const auto took = std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun_);
-  timer_.setInterval(std::clamp(mostBehind - 2 * took, shortestWait, longestWait));
+  timer_.setInterval(std::clamp(maxBehind - 2 * took, shortestWait, longestWait));
   if (changed_) {
     timer_.start();
   }

@@ -192,7 +192,7 @@ bool FileActions::saveSessionAs() {
 
 void FileActions::addShapeActions(QMenu& menu) {
   auto* shapes = menu.addMenu(QStringLiteral("Save &deformed mesh"));
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     connect(action, &QAction::triggered, this, [this, panel] {
       const QString path =

@@ -19,8 +19,8 @@ namespace chainmail {
 namespace {
 
 constexpr int pollMilliseconds = 4;
-constexpr int mostWaiting = 4;                   // pictures not encoded yet
-constexpr qint64 mostUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not read yet
+constexpr int maxWaiting = 4;                   // pictures not encoded yet
+constexpr qint64 maxUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not read yet
 
 QString ffmpegPath() { return QStandardPaths::findExecutable(QStringLiteral("ffmpeg")); }
 
@@ -97,7 +97,7 @@ void Film::begin(const QString& path) {
 
 /// Takes a picture when the panels show the move, then starts the next move.
 void Film::takeNext() {
-  const bool behind = video_ ? ffmpeg_.bytesToWrite() > mostUnsent : waiting_ >= mostWaiting;
+  const bool behind = video_ ? ffmpeg_.bytesToWrite() > maxUnsent : waiting_ >= maxWaiting;
   if (!document_.settled() || behind) {
     return;
   }

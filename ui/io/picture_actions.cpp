@@ -54,7 +54,7 @@ void PictureActions::fillSubjects(QMenu& menu) {
   addSubject(menu, What::panels, 0, QStringLiteral("Of &all panels"),
              QStringLiteral("All visible panels, side by side"));
   for (const What what : {What::panel, What::object}) {
-    for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    for (int panel = 0; panel < Document::maxPanels; ++panel) {
       const QString name = panelName(panel);
       what == What::panel ? addSubject(menu, what, panel, QStringLiteral("Of panel %1").arg(name),
                                        QStringLiteral("The view with algorithm, legend and figures"))

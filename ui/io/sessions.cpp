@@ -36,7 +36,7 @@ void write(const QString& path, const Session& session, bool inPlace, const Prog
 
 /// Shows as many panels as the session has, within the limits of the window.
 void showPanels(Document& document, const Session& session) {
-  const int wanted = std::clamp(int(session.panels.size()), Document::fewestPanels, Document::mostPanels);
+  const int wanted = std::clamp(int(session.panels.size()), Document::minPanels, Document::maxPanels);
   while (document.panels() < wanted) {
     document.addPanel();
   }

@@ -8,7 +8,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int mostAcross = 2000;  // 4 million elements for a square picture
+constexpr int maxAcross = 2000;  // 4 million elements for a square picture
 
 std::array<std::uint32_t, 2> pixelsOf(QSize picture) {
   return {std::uint32_t(picture.width()), std::uint32_t(picture.height())};
@@ -29,7 +29,7 @@ SheetBar::SheetBar()
 
 void SheetBar::ask(const QString& name, QSize picture) {
   picture_ = picture;
-  across_->setRange(2, std::clamp(picture.width() + 1, 2, mostAcross));
+  across_->setRange(2, std::clamp(picture.width() + 1, 2, maxAcross));
   across_->setValue(standardAcross);
   describe();
   AskBar::ask(QStringLiteral("%1 as a sheet: %L2 × %L3 pixels").arg(name).arg(picture.width()).arg(picture.height()),

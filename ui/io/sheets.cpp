@@ -24,7 +24,7 @@ Sheets::Sheets(QWidget& window, Document& document, Jobs& jobs)
 void Sheets::fill(QMenu& menu) {
   menu_ = menu.addMenu(QStringLiteral("Save &warped picture"));
   menu_->menuAction()->setObjectName(QStringLiteral("warpedPictureMenu"));
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     auto* action = menu_->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
     action->setObjectName(QStringLiteral("saveWarped%1").arg(panelName(panel)));
     action->setStatusTip(

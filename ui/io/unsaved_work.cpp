@@ -129,7 +129,7 @@ QStringList all() {
 void discardOldest() {
   QStringList closed = all();
   closed.removeIf([](const QString& path) { return !isClosed(path); });
-  for (const QString& path : closed.first(std::max<qsizetype>(0, closed.size() - mostClosed))) {
+  for (const QString& path : closed.first(std::max<qsizetype>(0, closed.size() - maxClosed))) {
     QLockFile lock(lockOf(path));
     lock.setStaleLockTime(0);
     if (lock.tryLock()) {

@@ -14,7 +14,7 @@ namespace chainmail {
 namespace unsaved_work {
 
 /// Closed work that is kept: the oldest is removed when there is more.
-inline constexpr int mostClosed = 5;
+inline constexpr int maxClosed = 5;
 
 /// Returns the folder, and creates it if it does not exist.
 QString folder();
@@ -37,7 +37,7 @@ void discardObjects(const QString& path, const QString& kept = {});
 void discard(const QString& path);
 /// Returns all work, the newest last.
 QStringList all();
-/// Removes the oldest work of closed windows beyond mostClosed, but none that a window offers.
+/// Removes the oldest work of closed windows beyond maxClosed, but none that a window offers.
 void discardOldest();
 /// Removes what crashes have left: unfinished files, locks, objects without work.
 void discardLeftovers();

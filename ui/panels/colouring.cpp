@@ -324,7 +324,7 @@ float Colouring::physicsError(const Work& work, int panel, ElementId element) co
 // Scales and titles
 
 void Colouring::updateScales() {
-  std::array<ColourScale, Document::mostPanels> scales;
+  std::array<ColourScale, Document::maxPanels> scales;
   ColourScale all;
   for (std::size_t panel = 0; panel < works_.size(); ++panel) {
     const ColourValues& shown = works_[panel].shown;

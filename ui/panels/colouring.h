@@ -73,7 +73,7 @@ class Colouring : public QObject {
     ColourValues building, shown;
     std::vector<int> others;  // the panels that it is compared with
     // Copied when the work begins, because frames, softness and the reference solution may change during the work.
-    std::array<Copy, Document::mostPanels> copies;
+    std::array<Copy, Document::maxPanels> copies;
     std::shared_ptr<const Softness> softness;
     std::shared_ptr<const BackgroundReference::Answer> solution;
     double squares = 0, rms = 0;  // sum of squares of the values being computed, and RMS of those shown
@@ -102,8 +102,8 @@ class Colouring : public QObject {
   const Document& document_;
   BackgroundReference solution_;  // the reference solution
   ColourMode mode_ = ColourMode::plain;
-  std::array<Work, Document::mostPanels> works_;
-  std::array<ColourScale, Document::mostPanels> scales_;
+  std::array<Work, Document::maxPanels> works_;
+  std::array<ColourScale, Document::maxPanels> scales_;
   int reference_ = 0;
   bool sharesScale_ = true;
   std::uint64_t number_ = 0;

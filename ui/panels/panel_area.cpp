@@ -16,7 +16,7 @@ constexpr int panelsPerRow = 2;
 constexpr int handleWidth = 3;
 constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
 // Panels change between next to each other and above each other if that shows the object larger by this factor.
-constexpr double mostBetter = 1.3;
+constexpr double maxBetter = 1.3;
 constexpr double lectureTexts = 1.6;  // times the usual size
 constexpr int equalSize = 10'000;     // the splitter scales it to the available space
 
@@ -89,7 +89,7 @@ void PanelArea::followPanels() {
 void PanelArea::addPanel() {
   const int number = int(panels_.size());
   auto* panel = new Panel(document_, colouring_, links_, number, camera_, levels_);
-  if (!panels_.empty() && number >= Document::fewestPanels) {
+  if (!panels_.empty() && number >= Document::minPanels) {
     const auto& first = panels_.front()->view().camera();
     panel->view().setCamera(links_.cameras() ? first : std::make_shared<Camera>(*first));
   }
@@ -378,7 +378,7 @@ bool PanelArea::stacksPanels(int shown) const {
   const double rowWidth = width(), columnHeight = std::max(1, height() - 2 * panelRest);
   const double beside = std::min(rowWidth / 2 / across, (columnHeight + panelRest) / high);
   const double above = std::min(rowWidth / across, columnHeight / 2 / high);
-  return above > (stacked_ ? 1 / mostBetter : mostBetter) * beside;
+  return above > (stacked_ ? 1 / maxBetter : maxBetter) * beside;
 }
 
 void PanelArea::resizeEvent(QResizeEvent* event) {

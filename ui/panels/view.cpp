@@ -33,7 +33,7 @@ constexpr std::chrono::milliseconds boxMilliseconds(4);
 constexpr int stillMilliseconds = 50;
 constexpr double ringRadius = 24, ringWidth = 3;  // pixels
 constexpr double zoomPerNotch = 1.2;
-constexpr std::size_t mostOutlinePoints = 200'000;  // of larger objects, some elements or boxes are the outline
+constexpr std::size_t maxOutlinePoints = 200'000;  // of larger objects, some elements or boxes are the outline
 constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
 constexpr float pinSize = 13;                                        // pixels
 constexpr float cursorMarkSize = 13;                                 // pixels
@@ -51,7 +51,7 @@ std::vector<QVector3D> restOutline(const Mesh& mesh) {
     return {corners.begin(), corners.end()};
   }
   std::vector<QVector3D> points;
-  const std::size_t step = mesh.element_count() / mostOutlinePoints + 1;
+  const std::size_t step = mesh.element_count() / maxOutlinePoints + 1;
   for (std::size_t element = 0; element < mesh.element_count(); element += step) {
     points.push_back(asVector(mesh.rest_position(ElementId(element))));
   }
@@ -219,7 +219,7 @@ std::vector<QVector3D> View::outline(bool atRest) const {
     std::copy_n(carried, mesh.space_dimension, &at[0]);
     points.push_back(inSpace.map(at));
   };
-  if (mesh.element_count() <= mostOutlinePoints) {
+  if (mesh.element_count() <= maxOutlinePoints) {
     for (ElementId element = 0; element < mesh.element_count(); ++element) {
       add(frame->positions.data() + std::size_t{element} * mesh.space_dimension);
     }
@@ -633,7 +633,7 @@ DetailBudget::Detail View::chooseDetail() {
   const Mesh& mesh = *frame->mesh;
   const Seen now{&mesh, frame->number, frame->series, camera_->toView(), camera_->toClip(size())};
   const Seen before = std::exchange(seen_, now);
-  const bool slow = showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::fewestShapes;
+  const bool slow = showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::minShapes;
   if (!slow || budget_.affordsComplete()) {
     return DetailBudget::Detail::complete;
   }
@@ -675,7 +675,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, Detail
   scene.background = ground;
   scene.pixelRatio = float(pixelRatio);
   scene.detail = detail;
-  scene.mostShapes = detail == DetailBudget::Detail::quick ? budget_.mostShapes() : DetailBudget::mostAtRest;
+  scene.maxShapes = detail == DetailBudget::Detail::quick ? budget_.maxShapes() : DetailBudget::maxAtRest;
   scene.hidesMarks = showsSolid() && ghostFrame() == nullptr;
   if (camera_->spatial()) {
     const auto [near, far] = camera_->depthRange();

@@ -18,7 +18,7 @@ constexpr double widest = 3;
 constexpr int sliderSteps = 200;  // on either side of the middle
 
 // Largest number of elements. More would take minutes, and would be too many for dragging.
-constexpr double mostElements = 2e6;
+constexpr double maxElements = 2e6;
 
 // Share of the limit of linear FEM that the coarser edges aim at, because the number of elements is an estimate.
 constexpr double aimedShare = 0.8;
@@ -102,7 +102,7 @@ void Filling::askSize() {
   ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) +
           (offered > mean ? QStringLiteral(". The edges offered are coarser than the surface: linear FEM takes at most "
                                            "%L1 elements")
-                                .arg(most_fem_elements)
+                                .arg(max_fem_elements)
                           : QString()),
       size_);
 }
@@ -110,8 +110,8 @@ void Filling::askSize() {
 /// Returns the mean link length of the surface, or longer edges if linear FEM could not take so many elements.
 double Filling::offeredSize() const {
   const double mean = document_.mesh()->mean_link_length;
-  const double inside = aimedShare * double(most_fem_elements) - double(document_.mesh()->element_count());
-  if (elementsAt(mean) <= aimedShare * double(most_fem_elements) || inside <= 0) {
+  const double inside = aimedShare * double(max_fem_elements) - double(document_.mesh()->element_count());
+  if (elementsAt(mean) <= aimedShare * double(max_fem_elements) || inside <= 0) {
     return mean;
   }
   return std::min(widest * mean, std::cbrt(points_per_cube * volume_ / inside));
@@ -129,10 +129,10 @@ void Filling::describe() {
       int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
   const double elements = elementsAt(size);
   showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))) +
-                 (elements > double(most_fem_elements)
-                      ? QStringLiteral(", too many for linear FEM (at most %L1)").arg(most_fem_elements)
+                 (elements > double(max_fem_elements)
+                      ? QStringLiteral(", too many for linear FEM (at most %L1)").arg(max_fem_elements)
                       : QString()),
-             elements < mostElements);
+             elements < maxElements);
 }
 
 void Filling::start() {

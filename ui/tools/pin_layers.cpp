@@ -10,7 +10,7 @@ namespace chainmail {
 namespace {
 
 // Largest number of elements for which the menu shows counts. In larger meshes, counting would delay the menu.
-constexpr ElementId mostCounted = 100'000;
+constexpr ElementId maxCounted = 100'000;
 
 bool carries(const Mesh& mesh, const ObjectSide& side) {
   const auto end = mesh.axes.begin() + mesh.space_dimension;
@@ -72,7 +72,7 @@ void PinLayers::adapt() {
 }
 
 void PinLayers::count() {
-  if (document_.mesh()->element_count() > mostCounted) {
+  if (document_.mesh()->element_count() > maxCounted) {
     return;
   }
   for (const Choice& one : choices_) {

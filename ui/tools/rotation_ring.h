@@ -71,7 +71,7 @@ class RotationRing : public QObject, public Overlay {
   bool hovered_ = false;
   std::vector<ElementId> elements_;
   std::optional<Turn> turn_;
-  mutable std::array<std::optional<RotationExtent>, Document::mostPanels> extents_;  // of each panel's present frame
+  mutable std::array<std::optional<RotationExtent>, Document::maxPanels> extents_;  // of each panel's present frame
 };
 
 }  // namespace chainmail

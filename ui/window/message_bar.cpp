@@ -11,8 +11,8 @@
 namespace chainmail {
 namespace {
 
-constexpr std::size_t mostMessages = 50;  // older ones are removed
-constexpr int signSize = 18;              // pixels
+constexpr std::size_t maxMessages = 50;  // older ones are removed
+constexpr int signSize = 18;             // pixels
 
 struct SeverityLook {
   const char* icon;
@@ -65,7 +65,7 @@ void MessageBar::add(Severity severity, const QString& sentence) {
   const Message message{severity, sentence};
   std::erase(messages_, message);  // a repeated message becomes the newest
   messages_.push_back(message);
-  if (messages_.size() > mostMessages) {
+  if (messages_.size() > maxMessages) {
     messages_.erase(messages_.begin());
   }
   refresh();

@@ -33,7 +33,7 @@ PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colou
   compare_->setObjectName(QStringLiteral("compareWith"));
   compare_->setToolTipsVisible(true);
   compared_->setMenu(compare_);
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     makeOnes(panel);
   }
   refreshCount();
@@ -124,7 +124,7 @@ void PanelActions::refreshCount() {
     action->setToolTip(QStringLiteral("%1 (%2)").arg(help, keys));
   };
   const int count = document_.panels();
-  const bool full = count == Document::mostPanels, least = count == Document::fewestPanels;
+  const bool full = count == Document::maxPanels, least = count == Document::minPanels;
   say(add_, !full,
       full ? QStringLiteral("Not available: the window shows at most four panels")
            : QStringLiteral("Adds a panel with the object as in panel A and another algorithm"));
@@ -135,7 +135,7 @@ void PanelActions::refreshCount() {
 
 void PanelActions::refresh() {
   refreshCount();
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     refreshOnes(panel);
   }
   ghosts_->setChecked(area_.hasGhosts());

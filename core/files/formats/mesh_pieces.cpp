@@ -15,7 +15,7 @@ MeshPieces::MeshPieces(const Mesh& mesh, const Cuts& cuts, const ListedPieces& l
     polygons_.push_back(i);
   }
   list(Piece::triangle, SIZE_MAX, progress.part(0, 0.2));
-  list(Piece::polygon, listed.most_corners, progress.part(0.2, 0.4));
+  list(Piece::polygon, listed.max_corners, progress.part(0.2, 0.4));
   if (listed.cells) {
     list(Piece::tetrahedron, SIZE_MAX, progress.part(0.4, 0.6));
     list(Piece::hexahedron, SIZE_MAX, progress.part(0.6, 0.8));
@@ -92,14 +92,14 @@ bool MeshPieces::take(Piece piece, Corners corners) {
   return whole;
 }
 
-void MeshPieces::list(Piece piece, std::size_t most_corners, const Progress& progress) {
+void MeshPieces::list(Piece piece, std::size_t max_corners, const Progress& progress) {
   const std::size_t size_of_kind = size(piece);
   std::vector<bool>& listed = listed_[index(piece)];
   listed.resize(size_of_kind);
   for (std::size_t i = 0; i < size_of_kind; ++i) {
     progress.report(i, size_of_kind);
     const Corners of_piece = corners(piece, i);
-    if (of_piece.size() <= most_corners && take(piece, of_piece)) {
+    if (of_piece.size() <= max_corners && take(piece, of_piece)) {
       listed[i] = true;
       ++counts_[index(piece)];
       corner_counts_[index(piece)] += of_piece.size();

@@ -19,8 +19,8 @@ enum class Piece { line, triangle, polygon, tetrahedron, hexahedron, side };
 
 /// The pieces that a format can list. Other pieces are written as lines.
 struct ListedPieces {
-  bool cells = true;                    // otherwise the sides of cells
-  std::size_t most_corners = SIZE_MAX;  // largest number of corners of a polygon
+  bool cells = true;                   // otherwise the sides of cells
+  std::size_t max_corners = SIZE_MAX;  // largest number of corners of a polygon
 };
 
 /// The pieces to write for an object: faces and cells whose edges are all uncut links, and the other uncut links as
@@ -54,7 +54,7 @@ class MeshPieces {
   std::size_t size(Piece piece) const;
   bool take_edge(ElementId a, ElementId b);
   bool take(Piece piece, Corners corners);
-  void list(Piece piece, std::size_t most_corners, const Progress& progress);
+  void list(Piece piece, std::size_t max_corners, const Progress& progress);
   void list_lines(const Progress& progress);
   void find_sides(const Progress& progress);
 

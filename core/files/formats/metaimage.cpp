@@ -255,7 +255,7 @@ class PlainBytes : public VoxelBytes {
 /// small file may exceed the memory.
 class PackedBytes : public VoxelBytes {
  public:
-  explicit PackedBytes(const VoxelData& data) : data_(data), in_(most_in) {
+  explicit PackedBytes(const VoxelData& data) : data_(data), in_(max_in) {
     if (inflateInit2(&stream_, 15 + 32) != Z_OK) {  // accepts both formats of zlib
       throw std::bad_alloc();
     }
@@ -287,7 +287,7 @@ class PackedBytes : public VoxelBytes {
   }
 
  private:
-  static constexpr std::size_t most_in = std::size_t{1} << 20;
+  static constexpr std::size_t max_in = std::size_t{1} << 20;
 
   const VoxelData& data_;
   std::vector<char> in_;

@@ -21,12 +21,12 @@ constexpr std::array piece_types{PieceType{Piece::line, 1, msh_line}, PieceType{
                                  PieceType{Piece::polygon, 2, msh_quadrangle},
                                  PieceType{Piece::tetrahedron, 3, msh_tetrahedron},
                                  PieceType{Piece::hexahedron, 3, msh_hexahedron}};
-constexpr std::size_t most_msh_corners = 4;
+constexpr std::size_t max_msh_corners = 4;
 
 class MshWriter {
  public:
   MshWriter(std::ostream& out, const MeshState& state, const Progress& progress)
-      : text_(out), state_(state), pieces_(state.mesh, state.cuts, {.most_corners = most_msh_corners}, progress) {}
+      : text_(out), state_(state), pieces_(state.mesh, state.cuts, {.max_corners = max_msh_corners}, progress) {}
 
   void write_entities(const Progress& progress);
   void write_nodes(const Progress& progress);

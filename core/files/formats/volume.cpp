@@ -15,7 +15,7 @@ void DensityScale::refuse(std::size_t voxel) const {
 
 double DensityScale::step() const {
   const double range = highest_ - lowest_;
-  return whole_ && range <= most_density_steps ? 1 : range > 0 ? range / most_density_steps : 1;
+  return whole_ && range <= max_density_steps ? 1 : range > 0 ? range / max_density_steps : 1;
 }
 
 std::array<std::uint32_t, 3> checked_volume_size(const std::string& where, const std::array<std::uint64_t, 3>& size) {

@@ -36,7 +36,7 @@ struct Volume {
   Point at(const Point& voxels) const { return origin + axes * spacing.cwiseProduct(voxels); }
 };
 
-inline constexpr double most_density_steps = 65535;
+inline constexpr double max_density_steps = 65535;
 /// Largest magnitude of a density. Larger ones are refused, because sums must stay finite in single precision.
 inline constexpr double density_limit = 1e30;
 
@@ -142,7 +142,7 @@ void take_densities(Volume& volume, const std::string& where, Number number,
   for_each_box<double>(boxes, number, [&volume](double sum, std::uint64_t voxels) {
     // The rounded mean of huge numbers may lie outside their range.
     const double steps = (sum / double(voxels) - volume.lowest) / volume.step + 0.5;
-    volume.densities.push_back(static_cast<std::uint16_t>(std::clamp(steps, 0.0, most_density_steps)));
+    volume.densities.push_back(static_cast<std::uint16_t>(std::clamp(steps, 0.0, max_density_steps)));
   });
 }
 

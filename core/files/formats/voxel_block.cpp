@@ -62,7 +62,7 @@ class Bricks {
   const Volume* volume_;
   VoxelBoxes boxes_;
   std::vector<float> means_;
-  std::vector<float> single_ = std::vector<float>(std::size_t(most_density_steps) + 1);  // density of each step
+  std::vector<float> single_ = std::vector<float>(std::size_t(max_density_steps) + 1);  // density of each step
 };
 
 /// The axes of voxels as those of space: axis k of space is axis `from[k]` of the voxels, and may run the other way.

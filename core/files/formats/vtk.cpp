@@ -192,10 +192,10 @@ void VtkReader::add_grid() {
 
 /// A file that states neither points nor values for them could name any number of points in a few bytes.
 void VtkReader::add_grid_points() {
-  static constexpr std::uint64_t most_without_values = 100'000;
-  if (grid_[0] * grid_[1] * grid_[2] > std::max<std::uint64_t>(most_without_values, cursor_.size())) {
+  static constexpr std::uint64_t max_without_values = 100'000;
+  if (grid_[0] * grid_[1] * grid_[2] > std::max<std::uint64_t>(max_without_values, cursor_.size())) {
     cursor_.fail(
-        "it has fewer bytes than its grid has points, which are more than " + std::to_string(most_without_values),
+        "it has fewer bytes than its grid has points, which are more than " + std::to_string(max_without_values),
         "use a smaller grid, or save it as an unstructured grid");
   }
   const auto place = [&](std::size_t axis, std::uint64_t i) {

@@ -202,7 +202,7 @@ Volume Decoder::take_volume() {
   const double farthest = volume.origin.cwiseAbs().maxCoeff() + 4 * volume.spacing.maxCoeff() * 4294967296.0;
   if (!(voxels >= 1 && voxels <= double(limits::voxels_in_memory)) || !volume.spacing.allFinite() ||
       !(volume.spacing.minCoeff() > 0) || !are_axes(volume.axes) || !(farthest <= coordinate_limit) ||
-      !volume.origin.allFinite() || !std::isfinite(volume.lowest + volume.step * most_density_steps) ||
+      !volume.origin.allFinite() || !std::isfinite(volume.lowest + volume.step * max_density_steps) ||
       !(volume.step >= 0) || volume.merged == 0 || volume.merged > limits::voxels) {
     damaged();
   }

@@ -189,9 +189,9 @@ SplitEdit MoveFields::split(const MoveMembers& command) const {
 
 // The second version knows `split`.
 constexpr std::uint64_t first_version = 1, split_version = 2;
-constexpr std::uint64_t most_sweeps = 1'000'000;
+constexpr std::uint64_t max_sweeps = 1'000'000;
 // Every split has its own mesh, so a short file could ask for much memory.
-constexpr std::uint64_t most_split_elements = 10 * element_limit;
+constexpr std::uint64_t max_split_elements = 10 * element_limit;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 
@@ -342,8 +342,8 @@ Command MovesReader::reset(const Members& of) {
 Command MovesReader::relax(const Members& of) {
   fields_.check_keys(of.members, {"do", "sweeps", "step", "scheme", "until"});
   const Json& sweeps = fields_.member(of.members, "sweeps");
-  if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > most_sweeps) {
-    fields_.fail("'sweeps' is not a whole number up to " + std::to_string(most_sweeps), "write the number of sweeps");
+  if (!sweeps.is_number_unsigned() || sweeps.get<std::uint64_t>() > max_sweeps) {
+    fields_.fail("'sweeps' is not a whole number up to " + std::to_string(max_sweeps), "write the number of sweeps");
   }
   const double step = of.members.contains("step") ? fields_.number(of.members["step"], parameters::relax_step) : 1;
   const RelaxationScheme scheme =
@@ -359,8 +359,8 @@ Command MovesReader::split(const Members& of) {
   try {
     SplitEdit edit = fields_.split(of);
     split_elements_ += fields_.mesh()->element_count() + edit.elements.size();
-    if (split_elements_ > most_split_elements) {
-      fields_.fail("the meshes after all splits have more than " + std::to_string(most_split_elements) + " elements",
+    if (split_elements_ > max_split_elements) {
+      fields_.fail("the meshes after all splits have more than " + std::to_string(max_split_elements) + " elements",
                    "use fewer splits, or a smaller object");
     }
     SplitPointer split = make_split(fields_.mesh(), std::move(edit));

@@ -86,7 +86,7 @@ nlohmann::json* SmallTree::add(Json value) {
     tree_ = std::move(value);
     return &tree_;
   }
-  if (++values_ > most_values || open_.back() == &dropped_) {
+  if (++values_ > max_values || open_.back() == &dropped_) {
     return &dropped_;
   }
   Json& parent = *open_.back();

@@ -101,12 +101,12 @@ class SmallTree {
   Json take();
 
  private:
-  static constexpr std::size_t most_values = 64;
+  static constexpr std::size_t max_values = 64;
 
   Json* add(Json value);
 
   Json tree_;
-  Json dropped_;             // replaces values beyond most_values
+  Json dropped_;             // replaces values beyond max_values
   std::vector<Json*> open_;  // open arrays and objects, the outermost first
   std::string key_;          // key of the next value in an object
   std::size_t values_ = 0;

@@ -90,11 +90,11 @@ std::size_t RegularFile::read_at(std::uint64_t place, std::span<char> bytes) con
 
 std::filesystem::path resolved(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
-  constexpr int most_links = 40;
+  constexpr int max_links = 40;
   std::error_code error;
   fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
   // A link that points nowhere counts as missing above, so it is followed here.
-  for (int links = 0; !error && links < most_links && fs::is_symlink(fs::symlink_status(target, error)); ++links) {
+  for (int links = 0; !error && links < max_links && fs::is_symlink(fs::symlink_status(target, error)); ++links) {
     target = fs::weakly_canonical(target.parent_path() / fs::read_symlink(target, error), error);
   }
   return error && error != std::errc::no_such_file_or_directory ? path : target;

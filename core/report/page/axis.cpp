@@ -12,7 +12,7 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int most_ticks = 6;
+constexpr int max_ticks = 6;
 constexpr int smallest_plain = -3, largest_plain = 3;  // decades of an axis without powers
 
 std::string superscript(int number) {
@@ -75,7 +75,7 @@ Axis Axis::logarithmic(const std::vector<double>& values, double smallest) {
   if (most > 0) {
     low = static_cast<int>(std::floor(std::log10(least)));
     high = std::max(low + 1, static_cast<int>(std::ceil(std::log10(most))));
-    step = (high - low) / most_ticks + 1;
+    step = (high - low) / max_ticks + 1;
     high += (step - (high - low) % step) % step;  // extends the axis, so that the last decade has a tick
   }
   axis.low_ = low;

@@ -56,7 +56,7 @@ std::string_view entity_of(char character) {
 constexpr const char* thousands_space = "\u202f";  // narrow no-break space
 constexpr const char* figure_space = "\u2007";     // as wide as a digit
 constexpr const char* point_space = "\u2008";      // as wide as a point
-constexpr double least_grouped = 1e3, most_grouped = 1e6;
+constexpr double least_grouped = 1e3, max_grouped = 1e6;
 
 /// Returns the number of digits behind the point of a figure such as '0.12', '1.5%' or '12'; none for other texts.
 std::optional<std::size_t> decimals_of(const std::string& text) {
@@ -98,7 +98,7 @@ std::vector<std::string> aligned(std::vector<std::string> column) {
 }
 
 std::string figure(double number, int digits) {
-  if (std::abs(number) >= least_grouped && std::abs(number) < most_grouped) {
+  if (std::abs(number) >= least_grouped && std::abs(number) < max_grouped) {
     return (number < 0 ? "-" : "") + thousands(static_cast<std::uint64_t>(std::llround(std::abs(number))));
   }
   std::string text = written(number, std::chars_format::general, digits);

@@ -14,8 +14,8 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int fewest_repetitions_of_drag = 5;
-constexpr int most_repetitions_of_drag = 51;
+constexpr int min_repetitions_of_drag = 5;
+constexpr int max_repetitions_of_drag = 51;
 constexpr double warm_up_share = 0.25;  // share of the progress for references and warm-up
 
 using Clock = std::chrono::steady_clock;
@@ -132,7 +132,7 @@ class Experiment {
       }
     }
     repetitions_ = options_.repetitions.value_or(static_cast<int>(std::clamp<double>(
-        options_.seconds / std::max(seconds, 1e-6), fewest_repetitions_of_drag, most_repetitions_of_drag)));
+        options_.seconds / std::max(seconds, 1e-6), min_repetitions_of_drag, max_repetitions_of_drag)));
   }
 
   /// Returns the time of a run in seconds.

@@ -14,7 +14,7 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int fewest_repetitions = 3, most_repetitions = 51;
+constexpr int min_repetitions = 3, max_repetitions = 51;
 constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated
 constexpr double rounding_of_handle = 1e-4;    // mean rest lengths; positions are in float
 
@@ -98,7 +98,7 @@ class Contest::Participant {
     if (!entry_.measurement || !runner_ || seconds_ > longest_repeated_drag) {
       return 0;
     }
-    return std::clamp(int(seconds / std::max(seconds_, 1e-6)), fewest_repetitions, most_repetitions);
+    return std::clamp(int(seconds / std::max(seconds_, 1e-6)), min_repetitions, max_repetitions);
   }
 
   void repeat(const std::stop_token& stop) {
@@ -215,8 +215,8 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
            : options_.repetitions        ? std::min(one.repetitions(1e9), *options_.repetitions)
                                          : one.repetitions(options_.seconds / count);
   };
-  for (int repetition = 0; repetition < most_repetitions && !stop.stop_requested(); ++repetition) {
-    tell(0.5 + 0.5 * repetition / most_repetitions);
+  for (int repetition = 0; repetition < max_repetitions && !stop.stop_requested(); ++repetition) {
+    tell(0.5 + 0.5 * repetition / max_repetitions);
     for (const auto& participant : participants_) {
       if (repetition < wanted(*participant) && !stop.stop_requested()) {
         participant->repeat(stop);

@@ -17,7 +17,7 @@ namespace chainmail::report {
 namespace {
 
 constexpr int moves_of_drag = 24, moves_before_cut = 12;
-constexpr std::size_t most_handles = 3;
+constexpr std::size_t max_handles = 3;
 constexpr double nudge_share = 0.05, pull_share = 0.2, far_share = 0.5;  // shares of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
@@ -201,7 +201,7 @@ std::vector<ElementId> physics_handles(const Case& object) {
     come_near(distances, mesh, elements, mesh.rest_position(pin));
   }
   std::vector<ElementId> handles;
-  while (handles.size() < most_handles && !object.pins.empty() && !elements.empty()) {
+  while (handles.size() < max_handles && !object.pins.empty() && !elements.empty()) {
     const auto farthest = std::ranges::max_element(distances) - distances.begin();
     if (distances[static_cast<std::size_t>(farthest)] == 0) {
       break;  // pinned, or already a handle

@@ -9,7 +9,7 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int most_preparations = 15;
+constexpr int max_preparations = 15;
 constexpr double enough_preparing = 1;  // seconds
 
 /// Returns the handle of the first drag that grabs an element, about its middle.
@@ -41,7 +41,7 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method, const C
   const std::vector<ElementId> handles = handles_of(object);
   const double start = clocks.wall();
   for (int repetition = 0;
-       repetition == 0 || (repetition < most_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
+       repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
     std::unique_ptr<ElasticSolver> solver;
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {

@@ -17,7 +17,7 @@ namespace {
 /// Divides small objects too.
 template <class Scalar>
 struct AlwaysShared : AdaptiveSchedule<Scalar> {
-  static constexpr std::size_t fewest_to_share = 0;
+  static constexpr std::size_t min_to_share = 0;
 };
 
 /// What some passes of Exact ChainMail leave.
@@ -115,7 +115,7 @@ void ThreadsTest::threads_change_no_bit() {
   QFETCH(bool, mixed);
   QFETCH(bool, pinned);
   const auto mesh = jittered_triangles(330, 330, 3);
-  QVERIFY(mesh->element_count() >= AdaptiveSchedule<float>::fewest_to_share);
+  QVERIFY(mesh->element_count() >= AdaptiveSchedule<float>::min_to_share);
   Softness softness{{0.9, 1.1, 0.1}, {}};
   if (mixed) {
     for (LinkId link = 0; link < mesh->link_count(); link += 3) {

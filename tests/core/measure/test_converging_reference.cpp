@@ -56,7 +56,7 @@ void ConvergingReferenceTest::a_sheet_converges() {
   }
   QVERIFY(result.order && *result.order > 0.5);
   const auto at_elements = [](std::uint32_t width) {
-    ConvergingReference on_mesh(sheet_problem(width), {.most_levels = 1});
+    ConvergingReference on_mesh(sheet_problem(width), {.max_levels = 1});
     const ConvergedReference fine = on_mesh.at(bottom, way);
     std::vector<double> found;
     const std::uint32_t step = (width - 1) / 4;
@@ -103,9 +103,9 @@ void ConvergingReferenceTest::a_solid_says_why_it_ends() {
 
 void ConvergingReferenceTest::cut_cells_are_missing_on_all_levels() {
   ElasticProblem problem = sheet_problem(5);
-  const ConvergedReference whole = ConvergingReference(problem, {.most_levels = 2}).at(corner, way);
+  const ConvergedReference whole = ConvergingReference(problem, {.max_levels = 2}).at(corner, way);
   problem.cuts.cut(*find_link(*problem.mesh, 6, 7));
-  const ConvergedReference cut = ConvergingReference(problem, {.most_levels = 2}).at(corner, way);
+  const ConvergedReference cut = ConvergingReference(problem, {.max_levels = 2}).at(corner, way);
   QVERIFY(cut.levels[1].elements < whole.levels[1].elements);
   QVERIFY(cut.solution.displacements != whole.solution.displacements);
 }

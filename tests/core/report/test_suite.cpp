@@ -139,7 +139,7 @@ void SuiteTest::a_handle_that_turns_has_a_reference() {
   const Mesh& mesh = *object.mesh;
   const auto coarse = DragReferences(object, std::nullopt).at_end(object.drags.front());
   ConvergingOptions options;
-  options.most_levels = 2;
+  options.max_levels = 2;
   const auto fine = DragReferences(object, options).at_end(object.drags.front());
   QCOMPARE(fine.refined->levels.size(), std::size_t(2));
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Point::UnitX()));

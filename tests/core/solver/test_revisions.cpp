@@ -224,10 +224,10 @@ class LongLife {
 
 /// Runs a random life on a mesh, with these elements pinned at first.
 void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, const std::vector<ElementId>& pins,
-          int most_events, int reach) {
+          int max_events, int reach) {
   LongLife life(mesh, *rc::gen::elementOf(all), *any_precision(), all);
   life.pin(pins);
-  const int events = *rc::gen::inRange(1, most_events);
+  const int events = *rc::gen::inRange(1, max_events);
   for (int i = 0; i < events; ++i) {
     const int changes = *rc::gen::inRange(0, 3);
     for (int k = 0; k < changes; ++k) {

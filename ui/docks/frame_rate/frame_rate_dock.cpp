@@ -41,8 +41,8 @@ std::vector<report::LabelledValue> timeTicks(double from, double to) {
 FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels)
     : document_(document),
       panels_(panels),
-      histories_(Document::mostPanels),
-      passesSeen_(Document::mostPanels, 0),
+      histories_(Document::maxPanels),
+      passesSeen_(Document::maxPanels, 0),
       figures_(new RateFigures(document)),
       plot_(new PlotWidget(QStringLiteral("Drag the object to see its rates"))),
       quantity_(new QComboBox),

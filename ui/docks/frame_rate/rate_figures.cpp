@@ -23,7 +23,7 @@ RateFigures::RateFigures(const Document& document) : document_(document) {
   grid->setHorizontalSpacing(3);
   grid->setVerticalSpacing(1);
   addHead(*grid);
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     addRow(*grid);
   }
   followPanels();

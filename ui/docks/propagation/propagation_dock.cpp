@@ -34,12 +34,12 @@ PropagationDock::PropagationDock(Document& document, Propagation& propagation, P
   auto* column = new QVBoxLayout(content);
   column->addWidget(makeButtons());
   column->addWidget(makeChoices());
-  for (int panel = 0; panel < Document::mostPanels; ++panel) {
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
   }
   arrangeLists();
   const auto adapt = [this, &document] {
-    for (int panel = 0; panel < Document::mostPanels; ++panel) {
+    for (int panel = 0; panel < Document::maxPanels; ++panel) {
       columns_[std::size_t(panel)]->setVisible(panel < document.panels());
     }
   };

@@ -10,9 +10,9 @@
 namespace chainmail {
 namespace {
 
-// Slow drawing slows the drags down. After this time, `fewestDrags` measured drags are enough for a size.
+// Slow drawing slows the drags down. After this time, `minDrags` measured drags are enough for a size.
 constexpr qint64 enoughMilliseconds = 8000;
-constexpr std::size_t fewestDrags = 2;
+constexpr std::size_t minDrags = 2;
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void SizeTestPanel::next() {
   if (move_ == drags_[drag_].targets.size()) {
     solver_.post(commands::Release{});
     move_ = 0;
-    const bool enough = ++drag_ > fewestDrags && clock_.elapsed() > enoughMilliseconds;
+    const bool enough = ++drag_ > minDrags && clock_.elapsed() > enoughMilliseconds;
     if (enough || drag_ == drags_.size()) {
       halt();
       painted_ = view_->meter().framesPerSecond();

@@ -24,7 +24,7 @@ using Halfedge = Halfedges::Halfedge_index;
 using EdgeEnds = std::array<ElementId, 2>;
 
 // The time grows faster than the square of this number.
-constexpr std::size_t most_hole_edges = 10'000;
+constexpr std::size_t max_hole_edges = 10'000;
 
 EdgeEnds ends(ElementId a, ElementId b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -147,8 +147,8 @@ std::vector<ElementLoop> holes_of(const std::vector<ElementId>& polygons) {
   std::vector<ElementLoop> holes;
   for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1) {
     const ElementId count = polygons[i];
-    if (count > most_hole_edges) {
-      refuse("a hole has " + std::to_string(count) + " edges, and at most " + std::to_string(most_hole_edges) +
+    if (count > max_hole_edges) {
+      refuse("a hole has " + std::to_string(count) + " edges, and at most " + std::to_string(max_hole_edges) +
                  " can be closed",
              "close it in another program");
     }
