@@ -17,38 +17,38 @@ class ConjugateGradients {
 
   /// Begins with this negative gradient.
   Vectors& begin() {
-    is_fresh_ = true;
-    return rest_;
+    is_first_step_ = true;
+    return residual_;
   }
 
   /// Runs a step. Returns by how much the energy decreases.
   double step(const Matrix& matrix, Preconditioner<D>& preconditioner, Vectors& x) {
-    preconditioner.apply(rest_, scaled_);
-    const double slope = dot(rest_, scaled_);
+    preconditioner.apply(residual_, preconditioned_);
+    const double slope = dot(residual_, preconditioned_);
     if (!(slope > 0)) {
       slope_ = 0;
       return 0;
     }
     // After Polak and Ribière, which forgives a preconditioner in float.
-    const double bend = is_fresh_ ? 0 : std::max(0.0, -step_ * dot(product_, scaled_) / slope_);
-    direction_.resize(rest_.size());
+    const double beta = is_first_step_ ? 0 : std::max(0.0, -step_ * dot(product_, preconditioned_) / slope_);
+    direction_.resize(residual_.size());
     for (std::size_t i = 0; i < direction_.size(); ++i) {
-      direction_[i] = is_fresh_ ? scaled_[i] : scaled_[i] + bend * direction_[i];
+      direction_[i] = is_first_step_ ? preconditioned_[i] : preconditioned_[i] + beta * direction_[i];
     }
     slope_ = slope;
-    is_fresh_ = false;
+    is_first_step_ = false;
     matrix.apply(direction_, product_);
-    const double curvature = dot(direction_, product_), along = dot(rest_, direction_);
+    const double curvature = dot(direction_, product_), along = dot(residual_, direction_);
     if (!(curvature > 0)) {
       return 0;
     }
     step_ = along / curvature;
-    const double before = dot(rest_, rest_);
+    const double before = dot(residual_, residual_);
     double after = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
       x[i] += step_ * direction_[i];
-      rest_[i] -= step_ * product_[i];
-      after += rest_[i].squaredNorm();
+      residual_[i] -= step_ * product_[i];
+      after += residual_[i].squaredNorm();
     }
     shrunk_ = before > 0 ? std::sqrt(after / before) : 0;
     return step_ * along / 2;
@@ -58,9 +58,9 @@ class ConjugateGradients {
   double distance() const { return std::sqrt(std::max(0.0, slope_)) * shrunk_; }
 
  private:
-  bool is_fresh_ = true;
+  bool is_first_step_ = true;
   double slope_ = 0, step_ = 0, shrunk_ = 1;
-  Vectors rest_, scaled_, direction_, product_;
+  Vectors residual_, preconditioned_, direction_, product_;
 };
 
 }  // namespace chainmail

@@ -247,7 +247,7 @@ class Equilibrator final : public EquilibriumSolver {
     penalised_.outdate(rows, cut);
     newton_.forget();
     regions_.begin_checks();
-    is_fresh_ = true;
+    gradient_is_outdated_ = true;
     iterations_ = 0;
   }
 
@@ -292,7 +292,7 @@ class Equilibrator final : public EquilibriumSolver {
     penalised_.outdate(rows, false);
     newton_.forget();
     regions_.begin_checks();
-    is_fresh_ = true;
+    gradient_is_outdated_ = true;
     iterations_ = 0;
   }
 
@@ -337,7 +337,7 @@ class Equilibrator final : public EquilibriumSolver {
     for (std::size_t e = 0; e < fixed_.size(); ++e) {
       if (fixed_[e] != 0 && iterate_[e] != vector_of(shown_.positions[e])) {
         iterate_[e] = vector_of(shown_.positions[e]);
-        is_fresh_ = true;
+        gradient_is_outdated_ = true;
         iterations_ = 0;
       }
     }
@@ -359,9 +359,9 @@ class Equilibrator final : public EquilibriumSolver {
       newton_step();
       return;
     }
-    if (is_fresh_ || ++steps_since_gradient_ > steps_per_gradient) {
+    if (gradient_is_outdated_ || ++steps_since_gradient_ > steps_per_gradient) {
       energy_of_iterate_ = gradient(iterate_, gradients_.begin());
-      is_fresh_ = false;
+      gradient_is_outdated_ = false;
       steps_since_gradient_ = 0;
     }
     energy_of_iterate_ -= gradients_.step(energy_, free_, iterate_);
@@ -385,9 +385,9 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void newton_step() {
-    if (is_fresh_) {
+    if (gradient_is_outdated_) {
       energy_of_iterate_ = gradient(iterate_, force_);
-      is_fresh_ = false;
+      gradient_is_outdated_ = false;
     }
     const auto evaluate = [&](const Vectors& at, Vectors& force) { return gradient(at, force); };
     // Without what it has learned, a step fails only where rounding hides the way down.
@@ -461,7 +461,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   void end_constraints() {
     constrained_ = false;
-    is_fresh_ = true;
+    gradient_is_outdated_ = true;
   }
 
   /// Returns a function that calls visit(link, i, j, region, stiffness) for each link that counts, with i < j and the
@@ -488,7 +488,7 @@ class Equilibrator final : public EquilibriumSolver {
     regions_.add_forces(links(), iterate_, rest);
     energy_.clear_fixed(rest);
     gradients_.step(*penalised_matrix_, penalised_, iterate_);
-    is_fresh_ = true;
+    gradient_is_outdated_ = true;
     const auto step = regions_.step(links(), iterate_);
     residual_ = std::sqrt(std::max(step.outside, step.stepped) / (step.size + unseen_energy()));
     if (!step.forced && residual_ < frees_below && is_valid(iterate_)) {
@@ -629,8 +629,8 @@ class Equilibrator final : public EquilibriumSolver {
   ConjugateGradients<D> gradients_;
   CorotatedEnergy<D> corotated_;
   QuasiNewton<D> newton_;
-  Vectors force_;         // the negative gradient, for the quasi-Newton method
-  bool is_fresh_ = true;  // the gradient must be computed anew
+  Vectors force_;                     // the negative gradient, for the quasi-Newton method
+  bool gradient_is_outdated_ = true;  // the gradient must be computed anew
   int steps_since_gradient_ = 0;
   double energy_of_iterate_ = 0;
   double residual_ = 0;

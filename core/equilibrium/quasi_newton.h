@@ -65,15 +65,15 @@ class QuasiNewton {
   };
 
   void find_direction(Preconditioner<D>& preconditioner, const Vectors& force) {
-    rest_ = force;
-    std::vector<double> shares(pairs_.size());
+    residual_ = force;
+    std::vector<double> fractions(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
-      shares[i] = dot(pairs_[i].step, rest_) / pairs_[i].product;
-      add(rest_, -shares[i], pairs_[i].change);
+      fractions[i] = dot(pairs_[i].step, residual_) / pairs_[i].product;
+      add(residual_, -fractions[i], pairs_[i].change);
     }
-    preconditioner.apply(rest_, direction_);
+    preconditioner.apply(residual_, direction_);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      add(direction_, shares[i] - dot(pairs_[i].change, direction_) / pairs_[i].product, pairs_[i].step);
+      add(direction_, fractions[i] - dot(pairs_[i].change, direction_) / pairs_[i].product, pairs_[i].step);
     }
   }
 
@@ -94,7 +94,7 @@ class QuasiNewton {
   }
 
   std::vector<Pair> pairs_;  // oldest first
-  Vectors rest_, direction_, before_, start_;
+  Vectors residual_, direction_, before_, start_;
   double slope_ = 0, shrunk_ = 1;
 };
 
