@@ -40,7 +40,7 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string
 }
 
 std::string help_of(const Parameter& parameter) {
-  return std::string(parameter.help) + " [" + digits(parameter.standard) + "]";
+  return std::string(parameter.help) + " [" + digits(parameter.default_value) + "]";
 }
 
 CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter) {
@@ -69,18 +69,18 @@ double parse_number_of(const std::string& where, std::string_view text) {
 double value_of(const CLI::Option* option, const Parameter& parameter) {
   const auto text = value_of(option);
   if (!text) {
-    return parameter.standard;
+    return parameter.default_value;
   }
   const double number = parse_number_of(name_of(parameter), *text);
   in_options({{std::string(parameter.name), name_of(parameter)}}, [&] { check(parameter, number); });
   return number;
 }
 
-std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard,
+std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
                               std::uint32_t highest) {
   const auto text = value_of(option);
   if (!text) {
-    return standard;
+    return default_value;
   }
   const auto number = parse_count(*text);
   if (!number || *number < lowest || *number > highest) {

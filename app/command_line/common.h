@@ -53,7 +53,7 @@ double parse_number_of(const std::string& where, std::string_view text);
 /// Returns the value of a parameter, or its default. Throws Error if it is out of range.
 double value_of(const CLI::Option* option, const Parameter& parameter);
 /// Returns the whole number of an option, or `standard` if the option is missing. Throws Error if it is out of range.
-std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t standard,
+std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
                               std::uint32_t highest = 1'000'000'000);
 /// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);

@@ -49,9 +49,9 @@ std::uint64_t read_largest(const RampArguments& options, std::uint64_t limit) {
   return largest;
 }
 
-double read_budget(const RampArguments& options, double standard) {
+double read_budget(const RampArguments& options, double default_value) {
   const auto text = value_of(options.budget);
-  const double budget = text ? parse_number_of("--budget", *text) : standard;
+  const double budget = text ? parse_number_of("--budget", *text) : default_value;
   if (!(budget > 0)) {
     throw Error("--budget", *text + " is not above 0", "write a number of seconds above 0, like 0.0167");
   }

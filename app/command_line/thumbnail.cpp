@@ -21,7 +21,7 @@
 namespace chainmail::command_line {
 namespace {
 
-constexpr std::uint32_t smallest = 16, largest = 1024, standard = 256;  // pixels
+constexpr std::uint32_t smallest = 16, largest = 1024, default_size = 256;  // pixels
 constexpr Raster::Colour face_colour{86, 156, 214}, link_colour{38, 92, 140};
 constexpr double margin = 0.06;     // of the picture
 constexpr double line_lift = 1e-3;  // of the object: links on faces are in front of them
@@ -212,7 +212,7 @@ Command add_thumbnail(CLI::App& root) {
   app.footer("File managers use it. It needs no display.\n\nExample:\n  chainmail thumbnail organ.msh -o organ.png");
   return {&app, [file, output, size] {
             const std::filesystem::path path = *value_of(file);
-            const std::uint32_t pixels = whole_number_of(size, smallest, standard, largest);
+            const std::uint32_t pixels = whole_number_of(size, smallest, default_size, largest);
             Outputs outputs;
             outputs.keep(path);
             const std::string png =

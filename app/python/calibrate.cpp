@@ -44,7 +44,7 @@ py::dict calibrate(Object& object, const api::CalibrateOptions& options, const a
 }  // namespace
 
 void add_calibrate(py::module_& module) {
-  const api::CalibrateOptions standard;
+  const api::CalibrateOptions defaults;
   module.def(
       "calibrate",
       [](Object& body, const std::string& method, std::uint64_t seed, int drags, int held_out, int evaluations,
@@ -52,9 +52,9 @@ void add_calibrate(py::module_& module) {
         return calibrate(body, {method, seed, drags, held_out, evaluations, max_sweeps, scheme_of(scheme)},
                          job.value_or(api::Job()), progress);
       },
-      py::arg("body"), py::kw_only(), py::arg("method") = standard.method, py::arg("seed") = standard.seed,
-      py::arg("drags") = standard.drags, py::arg("held_out") = standard.held_out,
-      py::arg("evaluations") = standard.evaluations, py::arg("max_sweeps") = standard.max_sweeps,
+      py::arg("body"), py::kw_only(), py::arg("method") = defaults.method, py::arg("seed") = defaults.seed,
+      py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
+      py::arg("evaluations") = defaults.evaluations, py::arg("max_sweeps") = defaults.max_sweeps,
       py::arg("scheme") = "mean", py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error\n"
       "against neo-Hookean finite elements on the same cells.\n\n"

@@ -117,7 +117,7 @@ void add_drag(py::module_& module) {
 
 void add_compare(py::module_& module) {
   add_drag(module);
-  const api::CompareOptions standard;
+  const api::CompareOptions defaults;
   module.def(
       "compare",
       [](Object& body, const std::vector<api::Drag>& drags, const std::vector<std::string>& methods,
@@ -131,10 +131,10 @@ void add_compare(py::module_& module) {
         return compare(body, drags, options, job.value_or(api::Job()), progress);
       },
       py::arg("body"), py::arg("drags") = py::list(), py::kw_only(), py::arg("methods") = py::list(),
-      py::arg("sweeps") = py::make_tuple(0), py::arg("equilibrium") = standard.equilibrium,
-      py::arg("relax_step") = standard.relax_step, py::arg("scheme") = "mean", py::arg("precision") = "float",
-      py::arg("repetitions") = py::none(), py::arg("seconds") = standard.seconds, py::arg("against") = "exact",
-      py::arg("title") = standard.title, py::arg("folder") = py::none(), py::arg("job") = py::none(),
+      py::arg("sweeps") = py::make_tuple(0), py::arg("equilibrium") = defaults.equilibrium,
+      py::arg("relax_step") = defaults.relax_step, py::arg("scheme") = "mean", py::arg("precision") = "float",
+      py::arg("repetitions") = py::none(), py::arg("seconds") = defaults.seconds, py::arg("against") = "exact",
+      py::arg("title") = defaults.title, py::arg("folder") = py::none(), py::arg("job") = py::none(),
       py::arg("progress") = py::none(),
       "Compares methods on an object and drags: times, and errors at the end of each drag.\n\n"
       "The object gives its mesh, cuts, pins, softness and elasticity; drags start at rest, whatever its positions "

@@ -183,11 +183,11 @@ void add_moves(MoverClass& deformer) {
 }
 
 void add_relaxation(MoverClass& deformer) {
-  const api::RelaxOptions standard;
+  const api::RelaxOptions defaults;
   deformer
       .def(
-          "relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = standard.step,
-          py::arg("scheme") = "mean", py::arg("until") = standard.until,
+          "relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = defaults.step,
+          py::arg("scheme") = "mean", py::arg("until") = defaults.until,
           "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have "
           "run.\n\n"
           "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is the\n"

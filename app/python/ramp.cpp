@@ -105,7 +105,7 @@ std::vector<Algorithm> algorithms_of(const std::vector<std::string>& names) {
 }  // namespace
 
 void add_ramp(py::module_& module) {
-  const report::RampOptions standard;
+  const report::RampOptions defaults;
   module.def(
       "ramp",
       [](const std::vector<std::string>& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
@@ -122,9 +122,9 @@ void add_ramp(py::module_& module) {
         options.softness = api::softness_of(softness);
         return ramp(options, job.value_or(api::Job()), progress);
       },
-      py::arg("methods") = py::list(), py::kw_only(), py::arg("seed") = standard.seed,
-      py::arg("budget") = standard.budget, py::arg("largest") = std::uint64_t{1'000'000},
-      py::arg("drags") = standard.drags, py::arg("moves") = standard.moves, py::arg("precision") = "float",
+      py::arg("methods") = py::list(), py::kw_only(), py::arg("seed") = defaults.seed,
+      py::arg("budget") = defaults.budget, py::arg("largest") = std::uint64_t{1'000'000},
+      py::arg("drags") = defaults.drags, py::arg("moves") = defaults.moves, py::arg("precision") = "float",
       py::arg("softness") = api::LinkSoftness(), py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds the largest square grid on which each method runs in real time (Dean 2004, chapter 6).\n\n"
       "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops "

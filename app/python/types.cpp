@@ -95,7 +95,7 @@ void add_pose(py::module_& module) {
 }
 
 void add_link_softness(py::module_& module) {
-  const api::LinkSoftness standard;
+  const api::LinkSoftness defaults;
   py::class_<api::LinkSoftness> softness(
       module, "LinkSoftness",
       "How far a link may shorten, lengthen and lean, relative to its rest vector, and how strongly relaxation\n"
@@ -105,9 +105,9 @@ void add_link_softness(py::module_& module) {
                [](double compression, double stretch, double shear, double lateral, double stiffness, double exponent) {
                  return api::LinkSoftness{compression, stretch, shear, lateral, stiffness, exponent};
                }),
-           py::kw_only(), py::arg("compression") = standard.compression, py::arg("stretch") = standard.stretch,
-           py::arg("shear") = standard.shear, py::arg("lateral") = standard.lateral,
-           py::arg("stiffness") = standard.stiffness, py::arg("exponent") = standard.exponent)
+           py::kw_only(), py::arg("compression") = defaults.compression, py::arg("stretch") = defaults.stretch,
+           py::arg("shear") = defaults.shear, py::arg("lateral") = defaults.lateral,
+           py::arg("stiffness") = defaults.stiffness, py::arg("exponent") = defaults.exponent)
       .def_readonly("compression", &api::LinkSoftness::compression,
                     "Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).")
       .def_readonly("stretch", &api::LinkSoftness::stretch,
@@ -128,7 +128,7 @@ void add_link_softness(py::module_& module) {
 }
 
 void add_elasticity(py::module_& module) {
-  const api::Elasticity standard;
+  const api::Elasticity defaults;
   py::class_<api::Elasticity> elasticity(
       module, "Elasticity",
       "Settings of the methods of elasticity and of free-form deformation. The ChainMail\n"
@@ -138,8 +138,8 @@ void add_elasticity(py::module_& module) {
                        std::uint32_t iterations) {
              return api::Elasticity{young, poisson, control_points, iterations};
            }),
-           py::kw_only(), py::arg("young") = standard.young, py::arg("poisson") = standard.poisson,
-           py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = standard.iterations)
+           py::kw_only(), py::arg("young") = defaults.young, py::arg("poisson") = defaults.poisson,
+           py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = defaults.iterations)
       .def_readonly("young", &api::Elasticity::young,
                     "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.")
       .def_readonly("poisson", &api::Elasticity::poisson, "Poisson's ratio: 0 to below 0.5.")

@@ -11,21 +11,21 @@
 namespace chainmail::api {
 
 // Public headers cannot include the table of parameters, so its defaults are repeated there.
-static_assert(LinkSoftness().compression == parameters::compression.standard &&
-              LinkSoftness().stretch == parameters::stretch.standard &&
-              LinkSoftness().shear == parameters::shear.standard &&
-              LinkSoftness().lateral == parameters::lateral.standard &&
-              LinkSoftness().stiffness == parameters::stiffness.standard &&
-              LinkSoftness().exponent == parameters::exponent.standard);
+static_assert(LinkSoftness().compression == parameters::compression.default_value &&
+              LinkSoftness().stretch == parameters::stretch.default_value &&
+              LinkSoftness().shear == parameters::shear.default_value &&
+              LinkSoftness().lateral == parameters::lateral.default_value &&
+              LinkSoftness().stiffness == parameters::stiffness.default_value &&
+              LinkSoftness().exponent == parameters::exponent.default_value);
 static_assert(int(EnergyKind::isotropic) == int(inner::EnergyKind::isotropic) &&
               int(EnergyKind::axial) == int(inner::EnergyKind::axial) &&
               int(EnergyKind::corotated) == int(inner::EnergyKind::corotated));
-static_assert(Elasticity().young == parameters::young.standard &&
-              Elasticity().poisson == parameters::poisson.standard &&
+static_assert(Elasticity().young == parameters::young.default_value &&
+              Elasticity().poisson == parameters::poisson.default_value &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&
               Elasticity().control_points[1] == ElasticOptions::control_points &&
               Elasticity().control_points[2] == ElasticOptions::control_points &&
-              Elasticity().iterations == parameters::iterations.standard);
+              Elasticity().iterations == parameters::iterations.default_value);
 
 namespace {
 

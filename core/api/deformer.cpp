@@ -11,8 +11,8 @@ namespace chainmail::api {
 namespace {
 
 static_assert(no_sponsor == no_element);
-static_assert(RelaxOptions().step == parameters::relax_step.standard);
-static_assert(RelaxOptions().until == parameters::relax_until.standard);
+static_assert(RelaxOptions().step == parameters::relax_step.default_value);
+static_assert(RelaxOptions().until == parameters::relax_until.default_value);
 
 constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which a job may cancel
 

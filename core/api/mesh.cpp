@@ -13,7 +13,7 @@
 
 namespace chainmail::api {
 
-static_assert(LatticeOptions().spacing == parameters::spacing.standard);
+static_assert(LatticeOptions().spacing == parameters::spacing.default_value);
 
 namespace {
 

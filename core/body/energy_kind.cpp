@@ -13,7 +13,7 @@ namespace {
 constexpr std::array all_energy_kinds{
     EnergyKindInfo{EnergyKind::isotropic, "isotropic", "Isotropic",
                    "Each link resists motion along it and across it alike; the numbers of its stiffness do not count.",
-                   parameters::lateral.standard},
+                   parameters::lateral.default_value},
     EnergyKindInfo{EnergyKind::axial, "axial", "Axial",
                    "Each link resists motion along its rest vector, and across it in the share of its lateral "
                    "stiffness. It suits small rotations.",
@@ -22,7 +22,7 @@ constexpr std::array all_energy_kinds{
         EnergyKind::corotated, "corotated", "Co-rotated",
         "Each link is a spring, and resists motion across its rest vector turned with its surroundings: close "
         "to an elastic solid, also in large rotations.",
-        parameters::lateral.standard}};
+        parameters::lateral.default_value}};
 
 }  // namespace
 

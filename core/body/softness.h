@@ -21,12 +21,12 @@ namespace chainmail {
 /// vector: they decide on its valid region. The others say how strongly it returns to its rest vector: they decide on
 /// its energy (see equilibrium/link_energy.h). See mesh/parameters.h for the ranges.
 struct LinkSoftness {
-  double compression = parameters::compression.standard;
-  double stretch = parameters::stretch.standard;
-  double shear = parameters::shear.standard;
-  double lateral = parameters::lateral.standard;      // stiffness across the link, per its stiffness along it
-  double stiffness = parameters::stiffness.standard;  // along the link, relative to other links
-  double exponent = parameters::exponent.standard;    // of the rest length, which the stiffness is multiplied by
+  double compression = parameters::compression.default_value;
+  double stretch = parameters::stretch.default_value;
+  double shear = parameters::shear.default_value;
+  double lateral = parameters::lateral.default_value;      // stiffness across the link, per its stiffness along it
+  double stiffness = parameters::stiffness.default_value;  // along the link, relative to other links
+  double exponent = parameters::exponent.default_value;    // of the rest length, which the stiffness is multiplied by
 
   bool operator==(const LinkSoftness&) const = default;
 };

@@ -10,21 +10,21 @@ namespace chainmail {
 
 /// A homogeneous, isotropic elastic material.
 struct Material {
-  double young = parameters::young.standard;      // Young's modulus: force per square of a mesh unit
-  double poisson = parameters::poisson.standard;  // Poisson's ratio
+  double young = parameters::young.default_value;      // Young's modulus: force per square of a mesh unit
+  double poisson = parameters::poisson.default_value;  // Poisson's ratio
 
   bool operator==(const Material&) const = default;
 };
 
 /// Settings of the methods of elasticity and of free-form deformation.
 struct ElasticOptions {
-  static constexpr auto control_points = static_cast<std::uint32_t>(parameters::lattice.standard);
+  static constexpr auto control_points = static_cast<std::uint32_t>(parameters::lattice.default_value);
 
   Material material;
   /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
   std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
   /// Most iterations of XPBD and Projective Dynamics for one move.
-  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.standard);
+  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.default_value);
 
   bool operator==(const ElasticOptions&) const = default;
 };
@@ -38,8 +38,8 @@ struct StrainLaw {
   enum class Kind { neo_hookean, gent, fung };
 
   Kind kind = Kind::neo_hookean;
-  double gent_limit = parameters::gent_limit.standard;        // of Gent: I₁ − 3 stays below it
-  double fung_exponent = parameters::fung_exponent.standard;  // of Fung: factor of I₁ − 3 in the exponent
+  double gent_limit = parameters::gent_limit.default_value;        // of Gent: I₁ − 3 stays below it
+  double fung_exponent = parameters::fung_exponent.default_value;  // of Fung: factor of I₁ − 3 in the exponent
 
   bool operator==(const StrainLaw&) const = default;
 };

@@ -28,7 +28,7 @@ std::span<const MeshKindInfo> mesh_kinds();
 struct MeshRecipe {
   MeshKind kind = MeshKind::grid;
   std::array<std::uint32_t, 3> size{16, 16, 1};
-  double spacing = parameters::spacing.standard;
+  double spacing = parameters::spacing.default_value;
   std::optional<int> space_dimension = {};
 };
 

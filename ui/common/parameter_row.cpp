@@ -46,7 +46,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   spin_->setFixedWidth(88);
   reset_->setIcon(icon("reset"));
   reset_->setAutoRaise(true);
-  show(parameter.standard);
+  show(parameter.default_value);
 
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -64,7 +64,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, const QString& prefix)
   });
   connect(spin_, &QDoubleSpinBox::valueChanged, this, &ParameterRow::announce);
   connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // so that shortcuts work again
-  connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.standard); });
+  connect(reset_, &QToolButton::clicked, this, [this] { announce(parameter_.default_value); });
 }
 
 /// Sets object names, names for screen readers, and tooltips.
@@ -76,7 +76,7 @@ void ParameterRow::describe(const QString& prefix) {
   spin_->setObjectName(name + QStringLiteral("Spin"));
   label_->setBuddy(spin_);
   reset_->setObjectName(name + QStringLiteral("Reset"));
-  reset_->setToolTip(QStringLiteral("Resets to the default, %1").arg(parameter_.standard));
+  reset_->setToolTip(QStringLiteral("Resets to the default, %1").arg(parameter_.default_value));
   reset_->setAccessibleName(QStringLiteral("Reset %1").arg(label));
   disable({});
 }
@@ -95,7 +95,7 @@ void ParameterRow::show(double value) {
   if (!slider_->isSliderDown()) {
     slider_->setValue(toSlider(value));
   }
-  reset_->setEnabled(spin_->value() != parameter_.standard);
+  reset_->setEnabled(spin_->value() != parameter_.default_value);
 }
 
 int ParameterRow::toSlider(double value) const {

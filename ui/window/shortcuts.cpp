@@ -42,7 +42,7 @@ QString plainText(const QAction& action) {
 void Shortcuts::adopt() {
   const auto all = entries();
   for (const Entry& entry : all) {
-    if (!standard_.contains(entry.action->objectName())) {
+    if (!defaultKeys_.contains(entry.action->objectName())) {
       take(*entry.action);
     }
   }
@@ -64,7 +64,7 @@ void Shortcuts::adopt() {
 
 void Shortcuts::take(QAction& action) {
   const QString name = action.objectName();
-  standard_[name] = action.shortcuts();
+  defaultKeys_[name] = action.shortcuts();
   const QString words = plainText(action);
   if (action.toolTip() == words || action.toolTip() == action.iconText()) {
     tipsOurs_ += name;
@@ -99,7 +99,9 @@ QString Shortcuts::place(const QAction& action) const {
   return found == all.end() ? plainText(action) : found->place;
 }
 
-QKeySequence Shortcuts::standard(const QAction& action) const { return standard_.value(action.objectName()).value(0); }
+QKeySequence Shortcuts::defaultKeys(const QAction& action) const {
+  return defaultKeys_.value(action.objectName()).value(0);
+}
 
 QAction* Shortcuts::owner(const QKeySequence& keys, const QAction& but) const {
   for (const Entry& entry : entries()) {
@@ -111,8 +113,8 @@ QAction* Shortcuts::owner(const QKeySequence& keys, const QAction& but) const {
 }
 
 QString Shortcuts::assign(QAction& action, const QKeySequence& keys) {
-  const auto& standards = standard_[action.objectName()];
-  const bool back = keys == standard(action);
+  const auto& standards = defaultKeys_[action.objectName()];
+  const bool back = keys == defaultKeys(action);
   const QList<QKeySequence> wanted = back ? standards : keys.isEmpty() ? QList<QKeySequence>() : QList{keys};
   for (const QKeySequence& one : wanted) {
     if (const QAction* other = owner(one, action)) {
@@ -134,7 +136,7 @@ QString Shortcuts::assign(QAction& action, const QKeySequence& keys) {
 void Shortcuts::resetAll() {
   QSettings().remove(QStringLiteral("shortcuts"));
   for (const Entry& entry : entries()) {
-    set(*entry.action, standard_.value(entry.action->objectName()));
+    set(*entry.action, defaultKeys_.value(entry.action->objectName()));
   }
   emit changed();
 }

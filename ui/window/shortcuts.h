@@ -29,11 +29,11 @@ class Shortcuts : public QObject {
   std::vector<Entry> entries() const;
   QString place(const QAction& action) const;
 
-  QKeySequence standard(const QAction& action) const;
+  QKeySequence defaultKeys(const QAction& action) const;
   /// Gives an action other keys, or none. Returns an empty string if it succeeds. If the keys belong to another action,
   /// changes nothing and returns a sentence that says so.
   QString assign(QAction& action, const QKeySequence& keys);
-  QString reset(QAction& action) { return assign(action, standard(action)); }
+  QString reset(QAction& action) { return assign(action, defaultKeys(action)); }
   void resetAll();
 
  signals:
@@ -46,8 +46,8 @@ class Shortcuts : public QObject {
   QAction* owner(const QKeySequence& keys, const QAction& but) const;
 
   QMainWindow& window_;
-  QMap<QString, QList<QKeySequence>> standard_;  // default keys, by object name
-  QSet<QString> tipsOurs_;                       // actions whose tool tips this class makes
+  QMap<QString, QList<QKeySequence>> defaultKeys_;  // default keys, by object name
+  QSet<QString> tipsOurs_;                          // actions whose tool tips this class makes
 };
 
 /// Returns the text of an action without its mnemonic and ellipsis.

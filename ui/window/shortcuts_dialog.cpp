@@ -185,12 +185,12 @@ void ShortcutsDialog::showChosen() {
   keys_->setKeySequence(action == nullptr ? QKeySequence() : action->shortcut());
   whose_->setText(action == nullptr ? QStringLiteral("No action selected")
                                     : QStringLiteral("&Keys of '%1'").arg(plainText(*action)));
-  const QKeySequence standard = action == nullptr ? QKeySequence() : shortcuts_.standard(*action);
+  const QKeySequence defaultKeys = action == nullptr ? QKeySequence() : shortcuts_.defaultKeys(*action);
   keys_->setEnabled(action != nullptr);
   none_->setEnabled(action != nullptr && !action->shortcut().isEmpty());
-  reset_->setEnabled(action != nullptr && action->shortcut() != standard);
-  reset_->setToolTip(standard.isEmpty() ? QStringLiteral("The action has no default keys")
-                                        : QStringLiteral("Resets the keys to %1").arg(shown(standard)));
+  reset_->setEnabled(action != nullptr && action->shortcut() != defaultKeys);
+  reset_->setToolTip(defaultKeys.isEmpty() ? QStringLiteral("The action has no default keys")
+                                           : QStringLiteral("Resets the keys to %1").arg(shown(defaultKeys)));
   answer_->clear();
 }
 

@@ -213,7 +213,7 @@ class BlockBuilder {
 /// density.
 OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& densities, double threshold) {
   constexpr double levels = 32;  // number of different values of softness
-  const LinkSoftness standard;
+  const LinkSoftness defaults;
   const double range = double(*std::max_element(densities.begin(), densities.end())) - threshold;
   OwnSoftness softness;
   for (LinkId link = 0; range > 0 && link < mesh.link_count(); ++link) {
@@ -221,8 +221,8 @@ OwnSoftness softness_by_density(const Mesh& mesh, const std::vector<float>& dens
     const double mean = (double(densities[a]) + double(densities[b])) / 2;
     const double share = std::round(std::clamp((mean - threshold) / range, 0.0, 1.0) * levels) / levels;
     if (share > 0) {
-      softness.set(link, {standard.compression + share * (1 - standard.compression),
-                          standard.stretch - share * (standard.stretch - 1), standard.shear * (1 - share)});
+      softness.set(link, {defaults.compression + share * (1 - defaults.compression),
+                          defaults.stretch - share * (defaults.stretch - 1), defaults.shear * (1 - share)});
     }
   }
   return softness;

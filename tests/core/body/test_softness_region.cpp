@@ -107,7 +107,7 @@ void SoftnessRegionTest::out_of_range_is_refused_by_name() {
 
 void SoftnessRegionTest::the_table_of_parameters_agrees() {
   using namespace parameters;
-  QVERIFY(LinkSoftness() == (LinkSoftness{compression.standard, stretch.standard, shear.standard}));
+  QVERIFY(LinkSoftness() == (LinkSoftness{compression.default_value, stretch.default_value, shear.default_value}));
   QCOMPARE(complaint_about({compression.lowest, stretch.lowest, shear.lowest}), QString());
   QCOMPARE(complaint_about({compression.highest, stretch.highest, shear.highest}), QString());
 }

@@ -62,7 +62,7 @@ AlgorithmInfo dummy_entry() {
 constexpr Parameter dummy_parameter{.name = "dummy",
                                     .label = "Dummy",
                                     .unit = "of nothing",
-                                    .standard = 2.5,
+                                    .default_value = 2.5,
                                     .lowest = 1,
                                     .highest = 4,
                                     .slider_highest = 4,
@@ -212,23 +212,23 @@ void OneEntryTest::a_parameter_is_checked() {
 
 void OneEntryTest::defaults_and_limits_are_those_of_the_table() {
   const LinkSoftness softness;
-  QCOMPARE(softness.compression, parameters::compression.standard);
-  QCOMPARE(softness.stretch, parameters::stretch.standard);
-  QCOMPARE(softness.shear, parameters::shear.standard);
+  QCOMPARE(softness.compression, parameters::compression.default_value);
+  QCOMPARE(softness.stretch, parameters::stretch.default_value);
+  QCOMPARE(softness.shear, parameters::shear.default_value);
   check(LinkSoftness{parameters::compression.highest, parameters::stretch.lowest, parameters::shear.lowest});
   QVERIFY(contains(message([] {
                      check(LinkSoftness{1.01, 1, 0});
                    }),
                    "compression: Compression 1.01 is out of range; use 0 to 1"));
   ElasticOptions elastic;
-  QCOMPARE(elastic.material.young, parameters::young.standard);
-  QCOMPARE(elastic.material.poisson, parameters::poisson.standard);
-  QCOMPARE(double(elastic.lattice[2]), parameters::lattice.standard);
+  QCOMPARE(elastic.material.young, parameters::young.default_value);
+  QCOMPARE(elastic.material.poisson, parameters::poisson.default_value);
+  QCOMPARE(double(elastic.lattice[2]), parameters::lattice.default_value);
   elastic.material.poisson = parameters::poisson.highest;
   check(elastic);
   elastic.lattice[1] = static_cast<std::uint32_t>(parameters::lattice.highest) + 1;
   QVERIFY(contains(message([&] { check(elastic); }), "lattice: Control points 9 is out of range; use 2 to 8"));
-  QCOMPARE(MeshRecipe().spacing, parameters::spacing.standard);
+  QCOMPARE(MeshRecipe().spacing, parameters::spacing.default_value);
 }
 
 QTEST_APPLESS_MAIN(OneEntryTest)

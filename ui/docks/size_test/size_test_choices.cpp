@@ -11,7 +11,7 @@ SizeTestChoices::SizeTestChoices()
       largest_(new QSpinBox),
       budget_(new QDoubleSpinBox),
       drags_(new QSpinBox) {
-  const SizeTestOptions standard;
+  const SizeTestOptions defaults;
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   form->setVerticalSpacing(4);
@@ -28,11 +28,11 @@ SizeTestChoices::SizeTestChoices()
   };
   add(QStringLiteral("First size"), first_, "sizeTestFirst", QStringLiteral("Elements along a side of the first grid"));
   first_->setRange(4, 1000);
-  first_->setValue(int(standard.first));
+  first_->setValue(int(defaults.first));
   add(QStringLiteral("Growth"), growth_, "sizeTestGrowth", QStringLiteral("Growth from one grid to the next"));
   growth_->addItem(QStringLiteral("10 % more per side"), 0.0);
   growth_->setItemData(0, QStringLiteral("As in 'chainmail ramp'; takes the longest time"), Qt::ToolTipRole);
-  growth_->addItem(QStringLiteral("2 × elements"), standard.growth);
+  growth_->addItem(QStringLiteral("2 × elements"), defaults.growth);
   growth_->addItem(QStringLiteral("4 × elements"), 2.0);
   growth_->setCurrentIndex(1);
   add(QStringLiteral("Largest size"), largest_, "sizeTestLargest",
@@ -40,7 +40,7 @@ SizeTestChoices::SizeTestChoices()
   largest_->setRange(16, 4'000'000);
   largest_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   largest_->setGroupSeparatorShown(true);
-  largest_->setValue(int(standard.largest));
+  largest_->setValue(int(defaults.largest));
   add(QStringLiteral("Real time"), budget_, "sizeTestBudget",
       QStringLiteral("Limit for the 99th percentile of the pass times (ms). 60 frames per second leave 16.667 ms"));
   budget_->setPrefix(QStringLiteral("≤ "));
@@ -48,12 +48,12 @@ SizeTestChoices::SizeTestChoices()
   budget_->setDecimals(3);
   budget_->setRange(0.001, 1000);
   budget_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  budget_->setValue(1000 * standard.budget);
+  budget_->setValue(1000 * defaults.budget);
   add(QStringLiteral("Drags"), drags_, "sizeTestDrags",
       QStringLiteral("Number of drags at each size, plus one to warm up. A drag has 30 moves and takes 0.5 s. If "
                      "drawing is slow, fewer drags run, so that a size takes at most about 8 s"));
   drags_->setRange(1, 20);
-  drags_->setValue(standard.drags);
+  drags_->setValue(defaults.drags);
 }
 
 SizeTestOptions SizeTestChoices::options() const {
