@@ -15,9 +15,9 @@ namespace chainmail::command_line {
 namespace {
 
 /// Shows the number of finished passes on a progress line.
-class PassCount {
+class PassProgress {
  public:
-  explicit PassCount(std::uint64_t total) : total_(total) {}
+  explicit PassProgress(std::uint64_t total) : total_(total) {}
 
   void advance() {
     ++done_;
@@ -235,7 +235,7 @@ class Runner {
   Simulation& simulation_;
   const Schedule& schedule_;
   commands::Drag handle_;  // where the handle of many is, since it was grabbed
-  PassCount progress_;
+  PassProgress progress_;
   Run run_;
 };
 
