@@ -71,19 +71,19 @@ Schedule read_schedule(const DeformArguments& options, RelaxationScheme scheme, 
           targets.trace.has_value()};
 }
 
-/// Returns the acts in the order of their options on the command line.
-std::vector<Act> read_acts(const DeformArguments& options) {
-  const std::map<const CLI::Option*, Act::Kind> kinds{
-      {options.move, Act::Kind::move}, {options.by, Act::Kind::by},     {options.cut, Act::Kind::cut},
-      {options.pin, Act::Kind::pin},   {options.grab, Act::Kind::grab}, {options.rotate, Act::Kind::rotate}};
+/// Returns the actions in the order of their options on the command line.
+std::vector<Action> read_actions(const DeformArguments& options) {
+  const std::map<const CLI::Option*, Action::Kind> kinds{
+      {options.move, Action::Kind::move}, {options.by, Action::Kind::by},     {options.cut, Action::Kind::cut},
+      {options.pin, Action::Kind::pin},   {options.grab, Action::Kind::grab}, {options.rotate, Action::Kind::rotate}};
   std::map<const CLI::Option*, std::size_t> taken;
-  std::vector<Act> acts;
+  std::vector<Action> actions;
   for (const CLI::Option* option : options.app->parse_order()) {
     if (const auto kind = kinds.find(option); kind != kinds.end()) {
-      acts.push_back(parse_act(kind->second, option->get_name(), option->results()[taken[option]++]));
+      actions.push_back(parse_action(kind->second, option->get_name(), option->results()[taken[option]++]));
     }
   }
-  return acts;
+  return actions;
 }
 
 /// Returns the format of the positions. On standard output, it is a CSV table.
@@ -231,7 +231,7 @@ void deform(const DeformArguments& options) {
   const ElasticOptions elastic = elastic_of(options.elastic);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation, targets);
-  const std::vector<Act> acts = read_acts(options);
+  const std::vector<Action> actions = read_actions(options);
   OpenedMesh opened = open_mesh(options.mesh);
   const MeshPointer mesh = opened.mesh;
   softness.links = std::move(opened.softness);
@@ -248,13 +248,13 @@ void deform(const DeformArguments& options) {
     moves = read_moves(std::filesystem::path(*file), mesh, watch.progress());
   }
 
-  check_acts(acts, *last_mesh(mesh, moves));
+  check_actions(actions, *last_mesh(mesh, moves));
 
   Simulation simulation(mesh, algorithm, precision);
   simulation.apply(commands::SetSoftness{softness});
   simulation.apply(commands::SetElastic{elastic});
   simulation.apply(commands::SetRelaxation{false, schedule.relax_step, relaxation});
-  const Run run = carry_out(simulation, moves, acts, schedule);
+  const Run run = carry_out(simulation, moves, actions, schedule);
   write_results(targets, simulation, run, summarize(simulation, run));
 }
 

@@ -38,24 +38,24 @@ ElementId parse_id(const std::string& where, std::string_view text) {
   return *id;
 }
 
-void check_element(const Act& act, ElementId element, const Mesh& mesh) {
+void check_element(const Action& action, ElementId element, const Mesh& mesh) {
   if (element >= mesh.element_count()) {
-    throw Error(act.where, "there is no element " + std::to_string(element),
+    throw Error(action.where, "there is no element " + std::to_string(element),
                 "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
   }
 }
 
-/// Returns the elements that an act pins or grabs, in the given order.
-std::vector<ElementId> elements_of(const Act& act, const Mesh& mesh) {
-  if (act.layer.empty() && act.kind == Act::Kind::pin) {
-    return {act.element};
+/// Returns the elements that an action pins or grabs, in the given order.
+std::vector<ElementId> elements_of(const Action& action, const Mesh& mesh) {
+  if (action.layer.empty() && action.kind == Action::Kind::pin) {
+    return {action.element};
   }
-  if (act.layer.empty()) {
+  if (action.layer.empty()) {
     std::vector<ElementId> elements;
-    for (const auto& [first, last] : act.ranges) {
-      check_element(act, last, mesh);
+    for (const auto& [first, last] : action.ranges) {
+      check_element(action, last, mesh);
       if (elements.size() + (last - first) >= mesh.element_count()) {
-        throw Error(act.where, "it names more elements than the mesh has", "name each element once");
+        throw Error(action.where, "it names more elements than the mesh has", "name each element once");
       }
       for (ElementId element = first; element <= last; ++element) {
         elements.push_back(element);
@@ -63,30 +63,30 @@ std::vector<ElementId> elements_of(const Act& act, const Mesh& mesh) {
     }
     return elements;
   }
-  const auto pins = pins_by_name(act.where, act.layer, mesh);
+  const auto pins = pins_by_name(action.where, action.layer, mesh);
   if (!pins) {
-    throw Error(act.where, in_quotes(act.layer) + " is not an element's id",
+    throw Error(action.where, in_quotes(action.layer) + " is not an element's id",
                 "use a whole number from 0, or " + pin_names());
   }
   return *pins;
 }
 
-void check_axes(const Act& act, const Mesh& mesh) {
-  for (int k = 0; k < static_cast<int>(act.coordinates.size()); ++k) {
-    const double coordinate = act.coordinates[k];
-    const bool stays = coordinate == 0 || (act.kind == Act::Kind::move && coordinate == mesh.origin[k]);
+void check_axes(const Action& action, const Mesh& mesh) {
+  for (int k = 0; k < static_cast<int>(action.coordinates.size()); ++k) {
+    const double coordinate = action.coordinates[k];
+    const bool stays = coordinate == 0 || (action.kind == Action::Kind::move && coordinate == mesh.origin[k]);
     if (!mesh.has_axis(k) && !stays) {
       const std::string axis(1, "xyz"[k]);
-      throw Error(act.where, "the object does not extend along " + axis,
+      throw Error(action.where, "the object does not extend along " + axis,
                   "write 0 for " + axis + ", or use more dimensions with --space");
     }
   }
 }
 
-void check_link(const Act& act, const Mesh& mesh) {
-  check_element(act, act.other, mesh);
-  if (!find_link(mesh, act.element, act.other)) {
-    throw Error(act.where, "these elements are not linked", "use the ids of the two ends of a link");
+void check_link(const Action& action, const Mesh& mesh) {
+  check_element(action, action.other, mesh);
+  if (!find_link(mesh, action.element, action.other)) {
+    throw Error(action.where, "these elements are not linked", "use the ids of the two ends of a link");
   }
 }
 
@@ -125,44 +125,44 @@ std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& whe
   }
 }
 
-bool is_move(const Act& act) {
-  return act.kind == Act::Kind::move || act.kind == Act::Kind::by || act.kind == Act::Kind::rotate;
+bool is_move(const Action& action) {
+  return action.kind == Action::Kind::move || action.kind == Action::Kind::by || action.kind == Action::Kind::rotate;
 }
 
-/// Checks acts one after another, with what the acts before have pinned and grabbed.
-class ActsCheck {
+/// Checks actions one after another, with what the actions before have pinned and grabbed.
+class ActionChecker {
  public:
-  explicit ActsCheck(const Mesh& mesh) : mesh_(mesh) {}
+  explicit ActionChecker(const Mesh& mesh) : mesh_(mesh) {}
 
-  void check(const std::vector<Act>& acts) {
-    for (const Act& act : acts) {
-      check_element(act, act.element, mesh_);
-      if (act.of_handle && !is_grabbed_) {
+  void check(const std::vector<Action>& actions) {
+    for (const Action& action : actions) {
+      check_element(action, action.element, mesh_);
+      if (action.of_handle && !is_grabbed_) {
         throw Error(
-            act.where,
+            action.where,
             "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
             "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
       }
-      is_grabbed_ = act.kind == Act::Kind::grab || act.of_handle;
-      check_one(act);
+      is_grabbed_ = action.kind == Action::Kind::grab || action.of_handle;
+      check_one(action);
     }
   }
 
  private:
-  void check_one(const Act& act) {
-    switch (act.kind) {
-      case Act::Kind::cut:
-        return check_link(act, mesh_);
-      case Act::Kind::pin:
-        return pinned_.merge(as_set(elements_of(act, mesh_)));
-      case Act::Kind::grab:
-        return check_grab(act);
-      case Act::Kind::rotate:
-        return check_rotation(act);
-      case Act::Kind::move:
-      case Act::Kind::by:
-        check_axes(act, mesh_);
-        return act.of_handle ? void() : check_free(act, act.element);
+  void check_one(const Action& action) {
+    switch (action.kind) {
+      case Action::Kind::cut:
+        return check_link(action, mesh_);
+      case Action::Kind::pin:
+        return pinned_.merge(as_set(elements_of(action, mesh_)));
+      case Action::Kind::grab:
+        return check_grab(action);
+      case Action::Kind::rotate:
+        return check_rotation(action);
+      case Action::Kind::move:
+      case Action::Kind::by:
+        check_axes(action, mesh_);
+        return action.of_handle ? void() : check_free(action, action.element);
     }
   }
 
@@ -170,28 +170,28 @@ class ActsCheck {
     return {elements.begin(), elements.end()};
   }
 
-  void check_free(const Act& act, ElementId element) const {
+  void check_free(const Action& action, ElementId element) const {
     if (pinned_.contains(element)) {
-      throw Error(act.where, "element " + std::to_string(element) + " is already pinned and cannot move",
+      throw Error(action.where, "element " + std::to_string(element) + " is already pinned and cannot move",
                   "move another element, or pin it later");
     }
   }
 
-  void check_grab(const Act& act) const {
+  void check_grab(const Action& action) const {
     std::set<ElementId> grabbed;
-    for (const ElementId element : elements_of(act, mesh_)) {
-      check_free(act, element);
+    for (const ElementId element : elements_of(action, mesh_)) {
+      check_free(action, element);
       if (!grabbed.insert(element).second) {
-        throw Error(act.where, "element " + std::to_string(element) + " is named twice", "name each element once");
+        throw Error(action.where, "element " + std::to_string(element) + " is named twice", "name each element once");
       }
     }
   }
 
-  void check_rotation(const Act& act) const {
+  void check_rotation(const Action& action) const {
     try {
-      chainmail::check(act.rotation, mesh_);
+      chainmail::check(action.rotation, mesh_);
     } catch (const Error& error) {
-      throw error.at(act.where);
+      throw error.at(action.where);
     }
   }
 
@@ -213,23 +213,23 @@ class Runner {
     }
   }
 
-  void carry_out(const Act& act) {
+  void carry_out(const Action& action) {
     try {
-      if (!act.of_handle) {
+      if (!action.of_handle) {
         simulation_.apply(commands::Release{});
       }
-      apply(act);
+      apply(action);
     } catch (const Error& error) {
-      throw is_move(act) ? error.at(act.where + ": " + error.where()) : error;
+      throw is_move(action) ? error.at(action.where + ": " + error.where()) : error;
     }
   }
   Run take() { return std::move(run_); }
 
  private:
-  void apply(const Act& act);
-  Point target_of(const Act& act, const Point& start) const;
-  void move(const Act& act);
-  void move_handle(const Act& act);
+  void apply(const Action& action);
+  Point target_of(const Action& action, const Point& start) const;
+  void move(const Action& action);
+  void move_handle(const Action& action);
   void pass(const commands::Drag& drag);
 
   Simulation& simulation_;
@@ -239,42 +239,42 @@ class Runner {
   Run run_;
 };
 
-void Runner::apply(const Act& act) {
+void Runner::apply(const Action& action) {
   const Mesh& mesh = simulation_.mesh();
-  switch (act.kind) {
-    case Act::Kind::cut:
-      simulation_.apply(commands::Cut{{*find_link(mesh, act.element, act.other)}});
+  switch (action.kind) {
+    case Action::Kind::cut:
+      simulation_.apply(commands::Cut{{*find_link(mesh, action.element, action.other)}});
       break;
-    case Act::Kind::pin:
-      simulation_.apply(commands::Pin{elements_of(act, mesh)});
+    case Action::Kind::pin:
+      simulation_.apply(commands::Pin{elements_of(action, mesh)});
       break;
-    case Act::Kind::grab:
-      simulation_.apply(commands::Grab{elements_of(act, mesh)});
+    case Action::Kind::grab:
+      simulation_.apply(commands::Grab{elements_of(action, mesh)});
       handle_ = {Point::Zero(), {}, true};
       break;
-    case Act::Kind::move:
-    case Act::Kind::by:
-    case Act::Kind::rotate:
-      act.of_handle ? move_handle(act) : move(act);
+    case Action::Kind::move:
+    case Action::Kind::by:
+    case Action::Kind::rotate:
+      action.of_handle ? move_handle(action) : move(action);
       break;
   }
 }
 
-Point Runner::target_of(const Act& act, const Point& start) const {
+Point Runner::target_of(const Action& action, const Point& start) const {
   Point target = start;
   for (int i = 0; i < simulation_.mesh().space_dimension; ++i) {
     const int k = simulation_.mesh().axes[i];
-    if (k < static_cast<int>(act.coordinates.size())) {
-      target[k] = act.kind == Act::Kind::by ? start[k] + act.coordinates[k] : act.coordinates[k];
+    if (k < static_cast<int>(action.coordinates.size())) {
+      target[k] = action.kind == Action::Kind::by ? start[k] + action.coordinates[k] : action.coordinates[k];
     }
   }
   return target;
 }
 
-void Runner::move(const Act& act) {
-  const Point start = point_of(simulation_.mesh(), simulation_.body().positions(), act.element);
-  const Point target = target_of(act, start);
-  simulation_.apply(commands::Grab{act.element});
+void Runner::move(const Action& action) {
+  const Point start = point_of(simulation_.mesh(), simulation_.body().positions(), action.element);
+  const Point target = target_of(action, start);
+  simulation_.apply(commands::Grab{action.element});
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
     Point between;
     for (int k = 0; k < 3; ++k) {
@@ -287,15 +287,15 @@ void Runner::move(const Act& act) {
 }
 
 /// Moves the handle of many from where it is.
-void Runner::move_handle(const Act& act) {
+void Runner::move_handle(const Action& action) {
   const commands::Drag from = handle_;
-  const Point target = target_of(act, from.target);
+  const Point target = target_of(action, from.target);
   for (std::uint32_t step = 1; step <= schedule_.steps; ++step) {
     const double share = double(step) / schedule_.steps;
     for (int k = 0; k < 3; ++k) {
       handle_.target[k] = std::lerp(from.target[k], target[k], share);
     }
-    handle_.rotation = composed(from.rotation, {act.rotation.axis, share * act.rotation.degrees});
+    handle_.rotation = composed(from.rotation, {action.rotation.axis, share * action.rotation.degrees});
     pass(handle_);
   }
 }
@@ -351,47 +351,48 @@ Rotation parse_rotation(const std::string& where, std::string_view text) {
   return rotation;
 }
 
-Act parse_act(Act::Kind kind, const std::string& option, const std::string& text) {
-  Act act{kind, option + " " + text, 0, 0, {}, {}};
+Action parse_action(Action::Kind kind, const std::string& option, const std::string& text) {
+  Action action{kind, option + " " + text, 0, 0, {}, {}};
   const bool starts_with_digit = text.find_first_of("0123456789") == 0;
-  const bool is_cut = kind == Act::Kind::cut;
+  const bool is_cut = kind == Action::Kind::cut;
   const std::size_t mark = text.find(is_cut ? '-' : ':');
-  if (kind == Act::Kind::rotate) {
-    act.rotation = parse_rotation(act.where, text);
-    act.of_handle = true;
-  } else if ((kind == Act::Kind::pin || kind == Act::Kind::grab) && !starts_with_digit) {
-    act.layer = text;
-  } else if (kind == Act::Kind::pin) {
-    act.element = parse_id(act.where, text);
-  } else if (kind == Act::Kind::grab) {
-    act.ranges = parse_ranges(act.where, text);
-  } else if (kind == Act::Kind::by && mark == std::string::npos) {
-    act.of_handle = true;
-    act.coordinates = parse_coordinates(act.where, text);
+  if (kind == Action::Kind::rotate) {
+    action.rotation = parse_rotation(action.where, text);
+    action.of_handle = true;
+  } else if ((kind == Action::Kind::pin || kind == Action::Kind::grab) && !starts_with_digit) {
+    action.layer = text;
+  } else if (kind == Action::Kind::pin) {
+    action.element = parse_id(action.where, text);
+  } else if (kind == Action::Kind::grab) {
+    action.ranges = parse_ranges(action.where, text);
+  } else if (kind == Action::Kind::by && mark == std::string::npos) {
+    action.of_handle = true;
+    action.coordinates = parse_coordinates(action.where, text);
   } else if (mark == std::string::npos) {
-    throw Error(act.where, is_cut ? "it does not name a link" : "it does not name a target",
+    throw Error(action.where, is_cut ? "it does not name a link" : "it does not name a target",
                 is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
   } else {
-    act.element = parse_id(act.where, std::string_view(text).substr(0, mark));
+    action.element = parse_id(action.where, std::string_view(text).substr(0, mark));
     const std::string_view rest = std::string_view(text).substr(mark + 1);
-    is_cut ? void(act.other = parse_id(act.where, rest)) : void(act.coordinates = parse_coordinates(act.where, rest));
+    is_cut ? void(action.other = parse_id(action.where, rest))
+           : void(action.coordinates = parse_coordinates(action.where, rest));
   }
-  return act;
+  return action;
 }
 
-void check_acts(const std::vector<Act>& acts, const Mesh& mesh) { ActsCheck(mesh).check(acts); }
+void check_actions(const std::vector<Action>& actions, const Mesh& mesh) { ActionChecker(mesh).check(actions); }
 
-Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
+Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Action>& actions,
               const Schedule& schedule) {
   const auto drags = std::count_if(moves.begin(), moves.end(),
                                    [](const auto& one) { return std::holds_alternative<commands::Drag>(one); });
-  const auto passes = std::count_if(acts.begin(), acts.end(), is_move) * schedule.steps + drags;
+  const auto passes = std::count_if(actions.begin(), actions.end(), is_move) * schedule.steps + drags;
   Runner runner(simulation, schedule, static_cast<std::uint64_t>(passes));
   for (const chainmail::Command& command : moves) {
     runner.carry_out(command);
   }
-  for (const Act& act : acts) {
-    runner.carry_out(act);
+  for (const Action& action : actions) {
+    runner.carry_out(action);
   }
   return runner.take();
 }

@@ -11,7 +11,7 @@
 namespace chainmail::command_line {
 
 /// An action of the command line. Actions run in the given order.
-struct Act {
+struct Action {
   enum class Kind { move, by, cut, pin, grab, rotate };
 
   Kind kind = Kind::move;
@@ -29,14 +29,14 @@ struct Act {
 /// Reads `ID:X[,Y[,Z]]` for a move, the same or `X[,Y[,Z]]` for a move of what is grabbed, `A-B` for a cut, `ID` or the
 /// name of a layer for a pin, `ID,A-B,…` or the name of a layer for a grab, and `AXIS:DEGREES` for a rotation. Throws
 /// Error naming the option.
-Act parse_act(Act::Kind kind, const std::string& option, const std::string& text);
+Action parse_action(Action::Kind kind, const std::string& option, const std::string& text);
 
 /// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
 Rotation parse_rotation(const std::string& where, std::string_view text);
 
-/// Throws Error if an act does not fit the mesh or the acts before it: if the element, link or axis does not exist, or
-/// if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
-void check_acts(const std::vector<Act>& acts, const Mesh& mesh);
+/// Throws Error if an action does not fit the mesh or the actions before it: if the element, link or axis does not
+/// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
+void check_actions(const std::vector<Action>& actions, const Mesh& mesh);
 
 /// Settings that apply to each move.
 struct Schedule {
@@ -52,8 +52,8 @@ struct Run {
   std::vector<Trace> traces;
 };
 
-/// Runs the recorded moves, then the acts. Shows progress on a terminal.
-Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Act>& acts,
+/// Runs the recorded moves, then the actions. Shows progress on a terminal.
+Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Action>& actions,
               const Schedule& schedule);
 
 }  // namespace chainmail::command_line
