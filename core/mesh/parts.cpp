@@ -172,7 +172,7 @@ std::uint32_t Searches::grow() {
 Parts::Parts(const MeshPointer& mesh) : mesh_(mesh), count_(mesh->part_count) {}
 
 /// Returns the number of parts that would vanish if these links, all of which are cut, were joined again.
-std::uint32_t Parts::kept_apart(const Cuts& cuts, std::span<const LinkId> links) {
+std::uint32_t Parts::parts_separated_by(const Cuts& cuts, std::span<const LinkId> links) {
   reached_by_.resize(mesh_->element_count());
   Searches searches(*mesh_, cuts, reached_by_);
   for (const LinkId link : links) {
@@ -191,13 +191,13 @@ void Parts::cut(Cuts& cuts, std::span<const LinkId> links) {
       changed.push_back(link);
     }
   }
-  count_ += kept_apart(cuts, changed);
+  count_ += parts_separated_by(cuts, changed);
 }
 
 void Parts::uncut(Cuts& cuts, std::span<const LinkId> links) {
   std::vector<LinkId> changed;
   std::copy_if(links.begin(), links.end(), std::back_inserter(changed), [&](LinkId link) { return cuts.is_cut(link); });
-  count_ -= kept_apart(cuts, changed);
+  count_ -= parts_separated_by(cuts, changed);
   for (const LinkId link : changed) {
     cuts.uncut(link);
   }

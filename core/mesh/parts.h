@@ -31,7 +31,7 @@ class Parts {
   void uncut(Cuts& cuts, std::span<const LinkId> links);
 
  private:
-  std::uint32_t kept_apart(const Cuts& cuts, std::span<const LinkId> links);
+  std::uint32_t parts_separated_by(const Cuts& cuts, std::span<const LinkId> links);
 
   MeshPointer mesh_;
   std::uint32_t count_ = 0;
