@@ -51,7 +51,7 @@ Shown session_of(const std::filesystem::path& path) {
   Body body(session.mesh, Precision::double_precision);
   ElementBlocks all(session.mesh->element_count());
   all.insert_all();
-  body.restore(session.panels.front().placement, all);
+  body.restore(session.panels.front().positions, all);
   Shown shown = at_rest(session.mesh);
   body.copy_positions(shown.positions);
   for (const LinkId link : session.cuts) {

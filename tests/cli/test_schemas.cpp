@@ -173,7 +173,7 @@ Session turned_session() {
   Softness softness = *session.softness;
   softness.frame = RegionFrame(FrameKind::object, {0.1, 0.2, 0.3});
   session.softness = std::make_shared<const Softness>(softness);
-  session.panels[0].placement.frame = RegionFrame(FrameKind::given, softness.frame.rotation());
+  session.panels[0].positions.frame = RegionFrame(FrameKind::given, softness.frame.rotation());
   session.moves.insert(session.moves.begin(), commands::SetSoftness{session.softness});
   session.lesson.title = "A lesson";
   session.lesson.steps = {

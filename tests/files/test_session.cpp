@@ -50,7 +50,7 @@ class SessionTest : public QObject {
 
 /// Puts a number into the positions of the first panel.
 static void spoil(Session& session, double number) {
-  auto& block = session.panels[0].placement.blocks[0];
+  auto& block = session.panels[0].positions.blocks[0];
   auto held = *block;
   held[0] = number;
   block = std::make_shared<const std::vector<double>>(held);
@@ -84,7 +84,7 @@ void SessionTest::compare(const Session& again, const Session& session) {
   for (std::size_t i = 0; i < again.panels.size(); ++i) {
     const auto &panel = again.panels[i], &one = session.panels[i];
     QVERIFY(panel.algorithm == one.algorithm && panel.precision == one.precision);
-    const auto positions = runs_of(panel.placement, mesh), expected = runs_of(one.placement, mesh);
+    const auto positions = runs_of(panel.positions, mesh), expected = runs_of(one.positions, mesh);
     QVERIFY(positions == expected && same_bits(positions.held, expected.held));
   }
   QCOMPARE(again.moves.size(), session.moves.size());
@@ -109,13 +109,13 @@ void SessionTest::a_frame_comes_back() {
   Softness softness = *session.softness;
   softness.frame = frame;
   session.softness = std::make_shared<const Softness>(softness);
-  session.panels[0].placement.frame = RegionFrame(FrameKind::given, frame.rotation());
+  session.panels[0].positions.frame = RegionFrame(FrameKind::given, frame.rotation());
   session.moves.insert(session.moves.begin(), commands::SetSoftness{session.softness});
   const std::string text = session_text(session);
   const Session again = parse_session(text, "a.chainmail");
   compare(again, session);
   QVERIFY(*std::get<commands::SetSoftness>(again.moves[0]).softness == softness);
-  QVERIFY(again.panels[1].placement.frame == RegionFrame());
+  QVERIFY(again.panels[1].positions.frame == RegionFrame());
   QCOMPARE(session_text(again), text);
 }
 
@@ -192,14 +192,14 @@ void SessionTest::what_was_written_once_opens() {
   QVERIFY((session.relaxation == commands::SetRelaxation{false, 0.5, RelaxationScheme::link}));
   QCOMPARE(session.panels.size(), std::size_t{2});
   QVERIFY(session.panels[0].algorithm == Algorithm::exact && session.panels[1].algorithm == Algorithm::natural_queue);
-  const auto one = runs_of(session.panels[0].placement, *session.mesh);
+  const auto one = runs_of(session.panels[0].positions, *session.mesh);
   QVERIFY(one.from_rest);
   QCOMPARE(one.held, (std::vector<double>{0, 0, 0, 0, 0.1F, -0.0, 1.0F / 3, -2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
   QVERIFY(std::signbit(one.held[5]));
   auto expected = session.mesh->rest;
   expected[16] = 2.5;
   expected[17] = 2.25;
-  const auto other = runs_of(session.panels[1].placement, *session.mesh);
+  const auto other = runs_of(session.panels[1].positions, *session.mesh);
   QVERIFY(!other.from_rest && other.held == expected);
   QCOMPARE(session.ui, std::string(R"({"colour":"plain"})"));
 }
@@ -224,7 +224,7 @@ void SessionTest::moves_of_version_1_are_isotropic() {
 void SessionTest::the_file_is_json_as_it_is_documented() {
   Session session = session_on(made(MeshKind::grid, {3, 3, 1}));
   session.panels.resize(1);
-  session.panels[0].placement = snapshot_of({true, {0, 2, 5, 9}, {0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
+  session.panels[0].positions = snapshot_of({true, {0, 2, 5, 9}, {0, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
                                             *session.mesh, Precision::single_precision);
   const auto document = QJsonDocument::fromJson(QByteArray::fromStdString(session_text(session)));
   QCOMPARE(document["format"].toString(), QStringLiteral("chainmail session"));
@@ -268,7 +268,7 @@ void SessionTest::a_split_object_comes_back_with_its_moves() {
     if (done == 2) {  // the split has been undone
       session.mesh = mesh;
       session.pins = session.cuts = {};
-      session.panels[0].placement = {};
+      session.panels[0].positions = {};
     }
     const Session again = parse_session(session_text(session), std::filesystem::path("s.chainmail"));
     QCOMPARE(session_text(again), session_text(session));
@@ -285,7 +285,7 @@ void SessionTest::a_split_object_comes_back_with_its_moves() {
 void SessionTest::moves_without_end_are_left_out() {
   Session session = session_on(made(MeshKind::grid, {40, 40, 1}));
   session.panels.resize(1);
-  session.panels[0].placement = {};
+  session.panels[0].positions = {};
   Softness softness;
   for (LinkId link = 0; link < 3000; ++link) {
     softness.links.set(link, {1, 1, 0});

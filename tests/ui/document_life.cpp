@@ -119,7 +119,7 @@ std::string text_of(Session session, std::span<const Command> moves, std::size_t
   session.moves.assign(moves.begin(), moves.end());
   std::erase_if(session.moves, releases);
   for (Session::Panel& panel : session.panels) {
-    panel.placement = {};
+    panel.positions = {};
   }
   std::ostringstream text;
   write_session(text, session);

@@ -230,7 +230,7 @@ class Picking : public QObject {
     parts.rest = {Point(0, 5, 1), Point(2, 5, 3)};
     parts.links = {{0, 1}};
     const auto mesh = build_mesh(std::move(parts));
-    const QVector3D second = placement(*mesh).map(QVector3D(2, 3, 0));
+    const QVector3D second = meshToWorld(*mesh).map(QVector3D(2, 3, 0));
     QCOMPARE(second, QVector3D(2, 5, 3));
   }
 };

@@ -44,8 +44,8 @@ inline void compare(const Session& again, const Session& before) {
   QCOMPARE(again.panels.size(), before.panels.size());
   for (std::size_t panel = 0; panel < again.panels.size(); ++panel) {
     QVERIFY(again.panels[panel].algorithm == before.panels[panel].algorithm);
-    QVERIFY(!again.panels[panel].placement.is_at_rest());
-    QVERIFY(again.panels[panel].placement == before.panels[panel].placement);
+    QVERIFY(!again.panels[panel].positions.is_at_rest());
+    QVERIFY(again.panels[panel].positions == before.panels[panel].positions);
   }
 }
 

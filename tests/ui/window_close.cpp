@@ -229,7 +229,7 @@ class WindowClose : public QObject {
     QVERIFY(unsaved_work::isClosed(files.first()));
     const Session session = read_session(kept.filePath(files.first()).toStdString());
     QCOMPARE(session.mesh->element_count(), 22'500U);
-    QVERIFY(!session.panels.front().placement.is_at_rest());  // the drag is stored
+    QVERIFY(!session.panels.front().positions.is_at_rest());  // the drag is stored
     QVERIFY(QFile::remove(kept.filePath(files.first())));
   }
 

@@ -72,7 +72,7 @@ std::vector<ElementId> pinsOnDisk() {
 
 bool hasPositionsOnDisk() {
   const Session session = unsaved_work::read(QDir(unsaved_work::folder()).filePath(autosaved().first()));
-  return !session.panels.front().placement.is_at_rest();
+  return !session.panels.front().positions.is_at_rest();
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ bool hasWork(const QString& folder) {
     try {
       const Session session = unsaved_work::read(QDir(unsaved_work::folder()).filePath(name));
       return session.mesh->element_count() == width * width && session.pins == std::vector<ElementId>{pinned} &&
-             session.cuts.size() >= cuts && (!session.panels.front().placement.is_at_rest() || session.moves_done > 0);
+             session.cuts.size() >= cuts && (!session.panels.front().positions.is_at_rest() || session.moves_done > 0);
     } catch (const Error&) {
       return false;  // just being replaced
     }

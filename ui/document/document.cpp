@@ -73,7 +73,7 @@ void requireMemoryFor(const Mesh& mesh) {
 bool startsFromRest(const Session& session) {
   return session.moves_done == 0 && session.cuts.empty() && session.pins.empty() && *session.softness == Softness() &&
          !session.relaxation.on &&
-         std::ranges::all_of(session.panels, [](const auto& panel) { return panel.placement.is_at_rest(); });
+         std::ranges::all_of(session.panels, [](const auto& panel) { return panel.positions.is_at_rest(); });
 }
 
 /// True for a change of the object. A handle must be released before it, or the change may be refused.
@@ -585,7 +585,7 @@ void Document::placeSession(const std::shared_ptr<const Session>& session) {
     const auto& from = std::size_t(panel) < saved.size() ? saved[std::size_t(panel)] : saved.front();
     // The pointer shares the session instead of copying its numbers.
     log_->post_to(*solvers_[std::size_t(panel)],
-                  commands::SetPositions{std::shared_ptr<const Snapshot>(session, &from.placement)});
+                  commands::SetPositions{std::shared_ptr<const Snapshot>(session, &from.positions)});
   }
 }
 

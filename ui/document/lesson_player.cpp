@@ -59,7 +59,7 @@ std::size_t LessonPlayer::stepAt(std::size_t position) const {
 }
 
 void LessonPlayer::start() {
-  const auto atRest = [](const auto& panel) { return panel.placement.is_at_rest(); };
+  const auto atRest = [](const auto& panel) { return panel.positions.is_at_rest(); };
   if (isOpen() && session_->moves_done == 0 && std::ranges::all_of(session_->panels, atRest)) {
     show(0, true);
   }

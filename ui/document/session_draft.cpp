@@ -48,7 +48,7 @@ Session SessionDraft::finished(const Progress& progress) const {
       progress.report(0);
     }
     try {
-      result.panels[panel].placement = snapshots_[panel].get();
+      result.panels[panel].positions = snapshots_[panel].get();
     } catch (const std::future_error&) {
       if (panel == 0) {
         throw Cancelled();  // a session without panels must not overwrite a good one

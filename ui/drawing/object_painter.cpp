@@ -202,7 +202,7 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
   const std::array variant{shading, colouredBy};
   program_ = &programs_[std::size_t(std::find(variants.begin(), variants.end(), variant) - variants.begin())];
   program_->bind();
-  program_->setUniformValue("to_view", scene.toView * placement(*mesh_));
+  program_->setUniformValue("to_view", scene.toView * meshToWorld(*mesh_));
   program_->setUniformValue("to_clip", scene.toClip);
   program_->setUniformValue("colour", rgbaOf(colour));
   program_->setUniformValue("background", rgbaOf(scene.background));
@@ -411,7 +411,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   if (spatial) {
     useNormals();
   } else {
-    const QMatrix4x4 seen = scene.toView * placement(*mesh_);
+    const QMatrix4x4 seen = scene.toView * meshToWorld(*mesh_);
     const bool mirrored = seen(0, 0) * seen(1, 1) < seen(0, 1) * seen(1, 0);
     program_->setUniformValue("front_sign", mirrored ? -frontSign_ : frontSign_);
   }

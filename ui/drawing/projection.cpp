@@ -16,7 +16,7 @@ constexpr double viewEdge = 1.05;
 
 }  // namespace
 
-QMatrix4x4 placement(const Mesh& mesh) {
+QMatrix4x4 meshToWorld(const Mesh& mesh) {
   QMatrix4x4 matrix;
   matrix.fill(0);
   matrix(3, 3) = 1;
@@ -56,7 +56,7 @@ bool ViewBounds::meets(const QLineF& segment) const {
 }
 
 Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix4x4& toClip, QSizeF view)
-    : matrix_(toClip * toView * placement(mesh)), dimension_(mesh.space_dimension), view_(view) {
+    : matrix_(toClip * toView * meshToWorld(mesh)), dimension_(mesh.space_dimension), view_(view) {
   // Pixels per mesh unit along the vertical of the view, at distance 1 in perspective.
   pixelsPerDepth_ = float(toClip(1, 1) * view.height() / 2);
   const bool parallel = toClip(3, 3) != 0;

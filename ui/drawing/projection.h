@@ -11,7 +11,7 @@ namespace chainmail {
 
 /// Returns the matrix that maps the coordinates on the axes of the mesh (1 to 3) to all three coordinates of space. The
 /// other coordinates are constant.
-QMatrix4x4 placement(const Mesh& mesh);
+QMatrix4x4 meshToWorld(const Mesh& mesh);
 
 /// A rectangle in a view (logical pixels); empty by default.
 struct ViewBounds {

@@ -63,7 +63,7 @@ VectorPainter::~VectorPainter() { flush(); }
 void VectorPainter::setFrame(const Frame& frame, const Cuts& cuts) {
   frame_ = &frame;
   parts_.setFrame(frame, cuts);
-  placement_ = placement(*frame.mesh);
+  meshToWorld_ = meshToWorld(*frame.mesh);
   frontSign_ = frame.mesh->space_dimension == 2 ? frontSign(*frame.mesh) : 0;
 }
 
@@ -71,7 +71,7 @@ QVector3D VectorPainter::inSpace(ElementId element) const {
   std::array<float, 3> carried{};
   const int dimension = frame_->mesh->space_dimension;
   std::copy_n(frame_->positions.data() + std::size_t{element} * dimension, dimension, carried.begin());
-  return placement_.map(QVector3D(carried[0], carried[1], carried[2]));
+  return meshToWorld_.map(QVector3D(carried[0], carried[1], carried[2]));
 }
 
 // Pieces: projected, faded and clipped marks, lines and faces
@@ -215,7 +215,7 @@ QColor VectorPainter::folded(const Scene& scene, const Paint& paint, const std::
                              QColor face) const {
   const QVector3D a = scene.toView.map(corners[0]), b = scene.toView.map(corners[1]), c = scene.toView.map(corners[2]);
   const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-  const QMatrix4x4 seen = scene.toView * placement_;
+  const QMatrix4x4 seen = scene.toView * meshToWorld_;
   const float sign = seen(0, 0) * seen(1, 1) < seen(0, 1) * seen(1, 0) ? -frontSign_ : frontSign_;
   if (area * sign < 0) {
     const float share = facesByValues(frame_->mesh.get(), paint) || showsPicture(*frame_->mesh) ? 0.75F : 0.55F;

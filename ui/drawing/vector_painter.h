@@ -80,7 +80,7 @@ class VectorPainter : public ObjectDrawing {
   QPainter& painter_;
   DrawnParts parts_;
   const Frame* frame_ = nullptr;
-  QMatrix4x4 placement_;
+  QMatrix4x4 meshToWorld_;
   std::vector<ElementId> selected_;
   SurfaceNormals normals_;
   Lighting lighting_;

@@ -213,7 +213,7 @@ std::vector<QVector3D> View::outline(bool atRest) const {
     return restOutline(mesh);
   }
   std::vector<QVector3D> points;
-  const QMatrix4x4 inSpace = placement(mesh);
+  const QMatrix4x4 inSpace = meshToWorld(mesh);
   const auto add = [&](const float* carried) {
     QVector3D at;
     std::copy_n(carried, mesh.space_dimension, &at[0]);

@@ -24,9 +24,9 @@ namespace chainmail {
 struct Session {
   struct Panel {
     Algorithm algorithm = Algorithm::natural_queue;
-    /// Precision of the coordinates in `placement`. In single precision they are floats.
+    /// Precision of the coordinates in `positions`. In single precision they are floats.
     Precision precision = Precision::single_precision;
-    Snapshot placement;
+    Snapshot positions;
   };
 
   std::string name;  // name of the object, as in titles; a file has its first limits::name_bytes bytes

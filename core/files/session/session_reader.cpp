@@ -41,7 +41,7 @@ class SessionReader {
   void take_moves(const Progress& progress);
   void take_lesson();
   Session::Panel panel(const Json& object);
-  Snapshot placement(const Json& object, Precision precision) const;
+  Snapshot positions(const Json& object, Precision precision) const;
 
   const std::filesystem::path& path_;
   std::string file_;
@@ -192,7 +192,7 @@ void SessionReader::take_elastic() {
   result_.elastic = options;
 }
 
-Snapshot SessionReader::placement(const Json& object, Precision precision) const {
+Snapshot SessionReader::positions(const Json& object, Precision precision) const {
   const RegionFrame frame = object.contains("frame")
                                 ? RegionFrame(FrameKind::given, fields_.rotation_vector(object, "frame"))
                                 : RegionFrame();
@@ -218,7 +218,7 @@ Session::Panel SessionReader::panel(const Json& object) {
   const auto chosen = precision == "float" ? Precision::single_precision : Precision::double_precision;
   try {
     check(*algorithm, *result_.mesh);
-    return {*algorithm, chosen, placement(object, chosen)};
+    return {*algorithm, chosen, positions(object, chosen)};
   } catch (const Error& error) {
     const bool ours = error.where() == fields_.where();
     throw ours ? error : error.at(fields_.where() + ": " + error.where());

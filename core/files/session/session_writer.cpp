@@ -237,20 +237,20 @@ void SessionWriter::write_state() {
 }
 
 void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {
-  const PositionRuns placement = runs_of(panel.placement, mesh_);
+  const PositionRuns runs = runs_of(panel.positions, mesh_);
   const bool single = panel.precision == Precision::single_precision;
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
-       << "\", \"from_rest\": " << std::string_view(placement.from_rest ? "true" : "false");
-  if (placement.frame.is_turned()) {
-    const Point& turn = placement.frame.rotation();
+       << "\", \"from_rest\": " << std::string_view(runs.from_rest ? "true" : "false");
+  if (runs.frame.is_turned()) {
+    const Point& turn = runs.frame.rotation();
     out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
     out_ << ", " << digits_(turn.y(), Precision::double_precision);
     out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";
   }
-  write_ids("runs", placement.runs);
-  write_array("held", placement.held.size(), progress,
-              [&](std::size_t i) { out_ << digits_(placement.held[i], panel.precision); });
+  write_ids("runs", runs.runs);
+  write_array("held", runs.held.size(), progress,
+              [&](std::size_t i) { out_ << digits_(runs.held[i], panel.precision); });
   out_ << "}";
 }
 

@@ -22,8 +22,8 @@ class SnapshotTest : public QObject {
   void a_solver_is_asked_in_turn();
 
  private:
-  static Command place(Snapshot placement) {
-    return commands::SetPositions{std::make_shared<const Snapshot>(std::move(placement))};
+  static Command place(Snapshot snapshot) {
+    return commands::SetPositions{std::make_shared<const Snapshot>(std::move(snapshot))};
   }
   static Simulation dragged(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
     Simulation simulation(mesh, algorithm, precision);
@@ -107,10 +107,10 @@ void SnapshotTest::what_does_not_fit_is_refused() {
   const auto block = [](std::size_t count, double value) {
     return std::make_shared<const std::vector<double>>(count, value);
   };
-  for (const Snapshot& placement :
+  for (const Snapshot& snapshot :
        {Snapshot{false, {block(31, 0)}}, Snapshot{false, {block(33, 0)}}, Snapshot{false, {block(32, 0), nullptr}},
         Snapshot{false, {block(32, 1e38)}}, Snapshot{false, {block(32, std::nan(""))}}}) {
-    QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(placement)));
+    QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, place(snapshot)));
     QVERIFY(SavedState(simulation) == before);
   }
 }

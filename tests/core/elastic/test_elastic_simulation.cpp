@@ -138,10 +138,10 @@ void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
   for (const ElementId next : {ElementId{24}, ElementId{44}}) {
     Bar bar(Algorithm::free_form), fresh(Algorithm::free_form);
     bar.drag(tip, Point(4.2, 0.3, 0));
-    const auto placement = std::make_shared<const Snapshot>(bar.snapshot());
+    const auto snapshot = std::make_shared<const Snapshot>(bar.snapshot());
     bar.drag(44, Point(6, 4, 1));
     for (Bar* one : {&bar, &fresh}) {
-      one->apply(commands::SetPositions{placement});
+      one->apply(commands::SetPositions{snapshot});
       one->drag(next, Point(5, 1, 2));
     }
     QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-9);

@@ -317,10 +317,10 @@ void SolverThreadTest::abandoned_it_answers_for_the_object_as_it_is() {
   for (int i = 0; i < 100'000; ++i) {
     solver.post(commands::Drag{Point(i % 2 == 0 ? -900 : 900, 0, 0)});
   }
-  std::promise<Snapshot> placement;
-  solver.ask([&](const Simulation& simulation) { placement.set_value(simulation.snapshot()); });
+  std::promise<Snapshot> snapshot;
+  solver.ask([&](const Simulation& simulation) { snapshot.set_value(simulation.snapshot()); });
   solver.abandon();
-  auto answer = placement.get_future();
+  auto answer = snapshot.get_future();
   QVERIFY(answer.wait_for(30s) == std::future_status::ready);
   QVERIFY(!answer.get().is_at_rest());  // from the drag before the sweeps
   QVERIFY(wait_until([&] { return solver.idle(); }));
