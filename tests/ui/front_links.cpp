@@ -79,8 +79,8 @@ class FrontLinks : public QObject {
     std::vector<LinkId> near;
     for (const LinkId link : scene.crossedHere()) {
       const auto [a, b] = scene.frame.mesh->links[link];
-      if (projection.depth(plain::placeOf(scene.frame, projection, a)) < middle &&
-          projection.depth(plain::placeOf(scene.frame, projection, b)) < middle) {
+      if (projection.depth(plain::viewPosition(scene.frame, projection, a)) < middle &&
+          projection.depth(plain::viewPosition(scene.frame, projection, b)) < middle) {
         near.push_back(link);  // by depth only, because the stroke ends well inside the outline
       }
     }
@@ -111,7 +111,7 @@ class FrontLinks : public QObject {
     for (const auto& face : scene.frame.mesh->triangles) {
       std::array<QPointF, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto place = plain::placeOf(scene.frame, scene.projection(), face[k]);
+        const auto place = plain::viewPosition(scene.frame, scene.projection(), face[k]);
         corners[k] = {place.x, place.y};
       }
       const QPointF inside = 0.6 * corners[0] + 0.2 * corners[1] + 0.2 * corners[2];

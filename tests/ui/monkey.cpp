@@ -74,7 +74,7 @@ void Monkey::stroke() {
   const auto element = ElementId(below(bench_.document().mesh()->element_count()));
   const auto held = once(4) ? Qt::ShiftModifier : once(8) ? Qt::ControlModifier : Qt::NoModifier;
   say(QStringLiteral("stroke in %1 from element %2").arg(view.objectName()).arg(element));
-  send(view, QEvent::MouseButtonPress, once(6) ? anywhere(view) : view.placeOf(element), Qt::LeftButton, held);
+  send(view, QEvent::MouseButtonPress, once(6) ? anywhere(view) : view.viewPosition(element), Qt::LeftButton, held);
   const QPointer<View> still = &view;  // a session that opens meanwhile may have fewer panels
   for (std::size_t i = below(6); i > 0 && still; --i) {
     send(view, QEvent::MouseMove, anywhere(view), Qt::LeftButton, held);

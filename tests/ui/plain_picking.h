@@ -9,7 +9,7 @@
 /// results.
 namespace chainmail::plain {
 
-inline Projection::Place placeOf(const Frame& frame, const Projection& projection, ElementId e) {
+inline Projection::Place viewPosition(const Frame& frame, const Projection& projection, ElementId e) {
   return projection(frame.positions.data() + std::size_t{e} * frame.mesh->space_dimension);
 }
 
@@ -18,7 +18,7 @@ inline std::optional<ElementId> nearestElement(const Frame& frame, const Project
   std::optional<ElementId> best;
   float bestScore = 0;
   for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
-    const auto at = placeOf(frame, projection, e);
+    const auto at = viewPosition(frame, projection, e);
     const float dx = at.x - float(place.x()), dy = at.y - float(place.y());
     if (!(dx * dx + dy * dy <= float(reach * reach)) || !at.visible()) {
       continue;
@@ -35,7 +35,7 @@ inline std::optional<ElementId> nearestElement(const Frame& frame, const Project
 inline std::vector<ElementId> elementsIn(const Frame& frame, const Projection& projection, const QRectF& rectangle) {
   std::vector<ElementId> found;
   for (ElementId e = 0; e < frame.mesh->element_count(); ++e) {
-    const auto at = placeOf(frame, projection, e);
+    const auto at = viewPosition(frame, projection, e);
     if (at.visible() && rectangle.contains(QPointF(at.x, at.y))) {
       found.push_back(e);
     }
@@ -49,8 +49,8 @@ inline std::vector<LinkId> crossedLinks(const Frame& frame, const Cuts& cuts, co
                                         QLineF stroke) {
   std::vector<LinkId> crossed;
   for (LinkId link = 0; link < frame.mesh->link_count(); ++link) {
-    const auto a = placeOf(frame, projection, frame.mesh->links[link][0]);
-    const auto b = placeOf(frame, projection, frame.mesh->links[link][1]);
+    const auto a = viewPosition(frame, projection, frame.mesh->links[link][0]);
+    const auto b = viewPosition(frame, projection, frame.mesh->links[link][1]);
     if (a.visible() && b.visible() && !cuts.is_cut(link) &&
         stroke.intersects(QLineF(a.x, a.y, b.x, b.y)) == QLineF::BoundedIntersection) {
       crossed.push_back(link);

@@ -19,7 +19,7 @@ struct Scene {
   }
   Projection projection() const { return {*frame.mesh, camera.toView(), camera.toClip(view), view}; }
   QPointF place(ElementId e) const {
-    const auto at = plain::placeOf(frame, projection(), e);
+    const auto at = plain::viewPosition(frame, projection(), e);
     return {at.x, at.y};
   }
 

@@ -130,7 +130,7 @@ struct Workbench {
     });
     return settings.get_future().get();
   }
-  QPoint place(int panel, ElementId element) { return view(panel).placeOf(element).toPoint(); }
+  QPoint place(int panel, ElementId element) { return view(panel).viewPosition(element).toPoint(); }
 
   /// Moves the mouse with the left button pressed, in small steps like a user; `release` ends the stroke.
   void stroke(int panel, const QList<QPoint>& places, bool release = true, Qt::KeyboardModifiers modifiers = {}) {

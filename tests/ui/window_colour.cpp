@@ -20,7 +20,7 @@ void colourBy(Workbench& bench, const char* name) {
 }
 
 QPointF middleOf(Workbench& bench, int panel, ElementId a, ElementId b) {
-  return (bench.view(panel).placeOf(a) + bench.view(panel).placeOf(b)) / 2;
+  return (bench.view(panel).viewPosition(a) + bench.view(panel).viewPosition(b)) / 2;
 }
 
 QString shown(double value) { return QLocale().toString(value, 'g', 3); }

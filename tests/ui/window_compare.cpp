@@ -29,18 +29,18 @@ void hover(Workbench& bench, int panel, ElementId element) {
 
 /// Returns the distance of the colour at an element from the colour of the mark under the cursor.
 int fromMark(Workbench& bench, int panel, ElementId element) {
-  return bench.distanceFromColour(panel, bench.view(panel).placeOf(element), colours::marked);
+  return bench.distanceFromColour(panel, bench.view(panel).viewPosition(element), colours::marked);
 }
 
 QPointF middleOf(Workbench& bench, int panel, LinkId link) {
   const auto& ends = bench.document().mesh()->links[link];
-  return (bench.view(panel).placeOf(ends[0]) + bench.view(panel).placeOf(ends[1])) / 2;
+  return (bench.view(panel).viewPosition(ends[0]) + bench.view(panel).viewPosition(ends[1])) / 2;
 }
 
 /// Returns the smallest distance from a colour along a link, because other links may cover parts of it.
 int alongFromColour(Workbench& bench, int panel, LinkId link, QColor colour) {
   const auto& ends = bench.document().mesh()->links[link];
-  const QPointF from = bench.view(panel).placeOf(ends[0]), way = bench.view(panel).placeOf(ends[1]) - from;
+  const QPointF from = bench.view(panel).viewPosition(ends[0]), way = bench.view(panel).viewPosition(ends[1]) - from;
   int nearest = 255;
   for (const double share : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
     nearest = std::min(nearest, bench.distanceFromColour(panel, from + share * way, colour));

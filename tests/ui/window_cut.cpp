@@ -109,7 +109,7 @@ class WindowCut : public QObject {
     };
     const QImage before = picture();
     dragBy(4);
-    const QPointF at = view.placeOf(32'500);
+    const QPointF at = view.viewPosition(32'500);
     bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
     bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
     bench.document().undoStack().undo();

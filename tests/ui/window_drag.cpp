@@ -172,7 +172,7 @@ class WindowDrag : public QObject {
       QApplication::sendEvent(&bench.view(0), &event);
     };
     const auto link = [&] {
-      return bench.view(0).placeOf(ElementId(32)).x() - bench.view(0).placeOf(ElementId(31)).x();
+      return bench.view(0).viewPosition(ElementId(32)).x() - bench.view(0).viewPosition(ElementId(31)).x();
     };
     const double before = link();
     const QPoint under = bench.place(0, 31);

@@ -126,10 +126,10 @@ class WindowExact : public QObject {
     bench.trigger(qPrintable(action));
     const std::array strides{1U, 4U, 16U};
     for (int p = 0; p < 2; ++p) {
-      const QPointF at = bench.view(p).placeOf(21);
+      const QPointF at = bench.view(p).viewPosition(21);
       // With parallel rays, a farther element on the line of sight appears at the same position.
-      QVERIFY((bench.view(p).placeOf(21 + strides[std::size_t(deep)]) - at).manhattanLength() < 0.1);
-      const QPointF beside = bench.view(p).placeOf(21 + strides[std::size_t(across)]) - at;
+      QVERIFY((bench.view(p).viewPosition(21 + strides[std::size_t(deep)]) - at).manhattanLength() < 0.1);
+      const QPointF beside = bench.view(p).viewPosition(21 + strides[std::size_t(across)]) - at;
       QVERIFY(beside.x() * sign > 20);
       QVERIFY(std::abs(beside.y()) < 0.1);
     }
@@ -139,10 +139,10 @@ class WindowExact : public QObject {
     Workbench bench(block());
     bench.trigger("parallelRays");
     bench.trigger("viewFront");
-    const QPointF at = bench.view(0).placeOf(5);  // 21, 37 and 53 are at the same position, nearer to the viewer
+    const QPointF at = bench.view(0).viewPosition(5);  // 21, 37 and 53 are at the same position, nearer to the viewer
     QCOMPARE(bench.view(0).elementAt(at), std::optional<ElementId>(53));
     bench.trigger("viewBack");
-    QCOMPARE(bench.view(0).elementAt(bench.view(0).placeOf(5)), std::optional<ElementId>(5));
+    QCOMPARE(bench.view(0).elementAt(bench.view(0).viewPosition(5)), std::optional<ElementId>(5));
   }
 
   void aPlaneObjectHasNoOtherSides() {
@@ -162,7 +162,7 @@ class WindowExact : public QObject {
       const QPointF middleOfView(bench.view(0).width() / 2.0, bench.view(0).height() / 2.0);
       for (int p = 0; p < 2; ++p) {
         // The cameras are linked.
-        const QPointF off = bench.view(p).placeOf(element) - middleOfView;
+        const QPointF off = bench.view(p).viewPosition(element) - middleOfView;
         QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
       }
       QVERIFY(bench.document().held().empty());
@@ -192,7 +192,7 @@ class WindowExact : public QObject {
     bench.click(0, 31);
     QVERIFY2(readout(bench).contains(QStringLiteral("From element 27 to 31, at rest 4")), qPrintable(readout(bench)));
     QVERIFY(readout(bench).contains(QStringLiteral("(× 1.000; dx 4, dy 0)")));
-    const QPointF along = (bench.view(1).placeOf(28) + bench.view(1).placeOf(29)) / 2;
+    const QPointF along = (bench.view(1).viewPosition(28) + bench.view(1).viewPosition(29)) / 2;
     QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, also in the other panel
 
     bench.trigger("toolDrag");

@@ -74,7 +74,8 @@ QString readout(Workbench& bench) { return bench.find<QLabel>("readout")->text()
 
 /// Length of a link at rest in a view (pixels).
 double linkPixels(Workbench& bench, int panel) {
-  return std::abs(bench.view(panel).placeOf(ElementId(32)).x() - bench.view(panel).placeOf(ElementId(31)).x());
+  return std::abs(bench.view(panel).viewPosition(ElementId(32)).x() -
+                  bench.view(panel).viewPosition(ElementId(31)).x());
 }
 
 void wheel(View& view, QPointF at, int angle) {
@@ -231,9 +232,10 @@ class WindowHandle : public QObject {
     test::add_triangle(parts, 0, 2, 3);
     Workbench bench(build_mesh(std::move(parts)));
     View& view = bench.view(0);
-    const QPointF inside = 0.2 * view.placeOf(ElementId(0)) + 0.1 * view.placeOf(1) + 0.7 * view.placeOf(2);
+    const QPointF inside =
+        0.2 * view.viewPosition(ElementId(0)) + 0.1 * view.viewPosition(1) + 0.7 * view.viewPosition(2);
     for (const ElementId corner : {0, 1, 2}) {
-      QVERIFY(QLineF(inside, view.placeOf(corner)).length() > 40);
+      QVERIFY(QLineF(inside, view.viewPosition(corner)).length() > 40);
     }
     pointAt(bench, 0, inside);
     QCOMPARE(bench.document().highlight().element, std::optional<ElementId>(2));
@@ -318,7 +320,7 @@ class WindowHandle : public QObject {
     bench.document().select(square);
     bench.settle();
     const double link = linkPixels(bench, 0);
-    const QPointF pivot = bench.view(0).placeOf(squareMiddle);
+    const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
     const QPoint from = bench.place(0, 22);
     View& view = bench.view(0);
     QTest::mousePress(&view, Qt::LeftButton, {}, from);
@@ -326,7 +328,7 @@ class WindowHandle : public QObject {
     bench.settle();
     compareTurned(bench, before, square, 30, Point::Zero(), 0.01);
     // Without Shift, it moves on from there.
-    const QPointF at = view.placeOf(ElementId(22));
+    const QPointF at = view.viewPosition(ElementId(22));
     moveTo(bench, 0, at, {});
     moveTo(bench, 0, at + QPointF(link / 2, -link), {});
     bench.settle();
@@ -335,7 +337,7 @@ class WindowHandle : public QObject {
     circle(bench, 0, pivot + QPointF(link / 2, -link), at + QPointF(link / 2, -link), -50, Qt::ShiftModifier);
     bench.settle();
     compareTurned(bench, before, square, -20, Point(0.5, 1, 0), 0.02);
-    const QPointF then = view.placeOf(ElementId(22));
+    const QPointF then = view.viewPosition(ElementId(22));
     moveTo(bench, 0, then, {});
     moveTo(bench, 0, then + QPointF(link, 0), {});
     bench.settle();
@@ -376,9 +378,9 @@ class WindowHandle : public QObject {
     bench.document().select(elements);
     bench.settle();
     std::vector<QPointF> places;
-    const QPointF pivot = view.placeOf(meanOf(positions(bench, 0), elements));
+    const QPointF pivot = view.viewPosition(meanOf(positions(bench, 0), elements));
     for (const ElementId e : elements) {
-      places.push_back(view.placeOf(e));
+      places.push_back(view.viewPosition(e));
     }
     const double arm = QLineF(pivot, places.back()).length();
     QVERIFY(arm > 15);
@@ -389,7 +391,7 @@ class WindowHandle : public QObject {
     for (std::size_t i = 0; i < elements.size(); ++i) {
       QLineF expected(pivot, places[i]);
       expected.setAngle(expected.angle() + 40);  // counterclockwise on the screen
-      const QPointF now = view.placeOf(elements[i]);
+      const QPointF now = view.viewPosition(elements[i]);
       QVERIFY2(
           QLineF(now, expected.p2()).length() < 2.5,
           qPrintable(
@@ -404,11 +406,12 @@ class WindowHandle : public QObject {
     bench.document().select(square);
     bench.settle();
     View& view = bench.view(1);
-    const QPointF pivot = view.placeOf(squareMiddle);
+    const QPointF pivot = view.viewPosition(squareMiddle);
     const double radius = std::max(40.0, std::sqrt(2.0) * linkPixels(bench, 1) + 16);
     const QPointF at = pivot + QPointF(radius * 0.6, -radius * 0.8);
     QVERIFY(bench.distanceFromColour(1, at, colours::selected) < 60);
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(squareMiddle) + (at - pivot), colours::selected) < 60);
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(squareMiddle) + (at - pivot), colours::selected) <
+            60);
     pointAt(bench, 1, at.toPoint());
     QTRY_COMPARE(view.cursor().shape(), Qt::OpenHandCursor);
     QVERIFY(!bench.document().highlight().element);
@@ -447,7 +450,7 @@ class WindowHandle : public QObject {
     bench.settle();
     View& view = bench.view(0);
     for (double radius = 20; radius < 300; radius += 2) {
-      const QPointF at = view.placeOf(ElementId(pinned.empty() ? 4 : 3)) + QPointF(0, radius);
+      const QPointF at = view.viewPosition(ElementId(pinned.empty() ? 4 : 3)) + QPointF(0, radius);
       if (view.rect().contains(at.toPoint()) && !view.elementAt(at)) {
         QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
         QVERIFY(held(bench).empty());
@@ -473,7 +476,7 @@ class WindowHandle : public QObject {
     const auto before = allPositions(bench);
     bench.document().select(square);
     bench.settle();
-    const QPointF pivot = bench.view(0).placeOf(squareMiddle);
+    const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
     const QPoint from = bench.place(0, 22);
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, from);
     circle(bench, 0, pivot, from, 24, Qt::ShiftModifier);
@@ -518,7 +521,7 @@ class WindowHandle : public QObject {
       Workbench bench;
       bench.document().select(square);
       bench.settle();
-      const QPointF pivot = bench.view(0).placeOf(squareMiddle);
+      const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
       const QPoint from = bench.place(0, 22);
       QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, from);
       circle(bench, 0, pivot, from, 30, Qt::ShiftModifier);
@@ -622,7 +625,7 @@ class WindowHandle : public QObject {
     bench.document().setPinned({0, 8, 54, 62}, true);
     bench.document().select(square);
     bench.settleFigures();
-    const QPointF pivot = bench.view(0).placeOf(squareMiddle);
+    const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
     const QPoint from = bench.place(0, 22);
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, from);
     circle(bench, 0, pivot, from, 170, Qt::ShiftModifier);

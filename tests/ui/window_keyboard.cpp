@@ -145,7 +145,7 @@ class WindowKeyboard : public QObject {
   void keysMoveTheCameraOfTheViewThatHasThem() {
     Workbench bench;  // an object in 2D: arrow keys pan
     bench.view(1).setFocus(Qt::TabFocusReason);
-    const auto middle = [&bench] { return bench.view(1).placeOf(ElementId(31)); };
+    const auto middle = [&bench] { return bench.view(1).viewPosition(ElementId(31)); };
     const QPointF before = middle();
     QTest::keyClick(&bench.view(1), Qt::Key_Right);
     QVERIFY(middle().x() > before.x());

@@ -25,7 +25,7 @@ bool isNear(Workbench& bench, LinkId link) {
 }
 
 QList<QPoint> strokeAcross(Workbench& bench) {
-  const QPoint middle = bench.view(0).placeOf(Point::Zero()).toPoint();
+  const QPoint middle = bench.view(0).viewPosition(Point::Zero()).toPoint();
   return {middle + QPoint(-60, 6), middle + QPoint(60, -6)};  // well inside the outline
 }
 
@@ -202,14 +202,14 @@ class WindowKnife : public QObject {
     bench.trigger("toolCut");
     View& view = bench.view(0);
     const QPoint at = acrossColumns(bench).first();
-    const QPointF before = view.placeOf(ElementId(40));
+    const QPointF before = view.viewPosition(ElementId(40));
     QTest::mousePress(&view, Qt::LeftButton, {}, at);
     QWheelEvent event(at, view.mapToGlobal(at), {}, {0, 240}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
     QApplication::sendEvent(&view, &event);
-    QCOMPARE(view.placeOf(ElementId(40)), before);
+    QCOMPARE(view.viewPosition(ElementId(40)), before);
     QTest::mouseRelease(&view, Qt::LeftButton, {}, at);
     QApplication::sendEvent(&view, &event);
-    QVERIFY(view.placeOf(ElementId(40)) != before);
+    QVERIFY(view.viewPosition(ElementId(40)) != before);
   }
 
   void linksAreCutWhereOnlyLinksAreDrawnAndOnRequest() {
@@ -268,7 +268,7 @@ class WindowKnife : public QObject {
     Workbench bench(test::make_mesh(MeshKind::tetra, {5, 5, 5}));
     bench.trigger("toolCut");
     bench.trigger("cutFrontOnly");
-    const QPoint middle = bench.view(0).placeOf(Point(2, 2, 2)).toPoint();
+    const QPoint middle = bench.view(0).viewPosition(Point(2, 2, 2)).toPoint();
     const QList<QPoint> across{middle - QPoint(90, 4), middle + QPoint(90, 4)};
     bench.stroke(0, across);
     const auto first = bench.document().cuts().count();

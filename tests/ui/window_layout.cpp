@@ -206,7 +206,7 @@ class WindowLayout : public QObject {
     QCOMPARE(bench.place(1, 0), apart);
     bench.trigger("linkCameras");
     const auto across = [&bench](int panel) {
-      return bench.view(panel).placeOf(ElementId(62)) - bench.view(panel).placeOf(ElementId(0));
+      return bench.view(panel).viewPosition(ElementId(62)) - bench.view(panel).viewPosition(ElementId(0));
     };
     QVERIFY((across(1) - across(0)).manhattanLength() < 0.01);  // positions are in single precision
   }

@@ -304,7 +304,7 @@ void WindowLessons::theHandleIsMarkedAfterItsDrag() {
   const ElementId handle = 15 * 24 + 15;
   const auto isDrawn = [&](int panel) {
     bench.settle();
-    return bench.distanceFromColour(panel, bench.view(panel).placeOf(handle), colours::lit) == 0;
+    return bench.distanceFromColour(panel, bench.view(panel).viewPosition(handle), colours::lit) == 0;
   };
   for (int step = 0; step < 3; ++step) {  // the last step has no moves
     next(bench);

@@ -54,7 +54,7 @@ class WindowPanels : public QObject {
       QVERIFY((bench.position(2, e) - bench.position(0, e)).norm() < 1e-5);
       QCOMPARE(bench.position(3, e), bench.position(0, e));
       // The panels have one camera, so distances are equal relative to the height of the view.
-      const auto place = [&](int panel, ElementId one) { return bench.view(panel).placeOf(one); };
+      const auto place = [&](int panel, ElementId one) { return bench.view(panel).viewPosition(one); };
       const QPointF off = (place(3, e) - place(3, 0)) * bench.view(0).height() / bench.view(3).height();
       QVERIFY((off - (place(0, e) - place(0, 0))).manhattanLength() < 0.1);
     }

@@ -144,7 +144,7 @@ class WindowPropagation : public QObject {
       QVERIFY((bench.position(1, e) - (held ? Point(rest + Point(0, 3, 0)) : rest)).norm() < 1e-5);
     }
     for (const ElementId e : handle) {
-      QVERIFY(bench.distanceFromColour(1, bench.view(1).placeOf(e), colours::lit) < alike);
+      QVERIFY(bench.distanceFromColour(1, bench.view(1).viewPosition(e), colours::lit) < alike);
     }
     // One element of the handle is above the waiting candidates, the others are below them.
     const int rows = list(bench, 1).rowCount();

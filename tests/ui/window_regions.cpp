@@ -57,7 +57,7 @@ class WindowRegions : public QObject {
       QVERIFY(!pinned->inside);
       // The line that connects it to its region.
       const Point half = (pinned->at + pinned->nearest) / 2;
-      QVERIFY(bench.distanceFromColour(p, bench.view(p).placeOf(half), colours::outside) < alike);
+      QVERIFY(bench.distanceFromColour(p, bench.view(p).viewPosition(half), colours::outside) < alike);
     }
   }
 
@@ -69,7 +69,8 @@ class WindowRegions : public QObject {
       bench.trigger("showValidRegions");
       bench.document().select({1, 2});
       for (const auto& region : regionsAbout(bench, 1, 1)) {
-        const QPointF at = mesh->space_dimension == 1 ? bench.view(1).placeOf(region.low) : corner(bench, 1, region);
+        const QPointF at =
+            mesh->space_dimension == 1 ? bench.view(1).viewPosition(region.low) : corner(bench, 1, region);
         QVERIFY(bench.distanceFromColour(1, at, colours::inside) < alike);
       }
       bench.document().select({});
@@ -94,13 +95,13 @@ class WindowRegions : public QObject {
     bench.trigger("showValidRegions");
     bench.document().setHighlight({middle, false, {}});
     const Point edge = Point(5.2, 2.9, 0);  // a corner of the region for the global softness
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) < alike);
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) < alike);
     bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), middle, middle + 1)},
                                    LinkSoftness{1, 1.5, 0.3});
     bench.settle();
     bench.document().setHighlight({middle, false, {}});  // again, because the cursor may be over the window
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(edge), colours::inside) > alike);
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).placeOf(Point(5.5, 2.7, 0)), colours::inside) < alike);
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) > alike);
+    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(Point(5.5, 2.7, 0)), colours::inside) < alike);
   }
 
  private:
@@ -120,7 +121,7 @@ class WindowRegions : public QObject {
     return different;
   }
   static QPointF corner(Workbench& bench, int panel, const NeighbourRegion& region) {
-    return bench.view(panel).placeOf(region.low);
+    return bench.view(panel).viewPosition(region.low);
   }
 };
 

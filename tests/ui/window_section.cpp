@@ -37,7 +37,7 @@ struct SectionBench : Workbench {
   }
   QColor colourAt(QPointF place) { return picture().pixelColor(place.toPoint()); }
   QColor colourIn(const QImage& image, const Point& place) {
-    return image.pixelColor(view(0).placeOf(place).toPoint());
+    return image.pixelColor(view(0).viewPosition(place).toPoint());
   }
 };
 
@@ -204,11 +204,11 @@ class WindowSection : public QObject {
     SectionBench bench;
     bench.trigger("viewRight");  // along x: every layer is visible
     bench.settle();
-    const QPointF front = bench.view(0).placeOf(inLayer(4, width - 1 + width * 4));
+    const QPointF front = bench.view(0).viewPosition(inLayer(4, width - 1 + width * 4));
     QCOMPARE(bench.view(0).elementAt(front), std::optional(inLayer(4, width - 1 + width * 4)));
     bench.trigger("section");
     bench.settle();
-    const QPointF now = bench.view(0).placeOf(inLayer(4, width - 1 + width * 4));
+    const QPointF now = bench.view(0).viewPosition(inLayer(4, width - 1 + width * 4));
     const auto found = bench.view(0).elementAt(now);
     QVERIFY(!found || bench.document().mesh()->rest_position(*found).z() <= 2);
     for (const ElementId e : bench.view(0).elementsWhere(QRectF(bench.view(0).rect()), [](QPointF) { return true; })) {
@@ -220,7 +220,7 @@ class WindowSection : public QObject {
     SectionBench bench;
     bench.trigger("section");
     bench.settle();
-    const QPointF at = bench.view(0).placeOf(inLayer(2));
+    const QPointF at = bench.view(0).viewPosition(inLayer(2));
     const auto crossed = bench.view(0).linksCrossing(QLineF(at - QPointF(40, 33), at + QPointF(40, 35)));
     QVERIFY(!crossed.empty());
     const Mesh& mesh = *bench.document().mesh();
@@ -245,7 +245,7 @@ class WindowSection : public QObject {
     bench.document().grab(inLayer(2));
     bench.document().drag(mesh.rest_position(inLayer(2)) + Point(0, 3, 0));
     bench.document().release();
-    QVERIFY(apart(bench.colourAt(bench.view(0).placeOf(inLayer(2, 7 + width * 8)) + QPointF(3, 8)), face) <= 2);
+    QVERIFY(apart(bench.colourAt(bench.view(0).viewPosition(inLayer(2, 7 + width * 8)) + QPointF(3, 8)), face) <= 2);
   }
 
   void printShowsTheSame() {
@@ -345,7 +345,7 @@ class WindowSection : public QObject {
     bench.document().setHighlight({});
     const QImage screen = bench.view(0).grabFramebuffer(), print = inLines(bench.view(0));
     const auto seen = [&](const QImage& image, double x, double y) {
-      return image.pixelColor(bench.view(0).placeOf(Point(x, y, 0)).toPoint());
+      return image.pixelColor(bench.view(0).viewPosition(Point(x, y, 0)).toPoint());
     };
     for (int x = 1; x <= 3; ++x) {
       for (int y = 1; y <= 3; ++y) {

@@ -71,7 +71,7 @@ class WindowSheet : public QObject {
     const QImage seen = bench.view(0).grabFramebuffer();
     for (int y = 0; y < 3; ++y) {
       for (int x = 0; x < 4; ++x) {
-        const QPointF place = bench.view(0).placeOf(Point(x + 0.5, 3 - (y + 0.5), 0));
+        const QPointF place = bench.view(0).viewPosition(Point(x + 0.5, 3 - (y + 0.5), 0));
         const QColor colour = seen.pixelColor(place.toPoint()), own = image.pixelColor(x, y);
         // An offset of half a pixel would give a difference of at least 30.
         const int apart = std::max({std::abs(colour.red() - own.red()), std::abs(colour.green() - own.green()),

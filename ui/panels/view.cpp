@@ -421,7 +421,7 @@ QVector3D View::pointAt(QPointF position, const Point& through) const {
   return camera_->pointAt(position, asVector(through), size());
 }
 
-QPointF View::placeOf(ElementId element) const {
+QPointF View::viewPosition(ElementId element) const {
   const Frame* frame = document_.frame(panel_);
   if (frame == nullptr) {
     return {};
@@ -430,7 +430,7 @@ QPointF View::placeOf(ElementId element) const {
   return {at.x, at.y};
 }
 
-QPointF View::placeOf(const Point& point) const {
+QPointF View::viewPosition(const Point& point) const {
   const QVector3D at = (camera_->toClip(size()) * camera_->toView()).map(asVector(point));
   return {(1 + double(at.x())) / 2 * width(), (1 - double(at.y())) / 2 * height()};
 }

@@ -108,8 +108,8 @@ class View : public QOpenGLWidget {
   /// parallel to the view.
   QVector3D pointAt(QPointF position, const Point& through) const;
   /// Returns the position in the view of an element or of a point (mesh units).
-  QPointF placeOf(ElementId element) const;
-  QPointF placeOf(const Point& point) const;
+  QPointF viewPosition(ElementId element) const;
+  QPointF viewPosition(const Point& point) const;
 
   /// Returns a picture with `pixelRatio` device pixels per logical pixel, painted again so that lines are sharp. A
   /// transparent picture has no background. The frame of the keyboard focus is not part of it. Throws Error if the

@@ -72,7 +72,7 @@ std::optional<ControlPoints::PointId> ControlPoints::at(const View& view, QPoint
   if (const Frame* shown = frame(view.panel())) {
     double least = pointReach;
     for (std::uint32_t point = 0; point < countOf(*shown); ++point) {
-      const double apart = QLineF(place, view.placeOf(controlPointOf(*shown, point))).length();
+      const double apart = QLineF(place, view.viewPosition(controlPointOf(*shown, point))).length();
       if (apart <= least) {
         least = apart;
         nearest = PointId{view.panel(), point};

@@ -260,7 +260,7 @@ void DragTool::turn(const View& view, QPointF position) {
 
 /// Returns the angle of a position about the pivot (degrees), counterclockwise on the screen.
 std::optional<double> DragTool::angleAt(const View& view, QPointF position) const {
-  const QPointF arm = position - view.placeOf(Point(motion_.pivot + motion_.by));
+  const QPointF arm = position - view.viewPosition(Point(motion_.pivot + motion_.by));
   if (std::hypot(arm.x(), arm.y()) < smallestArm) {
     return std::nullopt;
   }

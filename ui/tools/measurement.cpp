@@ -67,12 +67,12 @@ std::vector<Annotation> Measurement::annotations(const View& view) const {
   if (!from_) {
     return {};
   }
-  const QPointF begin = view.placeOf(*from_);
+  const QPointF begin = view.viewPosition(*from_);
   if (!to_) {
     return {{QLineF(begin, begin), QStringLiteral("element %L1").arg(*from_)}};
   }
   const Figures of = figures(view.panel());
-  return {{QLineF(begin, view.placeOf(*to_)),
+  return {{QLineF(begin, view.viewPosition(*to_)),
            QStringLiteral("%1 (%2)\n%3")
                .arg(figure(of.now), restText(of), coordinates(*document_.mesh(), of.apart, QStringLiteral("d")))}};
 }

@@ -41,7 +41,7 @@ RegionLens::RegionLens(const Overlay::Canvas& canvas, ElementId element, const s
   if (useful_) {
     scale_ = inner * radius * canvas.unitsPerPixel / reach;
     const QVector3D centre =
-        canvas.view.pointAt(centreBeside(canvas.view.placeOf(element_), canvas.view.size()), element_);
+        canvas.view.pointAt(centreBeside(canvas.view.viewPosition(element_), canvas.view.size()), element_);
     centre_ = Point(centre.x(), centre.y(), centre.z());
   }
 }

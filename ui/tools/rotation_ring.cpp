@@ -108,7 +108,7 @@ std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const
 
 bool RotationRing::isAt(const View& view, QPointF position) const {
   const auto ring = circle(view);
-  return ring && std::abs(QLineF(view.placeOf(ring->pivot), position).length() - ring->radius) <= ringReach;
+  return ring && std::abs(QLineF(view.viewPosition(ring->pivot), position).length() - ring->radius) <= ringReach;
 }
 
 void RotationRing::draw(const Canvas& canvas) {
@@ -142,7 +142,7 @@ std::vector<Annotation> RotationRing::annotations(const View& view) const {
   if (!turn_ || turn_->panel != view.panel()) {
     return {};
   }
-  const QPointF pivot = view.placeOf(extent(view).pivot);
+  const QPointF pivot = view.viewPosition(extent(view).pivot);
   const long degrees = std::lround(turn_->degrees);
   const QString sign = degrees < 0 ? QStringLiteral("−") : QString();
   return {{QLineF(pivot, turn_->cursor), QStringLiteral("%1%2°").arg(sign, QLocale().toString(std::abs(degrees)))}};

@@ -144,7 +144,7 @@ std::optional<std::pair<int, int>> pairOf(const QJsonValue& json, int least, int
   return std::pair(bounded(array[0]), bounded(array[1]));
 }
 
-std::optional<Place> placeOf(const QJsonObject& entry, const QList<QDockWidget*>& docks) {
+std::optional<Place> viewPosition(const QJsonObject& entry, const QList<QDockWidget*>& docks) {
   const auto dock = std::ranges::find(docks, entry[QStringLiteral("id")].toString(), &QDockWidget::objectName);
   const auto area = std::ranges::find(areaNames, entry[QStringLiteral("area")].toString(),
                                       [](const AreaName& one) { return QLatin1String(one.name); });
@@ -175,7 +175,7 @@ std::vector<Place> placesOf(const QJsonArray& layout, QList<QDockWidget*> docks)
     if (docks.isEmpty()) {
       break;  // a file may have millions of entries
     }
-    if (const auto place = placeOf(entry.toObject(), docks)) {
+    if (const auto place = viewPosition(entry.toObject(), docks)) {
       places.push_back(*place);
       docks.removeOne(place->dock);
     }
