@@ -129,7 +129,7 @@ ObjectPointer body_from(const py::object& parts) {
 }
 
 py::object snapshot_parts(const api::Snapshot& snapshot) {
-  const auto& [positions, mesh, precision] = Access::inside(snapshot);
+  const auto& [positions, mesh, precision] = Access::impl(snapshot);
   py::dict state;
   state["mesh"] = shared_mesh(mesh);
   state["precision"] = precision_words[precision == chainmail::Precision::single_precision ? 0 : 1];

@@ -82,7 +82,7 @@ std::unique_ptr<Mover> deformer_from(const py::object& parts) {
 
 py::object handle_parts(HeldHandle& held) {
   const Use use(held.busy, "handle");
-  const auto& [handle, mesh] = Access::inside(std::as_const(held.handle));
+  const auto& [handle, mesh] = Access::impl(std::as_const(held.handle));
   const HandleState from = handle.state();
   std::vector<double> positions;
   for (const Point& position : from.positions) {

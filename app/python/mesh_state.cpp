@@ -14,7 +14,7 @@ namespace {
 /// The softness of links that a file makes stiffer.
 py::list own_softness_of(const api::Mesh& mesh) {
   py::list rows;
-  for (const auto& [link, softness] : api::Access::inside(mesh).softness) {
+  for (const auto& [link, softness] : api::Access::impl(mesh).softness) {
     rows.append(py::make_tuple(link, api::softness_of(softness)));
   }
   return rows;

@@ -29,11 +29,11 @@ void Object::check_no_views(std::string_view before) const {
 
 /// Some methods store displacements or turned coordinates, which a view would show instead of positions.
 void Object::check_views(std::string_view method) {
-  const chainmail::Body& inside = Access::body(body());
+  const chainmail::Body& impl = Access::body(body());
   const AlgorithmInfo& next = info(api::algorithm_of(method));
   const bool works_in_frame = next.family() == Family::chainmail;
-  if (next.from_rest != inside.stores_displacements() ||
-      (works_in_frame != inside.works_in_frame() && inside.softness().frame.is_turned())) {
+  if (next.from_rest != impl.stores_displacements() ||
+      (works_in_frame != impl.works_in_frame() && impl.softness().frame.is_turned())) {
     check_no_views("change the method");
   }
 }

@@ -45,11 +45,11 @@ void copy_stored(const View& view, const chainmail::Mesh& mesh, double* out) {
 /// Copies x, y and z of each element. Most bodies store positions, which takes a quarter of the time of the others.
 void copy_into(api::Body& body, std::span<double> out) {
   const py::gil_scoped_release unlocked;
-  chainmail::Body& inside = Access::inside(body).body();
-  if (inside.stores_displacements() || inside.frame().is_turned()) {
+  chainmail::Body& impl = Access::impl(body).body();
+  if (impl.stores_displacements() || impl.frame().is_turned()) {
     body.copy_positions(out);
   } else {
-    inside.with_view([&](const auto& view) { copy_stored(view, inside.mesh(), out.data()); });
+    impl.with_view([&](const auto& view) { copy_stored(view, impl.mesh(), out.data()); });
   }
 }
 
@@ -84,7 +84,7 @@ void check_view(const chainmail::Body& body) {
 
 py::array view(const ObjectPointer& object) {
   const UseObject use(*object);
-  chainmail::Body& body = Access::inside(object->body()).body();
+  chainmail::Body& body = Access::impl(object->body()).body();
   check_view(body);
   const py::capsule owner(new Lease(object), [](void* lease) { delete static_cast<Lease*>(lease); });
   return body.with_view([&]<class View>(const View& view) {

@@ -87,15 +87,15 @@ void put(InnerSoftness& softness, const Numbers& numbers, std::size_t at) {
 
 void set_link_softness(Object& object, const py::object& links, const py::kwargs& given) {
   const UseObject use(object);
-  auto& inside = Access::inside(object.body());
-  const Softness& present = inside.body().softness();
-  const std::vector<LinkId> ids = links_or_all(links, inside.body().mesh());
+  auto& impl = Access::impl(object.body());
+  const Softness& present = impl.body().softness();
+  const std::vector<LinkId> ids = links_or_all(links, impl.body().mesh());
   check_unique(ids);
   const Numbers numbers = numbers_given(given, ids.size());
   const py::gil_scoped_release unlocked;
   std::vector<std::pair<LinkId, InnerSoftness>> entries;
   entries.reserve(ids.size() + present.links.size());
-  std::vector<bool> is_new(inside.body().mesh().link_count());
+  std::vector<bool> is_new(impl.body().mesh().link_count());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     auto& [link, softness] = entries.emplace_back(ids[i], present.of(ids[i]));
     put(softness, numbers, i);
@@ -109,7 +109,7 @@ void set_link_softness(Object& object, const py::object& links, const py::kwargs
   }
   Softness next = present;
   next.links = grouped(std::move(entries));
-  api::guarded([&] { inside.set_softness(next); });
+  api::guarded([&] { impl.set_softness(next); });
 }
 
 py::dict link_softness(Object& object) {

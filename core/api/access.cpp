@@ -16,16 +16,16 @@ namespace {
 
 }  // namespace
 
-Job::Job() : inside_(std::make_shared<Inside>()) {}
+Job::Job() : impl_(std::make_shared<Impl>()) {}
 
-double Job::share() const { return inside_->state.share.load(); }
+double Job::share() const { return impl_->state.share.load(); }
 
 void Job::cancel() const {
-  inside_->state.cancelled = true;
-  inside_->stop.request_stop();
+  impl_->state.cancelled = true;
+  impl_->stop.request_stop();
 }
 
-bool Job::is_cancelled() const { return inside_->state.cancelled; }
+bool Job::is_cancelled() const { return impl_->state.cancelled; }
 
 void refuse_without(const std::string& libraries, const std::string& where) {
   throw Error(where, "the library was built without " + libraries, "install them, and build it again");

@@ -19,25 +19,25 @@ namespace chainmail::api {
 /// The solver library behind the interface. Both have types of the same name, like Mesh.
 namespace inner = ::chainmail;
 
-struct Job::Inside {
+struct Job::Impl {
   JobState state;
   std::stop_source stop;
 };
 
-struct Mesh::Inside {
+struct Mesh::Impl {
   MeshPointer mesh;
   OwnSoftness softness;  // of links that a file makes stiffer
   std::string remark;
 };
 
-struct Snapshot::Inside {
+struct Snapshot::Impl {
   inner::Snapshot snapshot;
   Mesh mesh;
   inner::Precision precision;
 };
 
 /// A body is the body of a solver, so that a Deformer need not copy it. Without a Deformer, the solver is idle.
-struct Body::Inside {
+struct Body::Impl {
   Mesh mesh;
   std::unique_ptr<Solver> solver;
   std::vector<ElementId> handle;  // of the last move since positions were set
@@ -60,12 +60,12 @@ struct Body::Inside {
   }
 };
 
-struct Handle::Inside {
+struct Handle::Impl {
   inner::Handle handle;
   Mesh mesh;
 };
 
-struct ReferenceSolution::Inside {
+struct ReferenceSolution::Impl {
   MeshPointer mesh;
   inner::ReferenceSolution reference;
 };
@@ -77,32 +77,32 @@ struct Access {
   static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string remark = {}) {
     return make<Mesh>(std::move(mesh), std::move(softness), std::move(remark));
   }
-  static const Mesh::Inside& inside(const Mesh& mesh) { return *mesh.inside_; }
-  static const MeshPointer& pointer(const Mesh& mesh) { return mesh.inside_->mesh; }
-  static Body::Inside& inside(Body& body) { return *body.inside_; }
-  static const Body::Inside& inside(const Body& body) { return *body.inside_; }
-  static const inner::Body& body(const Body& body) { return body.inside_->solver->body(); }
-  static Handle::Inside& inside(Handle& handle) { return *handle.inside_; }
-  static const Handle::Inside& inside(const Handle& handle) { return *handle.inside_; }
+  static const Mesh::Impl& impl(const Mesh& mesh) { return *mesh.impl_; }
+  static const MeshPointer& pointer(const Mesh& mesh) { return mesh.impl_->mesh; }
+  static Body::Impl& impl(Body& body) { return *body.impl_; }
+  static const Body::Impl& impl(const Body& body) { return *body.impl_; }
+  static const inner::Body& body(const Body& body) { return body.impl_->solver->body(); }
+  static Handle::Impl& impl(Handle& handle) { return *handle.impl_; }
+  static const Handle::Impl& impl(const Handle& handle) { return *handle.impl_; }
   static Handle handle(inner::Handle handle, Mesh mesh) {
-    return Handle(std::make_unique<Handle::Inside>(Handle::Inside{std::move(handle), std::move(mesh)}));
+    return Handle(std::make_unique<Handle::Impl>(Handle::Impl{std::move(handle), std::move(mesh)}));
   }
   // Defined with Deformer, see api/state.h.
   static DeformerState hand_over(Deformer& deformer);
   static void take_over(Deformer& deformer, const DeformerState& state);
-  static const ReferenceSolution::Inside& inside(const ReferenceSolution& one) { return *one.inside_; }
-  static const Snapshot::Inside& inside(const Snapshot& one) { return *one.inside_; }
+  static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
+  static const Snapshot::Impl& impl(const Snapshot& one) { return *one.impl_; }
   /// Makes a type of the interface that shares what is behind it.
   template <class Public, class... Parts>
   static Public make(Parts&&... parts) {
-    using Inside = typename Public::Inside;
-    return Public(std::make_shared<const Inside>(Inside{std::forward<Parts>(parts)...}));
+    using Impl = typename Public::Impl;
+    return Public(std::make_shared<const Impl>(Impl{std::forward<Parts>(parts)...}));
   }
-  using MovingState = MovingBody::Inside;
-  static MovingBody moving(MovingState& inside) { return MovingBody(inside); }
+  using MovingState = MovingBody::Impl;
+  static MovingBody moving(MovingState& impl) { return MovingBody(impl); }
 
-  static Progress progress(const Job& job) { return Progress(job.inside_->state); }
-  static std::stop_token stop(const Job& job) { return job.inside_->stop.get_token(); }
+  static Progress progress(const Job& job) { return Progress(job.impl_->state); }
+  static std::stop_token stop(const Job& job) { return job.impl_->stop.get_token(); }
 };
 
 /// Runs work behind the interface: its exceptions become those of the interface.

@@ -49,18 +49,18 @@ std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> li
 }  // namespace
 
 bool Snapshot::operator==(const Snapshot& other) const {
-  return inside_->mesh == other.inside_->mesh && inside_->precision == other.inside_->precision &&
-         inside_->snapshot == other.inside_->snapshot;
+  return impl_->mesh == other.impl_->mesh && impl_->precision == other.impl_->precision &&
+         impl_->snapshot == other.impl_->snapshot;
 }
 
 Body::Body(const Mesh& mesh, Precision precision) {
   check_precision(*Access::pointer(mesh), precision_of(precision));
-  inside_ = guarded([&] {
-    return std::make_unique<Inside>(
-        Inside{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
+  impl_ = guarded([&] {
+    return std::make_unique<Impl>(
+        Impl{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
   });
-  if (const OwnSoftness& own = Access::inside(mesh).softness; !own.empty()) {
-    inside_->body().set_softness(Softness{{}, own});
+  if (const OwnSoftness& own = Access::impl(mesh).softness; !own.empty()) {
+    impl_->body().set_softness(Softness{{}, own});
   }
 }
 
@@ -68,78 +68,76 @@ Body::Body(const Body& other) : Body(body_of(other.mesh(), state_of(other))) {}
 Body::Body(Body&& other) noexcept = default;
 Body& Body::operator=(const Body& other) {
   Body copy(other);
-  std::swap(inside_, copy.inside_);
+  std::swap(impl_, copy.impl_);
   return *this;
 }
 Body& Body::operator=(Body&& other) noexcept = default;
 Body::~Body() = default;
 
-const Mesh& Body::mesh() const { return inside_->mesh; }
+const Mesh& Body::mesh() const { return impl_->mesh; }
 
 Precision Body::precision() const {
-  return inside_->body().precision() == inner::Precision::single_precision ? Precision::single_precision
-                                                                           : Precision::double_precision;
+  return impl_->body().precision() == inner::Precision::single_precision ? Precision::single_precision
+                                                                         : Precision::double_precision;
 }
 
 Vector3 Body::position(ElementId element) const {
-  const inner::Body& body = inside_->body();
+  const inner::Body& body = impl_->body();
   check_id(body.mesh(), element);
   return vector_of(inner::point_of(body.mesh(), body.positions(), element));
 }
 
-std::vector<double> Body::positions() const {
-  return positions_of(inside_->body().mesh(), inside_->body().positions());
-}
+std::vector<double> Body::positions() const { return positions_of(impl_->body().mesh(), impl_->body().positions()); }
 
 void Body::copy_positions(std::span<double> out) const {
-  const inner::Mesh& mesh = inside_->body().mesh();
+  const inner::Mesh& mesh = impl_->body().mesh();
   if (out.size() != std::size_t{3} * mesh.element_count()) {
     throw Error("positions", "the array has " + std::to_string(out.size()) + " numbers",
                 "use one of " + std::to_string(std::size_t{3} * mesh.element_count()));
   }
-  const PositionView positions = inside_->body().positions();
+  const PositionView positions = impl_->body().positions();
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     std::ranges::copy(inner::point_of(mesh, positions, e), out.begin() + std::ptrdiff_t(3) * e);
   }
 }
 
 void Body::set_positions(std::span<const double> positions) {
-  inner::Body& body = inside_->body();
+  inner::Body& body = impl_->body();
   body.set_positions(carried_of(body.mesh(), positions, position_limit(body.precision())));
-  inside_->forget_handle();
+  impl_->forget_handle();
 }
 
 void Body::reset() {
-  inside_->body().reset();
-  inside_->forget_handle();
+  impl_->body().reset();
+  impl_->forget_handle();
 }
 
 Snapshot Body::snapshot() const {
-  const inner::Body& body = inside_->body();
-  return Access::make<Snapshot>(snapshot_of(body), inside_->mesh, body.precision());
+  const inner::Body& body = impl_->body();
+  return Access::make<Snapshot>(snapshot_of(body), impl_->mesh, body.precision());
 }
 
 void Body::restore(const Snapshot& snapshot) {
-  inner::Body& body = inside_->body();
-  const auto& [positions, mesh, precision] = Access::inside(snapshot);
-  if (!(mesh == inside_->mesh) || precision != body.precision()) {
+  inner::Body& body = impl_->body();
+  const auto& [positions, mesh, precision] = Access::impl(snapshot);
+  if (!(mesh == impl_->mesh) || precision != body.precision()) {
     throw Error("snapshot", "it is of another mesh or precision", "restore it into a body of the same mesh");
   }
   body.restore(positions, every_block(body.mesh()));
-  inside_->forget_handle();
+  impl_->forget_handle();
 }
 
 void Body::cut(const std::vector<LinkId>& links) {
-  inner::Body& body = inside_->body();
+  inner::Body& body = impl_->body();
   check_link_ids(body.mesh(), links);
   body.cut(links);
   for (const LinkId link : links) {
-    inside_->solver->wake(body.mesh().links[link]);
+    impl_->solver->wake(body.mesh().links[link]);
   }
 }
 
 void Body::cut(ElementId a, ElementId b) {
-  const auto link = inside_->mesh.find_link(a, b);
+  const auto link = impl_->mesh.find_link(a, b);
   if (!link) {
     throw Error("elements " + std::to_string(a) + " and " + std::to_string(b), "they are not linked",
                 "use the two ends of a link");
@@ -148,93 +146,93 @@ void Body::cut(ElementId a, ElementId b) {
 }
 
 void Body::uncut(const std::vector<LinkId>& links) {
-  inner::Body& body = inside_->body();
+  inner::Body& body = impl_->body();
   check_link_ids(body.mesh(), links);
   body.uncut(links);
   for (const LinkId link : links) {
-    inside_->solver->wake(body.mesh().links[link]);
+    impl_->solver->wake(body.mesh().links[link]);
   }
 }
 
-std::vector<LinkId> Body::cuts() const { return inside_->body().cuts().links(); }
+std::vector<LinkId> Body::cuts() const { return impl_->body().cuts().links(); }
 
 bool Body::is_cut(LinkId link) const {
-  check_link_ids(inside_->body().mesh(), std::span(&link, 1));
-  return inside_->body().cuts().is_cut(link);
+  check_link_ids(impl_->body().mesh(), std::span(&link, 1));
+  return impl_->body().cuts().is_cut(link);
 }
 
 void Body::pin(const std::vector<ElementId>& elements) {
-  check_ids(inside_->body().mesh(), elements);
-  inside_->body().pin(elements);
+  check_ids(impl_->body().mesh(), elements);
+  impl_->body().pin(elements);
 }
 
 void Body::unpin(const std::vector<ElementId>& elements) {
-  check_ids(inside_->body().mesh(), elements);
-  inside_->body().unpin(elements);
-  inside_->solver->wake(elements);
+  check_ids(impl_->body().mesh(), elements);
+  impl_->body().unpin(elements);
+  impl_->solver->wake(elements);
 }
 
-std::span<const ElementId> Body::pins() const { return inside_->body().pins(); }
+std::span<const ElementId> Body::pins() const { return impl_->body().pins(); }
 
 bool Body::is_pinned(ElementId element) const {
-  check_id(inside_->body().mesh(), element);
-  return inside_->body().is_pinned(element);
+  check_id(impl_->body().mesh(), element);
+  return impl_->body().is_pinned(element);
 }
 
 void Body::set_softness(const LinkSoftness& softness) {
   guarded([&] { inner::check(softness_of(softness)); });
-  Softness next = inside_->body().softness();
+  Softness next = impl_->body().softness();
   next.global = softness_of(softness);
-  inside_->set_softness(next);
+  impl_->set_softness(next);
 }
 
 void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness) {
-  const auto unique = unique_links(inside_->body().mesh(), links);
+  const auto unique = unique_links(impl_->body().mesh(), links);
   guarded([&] { inner::check(softness_of(softness)); });
-  Softness next = inside_->body().softness();
+  Softness next = impl_->body().softness();
   next.links.set(unique, softness_of(softness));
-  inside_->set_softness(next);
+  impl_->set_softness(next);
 }
 
 void Body::clear_softness(const std::vector<LinkId>& links) {
-  Softness next = inside_->body().softness();
-  next.links.erase(unique_links(inside_->body().mesh(), links));
-  inside_->set_softness(next);
+  Softness next = impl_->body().softness();
+  next.links.erase(unique_links(impl_->body().mesh(), links));
+  impl_->set_softness(next);
 }
 
-LinkSoftness Body::softness() const { return softness_of(inside_->body().softness().global); }
+LinkSoftness Body::softness() const { return softness_of(impl_->body().softness().global); }
 
 LinkSoftness Body::softness(LinkId link) const {
-  check_link_ids(inside_->body().mesh(), std::span(&link, 1));
-  return softness_of(inside_->body().softness().of(link));
+  check_link_ids(impl_->body().mesh(), std::span(&link, 1));
+  return softness_of(impl_->body().softness().of(link));
 }
 
 void Body::set_energy(EnergyKind kind) {
-  Softness next = inside_->body().softness();
+  Softness next = impl_->body().softness();
   inner::set_energy(next, energy_of(kind));
-  inside_->set_softness(next);
+  impl_->set_softness(next);
 }
 
-EnergyKind Body::energy() const { return energy_of(inside_->body().softness().energy); }
+EnergyKind Body::energy() const { return energy_of(impl_->body().softness().energy); }
 
 void Body::set_frame(const Rotation& rotation) {
-  guarded([&] { inner::check(rotation_of(rotation), inside_->body().mesh()); });
-  Softness next = inside_->body().softness();
+  guarded([&] { inner::check(rotation_of(rotation), impl_->body().mesh()); });
+  Softness next = impl_->body().softness();
   next.frame = RegionFrame(FrameKind::given, rotation_of(rotation).vector());
-  guarded([&] { inner::check(next.frame, inside_->body().mesh()); });
-  inside_->set_softness(next);
+  guarded([&] { inner::check(next.frame, impl_->body().mesh()); });
+  impl_->set_softness(next);
 }
 
 bool Body::set_frame_of_object() {
-  const PrincipalAxes principal = principal_axes(inside_->body().mesh());
-  Softness next = inside_->body().softness();
+  const PrincipalAxes principal = principal_axes(impl_->body().mesh());
+  Softness next = impl_->body().softness();
   next.frame = principal.frame;
-  inside_->set_softness(next);
+  impl_->set_softness(next);
   return principal.are_unique;
 }
 
 Rotation Body::frame() const {
-  const Point& turn = inside_->body().softness().frame.rotation();
+  const Point& turn = impl_->body().softness().frame.rotation();
   const double angle = turn.norm();
   return angle > 0 ? Rotation{vector_of(turn / angle), angle * 180 / std::numbers::pi} : Rotation();
 }
@@ -243,11 +241,11 @@ void Body::set_elasticity(const Elasticity& elasticity) {
   const ElasticOptions options{
       {elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations};
   guarded([&] { inner::check(options); });
-  inside_->body().set_elastic(options);
+  impl_->body().set_elastic(options);
 }
 
 Elasticity Body::elasticity() const {
-  const ElasticOptions& options = inside_->body().elastic();
+  const ElasticOptions& options = impl_->body().elastic();
   return {options.material.young, options.material.poisson, options.lattice, options.iterations};
 }
 

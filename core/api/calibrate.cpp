@@ -52,9 +52,9 @@ CalibrationErrors errors_of(const TestedDrags& tested) {
 
 Calibration calibrate(const Body& body, const CalibrateOptions& options, const Job& job) {
   return guarded([&] {
-    const inner::Body& inside = Access::body(body);
-    const CalibrationOptions how = calibration_of(inside, options);
-    const CalibrationResult found = inner::calibrate(inside.mesh_pointer(), inside.cuts(), how, Access::progress(job));
+    const inner::Body& impl = Access::body(body);
+    const CalibrationOptions how = calibration_of(impl, options);
+    const CalibrationResult found = inner::calibrate(impl.mesh_pointer(), impl.cuts(), how, Access::progress(job));
     std::ostringstream json;
     write_json(json, how, found);
     return Calibration{softness_of(found.softness), found.sweeps, found.evaluations, errors_of(found.fitted),

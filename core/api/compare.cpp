@@ -25,7 +25,7 @@
 
 namespace chainmail::api {
 
-struct Comparison::Inside {
+struct Comparison::Impl {
   std::variant<report::Comparison, report::PhysicsReport> report;
   report::Origin origin;
   std::vector<ComparisonRow> rows;
@@ -88,21 +88,21 @@ report::RecordedMoves moves_of(const Drag& drag, const inner::Mesh& mesh) {
 }
 
 report::Case case_of(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
-  const inner::Body& inside = Access::body(body);
+  const inner::Body& impl = Access::body(body);
   report::Case object{printable(options.title),
                       "object of a program",
-                      inside.mesh_pointer(),
-                      inside.cuts().links(),
-                      {inside.pins().begin(), inside.pins().end()},
-                      inside.softness(),
+                      impl.mesh_pointer(),
+                      impl.cuts().links(),
+                      {impl.pins().begin(), impl.pins().end()},
+                      impl.softness(),
                       {},
-                      inside.elastic()};
+                      impl.elastic()};
   if (options.against == Reference::physics && !object.cuts.empty()) {
     throw Error("cuts", "the comparison with physics needs an object without cuts", "uncut its links");
   }
   for (const Drag& drag : drags) {
-    check_drag(drag, inside, options.against);
-    object.drags.push_back(moves_of(drag, inside.mesh()));
+    check_drag(drag, impl, options.against);
+    object.drags.push_back(moves_of(drag, impl.mesh()));
   }
   if (drags.empty()) {
     object.drags = options.against == Reference::physics ? report::physics_drags(object)
@@ -199,24 +199,23 @@ std::string text_of(Write write) {
 
 }  // namespace
 
-const std::vector<ComparisonRow>& Comparison::rows() const& { return inside_->rows; }
-std::vector<ComparisonRow> Comparison::rows() && { return inside_->rows; }
+const std::vector<ComparisonRow>& Comparison::rows() const& { return impl_->rows; }
+std::vector<ComparisonRow> Comparison::rows() && { return impl_->rows; }
 
 std::string Comparison::text() const {
-  return text_of(
-      [&](std::ostream& out) { std::visit([&](const auto& one) { write_text(out, one); }, inside_->report); });
+  return text_of([&](std::ostream& out) { std::visit([&](const auto& one) { write_text(out, one); }, impl_->report); });
 }
 
 std::string Comparison::html() const {
   return text_of([&](std::ostream& out) {
-    std::visit([&](const auto& one) { write_html(out, one, inside_->origin); }, inside_->report);
+    std::visit([&](const auto& one) { write_html(out, one, impl_->origin); }, impl_->report);
   });
 }
 
 #ifdef CHAINMAIL_HAS_JSON
 std::string Comparison::json() const {
   return text_of([&](std::ostream& out) {
-    std::visit([&](const auto& one) { write_json(out, one, inside_->origin); }, inside_->report);
+    std::visit([&](const auto& one) { write_json(out, one, impl_->origin); }, impl_->report);
   });
 }
 #else
@@ -224,8 +223,7 @@ std::string Comparison::json() const { refuse_without("nlohmann/json", "comparis
 #endif
 
 std::string Comparison::csv() const {
-  return text_of(
-      [&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, inside_->report); });
+  return text_of([&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, impl_->report); });
 }
 
 void Comparison::write(const std::filesystem::path& folder) const {

@@ -18,7 +18,7 @@ constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after 
 
 }  // namespace
 
-struct Deformer::Inside {
+struct Deformer::Impl {
   Body body;
   Algorithm algorithm;
   Job job = {};
@@ -26,8 +26,8 @@ struct Deformer::Inside {
   Trace traced = {};
   std::vector<TraceStep> trace = {};
 
-  Solver& solver() { return *Access::inside(body).solver; }
-  const Solver& solver() const { return *Access::inside(body).solver; }
+  Solver& solver() { return *Access::impl(body).solver; }
+  const Solver& solver() const { return *Access::impl(body).solver; }
   void set_algorithm(Algorithm next) {
     solver().set_algorithm(next);
     // A copied body may store positions the other way.
@@ -41,7 +41,7 @@ struct Deformer::Inside {
 };
 
 template <class Move>
-MoveResult Deformer::Inside::run(Move move) {
+MoveResult Deformer::Impl::run(Move move) {
   traced.clear();
   trace.clear();
   solver().set_progress(Access::progress(job));
@@ -53,12 +53,12 @@ MoveResult Deformer::Inside::run(Move move) {
 }
 
 /// Runs one sweep, in slices, or one iteration.
-RelaxationResult Deformer::Inside::sweep(double step, const Progress& progress) {
-  const auto& inside = Access::inside(body);
+RelaxationResult Deformer::Impl::sweep(double step, const Progress& progress) {
+  const auto& impl = Access::impl(body);
   std::uint64_t visited = 0;
   while (true) {
     progress.report(std::min(1.0, double(visited) / body.mesh().element_count()));
-    const auto held = inside.is_held ? std::span(inside.handle) : std::span<const ElementId>();
+    const auto held = impl.is_held ? std::span(impl.handle) : std::span<const ElementId>();
     RelaxationResult slice = solver().relax(step, elements_between_checks, held);
     visited += slice.visited;
     if (slice.sweep_ended) {
@@ -71,8 +71,8 @@ RelaxationResult Deformer::Inside::sweep(double step, const Progress& progress) 
 Deformer::Deformer(Body body, std::string_view method) {
   const Algorithm algorithm = algorithm_of(method);
   guarded([&] { check(algorithm, *Access::pointer(body.mesh())); });
-  inside_ = std::make_unique<Inside>(Inside{std::move(body), algorithm});
-  inside_->set_algorithm(algorithm);
+  impl_ = std::make_unique<Impl>(Impl{std::move(body), algorithm});
+  impl_->set_algorithm(algorithm);
 }
 
 Deformer::Deformer(const Mesh& mesh, std::string_view method, Precision precision)
@@ -82,33 +82,33 @@ Deformer::Deformer(Deformer&& other) noexcept = default;
 Deformer& Deformer::operator=(Deformer&& other) noexcept = default;
 Deformer::~Deformer() = default;
 
-Body& Deformer::body() { return inside_->body; }
-const Body& Deformer::body() const { return inside_->body; }
-std::string Deformer::method() const { return std::string(info(inside_->algorithm).offered_name()); }
+Body& Deformer::body() { return impl_->body; }
+const Body& Deformer::body() const { return impl_->body; }
+std::string Deformer::method() const { return std::string(info(impl_->algorithm).offered_name()); }
 
 void Deformer::set_method(std::string_view method) {
   const Algorithm algorithm = algorithm_of(method);
-  guarded([&] { inside_->set_algorithm(algorithm); });
+  guarded([&] { impl_->set_algorithm(algorithm); });
 }
 
 void Deformer::set_threads(int threads) {
   if (threads < 1) {
     throw Error("threads", "the number is below 1", "use a number from 1");
   }
-  inside_->solver().set_threads(threads);
+  impl_->solver().set_threads(threads);
 }
 
 MoveResult Deformer::move(Handle& handle, const Pose& target) {
-  auto& body = Access::inside(inside_->body);
+  auto& body = Access::impl(impl_->body);
   const inner::Mesh& mesh = body.body().mesh();
-  auto& held = Access::inside(handle);
+  auto& held = Access::impl(handle);
   if (!(held.mesh == body.mesh)) {
     throw Error("handle", "it is of another mesh", "grab elements of this object");
   }
   check_coordinates(mesh, "pivot", target.pivot, false);
   guarded([&] { check(rotation_of(target.rotation), mesh); });
   const inner::Pose pose{point_of(target.pivot), rotation_of(target.rotation).vector()};
-  MoveResult result = inside_->run([&](Trace* trace) { return body.solver->move(held.handle, pose, trace); });
+  MoveResult result = impl_->run([&](Trace* trace) { return body.solver->move(held.handle, pose, trace); });
   body.handle.assign(handle.elements().begin(), handle.elements().end());
   body.is_held = true;
   result.reached = handle.pose();
@@ -116,19 +116,19 @@ MoveResult Deformer::move(Handle& handle, const Pose& target) {
 }
 
 MoveResult Deformer::move(ElementId element, const Vector3& target) {
-  auto& body = Access::inside(inside_->body);
+  auto& body = Access::impl(impl_->body);
   check_id(body.body().mesh(), element);
   check_coordinates(body.body().mesh(), "target", target, false);
-  MoveResult result = inside_->run([&](Trace* trace) { return body.solver->move(element, point_of(target), trace); });
+  MoveResult result = impl_->run([&](Trace* trace) { return body.solver->move(element, point_of(target), trace); });
   body.handle.assign(1, element);
   body.is_held = true;
-  result.reached.pivot = inside_->body.position(element);
+  result.reached.pivot = impl_->body.position(element);
   return result;
 }
 
-std::span<const ElementId> Deformer::moved() const { return inside_->solver().moved(); }
+std::span<const ElementId> Deformer::moved() const { return impl_->solver().moved(); }
 
-void Deformer::release() { Access::inside(inside_->body).is_held = false; }
+void Deformer::release() { Access::impl(impl_->body).is_held = false; }
 
 int Deformer::relax(int sweeps, const RelaxOptions& options) {
   if (sweeps < 0) {
@@ -137,23 +137,23 @@ int Deformer::relax(int sweeps, const RelaxOptions& options) {
   return guarded([&] {
     check(parameters::relax_step, options.step);
     check(parameters::relax_until, options.until);
-    if (!info(inside_->algorithm).relaxes()) {
+    if (!info(impl_->algorithm).relaxes()) {
       return 0;
     }
-    Solver& solver = inside_->solver();
+    Solver& solver = impl_->solver();
     solver.set_relaxation(scheme_of(options.scheme));
     if (!inner::info(solver.relaxation()).sweeps) {
       solver.wake_all();
-    } else if (const auto& handle = Access::inside(inside_->body).handle; !handle.empty()) {
+    } else if (const auto& handle = Access::impl(impl_->body).handle; !handle.empty()) {
       solver.wake(handle);
       solver.wake(solver.moved());
     }
-    const Progress progress = Access::progress(inside_->job);
+    const Progress progress = Access::progress(impl_->job);
     solver.set_progress(progress);
     int run = 0;
     while (run < sweeps) {
       const RelaxationResult result =
-          inside_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps));
+          impl_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps));
       if (result.visited == 0) {
         break;
       }
@@ -168,36 +168,36 @@ int Deformer::relax(int sweeps, const RelaxOptions& options) {
 
 EquilibriumCertificate Deformer::certificate() {
   return guarded([&] {
-    const auto found = inside_->solver().certificate().value_or(inner::EquilibriumCertificate{});
+    const auto found = impl_->solver().certificate().value_or(inner::EquilibriumCertificate{});
     return EquilibriumCertificate{found.violation, found.residual, found.gap, found.binds, found.iterations};
   });
 }
 
 DeformerState Access::hand_over(Deformer& deformer) {
-  const auto& inside = *deformer.inside_;
-  const AlgorithmInfo& entry = info(inside.algorithm);
+  const auto& impl = *deformer.impl_;
+  const AlgorithmInfo& entry = info(impl.algorithm);
   if (entry.is_added()) {
     throw Error("method '" + std::string(entry.name) + "'",
                 "a program has registered it, so its state cannot be copied",
                 "set another method first, or keep what it needs yourself");
   }
-  return {deformer.method(), inside.is_tracing, inside.trace, deformer.inside_->solver().hand_over()};
+  return {deformer.method(), impl.is_tracing, impl.trace, deformer.impl_->solver().hand_over()};
 }
 
 void Access::take_over(Deformer& deformer, const DeformerState& state) {
-  guarded([&] { deformer.inside_->solver().take_over(state.memory); });
-  deformer.inside_->is_tracing = state.is_tracing;
-  deformer.inside_->trace = state.trace;
+  guarded([&] { deformer.impl_->solver().take_over(state.memory); });
+  deformer.impl_->is_tracing = state.is_tracing;
+  deformer.impl_->trace = state.trace;
 }
 
-void Deformer::set_job(const Job& job) { inside_->job = job; }
-void Deformer::set_tracing(bool on) { inside_->is_tracing = on; }
-std::span<const TraceStep> Deformer::trace() const { return inside_->trace; }
+void Deformer::set_job(const Job& job) { impl_->job = job; }
+void Deformer::set_tracing(bool on) { impl_->is_tracing = on; }
+std::span<const TraceStep> Deformer::trace() const { return impl_->trace; }
 
 std::vector<double> Deformer::control_points() {
   return guarded([&] {
-    Solver& solver = inside_->solver();
-    solver.set_progress(Access::progress(inside_->job));
+    Solver& solver = impl_->solver();
+    solver.set_progress(Access::progress(impl_->job));
     const inner::Mesh& mesh = solver.body().mesh();
     const std::span<const double> carried = solver.control_points();
     std::vector<double> points;
@@ -210,9 +210,9 @@ std::vector<double> Deformer::control_points() {
 }
 
 MoveResult Deformer::move_control_point(std::uint32_t point, const Vector3& target) {
-  auto& body = Access::inside(inside_->body);
+  auto& body = Access::impl(impl_->body);
   check_coordinates(body.body().mesh(), "target", target, false);
-  MoveResult result = inside_->run([&](Trace*) { return body.solver->move_control_point(point, point_of(target)); });
+  MoveResult result = impl_->run([&](Trace*) { return body.solver->move_control_point(point, point_of(target)); });
   result.reached.pivot = target;
   return result;
 }

@@ -19,27 +19,27 @@ Pose pose_of(const inner::Pose& pose) {
 }  // namespace
 
 Handle::Handle(const Body& body, const std::vector<ElementId>& elements)
-    : inside_(guarded([&] {
-        const inner::Body& inside = Access::body(body);
-        return std::make_unique<Inside>(Inside{inner::Handle(inside, elements), body.mesh()});
+    : impl_(guarded([&] {
+        const inner::Body& impl = Access::body(body);
+        return std::make_unique<Impl>(Impl{inner::Handle(impl, elements), body.mesh()});
       })) {}
 
-Handle::Handle(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
-Handle::Handle(const Handle& other) : inside_(std::make_unique<Inside>(*other.inside_)) {}
+Handle::Handle(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Handle::Handle(const Handle& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Handle::Handle(Handle&& other) noexcept = default;
 Handle& Handle::operator=(const Handle& other) {
-  inside_ = std::make_unique<Inside>(*other.inside_);  // this one may have been moved from
+  impl_ = std::make_unique<Impl>(*other.impl_);  // this one may have been moved from
   return *this;
 }
 Handle& Handle::operator=(Handle&& other) noexcept = default;
 Handle::~Handle() = default;
 
-std::span<const ElementId> Handle::elements() const { return inside_->handle.elements(); }
-Pose Handle::grabbed() const { return pose_of(inside_->handle.grabbed()); }
-Pose Handle::pose() const { return pose_of(inside_->handle.pose()); }
+std::span<const ElementId> Handle::elements() const { return impl_->handle.elements(); }
+Pose Handle::grabbed() const { return pose_of(impl_->handle.grabbed()); }
+Pose Handle::pose() const { return pose_of(impl_->handle.pose()); }
 
 Pose Handle::after(const Motion& motion) const {
-  return {vector_of(inside_->handle.grabbed().pivot + point_of(motion.by)), motion.rotation};
+  return {vector_of(impl_->handle.grabbed().pivot + point_of(motion.by)), motion.rotation};
 }
 
 }  // namespace chainmail::api

@@ -15,15 +15,15 @@ PhysicalError error_of(const inner::PhysicalError& error) { return {error.relati
 }  // namespace
 
 Violation violation(const Body& body) {
-  const inner::Body& inside = Access::body(body);
-  const inner::Violation all = measure_violation(inside.mesh(), inside.softness(), inside.cuts(), inside.positions());
+  const inner::Body& impl = Access::body(body);
+  const inner::Violation all = measure_violation(impl.mesh(), impl.softness(), impl.cuts(), impl.positions());
   return {all.max, all.rms, all.fraction, all.links};
 }
 
 double violation(const Body& body, LinkId link) {
-  const inner::Body& inside = Access::body(body);
-  check_link_ids(inside.mesh(), std::span(&link, 1));
-  return link_violation(inside.mesh(), inside.softness(), inside.positions(), link);
+  const inner::Body& impl = Access::body(body);
+  check_link_ids(impl.mesh(), std::span(&link, 1));
+  return link_violation(impl.mesh(), impl.softness(), impl.positions(), link);
 }
 
 Spread displacement(const Body& body) {
@@ -51,58 +51,58 @@ Spread distance(const Body& body, std::span<const double> positions) {
 }
 
 double elastic_energy(const Body& body) {
-  const inner::Body& inside = Access::body(body);
-  return inner::elastic_energy(inside.mesh(), inside.softness(), inside.cuts(), inside.positions());
+  const inner::Body& impl = Access::body(body);
+  return inner::elastic_energy(impl.mesh(), impl.softness(), impl.cuts(), impl.positions());
 }
 
 std::vector<double> ReferenceSolution::positions() const {
-  const inner::Mesh& mesh = *inside_->mesh;
+  const inner::Mesh& mesh = *impl_->mesh;
   std::vector<double> carried = mesh.rest;
   for (std::size_t i = 0; i < carried.size(); ++i) {
-    carried[i] += inside_->reference.displacements[i];
+    carried[i] += impl_->reference.displacements[i];
   }
   return positions_of(mesh, {carried.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
                              inner::Precision::double_precision});
 }
 
-double ReferenceSolution::handle_displacement() const { return inside_->reference.handle_displacement; }
+double ReferenceSolution::handle_displacement() const { return impl_->reference.handle_displacement; }
 
 ReferenceSolution reference_solution(const Body& body, const std::vector<ElementId>& handle, const Job& job) {
   return guarded([&] {
-    const inner::Body& inside = Access::body(body);
-    const inner::Handle grabbed(inside, handle);  // checks the elements
-    const std::vector<double> displacements = displacements_of(inside.mesh(), inside.positions(), grabbed.elements());
+    const inner::Body& impl = Access::body(body);
+    const inner::Handle grabbed(impl, handle);  // checks the elements
+    const std::vector<double> displacements = displacements_of(impl.mesh(), impl.positions(), grabbed.elements());
     if (std::ranges::all_of(displacements, [](double one) { return one == 0; })) {
       throw inner::Error("handle", "it is at rest, so there is nothing to compare with", "move it first");
     }
-    const auto pins = inside.pins();
+    const auto pins = impl.pins();
     if (pins.empty()) {
       throw inner::Error("pins", "nothing pins the object, so physics has no solution", "pin a side or some elements");
     }
     const Progress progress = Access::progress(job);
-    ReferenceSolver solver({inside.mesh_pointer(),
-                            inside.cuts(),
+    ReferenceSolver solver({impl.mesh_pointer(),
+                            impl.cuts(),
                             {pins.begin(), pins.end()},
-                            displacements_of(inside.mesh(), inside.positions(), pins),
-                            inside.elastic()},
+                            displacements_of(impl.mesh(), impl.positions(), pins),
+                            impl.elastic()},
                            progress.part(0, 0.3));
     const std::vector<ElementId> elements(grabbed.elements().begin(), grabbed.elements().end());
-    return Access::make<ReferenceSolution>(inside.mesh_pointer(),
+    return Access::make<ReferenceSolution>(impl.mesh_pointer(),
                                            solver.at(elements, displacements, progress.part(0.3, 1)));
   });
 }
 
 PhysicalError physical_error(const Body& body, const ReferenceSolution& reference) {
-  const auto& [mesh, solution] = Access::inside(reference);
-  const inner::Body& inside = Access::body(body);
-  if (mesh != inside.mesh_pointer()) {
+  const auto& [mesh, solution] = Access::impl(reference);
+  const inner::Body& impl = Access::body(body);
+  if (mesh != impl.mesh_pointer()) {
     throw Error("reference solution", "it is of another mesh", "compute it for this object");
   }
-  return error_of(measure_physical_error(*mesh, inside.positions(), solution));
+  return error_of(measure_physical_error(*mesh, impl.positions(), solution));
 }
 
 PhysicalError physical_error_of_rest(const ReferenceSolution& reference) {
-  const auto& [mesh, solution] = Access::inside(reference);
+  const auto& [mesh, solution] = Access::impl(reference);
   return error_of(error_of_nothing_moving(*mesh, solution));
 }
 

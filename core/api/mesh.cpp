@@ -91,67 +91,65 @@ MeshParts parts_of(const MeshArrays& arrays) {
 
 }  // namespace
 
-ElementId Mesh::element_count() const { return inside_->mesh->element_count(); }
-LinkId Mesh::link_count() const { return inside_->mesh->link_count(); }
+ElementId Mesh::element_count() const { return impl_->mesh->element_count(); }
+LinkId Mesh::link_count() const { return impl_->mesh->link_count(); }
 
 std::span<const ElementId> Mesh::neighbours(ElementId element) const {
-  check_id(*inside_->mesh, element);
-  return inside_->mesh->neighbours_of(element);
+  check_id(*impl_->mesh, element);
+  return impl_->mesh->neighbours_of(element);
 }
 
 std::array<ElementId, 2> Mesh::link(LinkId link) const {
-  check_link_ids(*inside_->mesh, std::span(&link, 1));
-  return inside_->mesh->links[link];
+  check_link_ids(*impl_->mesh, std::span(&link, 1));
+  return impl_->mesh->links[link];
 }
 
 std::optional<LinkId> Mesh::find_link(ElementId a, ElementId b) const {
-  check_id(*inside_->mesh, a);
-  check_id(*inside_->mesh, b);
-  return inner::find_link(*inside_->mesh, a, b);
+  check_id(*impl_->mesh, a);
+  check_id(*impl_->mesh, b);
+  return inner::find_link(*impl_->mesh, a, b);
 }
 
 Vector3 Mesh::rest_position(ElementId element) const {
-  check_id(*inside_->mesh, element);
-  return vector_of(inside_->mesh->rest_position(element));
+  check_id(*impl_->mesh, element);
+  return vector_of(impl_->mesh->rest_position(element));
 }
 
 std::vector<double> Mesh::rest_positions() const {
   std::vector<double> all;
   all.reserve(std::size_t{3} * element_count());
   for (ElementId e = 0; e < element_count(); ++e) {
-    const Point point = inside_->mesh->rest_position(e);
+    const Point point = impl_->mesh->rest_position(e);
     all.insert(all.end(), point.begin(), point.end());
   }
   return all;
 }
 
 double Mesh::rest_length(LinkId link) const {
-  check_link_ids(*inside_->mesh, std::span(&link, 1));
-  return inner::rest_length(*inside_->mesh, link);
+  check_link_ids(*impl_->mesh, std::span(&link, 1));
+  return inner::rest_length(*impl_->mesh, link);
 }
 
-double Mesh::mean_rest_length() const { return inside_->mesh->mean_link_length; }
+double Mesh::mean_rest_length() const { return impl_->mesh->mean_link_length; }
 
-std::array<Vector3, 2> Mesh::bounds() const {
-  return {vector_of(inside_->mesh->box[0]), vector_of(inside_->mesh->box[1])};
-}
+std::array<Vector3, 2> Mesh::bounds() const { return {vector_of(impl_->mesh->box[0]), vector_of(impl_->mesh->box[1])}; }
 
-int Mesh::object_dimension() const { return inside_->mesh->object_dimension; }
-int Mesh::space_dimension() const { return inside_->mesh->space_dimension; }
-std::uint32_t Mesh::part_count() const { return inside_->mesh->part_count; }
+int Mesh::object_dimension() const { return impl_->mesh->object_dimension; }
+int Mesh::space_dimension() const { return impl_->mesh->space_dimension; }
+std::uint32_t Mesh::part_count() const { return impl_->mesh->part_count; }
 
 std::optional<std::array<std::uint32_t, 3>> Mesh::lattice() const {
-  const auto& lattice = inside_->mesh->lattice;
+  const auto& lattice = impl_->mesh->lattice;
   return lattice ? std::optional(lattice->size) : std::nullopt;
 }
 
-bool Mesh::is_grid() const { return inside_->mesh->is_grid; }
+bool Mesh::is_grid() const { return impl_->mesh->is_grid; }
 
 std::span<const std::array<ElementId, 3>> Mesh::triangles() const {
-  return std::span(inside_->mesh->triangles).first(inside_->mesh->own_triangles);
+  return std::span(impl_->mesh->triangles).first(impl_->mesh->own_triangles);
 }
-std::span<const std::array<ElementId, 4>> Mesh::tetrahedra() const { return inside_->mesh->tetrahedra; }
-std::span<const std::array<ElementId, 8>> Mesh::hexahedra() const { return inside_->mesh->hexahedra; }
+std::span<const std::array<ElementId, 4>> Mesh::tetrahedra() const { return impl_->mesh->tetrahedra; }
+std::span<const std::array<ElementId, 8>> Mesh::hexahedra() const { return impl_->mesh->hexahedra; }
 
 std::vector<ElementId> Mesh::side(std::string_view name) const {
   const ObjectSide* side = find_side(name);
@@ -159,7 +157,7 @@ std::vector<ElementId> Mesh::side(std::string_view name) const {
     throw Error("side '" + std::string(name.substr(0, 60)) + "'", "there is no such side",
                 "use left, right, bottom, top, back, front or boundary");
   }
-  std::vector<ElementId> elements = side == nullptr ? boundary(*inside_->mesh) : layer(*inside_->mesh, *side);
+  std::vector<ElementId> elements = side == nullptr ? boundary(*impl_->mesh) : layer(*impl_->mesh, *side);
   if (elements.empty()) {
     throw Error(
         "side '" + std::string(name) + "'",
@@ -169,8 +167,8 @@ std::vector<ElementId> Mesh::side(std::string_view name) const {
   return elements;
 }
 
-bool Mesh::operator==(const Mesh& other) const { return inside_->mesh == other.inside_->mesh; }
-const std::string& Mesh::remark() const { return inside_->remark; }
+bool Mesh::operator==(const Mesh& other) const { return impl_->mesh == other.impl_->mesh; }
+const std::string& Mesh::remark() const { return impl_->remark; }
 
 Mesh make_line(std::uint32_t length, const LatticeOptions& options) {
   return generated(MeshKind::line, {length, 1, 1}, options);

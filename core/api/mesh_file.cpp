@@ -47,15 +47,15 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options, co
 
 void write_mesh(const std::filesystem::path& path, const Body& body, const Job& job) {
   guarded([&] {
-    const inner::Body& inside = Access::body(body);
-    save_mesh(path, {inside.mesh(), inside.cuts(), inside.positions(), inside.softness()}, Access::progress(job));
+    const inner::Body& impl = Access::body(body);
+    save_mesh(path, {impl.mesh(), impl.cuts(), impl.positions(), impl.softness()}, Access::progress(job));
   });
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Job& job) {
   guarded([&] {
-    const inner::Mesh& inside = *Access::pointer(mesh);
-    save_mesh(path, {inside, Cuts(), rest_positions(inside), Softness{{}, Access::inside(mesh).softness}},
+    const inner::Mesh& impl = *Access::pointer(mesh);
+    save_mesh(path, {impl, Cuts(), rest_positions(impl), Softness{{}, Access::impl(mesh).softness}},
               Access::progress(job));
   });
 }

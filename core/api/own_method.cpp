@@ -21,7 +21,7 @@ std::string element_name(ElementId element) { return "element " + std::to_string
 }  // namespace
 
 /// The state of a move that a method of a user answers.
-struct MovingBody::Inside {
+struct MovingBody::Impl {
   /// The stored coordinates of an element before the move. A double holds a float exactly.
   struct Stored {
     ElementId element;
@@ -50,7 +50,7 @@ struct MovingBody::Inside {
   Stored stored(ElementId element) const;
 };
 
-void MovingBody::Inside::begin(inner::Body& on, const inner::HandleMove& with, std::vector<ElementId>& output) {
+void MovingBody::Impl::begin(inner::Body& on, const inner::HandleMove& with, std::vector<ElementId>& output) {
   body = &on;
   handle = &with.handle;
   moved = &output;
@@ -70,7 +70,7 @@ void MovingBody::Inside::begin(inner::Body& on, const inner::HandleMove& with, s
   moved->clear();
 }
 
-MovingBody::Inside::Stored MovingBody::Inside::stored(ElementId element) const {
+MovingBody::Impl::Stored MovingBody::Impl::stored(ElementId element) const {
   Stored result{element, {}};
   body->with_view([&]<class View>(const View& view) {
     for (int k = 0; k < View::Dimension; ++k) {
@@ -80,7 +80,7 @@ MovingBody::Inside::Stored MovingBody::Inside::stored(ElementId element) const {
   return result;
 }
 
-void MovingBody::Inside::undo() {
+void MovingBody::Impl::undo() {
   body->with_view([&]<class View>(const View& view) {
     for (const Stored& one : before) {
       for (int k = 0; k < View::Dimension; ++k) {
@@ -91,7 +91,7 @@ void MovingBody::Inside::undo() {
   moved->clear();
 }
 
-void MovingBody::Inside::check_free(ElementId element) const {
+void MovingBody::Impl::check_free(ElementId element) const {
   check_id(body->mesh(), element);
   if (body->is_pinned(element) || handle->contains(element)) {
     throw Error(element_name(element), body->is_pinned(element) ? "it is pinned" : "it is part of the handle",
@@ -99,7 +99,7 @@ void MovingBody::Inside::check_free(ElementId element) const {
   }
 }
 
-EntryId MovingBody::Inside::entry_of(ElementId sponsor, ElementId element) const {
+EntryId MovingBody::Impl::entry_of(ElementId sponsor, ElementId element) const {
   const inner::Mesh& links = body->mesh();
   check_id(links, sponsor);
   check_id(links, element);
@@ -113,7 +113,7 @@ EntryId MovingBody::Inside::entry_of(ElementId sponsor, ElementId element) const
 }
 
 template <class Change>
-bool MovingBody::Inside::change(ElementId element, Change change) {
+bool MovingBody::Impl::change(ElementId element, Change change) {
   const Stored old = stored(element);
   const bool has_moved = body->with_view(change);
   if (has_moved && moved_in[element] != move) {
@@ -124,31 +124,31 @@ bool MovingBody::Inside::change(ElementId element, Change change) {
   return has_moved;
 }
 
-const Mesh& MovingBody::mesh() const { return *inside_.mesh; }
+const Mesh& MovingBody::mesh() const { return *impl_.mesh; }
 
 std::span<const ElementId> MovingBody::neighbours(ElementId element) {
-  check_id(inside_.body->mesh(), element);
-  inside_.neighbours.clear();
-  for_each_neighbour(inside_.body->mesh(), inside_.body->cuts(), element,
-                     [&](ElementId neighbour, EntryId) { inside_.neighbours.push_back(neighbour); });
-  return inside_.neighbours;
+  check_id(impl_.body->mesh(), element);
+  impl_.neighbours.clear();
+  for_each_neighbour(impl_.body->mesh(), impl_.body->cuts(), element,
+                     [&](ElementId neighbour, EntryId) { impl_.neighbours.push_back(neighbour); });
+  return impl_.neighbours;
 }
 
 bool MovingBody::is_fixed(ElementId element) const {
-  check_id(inside_.body->mesh(), element);
-  return inside_.body->is_pinned(element) || inside_.handle->contains(element);
+  check_id(impl_.body->mesh(), element);
+  return impl_.body->is_pinned(element) || impl_.handle->contains(element);
 }
 
 Vector3 MovingBody::position(ElementId element) const {
-  check_id(inside_.body->mesh(), element);
-  return vector_of(inner::point_of(*inside_.body->stored_mesh(), inside_.body->stored_positions(), element));
+  check_id(impl_.body->mesh(), element);
+  return vector_of(inner::point_of(*impl_.body->stored_mesh(), impl_.body->stored_positions(), element));
 }
 
 void MovingBody::set_position(ElementId element, const Vector3& position) {
-  inside_.check_free(element);
-  check_coordinates(inside_.body->mesh(), element_name(element), position, false);
+  impl_.check_free(element);
+  check_coordinates(impl_.body->mesh(), element_name(element), position, false);
   guarded([&] {
-    inside_.change(element, [&](const auto& view) {
+    impl_.change(element, [&](const auto& view) {
       const auto target = stored_target(view, element, point_of(position));
       const bool moves = target != view.positions[element];
       view.positions[element] = target;
@@ -158,10 +158,10 @@ void MovingBody::set_position(ElementId element, const Vector3& position) {
 }
 
 Box MovingBody::valid_region(ElementId sponsor, ElementId element) const {
-  const EntryId entry = inside_.entry_of(sponsor, element);
-  const inner::Mesh& mesh = inside_.body->mesh();
+  const EntryId entry = impl_.entry_of(sponsor, element);
+  const inner::Mesh& mesh = impl_.body->mesh();
   std::array<double, 3> low{}, high{};
-  inside_.body->with_view([&]<class View>(const View& view) {
+  impl_.body->with_view([&]<class View>(const View& view) {
     const auto& region = view.regions[entry];
     for (int k = 0; k < View::Dimension; ++k) {
       low[std::size_t(k)] = double(view.positions[sponsor][k] + region.low[k]);
@@ -172,9 +172,9 @@ Box MovingBody::valid_region(ElementId sponsor, ElementId element) const {
 }
 
 bool MovingBody::clamp(ElementId element, ElementId sponsor) {
-  const EntryId entry = inside_.entry_of(sponsor, element);
-  inside_.check_free(element);
-  return inside_.change(element, [&](const auto& view) { return view.clamp(element, sponsor, entry); });
+  const EntryId entry = impl_.entry_of(sponsor, element);
+  impl_.check_free(element);
+  return impl_.change(element, [&](const auto& view) { return view.clamp(element, sponsor, entry); });
 }
 
 namespace {

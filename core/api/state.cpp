@@ -30,8 +30,8 @@ inner::Snapshot snapshot_of(const inner::Body& body) {
 }
 
 BodyState state_of(const Body& body) {
-  const auto& inside = Access::inside(body);
-  inner::Body& from = inside.solver->body();
+  const auto& impl = Access::impl(body);
+  inner::Body& from = impl.solver->body();
   return {.precision = from.precision(),
           .works_in_frame = from.works_in_frame(),
           .stores_displacements = from.stores_displacements(),
@@ -41,15 +41,15 @@ BodyState state_of(const Body& body) {
           .pins = {from.pins().begin(), from.pins().end()},
           .positions = snapshot_of(from),
           .reach = from.reach(),
-          .handle = inside.handle,
-          .is_held = inside.is_held};
+          .handle = impl.handle,
+          .is_held = impl.is_held};
 }
 
 Body body_of(const Mesh& mesh, const BodyState& state) {
   Body result(mesh, state.precision == inner::Precision::single_precision ? Precision::single_precision
                                                                           : Precision::double_precision);
-  auto& inside = Access::inside(result);
-  inner::Body& body = inside.body();
+  auto& impl = Access::impl(result);
+  inner::Body& body = impl.body();
   body.work_in_frame(state.works_in_frame);
   body.store_displacements(state.stores_displacements);
   body.set_softness(state.softness);
@@ -60,8 +60,8 @@ Body body_of(const Mesh& mesh, const BodyState& state) {
     body.restore(state.positions, every_block(body.mesh()));
   }
   body.reach() = state.reach;
-  inside.handle = state.handle;
-  inside.is_held = state.is_held;
+  impl.handle = state.handle;
+  impl.is_held = state.is_held;
   return result;
 }
 

@@ -55,9 +55,9 @@ class Snapshot {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit Snapshot(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
-  std::shared_ptr<const Inside> inside_;
+  struct Impl;
+  explicit Snapshot(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
 };
 
 /// The state of one object: positions, cuts, pins and softness. Copies are independent.
@@ -161,8 +161,8 @@ class Body {
 
  private:
   friend struct Access;
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace chainmail::api

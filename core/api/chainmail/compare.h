@@ -87,9 +87,9 @@ class Comparison {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit Comparison(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
-  std::shared_ptr<const Inside> inside_;
+  struct Impl;
+  explicit Comparison(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
 };
 
 /// Compares methods on an object and drags: times, and errors at the end of each drag. The object gives its mesh, cuts,

@@ -119,8 +119,8 @@ class Deformer {
 
  private:
   friend struct Access;
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Drags elements of an object from rest by a displacement (mesh units) in one move, and returns the positions of all

@@ -59,9 +59,9 @@ class Handle {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit Handle(std::unique_ptr<Inside> inside);
-  std::unique_ptr<Inside> inside_;
+  struct Impl;
+  explicit Handle(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace chainmail::api

@@ -22,8 +22,8 @@ class Job {
 
  private:
   friend struct Access;
-  struct Inside;
-  std::shared_ptr<Inside> inside_;
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
 };
 
 }  // namespace chainmail::api

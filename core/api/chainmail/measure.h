@@ -62,9 +62,9 @@ class ReferenceSolution {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit ReferenceSolution(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
-  std::shared_ptr<const Inside> inside_;
+  struct Impl;
+  explicit ReferenceSolution(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
 };
 
 /// Returns the reference solution with the pins and these elements, the handle, at their current positions, with the

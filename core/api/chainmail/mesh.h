@@ -79,9 +79,9 @@ class Mesh {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit Mesh(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
-  std::shared_ptr<const Inside> inside_;
+  struct Impl;
+  explicit Mesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
 };
 
 /// Options of generated meshes.

@@ -49,9 +49,9 @@ class MovingBody {
 
  private:
   friend struct Access;
-  struct Inside;
-  explicit MovingBody(Inside& inside) : inside_(inside) {}
-  Inside& inside_;
+  struct Impl;
+  explicit MovingBody(Impl& impl) : impl_(impl) {}
+  Impl& impl_;
 };
 
 /// The move that a method answers.
