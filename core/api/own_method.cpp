@@ -180,9 +180,9 @@ bool MovingBody::clamp(ElementId element, ElementId sponsor) {
 namespace {
 
 /// Runs a method of a user as one of the library.
-class OwnMethod final : public inner::Method {
+class CustomMethod final : public inner::Method {
  public:
-  explicit OwnMethod(std::unique_ptr<api::Method> method) : method_(std::move(method)) {}
+  explicit CustomMethod(std::unique_ptr<api::Method> method) : method_(std::move(method)) {}
 
   PassCount move(inner::Body& body, inner::HandleMove& move, PassOutput output) override {
     before_.clear();
@@ -260,7 +260,7 @@ void register_method(const MethodDescription& description, MethodFactory factory
            throw inner::Error("method " + in_quotes(texts->name), "its factory made none",
                               "return a method from the factory");
          }
-         return std::make_unique<OwnMethod>(std::move(method));
+         return std::make_unique<CustomMethod>(std::move(method));
        },
        .needs_grid = texts->needs_grid,
        .holds_links = texts->holds_links,

@@ -18,9 +18,9 @@ namespace {
 constexpr double apart_from = 1e-6;
 
 /// The elements joined by cells, as a forest: the root of each element names its part.
-class Forest {
+class AnchorForest {
  public:
-  explicit Forest(const Simplices& simplices, ElementId count) : parent_(count), in_cell_(count, false) {
+  explicit AnchorForest(const Simplices& simplices, ElementId count) : parent_(count), in_cell_(count, false) {
     for (ElementId e = 0; e < count; ++e) {
       parent_[e] = e;
     }
@@ -111,13 +111,13 @@ void check_part_held(const Mesh& mesh, ElementId part, const std::vector<Element
 
 void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins) {
   check_pinned(mesh, pins);
-  Forest forest(simplices, mesh.element_count());
+  AnchorForest anchors(simplices, mesh.element_count());
   std::map<ElementId, std::vector<ElementId>> pins_of;
   for (const ElementId pin : pins) {
-    pins_of[forest.root(pin)].push_back(pin);
+    pins_of[anchors.root(pin)].push_back(pin);
   }
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    if (forest.in_cell(e) && forest.root(e) == e) {
+    if (anchors.in_cell(e) && anchors.root(e) == e) {
       check_part_held(mesh, e, pins_of[e]);
     }
   }

@@ -87,9 +87,9 @@ QString openingReport(const QString& name, const OpenedMesh& opened, std::size_t
   if (mesh.space_dimension == 3 && usuallyZUp(name)) {
     report += QStringLiteral(". The z axis points up, which is a guess: see the View menu");
   }
-  MeshFlaws told = opened.flaws;
-  told.coincident = 0;  // the bar of repairs names duplicates
-  if (const std::string flaws = in_words(told); !flaws.empty()) {
+  MeshFlaws shownFlaws = opened.flaws;
+  shownFlaws.coincident = 0;  // the bar of repairs names duplicates
+  if (const std::string flaws = in_words(shownFlaws); !flaws.empty()) {
     report += QStringLiteral(". ") + text(flaws);
   }
   return report;

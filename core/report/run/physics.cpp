@@ -47,9 +47,10 @@ PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences
 }
 
 /// Converts the progress of the parts to progress of the whole comparison.
-class Teller {
+class ProgressReporter {
  public:
-  Teller(const Progress& progress, std::size_t drags, bool grows) : progress_(progress), drags_(drags), grows_(grows) {}
+  ProgressReporter(const Progress& progress, std::size_t drags, bool grows)
+      : progress_(progress), drags_(drags), grows_(grows) {}
 
   std::function<void(double)> of_drag(const std::string& text) const {
     return [this, text, begin = done_](double share) {
@@ -74,17 +75,18 @@ class Teller {
   bool grows_;
 };
 
-void add_growths(PhysicsReport& report, const Softness& softness, const Teller& teller, const std::stop_token& stop) {
+void add_growths(PhysicsReport& report, const Softness& softness, const ProgressReporter& reporter,
+                 const std::stop_token& stop) {
   const PhysicsOptions& options = report.options;
   const ElasticOptions elastic = report.elastic;
   report.growths.push_back(grow(
       "bar", "tetrahedra, pinned at the left layer, pulled",
       [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic, false); }, options,
-      teller.of_growth("growing bar", 0, 2), stop));
+      reporter.of_growth("growing bar", 0, 2), stop));
   report.growths.push_back(grow(
       "sheet", "triangles in a plane, pinned at the top layer, pulled",
       [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic, false); }, options,
-      teller.of_growth("growing sheet", 1, 2), stop));
+      reporter.of_growth("growing sheet", 1, 2), stop));
 }
 
 }  // namespace
@@ -121,7 +123,7 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
   for (const Case& object : cases) {
     drags += object.drags.size();
   }
-  Teller teller(progress, drags, report.options.growth_seconds > 0);
+  ProgressReporter reporter(progress, drags, report.options.growth_seconds > 0);
   for (const Case& object : cases) {
     PhysicsObject& result = report.objects.emplace_back();
     result = {object.name,
@@ -134,12 +136,14 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               object.law};
     DragReferences references(object, report.options.refine);
     const CompareOptions& how = report.options.contest;
-    result.calibrations = calibrations_of(object, report.options, teller.of_drag(object.name + ", calibrating"), stop);
+    result.calibrations =
+        calibrations_of(object, report.options, reporter.of_drag(object.name + ", calibrating"), stop);
     const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
-    result.symmetry = symmetry_under_rotation(object, contestants, how, teller.of_drag(object.name + ", turned"), stop);
+    result.symmetry =
+        symmetry_under_rotation(object, contestants, how, reporter.of_drag(object.name + ", turned"), stop);
     Contest contest(object, contestants, how);
     for (const RecordedMoves& moves : object.drags) {
-      const auto tell = teller.of_drag(object.name + ", " + moves.name);
+      const auto tell = reporter.of_drag(object.name + ", " + moves.name);
       tell(0);
       PhysicsDrag drag = drag_of(contest, moves, references, tell, stop);
       if (stop.stop_requested()) {
@@ -147,14 +151,14 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
         return report;
       }
       result.drags.push_back(std::move(drag));
-      teller.drag_is_done();
+      reporter.drag_is_done();
     }
   }
   if (report.options.growth_seconds > 0 && !cases.empty()) {
-    add_growths(report, {cases.front().softness.global, {}}, teller, stop);
+    add_growths(report, {cases.front().softness.global, {}}, reporter, stop);
     report.stopped = stop.stop_requested();
   }
-  teller.tell(1, "done");
+  reporter.tell(1, "done");
   return report;
 }
 
