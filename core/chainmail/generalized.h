@@ -53,8 +53,8 @@ class GeneralizedPass {
   }
 
   /// Lists the steps of a pass in which every element moves.
-  void assume(std::span<const ElementId> handle, const Progress& progress) {
-    record_.assume(body_, handle);
+  void predict(std::span<const ElementId> handle, const Progress& progress) {
+    record_.predict(body_, handle);
     record_.end(take_all(handle, [&](std::size_t number, const Step& /*step*/) {
       progress.report(number, body_.positions.size());
       return true;
@@ -119,10 +119,10 @@ class Generalized {
 
   /// Lists the steps of a pass in which every element moves.
   template <class Scalar, int Dimension>
-  void assume(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
-              const Progress& progress) {
+  void predict(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
+               const Progress& progress) {
     record.make_room(body);  // the pass keeps a pointer to it
-    GeneralizedPass<Scalar, Dimension>(body, record, list_).assume(handle, progress);
+    GeneralizedPass<Scalar, Dimension>(body, record, list_).predict(handle, progress);
   }
 
  private:

@@ -31,7 +31,7 @@ class ListMethod final : public Method {
   void prepare(Body& body, ElementId element, int /*threads*/, const Progress& progress) override {
     auto view = body.view<Scalar, Dimension>();
     if (const std::span handle(&element, 1); !record_.knows(view, handle)) {
-      propagation_.assume(view, record_, handle, progress);
+      propagation_.predict(view, record_, handle, progress);
     }
   }
 
@@ -41,13 +41,13 @@ class ListMethod final : public Method {
 };
 
 /// Stands in for a record while it lists the steps of a pass in which every element moves.
-class AssumedPass {
+class PredictedPass {
  public:
-  AssumedPass(PassRecord& record, const Progress& progress) : record_(record), progress_(progress) {}
+  PredictedPass(PassRecord& record, const Progress& progress) : record_(record), progress_(progress) {}
 
   template <class View>
   bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/) {
-    record_.assume(body, handle);
+    record_.predict(body, handle);
     return false;
   }
   template <class View>
@@ -74,12 +74,12 @@ struct Propagation {
 
   /// Lists the steps of a pass in which every element moves, unless their order depends on positions.
   template <class View>
-  void assume(View& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
+  void predict(View& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
     if constexpr (!requires { List::by_violation; }) {
-      AssumedPass assumed(record, progress);
+      PredictedPass predicted(record, progress);
       std::vector<ElementId> none;
       List own;  // a cancelled pass leaves candidates in it
-      chainmail::propagate(body, own, assumed, handle, none);
+      chainmail::propagate(body, own, predicted, handle, none);
     }
   }
 

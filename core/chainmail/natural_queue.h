@@ -24,8 +24,8 @@ class NaturalQueuePass {
       : body_(body), record_(record), queue_(record.queue()), moved_(moved) {}
 
   /// Lists the steps of a pass in which every element moves.
-  void assume(std::span<const ElementId> handle, const Progress& progress) {
-    record_.assume(body_, handle);
+  void predict(std::span<const ElementId> handle, const Progress& progress) {
+    record_.predict(body_, handle);
     mark(handle);
     std::size_t tail = admit_neighbours_of(handle);
     for (std::size_t head = 0; head < tail; ++head) {
@@ -132,11 +132,11 @@ struct NaturalQueue {
 
   /// Lists the steps of a pass in which every element moves.
   template <class Scalar, int Dimension>
-  void assume(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
-              const Progress& progress) const {
+  void predict(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
+               const Progress& progress) const {
     record.make_room(body);
     std::vector<ElementId> none;
-    NaturalQueuePass<Scalar, Dimension>(body, record, none).assume(handle, progress);
+    NaturalQueuePass<Scalar, Dimension>(body, record, none).predict(handle, progress);
   }
 };
 

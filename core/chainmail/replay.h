@@ -73,7 +73,7 @@ class PassRecord {
     const bool is_known = is_of(body, handle);
     const bool tries = is_known && unused_ == 0;
     agreed_ = tries ? replay(body, steps()) : 0;
-    if (std::exchange(is_assumed_, false) && agreed_ > 0) {
+    if (std::exchange(is_predicted_, false) && agreed_ > 0) {
       list_moved(moved);
     }
     if (agreed_ > 0 && agreed_ == count_) {
@@ -109,13 +109,13 @@ class PassRecord {
 
   /// Begins the record of a pass that has not happened. Its steps follow, by note() or in queue(), then end().
   template <class View>
-  void assume(View& body, std::span<const ElementId> handle) {
+  void predict(View& body, std::span<const ElementId> handle) {
     make_room(body);
     conditions_ = conditions_of(body);
     handle_.assign(handle.begin(), handle.end());
     failures_ = unused_ = 0;
     count_ = next_ = agreed_ = 0;
-    is_assumed_ = true;
+    is_predicted_ = true;
   }
 
   /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
@@ -195,7 +195,7 @@ class PassRecord {
   std::size_t agreed_ = 0;
   Conditions conditions_;
   std::vector<ElementId> handle_;  // of the last pass; empty before it
-  bool is_assumed_ = false;        // the steps are of a pass that has not happened
+  bool is_predicted_ = false;      // the steps are of a pass that has not happened
   int failures_ = 0;               // replays in a row that failed
   int unused_ = 0;                 // number of coming passes that are not replayed
 };
