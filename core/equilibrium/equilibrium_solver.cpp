@@ -15,7 +15,7 @@
 #include "equilibrium/region_multipliers.h"
 #include "equilibrium/valid_projection.h"
 #include "exact/path_search.h"
-#include "exact/repair.h"
+#include "exact/restore_validity.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -30,7 +30,7 @@ constexpr double binds_below = 0.2;
 // They count no more if none has a force while the residual is below this.
 constexpr double frees_below = 0.01;
 
-/// Displacements from rest, in double, as repair and projection see a body.
+/// Displacements from rest, in double, as RestoreValidity and the projection see a body.
 template <int D>
 struct Displacements {
   using Scalar = double;
@@ -323,13 +323,13 @@ class Equilibrator final : public EquilibriumSolver {
     corotated_.hold_frames(std::move(alone));
   }
 
-  /// Repairs the shown state if an algorithm left it invalid.
+  /// Makes the shown state valid if an algorithm left it invalid.
   void make_valid(Body& body) {
     if (is_valid(shown_.positions)) {
       return;
     }
-    Repair repair(shown_, search_, std::max(largest_, body.reach().since_rest), held_, epsilon_);
-    repair.run(body.pins());
+    RestoreValidity restore(shown_, search_, std::max(largest_, body.reach().since_rest), held_, epsilon_);
+    restore.run(body.pins());
   }
 
   /// Moves the fixed elements of the iterate to where they are.

@@ -38,16 +38,16 @@ class Multigrid<Dimension>::Levels {
     was_direct_ = is_direct_;
   }
 
-  void repair(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
+  void update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
     std::vector<std::uint32_t> changed(rows.begin(), rows.end());
     std::ranges::sort(changed);
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    auto [next, like] = finest_.repair(matrix, changed, cut, levels_.front()->matrix);
+    auto [next, like] = finest_.update(matrix, changed, cut, levels_.front()->matrix);
     const std::vector<RigidFrame<Dimension>>* frames = &finest_.frames_of_aggregates();
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
       Level& level = *levels_[l];
       level.stage.append(like, *frames);
-      auto changes = level.stage.repair(level.matrix, next, cut, levels_[l + 1]->matrix);
+      auto changes = level.stage.update(level.matrix, next, cut, levels_[l + 1]->matrix);
       next = std::move(changes.rows);
       like = std::move(changes.like);
       frames = &level.stage.frames_of_aggregates();
@@ -171,13 +171,13 @@ void Multigrid<Dimension>::build(const Matrix& matrix, const Progress& progress)
     }
   }
   auto levels = std::make_unique<Levels>(bare, progress);
-  levels->repair(matrix, rows, false);
+  levels->update(matrix, rows, false);
   levels_ = std::move(levels);
 }
 
 template <int Dimension>
-void Multigrid<Dimension>::repair(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
-  levels_->repair(matrix, rows, cut);
+void Multigrid<Dimension>::update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
+  levels_->update(matrix, rows, cut);
   if (levels_->has_outgrown()) {
     build(matrix);
   }

@@ -32,7 +32,7 @@ class Multigrid {
   /// Updates the levels after the blocks of links changed, or whether elements are fixed. `rows`: the ends of these
   /// links, and these elements and their neighbours; `cut`: true if one of the links was cut. Costs about as much as
   /// the rows and their surroundings are large.
-  void repair(const Matrix& matrix, std::span<const ElementId> rows, bool cut);
+  void update(const Matrix& matrix, std::span<const ElementId> rows, bool cut);
   /// Writes into `solution` one cycle's approximation of the matrix's inverse times `right`.
   void cycle(const Matrix& matrix, const Vectors& right, Vectors& solution);
 

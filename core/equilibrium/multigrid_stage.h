@@ -134,7 +134,7 @@ class MultigridStage {
 
   const Frames& frames_of_aggregates() const { return coarse_frames_; }
 
-  /// What a repair changes on the next level.
+  /// What an update changes on the next level.
   struct Changes {
     std::vector<std::uint32_t> rows;  // rows of the coarse matrix that changed
     std::vector<std::uint32_t> like;  // of each new row of the coarse matrix: the row that it was split from
@@ -143,7 +143,7 @@ class MultigridStage {
   /// Updates everything that depends on these rows of the matrix. If links were cut, aggregates that have come apart
   /// are split.
   template <class Matrix>
-  Changes repair(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
+  Changes update(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
     Changes changes;
     std::vector<std::uint32_t> moved = rows;  // rows whose way to the coarse level changes
     for (const std::uint32_t row : rows) {

@@ -37,7 +37,7 @@ class Preconditioner {
       for (const ElementId row : outdated_) {
         copy_row(matrix, row, change);
       }
-      grid_.repair(matrix_, outdated_, cut_);
+      grid_.update(matrix_, outdated_, cut_);
     }
     outdated_.clear();
     cut_ = false;

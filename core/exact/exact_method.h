@@ -7,11 +7,11 @@
 
 #include "body/method.h"
 #include "exact/exact.h"
-#include "exact/repair.h"
+#include "exact/restore_validity.h"
 
 namespace chainmail {
 
-/// Exact ChainMail from any state: repairs an invalid start, then runs the propagation.
+/// Exact ChainMail from any state: makes an invalid start valid, then runs the propagation.
 template <class Scalar, int Dimension>
 class ExactMethod final : public Method {
  public:
@@ -25,12 +25,12 @@ class ExactMethod final : public Method {
     }
     bool is_valid = body.is_at_rest() || holds(body, move.handle);
     note_reach(body, view, size, is_valid);
-    links_hold_ = is_valid;  // if the repair fails, the next pass checks again
-    Repair repair(view, search_, body.reach().since_rest, move.handle.elements());
+    links_hold_ = is_valid;  // if this fails, the next pass checks again
+    RestoreValidity restore(view, search_, body.reach().since_rest, move.handle.elements());
     std::vector<Position<Scalar, Dimension>> before;
-    if (!is_valid && !repair.is_valid()) {
+    if (!is_valid && !restore.is_valid()) {
       before.assign(view.positions.begin(), view.positions.end());
-      repair.run(body.pins());
+      restore.run(body.pins());
     }
     links_hold_ = true;
     made_for_ = conditions_of(body.revisions());
@@ -38,7 +38,7 @@ class ExactMethod final : public Method {
     body.reach().since_rest = std::max(body.reach().since_rest, size);
     PassCount count = propagation_.propagate(view, move, output.moved, output.trace, output.threads);
     if (!before.empty()) {
-      add_repaired(view, before, move.handle, output.moved, count, output.trace);
+      add_restored(view, before, move.handle, output.moved, count, output.trace);
     }
     return count;
   }
@@ -97,9 +97,9 @@ class ExactMethod final : public Method {
     return {revisions.restored, revisions.softness, revisions.positions};
   }
 
-  /// Counts a repair and the pass after it as one pass. An element has moved if its position changed in total. Elements
-  /// that the pass did not reach moved without a sponsor.
-  void add_repaired(const State& body, const std::vector<Position<Scalar, Dimension>>& before, const Handle& handle,
+  /// Counts the restoring and the pass after it as one pass. An element has moved if its position changed in total.
+  /// Elements that the pass did not reach moved without a sponsor.
+  void add_restored(const State& body, const std::vector<Position<Scalar, Dimension>>& before, const Handle& handle,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
     const auto has_moved = [&](ElementId e) {
       return !std::equal(before[e].at, before[e].at + Dimension, body.positions[e].at);

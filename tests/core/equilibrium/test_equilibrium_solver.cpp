@@ -26,7 +26,7 @@ class EquilibriumSolverTest : public QObject {
   void it_equals_a_dense_quadratic_program();
   void where_no_region_binds_it_equals_cholesky();
   void every_iterate_is_valid();
-  void an_invalid_state_is_repaired();
+  void an_invalid_state_is_made_valid();
   void pins_that_contradict_each_other_are_named();
   void a_free_object_follows_the_handle();
   void what_is_kept_matches_the_object();
@@ -220,7 +220,7 @@ void EquilibriumSolverTest::every_iterate_is_valid() {
   }));
 }
 
-void EquilibriumSolverTest::an_invalid_state_is_repaired() {
+void EquilibriumSolverTest::an_invalid_state_is_made_valid() {
   const auto mesh = jittered_triangles(10, 10, 7);
   for (const Precision precision : precisions) {
     Dragged dragged(mesh, softness_of(EnergyKind::axial, 0.1), left_side(*mesh), 55, Point(3, 2, 0), precision,
@@ -400,7 +400,7 @@ void EquilibriumSolverTest::all_levels_follow_a_cut_and_its_undoing() {
     for (const LinkId link : cut) {
       matrix.set_link(link, is_cut ? PlaneMatrix::Block() : block_of(*mesh, link));
     }
-    kept.repair(matrix, rows, is_cut);
+    kept.update(matrix, rows, is_cut);
     anew.build(matrix);
     const int of_kept = iterations_of(kept, matrix, error), of_anew = iterations_of(anew, matrix, error);
     QVERIFY2(of_anew < 20 && of_kept <= of_anew + 2, qPrintable(QString("%1, not %2").arg(of_kept).arg(of_anew)));

@@ -7,12 +7,12 @@
 #include "mesh/error.h"
 #include "program.h"
 
-namespace chainmail::test_repair {
+namespace chainmail::test_restore_validity {
 
 using namespace chainmail::test;
 
 /// Exact ChainMail takes over from any state: it repairs an invalid one.
-class RepairTest : public QObject {
+class RestoreValidityTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -29,7 +29,7 @@ class RepairTest : public QObject {
   void an_uncut_link_is_mended();
 };
 
-void RepairTest::a_start_that_is_not_valid_is_repaired() {
+void RestoreValidityTest::a_start_that_is_not_valid_is_repaired() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
@@ -60,7 +60,7 @@ void RepairTest::a_start_that_is_not_valid_is_repaired() {
   QVERIFY(check_property("Exact takes over from any state, and every link holds", holds));
 }
 
-void RepairTest::a_repair_leaves_what_is_valid() {
+void RestoreValidityTest::a_repair_leaves_what_is_valid() {
   // A valid state that was set from outside is not known to be valid. It must not change.
   std::mt19937_64 random(3);
   for (const MeshFamily& family : families()) {
@@ -74,7 +74,7 @@ void RepairTest::a_repair_leaves_what_is_valid() {
   }
 }
 
-void RepairTest::a_repair_halves_between_the_envelopes() {
+void RestoreValidityTest::a_repair_halves_between_the_envelopes() {
   // 0 is held, and links are 0.75 to 1.25 long. Clamped to what the handle allows, 1 stays at 1 and 2 moves to 2.5.
   // They are 1.5 apart. The greatest valid answer below has 2 at 2.25, the least one above has 1 at 1.25.
   const auto chain = make_mesh(MeshKind::line, {3, 1, 1});
@@ -97,7 +97,7 @@ void RepairTest::a_repair_halves_between_the_envelopes() {
   QCOMPARE(free->body().positions()(9, 0), 9.0);
 }
 
-void RepairTest::states_from_outside_are_looked_at() {
+void RestoreValidityTest::states_from_outside_are_looked_at() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   ElementBlocks all(4);
   all.insert_all();
@@ -113,7 +113,7 @@ void RepairTest::states_from_outside_are_looked_at() {
   }
 }
 
-void RepairTest::a_repair_and_its_pass_count_once() {
+void RestoreValidityTest::a_repair_and_its_pass_count_once() {
   const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.3, 0}, {}});
@@ -137,7 +137,7 @@ void RepairTest::a_repair_and_its_pass_count_once() {
   }
 }
 
-void RepairTest::a_repair_of_huge_displacements_stays_finite() {
+void RestoreValidityTest::a_repair_of_huge_displacements_stays_finite() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   for (const Precision precision : precisions) {
     const double far = precision == Precision::single_precision ? 2e37 : 1e307;
@@ -153,7 +153,7 @@ void RepairTest::a_repair_of_huge_displacements_stays_finite() {
   }
 }
 
-void RepairTest::back_from_far_away_every_link_holds() {
+void RestoreValidityTest::back_from_far_away_every_link_holds() {
   // Far away, links are valid to the ulp of large coordinates. Near the origin again, they must be valid to a small
   // ulp.
   const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
@@ -164,7 +164,7 @@ void RepairTest::back_from_far_away_every_link_holds() {
   QVERIFY(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max < 1e-4);
 }
 
-void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
+void RestoreValidityTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
   // 2^24 and multiples of 0.37 do not fit into float. Exact must use the rest shape of the mesh.
   const auto line = make_mesh(MeshKind::line, {9, 1, 1}, {}, 0.37);
   const auto mesh = build_mesh(placed(*line, [](const Point& p) { return Point(p + Point(16777216, 0, 0)); }));
@@ -174,7 +174,7 @@ void RepairTest::relaxation_that_moves_nothing_leaves_the_rest_shape() {
   QVERIFY(same_bits(positions_of(*solver, *mesh), mesh->rest));
 }
 
-void RepairTest::what_exact_leaves_needs_no_repair() {
+void RestoreValidityTest::what_exact_leaves_needs_no_repair() {
   // Uncutting a link at rest checks all links. They are valid up to the rounding of a handle that is this far away.
   const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
   for (const Precision precision : precisions) {
@@ -190,7 +190,7 @@ void RepairTest::what_exact_leaves_needs_no_repair() {
   }
 }
 
-void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
+void RestoreValidityTest::pins_on_what_exact_leaves_contradict_nobody() {
   // Ten elements in a row are pinned just behind the front of a long drag, and the handle comes back near them.
   const auto mesh = make_mesh(MeshKind::line, {3000, 1, 1});
   for (const double far : {25.0, 70.0, 400.0}) {
@@ -206,7 +206,7 @@ void RepairTest::pins_on_what_exact_leaves_contradict_nobody() {
   }
 }
 
-void RepairTest::an_uncut_link_is_mended() {
+void RestoreValidityTest::an_uncut_link_is_mended() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.25, 0}, {}});
@@ -224,8 +224,8 @@ void RepairTest::an_uncut_link_is_mended() {
   QVERIFY(trace[0].sponsor == no_element && trace[1].sponsor == no_element);
 }
 
-CHAINMAIL_TEST(RepairTest)
+CHAINMAIL_TEST(RestoreValidityTest)
 
-}  // namespace chainmail::test_repair
+}  // namespace chainmail::test_restore_validity
 
-#include "test_repair.moc"
+#include "test_restore_validity.moc"

@@ -24,15 +24,15 @@ namespace chainmail {
 ///
 /// `State` is a BodyView, or something else with positions, regions, pins and neighbours.
 template <class State>
-class Repair {
+class RestoreValidity {
  public:
   using Scalar = typename State::Scalar;
   static constexpr int Dimension = State::Dimension;
 
   /// `reach`: the largest displacement or move that led to the state (mesh units). `handle`: its elements, ascending.
   /// `epsilon`: relative rounding error of the numbers that the state was made of.
-  Repair(State& body, PathSearch& search, double reach, std::span<const ElementId> handle,
-         double epsilon = std::numeric_limits<Scalar>::epsilon())
+  RestoreValidity(State& body, PathSearch& search, double reach, std::span<const ElementId> handle,
+                  double epsilon = std::numeric_limits<Scalar>::epsilon())
       : body_(body), search_(search), reach_(reach), handle_(handle), epsilon_(epsilon) {}
 
   /// Returns true if every link is valid, up to rounding of displacements of this size and, within an invisible
@@ -50,7 +50,7 @@ class Repair {
     return true;
   }
 
-  /// Repairs the state. Throws Error, with the pins, if two pins are further apart than links allow; nothing has moved
+  /// Restores the state. Throws Error, with the pins, if two pins are further apart than links allow; nothing has moved
   /// then.
   void run(std::span<const ElementId> pins) {
     Labels result[Dimension];
