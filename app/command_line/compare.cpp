@@ -12,7 +12,7 @@
 #include "report/page/table.h"
 #include "report/run/drags.h"
 #include "report/run/runner.h"
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {

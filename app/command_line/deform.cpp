@@ -16,7 +16,7 @@
 #include "measure/principal_stretch.h"
 #include "measure/volume_change.h"
 #include "mesh/error.h"
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {

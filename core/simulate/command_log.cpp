@@ -5,7 +5,7 @@
 namespace chainmail {
 
 void CommandLog::send(const Command& command) {
-  tape_.note(command);
+  history_.note(command);
   send_to_all(command);
 }
 

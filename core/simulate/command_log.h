@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "simulate/move_history.h"
 #include "simulate/solver_thread.h"
-#include "simulate/tape.h"
 
 namespace chainmail {
 
@@ -22,8 +22,8 @@ class CommandLog {
   /// Sends a command to all solvers without recording it: it is already recorded, or must not be.
   void replay(const Command& command);
   /// Returns the recorded commands.
-  Tape& tape() { return tape_; }
-  const Tape& tape() const { return tape_; }
+  MoveHistory& history() { return history_; }
+  const MoveHistory& history() const { return history_; }
   /// Adds or removes a solver, after any waiting command.
   void add(SolverThread& solver);
   void remove(const SolverThread& solver);
@@ -39,7 +39,7 @@ class CommandLog {
 
   std::vector<SolverThread*> solvers_;
   std::optional<Command> waiting_;
-  Tape tape_;
+  MoveHistory history_;
 };
 
 }  // namespace chainmail

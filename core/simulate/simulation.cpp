@@ -604,23 +604,23 @@ Simulation::State& Simulation::kept(commands::StateId state) {
   return found->second;
 }
 
-Handover Simulation::hand_over() {
+SimulationState Simulation::hand_over() {
   const auto copy = [](const std::shared_ptr<Handle>& handle) {
     return handle ? std::make_shared<const Handle>(*handle) : nullptr;
   };
   return {current_state(), kept_, relaxation(), elastic(), copy(grabbed_), copy(last_handle_)};
 }
 
-void Simulation::take(const Handover& handover, Algorithm algorithm) {
+void Simulation::take(const SimulationState& state, Algorithm algorithm) {
   measure_.reset();
   algorithm_ = algorithm;
-  solver_->body().set_elastic(handover.elastic);
-  take_mesh(handover.object.mesh);
-  take_state(handover.object);
-  kept_ = handover.kept;
-  carry_out(handover.relaxation);
-  grabbed_ = handover.grabbed ? std::make_shared<Handle>(*handover.grabbed) : nullptr;
-  last_handle_ = handover.last_handle ? std::make_shared<Handle>(*handover.last_handle) : nullptr;
+  solver_->body().set_elastic(state.elastic);
+  take_mesh(state.object.mesh);
+  take_state(state.object);
+  kept_ = state.kept;
+  carry_out(state.relaxation);
+  grabbed_ = state.grabbed ? std::make_shared<Handle>(*state.grabbed) : nullptr;
+  last_handle_ = state.last_handle ? std::make_shared<Handle>(*state.last_handle) : nullptr;
 }
 
 Simulation::State Simulation::current_state() {

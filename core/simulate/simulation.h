@@ -11,7 +11,7 @@
 #include "measure/violation.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
-#include "simulate/handover.h"
+#include "simulate/simulation_state.h"
 #include "solver/solver.h"
 
 namespace chainmail {
@@ -50,10 +50,10 @@ class Simulation {
   bool has_prepared() const { return prepared_; }
 
   /// Returns everything except the algorithm and the statistics. Shares data with the saved states.
-  Handover hand_over();
-  /// Continues from a handover with `algorithm`, or with Natural Queue if the algorithm does not support the mesh.
+  SimulationState hand_over();
+  /// Continues from a state with `algorithm`, or with Natural Queue if the algorithm does not support the mesh.
   /// Nothing moves, but positions may be rounded as with SetAlgorithm.
-  void take(const Handover& handover, Algorithm algorithm);
+  void take(const SimulationState& state, Algorithm algorithm);
 
   /// Sets the progress of long work, which throws Cancelled when it is cancelled. A cancelled pass of a method of
   /// elasticity moves nothing. Sweeps of relaxation end within some milliseconds and keep the positions reached.

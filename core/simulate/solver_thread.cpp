@@ -63,7 +63,7 @@ SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<
 SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::function<void()> frame_ready,
                            std::function<void()> became_idle)
     : SolverThread(no_mesh(), Algorithm::natural_queue, std::move(frame_ready), std::move(became_idle)) {
-  const auto promise = std::make_shared<std::promise<Handover>>();
+  const auto promise = std::make_shared<std::promise<SimulationState>>();
   // If the other solver ends first, the promise is broken, so this task does not wait forever.
   add([taken = promise->get_future().share(), algorithm](Simulation& simulation) {
     simulation.take(taken.get(), algorithm);

@@ -153,23 +153,23 @@ struct Prefix {
   std::size_t length = 0;
   const Softness* softness = nullptr;  // of the first one
 
-  explicit Prefix(const Tape& tape) : length(tape.length()), softness(first_softness(tape)) {}
+  explicit Prefix(const MoveHistory& history) : length(history.length()), softness(first_softness(history)) {}
   Prefix() = default;
 
-  static const Softness* first_softness(const Tape& tape) {
-    const auto* first = tape.length() == 0 ? nullptr : std::get_if<commands::SetSoftness>(&tape.at(0));
+  static const Softness* first_softness(const MoveHistory& history) {
+    const auto* first = history.length() == 0 ? nullptr : std::get_if<commands::SetSoftness>(&history.at(0));
     return first == nullptr ? nullptr : first->softness.get();
   }
   /// Returns how many of these commands are still there.
-  std::size_t in(const Tape& tape) const {
-    return length > 0 && tape.length() >= length && first_softness(tape) == softness ? length : 0;
+  std::size_t in(const MoveHistory& history) const {
+    return length > 0 && history.length() >= length && first_softness(history) == softness ? length : 0;
   }
 };
 
 DocumentState observed(Document& document, const Prefix& prefix = {}) {
   RC_ASSERT(has_done_all(document));
   const Session session = SessionDraft(document, "{}").finished({});
-  const std::size_t skip = prefix.in(document.tape());
+  const std::size_t skip = prefix.in(document.moveHistory());
   const auto moves = std::span(session.moves).subspan(skip);
   const std::size_t done = session.moves_done - skip;
   DocumentState state{
@@ -253,7 +253,7 @@ class Life {
     const QStringList said = carried_out(*document_, step, 0);
     const DocumentState after = observed(*document_);
     if (action.kind != Kind::relax) {  // sweeps in idle time: their number differs
-      RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->tape())).isEmpty() == said.isEmpty());
+      RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->moveHistory())).isEmpty() == said.isEmpty());
       check(observed(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
     }
     if (action.kind == Kind::add_panel || action.kind == Kind::remove_panel) {
@@ -288,7 +288,7 @@ class Life {
     fresh->setMeshFile(document_->meshFile());
     fresh->select(document_->selection().elements);
     fresh->undoStack().clear();
-    prefix = session->moves.empty() ? Prefix(fresh->tape()) : Prefix();
+    prefix = session->moves.empty() ? Prefix(fresh->moveHistory()) : Prefix();
     return fresh;
   }
 
@@ -534,13 +534,14 @@ Life::Step Life::move_step(const Action& action) const {
   switch (action.kind) {
     case Kind::load_moves:
       return [](Document& d, std::size_t skip) {
-        auto moves = d.tape().commands();
+        auto moves = d.moveHistory().commands();
         moves.erase(moves.begin(), moves.begin() + std::ptrdiff_t(skip));
         d.loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("load"));
       };
     case Kind::go_to:
-      return
-          [at = action.which % (document_->tape().length() + 1)](Document& d, std::size_t skip) { d.goTo(at + skip); };
+      return [at = action.which % (document_->moveHistory().length() + 1)](Document& d, std::size_t skip) {
+        d.goTo(at + skip);
+      };
     case Kind::reload:
       return [session = std::make_shared<const Session>(SessionDraft(*document_, "{}").finished({}))](Document& d,
                                                                                                       std::size_t) {

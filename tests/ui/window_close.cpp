@@ -52,7 +52,7 @@ void relaxForHours(Workbench& bench) {
   bench.document().loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
   bench.settle();
   bench.trigger("replayLast");
-  QTRY_COMPARE(bench.document().tape().position(), moves.size());
+  QTRY_COMPARE(bench.document().moveHistory().position(), moves.size());
   QVERIFY(!bench.document().idle());
 }
 
@@ -122,7 +122,7 @@ void goesToTheEnd(Workbench& bench) {
   bench.document().loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("open"));
   bench.settle();
   bench.trigger("replayLast");
-  QTRY_VERIFY(bench.document().tape().position() > 0);
+  QTRY_VERIFY(bench.document().moveHistory().position() > 0);
   QVERIFY(!bench.document().idle());
 }
 
@@ -130,7 +130,7 @@ void plays(Workbench& bench) {
   drag(bench.document(), 5, {30, 20, 0});
   bench.settle();
   bench.trigger("replayPlay");
-  QTRY_VERIFY(bench.document().tape().position() < bench.document().tape().length());
+  QTRY_VERIFY(bench.document().moveHistory().position() < bench.document().moveHistory().length());
 }
 
 /// Starts Exact ChainMail, which has to search for the regions of all elements for each new handle.

@@ -73,24 +73,24 @@ class WindowDrag : public QObject {
     };
     for (int i = 1; i <= 5; ++i) {
       finish();
-      const std::size_t recorded = document.tape().length();
+      const std::size_t recorded = document.moveHistory().length();
       document.drag(Point(4, 3 + 0.1 * i, 0));
-      QCOMPARE(document.tape().length(), recorded + 1);
+      QCOMPARE(document.moveHistory().length(), recorded + 1);
     }
     // While a solver is busy, only the newest move waits.
     finish();
     std::promise<void> busy;
     document.ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
-    const std::size_t recorded = document.tape().length();
+    const std::size_t recorded = document.moveHistory().length();
     for (int i = 1; i <= 200; ++i) {
       document.drag(Point(4, 4 + 0.01 * i, 0));
     }
-    QCOMPARE(document.tape().length(), recorded);
+    QCOMPARE(document.moveHistory().length(), recorded);
     busy.set_value();
     finish();
     bench.settle();
     QCOMPARE(bench.position(1, 31), Point(4, 6, 0));
-    QCOMPARE(document.tape().length(), recorded + 1);
+    QCOMPARE(document.moveHistory().length(), recorded + 1);
     document.release();
   }
 

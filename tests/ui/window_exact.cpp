@@ -275,7 +275,7 @@ class WindowExact : public QObject {
       QCOMPARE(bench.position(p, middle), Point(4.25, -2.5, 0));
       QCOMPARE(bench.document().frame(p)->statistics.passes, 4U);
     }
-    std::vector<Command> drag = bench.document().tape().commands();  // recorded like a drag with the mouse
+    std::vector<Command> drag = bench.document().moveHistory().commands();  // recorded like a drag with the mouse
     QCOMPARE(drag.size(), 6U);
     drag.pop_back();  // the Release command
     QCOMPARE(std::get<commands::Grab>(drag.front()).elements, std::vector<ElementId>{middle});

@@ -529,7 +529,7 @@ class WindowHandle : public QObject {
       QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
       bench.settle();
       after = allPositions(bench);
-      moves = bench.document().tape().length();
+      moves = bench.document().moveHistory().length();
       bench.window.sessions().savePath(path);
       bench.settle();
     }

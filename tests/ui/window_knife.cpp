@@ -111,7 +111,7 @@ class WindowKnife : public QObject {
     bench.settle();
     QCOMPARE(bench.document().mesh(), whole);
     QCOMPARE(bench.document().parts(), 1U);
-    bench.document().goTo(bench.document().tape().length());
+    bench.document().goTo(bench.document().moveHistory().length());
     bench.settle();
     QCOMPARE(bench.document().mesh(), split);
     QCOMPARE(bench.document().parts(), 2U);
@@ -137,7 +137,7 @@ class WindowKnife : public QObject {
     bench.trigger("showReplay");
     bench.trigger("replayPlay");  // from the end: begins anew
     QCOMPARE(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')), QStringLiteral("Pause"));
-    QTRY_COMPARE(bench.document().tape().position(), bench.document().tape().length());
+    QTRY_COMPARE(bench.document().moveHistory().position(), bench.document().moveHistory().length());
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')) != QStringLiteral("Pause"));
     QCOMPARE(bench.document().mesh(), split);
   }
@@ -158,7 +158,7 @@ class WindowKnife : public QObject {
     replay.openMoves(path);
     bench.settle();
     QCOMPARE(bench.document().mesh(), whole);
-    QCOMPARE(bench.document().tape().length(), std::size_t{1});
+    QCOMPARE(bench.document().moveHistory().length(), std::size_t{1});
     bench.document().goTo(1);
     bench.settle();
     QCOMPARE(bench.document().mesh()->element_count(), split->element_count());

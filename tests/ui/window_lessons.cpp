@@ -38,7 +38,7 @@ struct State {
 
 State stateOf(Workbench& bench) {
   Document& document = bench.document();
-  State state{{}, {}, document.cuts().links(), document.pins(), document.tape().position()};
+  State state{{}, {}, document.cuts().links(), document.pins(), document.moveHistory().position()};
   for (int panel = 0; panel < document.panels(); ++panel) {
     state.panels.push_back(document.snapshot(panel).get());
     state.algorithms.push_back(document.algorithm(panel));
@@ -249,14 +249,14 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
   std::vector<std::size_t> seen;
   QObject context;
   connect(&bench.document(), &Document::tapeChanged, &context,
-          [&] { seen.push_back(bench.document().tape().position()); });
+          [&] { seen.push_back(bench.document().moveHistory().position()); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);
   QVERIFY(player(bench).plays());
   QVERIFY(std::ranges::is_sorted(seen));
-  QVERIFY(bench.document().tape().position() < until);
+  QVERIFY(bench.document().moveHistory().position() < until);
   bench.trigger("lessonNext");
-  QCOMPARE(bench.document().tape().position(), until);
+  QCOMPARE(bench.document().moveHistory().position(), until);
   QCOMPARE(player(bench).step(), std::size_t{1});
   awaitStep(bench);
 }
@@ -420,7 +420,7 @@ void WindowLessons::aDragDuringAStepStopsIt() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   bench.trigger("lessonNext");
-  QTRY_VERIFY(bench.document().tape().position() > 5);
+  QTRY_VERIFY(bench.document().moveHistory().position() > 5);
   bench.document().grab(0);
   bench.document().dragBy({1, 0, 0});
   QTRY_VERIFY(!player(bench).plays());
@@ -538,7 +538,7 @@ void WindowLessons::unsavedWorkIsOfferedAgain() {
   QTest::mouseClick(again.find<QPushButton>("restoreWork"), Qt::LeftButton);
   again.settle();
   QCOMPARE(again.document().name(), QStringLiteral("sample"));
-  QVERIFY(!again.document().tape().commands().empty());
+  QVERIFY(!again.document().moveHistory().commands().empty());
 }
 
 void WindowLessons::undoAndRedoKeepTheLesson() {

@@ -184,7 +184,8 @@ class WindowOpen : public QObject {
     bench.find<QPushButton>("repairLoose")->click();
     bench.settle();
     QVERIFY(bench.document().wholeSoftness()->links.contains(link));
-    QCOMPARE(*bench.document().tape().object().softness, *bench.document().wholeSoftness());  // what the solvers got
+    QCOMPARE(*bench.document().moveHistory().object().softness,
+             *bench.document().wholeSoftness());  // what the solvers got
   }
 
   void aRepairThatComesTooLateReplacesNothing() {

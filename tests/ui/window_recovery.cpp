@@ -270,7 +270,7 @@ class WindowRecovery : public QObject {
            drag(document, 20, {0.4, -0.3, 0.2});
          }},
         {"a drag to where the element is", [&] { drag(document, 1, Point::Zero()); }},
-        {"back in what was done", [&] { document.goTo(document.tape().length() - 3); }},
+        {"back in what was done", [&] { document.goTo(document.moveHistory().length() - 3); }},
         {"other moves",
          [&] {
            const std::vector<Command> moves{commands::Pin{{1}}};

@@ -43,7 +43,7 @@ void work(Workbench& bench) {
 void go(Workbench& bench, const char* action) {
   bench.trigger(action);
   const bool first = QLatin1String(action) == QLatin1String("replayFirst");
-  QTRY_COMPARE(bench.document().tape().position(), first ? 0 : bench.document().tape().length());
+  QTRY_COMPARE(bench.document().moveHistory().position(), first ? 0 : bench.document().moveHistory().length());
   bench.settle();
 }
 
@@ -102,8 +102,8 @@ struct Scene {
 /// Returns the content of the panels before the first move, after each move, and at the end.
 std::vector<QImage> shownAfterEachMove(Workbench& bench) {
   const Scene scene(bench);
-  const Tape& tape = bench.document().tape();
-  const std::size_t last = tape.length();
+  const MoveHistory& history = bench.document().moveHistory();
+  const std::size_t last = history.length();
   std::vector<QImage> pictures;
   const auto showAt = [&](std::size_t position) {
     bench.document().goTo(position);
@@ -112,7 +112,7 @@ std::vector<QImage> shownAfterEachMove(Workbench& bench) {
   };
   showAt(0);
   for (std::size_t i = 0; i < last; ++i) {
-    if (std::holds_alternative<commands::Drag>(tape.at(i))) {
+    if (std::holds_alternative<commands::Drag>(history.at(i))) {
       showAt(i + 1);
     }
   }
@@ -217,15 +217,15 @@ class WindowReplay : public QObject {
     Workbench bench;
     work(bench);
     const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().tape().length();
-    QCOMPARE(bench.document().tape().position(), length);
+    const std::size_t length = bench.document().moveHistory().length();
+    QCOMPARE(bench.document().moveHistory().position(), length);
     go(bench, "replayFirst");
     const std::vector<float> rest(bench.document().mesh()->rest.begin(), bench.document().mesh()->rest.end());
     QVERIFY(shapes(bench) == (Shapes{rest, rest}));
     QCOMPARE(bench.document().cuts().count(), 0U);
     QVERIFY(bench.document().pins().empty());
     QCOMPARE(bench.document().softness(), LinkSoftness());
-    QCOMPARE(bench.document().tape().length(), length);
+    QCOMPARE(bench.document().moveHistory().length(), length);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
     QCOMPARE(bench.document().cuts().count(), 3U);
@@ -237,13 +237,13 @@ class WindowReplay : public QObject {
   void aSliderGoesThereAndBack() {
     Workbench bench;
     // A busy machine samples a stroke less often.
-    for (int i = 0; i < 12 || bench.document().tape().length() <= 64; ++i) {
+    for (int i = 0; i < 12 || bench.document().moveHistory().length() <= 64; ++i) {
       const QPoint from = bench.place(0, ElementId(5 * i % 60));
       bench.stroke(0, {from, from + QPoint(60 - 20 * (i % 12), 50)});
     }
     const Shapes live = shapes(bench);
     const int steps = bench.document().undoStack().count();
-    const auto length = bench.document().tape().length();
+    const auto length = bench.document().moveHistory().length();
     QVERIFY(length > 64);  // snapshots are saved on the way
     auto* slider = bench.find<QSlider>("replaySlider");
     QTRY_COMPARE(slider->maximum(), int(length));
@@ -251,7 +251,7 @@ class WindowReplay : public QObject {
     for (const std::size_t place :
          {length, length / 2, length / 3, length - 3, length / 3, length / 2, std::size_t{1}}) {
       slider->setValue(int(place));
-      QTRY_COMPARE(bench.document().tape().position(), place);
+      QTRY_COMPARE(bench.document().moveHistory().position(), place);
       bench.settle();
       const auto [first, isNew] = seen.emplace(place, shapes(bench));
       QVERIFY(isNew || first->second == shapes(bench));
@@ -327,13 +327,13 @@ class WindowReplay : public QObject {
     work(bench);
     go(bench, "replayFirst");
     bench.trigger("replayForward");
-    QTRY_VERIFY(bench.document().tape().position() > 0);
+    QTRY_VERIFY(bench.document().moveHistory().position() > 0);
     bench.settle();
-    const auto place = bench.document().tape().position();
-    QVERIFY(place > 0 && place < bench.document().tape().length());
+    const auto place = bench.document().moveHistory().position();
+    QVERIFY(place > 0 && place < bench.document().moveHistory().length());
     const QPoint from = bench.place(0, 5);
     bench.stroke(0, {from, from + QPoint(-50, 70)});
-    QCOMPARE(bench.document().tape().position(), bench.document().tape().length());
+    QCOMPARE(bench.document().moveHistory().position(), bench.document().moveHistory().length());
     const Shapes live = shapes(bench);
     go(bench, "replayFirst");
     go(bench, "replayLast");
@@ -344,31 +344,31 @@ class WindowReplay : public QObject {
   void stepsGoFromMoveToMoveBothWays() {
     Workbench bench;
     workInFewMoves(bench);
-    const Tape& tape = bench.document().tape();
-    const std::size_t length = tape.length();
+    const MoveHistory& history = bench.document().moveHistory();
+    const std::size_t length = history.length();
     const auto go = [&](const char* action) {
-      const std::size_t before = tape.position();
+      const std::size_t before = history.position();
       bench.trigger(action);
-      QTRY_VERIFY(tape.position() != before);
+      QTRY_VERIFY(history.position() != before);
       bench.settleFigures();
     };
     const auto* place = bench.find<QLabel>("replayPlace");
     go("replayFirst");
     QCOMPARE(place->text(), QStringLiteral("move 0 of 5"));
-    std::vector<std::size_t> onward{tape.position()};
+    std::vector<std::size_t> onward{history.position()};
     std::vector<Shapes> seen{shapes(bench)};
     for (int moves = 1; moves <= 5; ++moves) {
       go("replayForward");
       QCOMPARE(place->text(), QStringLiteral("move %1 of 5").arg(moves));
       QVERIFY(shapes(bench) != seen.back());
-      onward.push_back(tape.position());
+      onward.push_back(history.position());
       seen.push_back(shapes(bench));
     }
     go("replayForward");  // to the end of the last drag
-    QCOMPARE(tape.position(), length);
+    QCOMPARE(history.position(), length);
     for (std::size_t moves = 5; moves-- > 0;) {
       go("replayBack");
-      if (tape.position() == onward.back()) {
+      if (history.position() == onward.back()) {
         go("replayBack");  // from the end to the last move
       }
       QCOMPARE(place->text(), QStringLiteral("move %1 of 5").arg(moves));
@@ -392,7 +392,7 @@ class WindowReplay : public QObject {
     bench.document().resetObject();
     dock(bench)->openMoves(path);
     bench.settle();
-    QCOMPARE(bench.document().tape().position(), std::size_t{0});
+    QCOMPARE(bench.document().moveHistory().position(), std::size_t{0});
     QCOMPARE(bench.document().cuts().count(), 0U);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
@@ -430,8 +430,8 @@ class WindowReplay : public QObject {
     bench.document().release();
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
     bench.settle();
-    QCOMPARE(bench.document().tape().length(), std::size_t{200'001});
-    QCOMPARE(bench.document().tape().position(), std::size_t{0});
+    QCOMPARE(bench.document().moveHistory().length(), std::size_t{200'001});
+    QCOMPARE(bench.document().moveHistory().position(), std::size_t{0});
     QCOMPARE(bench.document().undoStack().count(), 2);
   }
 
@@ -439,7 +439,7 @@ class WindowReplay : public QObject {
     Workbench bench;
     work(bench);
     const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().tape().length();
+    const std::size_t length = bench.document().moveHistory().length();
     QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("large.json"));
     writeDrags(path, 200'000);
@@ -449,7 +449,7 @@ class WindowReplay : public QObject {
     QVERIFY(!bench.window.jobs().running());
     bench.settle();
     QVERIFY(shapes(bench) == live);
-    QCOMPARE(bench.document().tape().length(), length);
+    QCOMPARE(bench.document().moveHistory().length(), length);
     QVERIFY(!bench.window.messages().isVisible());
   }
 
@@ -464,7 +464,7 @@ class WindowReplay : public QObject {
                                  QStringLiteral("build line"));
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
     bench.settle();
-    QCOMPARE(bench.document().tape().length(), std::size_t{0});
+    QCOMPARE(bench.document().moveHistory().length(), std::size_t{0});
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("the object was replaced")));
   }
 
@@ -474,7 +474,8 @@ class WindowReplay : public QObject {
     const Shapes live = shapes(bench);
     go(bench, "replayFirst");
     bench.trigger("replayPlay");
-    QTRY_COMPARE_WITH_TIMEOUT(bench.document().tape().position(), bench.document().tape().length(), 10'000);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.document().moveHistory().position(), bench.document().moveHistory().length(),
+                              10'000);
     bench.settle();
     QVERIFY(shapes(bench) == live);
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
@@ -512,8 +513,8 @@ class WindowReplay : public QObject {
     dock(bench)->saveFilm(folder.path());
     QVERIFY(saved.wait(30'000));
     int moves = 0;
-    for (std::size_t i = 0; i < bench.document().tape().length(); ++i) {
-      moves += std::holds_alternative<commands::Drag>(bench.document().tape().at(i)) ? 1 : 0;
+    for (std::size_t i = 0; i < bench.document().moveHistory().length(); ++i) {
+      moves += std::holds_alternative<commands::Drag>(bench.document().moveHistory().at(i)) ? 1 : 0;
     }
     const QStringList pictures = QDir(folder.path()).entryList({QStringLiteral("*.png")}, QDir::Files, QDir::Name);
     // One picture before the first move, one after each move, and one after the last release.

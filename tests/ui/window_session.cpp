@@ -151,7 +151,7 @@ class WindowSession : public QObject {
     Workbench again;
     again.open(path);
     Document& document = again.document();
-    QCOMPARE(document.tape().position(), saved.moves_done);
+    QCOMPARE(document.moveHistory().position(), saved.moves_done);
     document.goTo(0);
     again.settle();
     // The positions are floats of a few units.

@@ -237,7 +237,7 @@ class WindowSheet : public QObject {
     bench.choose(0, "Exact ChainMail");
     bench.document().goTo(0);
     bench.settle();
-    bench.document().goTo(bench.document().tape().length());
+    bench.document().goTo(bench.document().moveHistory().length());
     bench.settle();
     QCOMPARE(warped(bench, 0, "again.png"), second);  // the same algorithm gives the same picture
   }

@@ -85,10 +85,10 @@ void BackgroundReference::setWanted(bool wanted) {
 
 /// Returns the last target of a drag, unless the object was reset after it.
 std::optional<BackgroundReference::Handle> BackgroundReference::lastHandle() const {
-  const Tape& tape = document_.tape();
+  const MoveHistory& history = document_.moveHistory();
   const commands::Drag* last = nullptr;
-  for (std::size_t i = tape.position(); i > 0; --i) {
-    const Command& command = tape.at(i - 1);
+  for (std::size_t i = history.position(); i > 0; --i) {
+    const Command& command = history.at(i - 1);
     if (const auto* drag = std::get_if<commands::Drag>(&command); drag != nullptr && last == nullptr) {
       last = drag;
     } else if (const auto* grab = std::get_if<commands::Grab>(&command); grab != nullptr && last != nullptr) {

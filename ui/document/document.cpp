@@ -575,10 +575,10 @@ void Document::placeSession(const std::shared_ptr<const Session>& session) {
   const std::vector<Command> object{commands::SetSoftness{session->softness}, commands::Cut{session->cuts},
                                     commands::Pin{session->pins}};
   const bool hasMoves = !session->moves.empty();
-  log_->flush();  // to the tape that is replaced below
-  log_->tape().load(hasMoves ? session->moves : object);
-  log_->tape().go_to(hasMoves ? session->moves_done : object.size());
-  lessonTimeline_ = tape().timeline();
+  log_->flush();  // to the history that is replaced below
+  log_->history().load(hasMoves ? session->moves : object);
+  log_->history().go_to(hasMoves ? session->moves_done : object.size());
+  lessonTimeline_ = moveHistory().timeline();
   replayed_ = hasMoves && startsFromRest(*session);
   for (int panel = 0; panel < panels(); ++panel) {
     const auto& saved = session->panels;
@@ -691,7 +691,7 @@ void Document::endDrag() {
 
 void Document::post(const Command& command) {
   // The recorded commands may end within a drag, as in a session that was saved while dragging.
-  if (!handle_ && changesObject(command) && tape().holds()) {
+  if (!handle_ && changesObject(command) && moveHistory().holds()) {
     log_->post(commands::Release{});
   }
   log_->post(command);

@@ -123,12 +123,12 @@ class Document : public QObject {
   void grabControlPoint(std::uint32_t point);
   void dragControlPoint(const Point& target);
   /// The commands of the last drag of this mesh, without the release; empty if there was none.
-  std::vector<Command> lastDrag() const { return tape().last_drag(); }
+  std::vector<Command> lastDrag() const { return moveHistory().last_drag(); }
 
   // The recorded commands of the object.
 
   /// The commands carried out since the object was at rest, and the current position in them.
-  const Tape& tape() const { return log_->tape(); }
+  const MoveHistory& moveHistory() const { return log_->history(); }
   /// Clears the move history; positions stay.
   void forgetMoves();
   /// Adds the relaxation since the last pass to the recorded commands. Call it before they are saved.
@@ -280,7 +280,7 @@ class Document : public QObject {
   // Replay, in document_replay.cpp.
   void endSweeps();
   void travel(std::size_t position, const MeshPointer& first);
-  void replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const;
+  void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
   bool followsLesson(const std::vector<Algorithm>& algorithms) const;
   bool onlyLessonMoved() const;
@@ -308,9 +308,9 @@ class Document : public QObject {
 
   // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
   std::map<std::size_t, commands::StateId> waypoints_;
-  std::uint64_t waypointTimeline_ = 0;  // Tape::timeline() of the waypoints
+  std::uint64_t waypointTimeline_ = 0;  // MoveHistory::timeline() of the waypoints
   bool replayed_ = false;               // true if the solvers have done nothing since the last replay
-  std::uint64_t lessonTimeline_ = 0;    // Tape::timeline() of the lesson's moves
+  std::uint64_t lessonTimeline_ = 0;    // MoveHistory::timeline() of the lesson's moves
   std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
 
   // True while an announcement of a solver thread (new frame, idle) waits in the event queue. Prevents a second one.

@@ -27,7 +27,7 @@ std::vector<T> without(const std::vector<T>& all, const std::vector<T>& some) {
 }  // namespace
 
 void Document::forgetMoves() {
-  log_->tape().load({});
+  log_->history().load({});
   emit tapeChanged();
   emit lastDragChanged();
 }
@@ -39,7 +39,7 @@ void Document::noteRelaxation() {
   }
   relaxationNoted_ = now->statistics.passes;
   const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, maxSweepsNoted);
-  log_->tape().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation().step, relaxation().scheme});
+  log_->history().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation().step, relaxation().scheme});
   emit tapeChanged();
 }
 
@@ -58,16 +58,16 @@ void Document::endSweeps() {
 
 void Document::goTo(std::size_t position) {
   noteRelaxation();
-  position = std::min(position, tape().length());
-  if (position == tape().position()) {
+  position = std::min(position, moveHistory().length());
+  if (position == moveHistory().position()) {
     return;
   }
   endSweeps();
   Change edit = change(QStringLiteral("replay"), travelGesture);
   edit.after.relaxation.on = false;
-  const MeshPointer first = tape().first_mesh();
+  const MeshPointer first = moveHistory().first_mesh();
   if (first) {
-    replaceSplit(edit, tape().object(position), first);
+    replaceSplit(edit, moveHistory().object(position), first);
   }
   edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsTape = true;
@@ -77,7 +77,7 @@ void Document::goTo(std::size_t position) {
 
 /// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
 /// recorded commands begin; null if that is the present one.
-void Document::replaceSplit(Change& edit, const Tape::Object& then, const MeshPointer& first) const {
+void Document::replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const {
   if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != mesh()) {
     edit.after.object = objectOf(other, then.cuts, then.pins);
     edit.after.softness = then.softness;
@@ -92,7 +92,7 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   replaceSplit(edit, {}, first);
   edit.carryOut = [this, moves, first] {
     goToBeginning(first);
-    log_->tape().load(*moves);
+    log_->history().load(*moves);
     replayed_ = true;
   };
   edit.followsTape = true;
@@ -101,7 +101,7 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
 }
 
 bool Document::recordsLesson() const {
-  return lesson() && tape().timeline() == lessonTimeline_ && tape().length() >= lesson()->moves.size();
+  return lesson() && moveHistory().timeline() == lessonTimeline_ && moveHistory().length() >= lesson()->moves.size();
 }
 
 /// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
@@ -111,7 +111,7 @@ bool Document::followsLesson(const std::vector<Algorithm>& algorithms) const {
 }
 
 bool Document::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
-  return followsLesson(algorithms) && tape().position() == position;
+  return followsLesson(algorithms) && moveHistory().position() == position;
 }
 
 /// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.
@@ -132,7 +132,7 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
   std::ranges::copy(algorithms, edit.after.algorithms.begin());
   const MeshPointer first = first_mesh(*lesson());
   if (first_mesh(lesson()->moves) || first != mesh()) {
-    Tape moves;
+    MoveHistory moves;
     moves.load(lesson()->moves);
     replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
   }
@@ -143,10 +143,10 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
     }
     if (!recordsLesson()) {
       log_->flush();
-      log_->tape().load(session->moves);
-      lessonTimeline_ = tape().timeline();
+      log_->history().load(session->moves);
+      lessonTimeline_ = moveHistory().timeline();
     }
-    travel(std::min(position, tape().length()), first);
+    travel(std::min(position, moveHistory().length()), first);
   };
   edit.followsTape = true;
   apply(std::move(edit));
@@ -157,12 +157,12 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
 /// may make the result of a replay differ from that of the live moves. So the current state counts as known only after
 /// a replay. `first` is the mesh with which the commands begin; null if that is the present one.
 void Document::travel(std::size_t position, const MeshPointer& first) {
-  Tape& tape = log_->tape();
-  if (waypointTimeline_ != tape.timeline()) {
+  MoveHistory& history = log_->history();
+  if (waypointTimeline_ != history.timeline()) {
     dropWaypoints();
-    waypointTimeline_ = tape.timeline();
+    waypointTimeline_ = history.timeline();
   }
-  std::size_t at = tape.position();
+  std::size_t at = history.position();
   if (!replayed_ || position < at) {
     const auto after = waypoints_.upper_bound(position);
     at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
@@ -170,9 +170,9 @@ void Document::travel(std::size_t position, const MeshPointer& first) {
   }
   for (; at < position; ++at) {
     keepWaypoint(at);
-    log_->replay(tape.at(at));
+    log_->replay(history.at(at));
   }
-  tape.go_to(position);
+  history.go_to(position);
   replayed_ = true;
 }
 
@@ -194,9 +194,9 @@ void Document::goToBeginning(const MeshPointer& first) {
 /// Saves a waypoint if the previous one is far enough away. It does so only between two drags, because a state does not
 /// include the handle.
 void Document::keepWaypoint(std::size_t position) {
-  const std::size_t apart = std::max(leastApart, tape().length() / maxWaypoints);
+  const std::size_t apart = std::max(leastApart, moveHistory().length() / maxWaypoints);
   const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
-  if (position >= last + apart && std::holds_alternative<commands::Grab>(tape().at(position))) {
+  if (position >= last + apart && std::holds_alternative<commands::Grab>(moveHistory().at(position))) {
     waypoints_[position] = newState();
     log_->replay(commands::KeepState{waypoints_[position]});
   }
@@ -211,7 +211,7 @@ void Document::dropWaypoints() {
 
 /// Sets cuts, pins and softness to their state at the current position in the recorded commands.
 void Document::showTape() {
-  const Tape::Object object = tape().object();
+  const MoveHistory::Object object = moveHistory().object();
   const std::vector<LinkId> cut = cuts().links();
   if (cut != object.cuts) {
     showCuts(without(cut, object.cuts), false);

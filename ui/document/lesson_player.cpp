@@ -43,7 +43,7 @@ void LessonPlayer::adopt() {
   }
   clock_.stop();
   session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
-  step_ = session_ ? stepAt(document_.tape().position()) : 0;
+  step_ = session_ ? stepAt(document_.moveHistory().position()) : 0;
   dragged_.clear();
   emit openChanged();
 }

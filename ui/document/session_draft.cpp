@@ -12,8 +12,8 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.softness = document.wholeSoftness();
   session_.relaxation = document.relaxation();
   session_.elastic = document.elastic();
-  session_.moves = document.tape().commands();
-  session_.moves_done = document.tape().position();
+  session_.moves = document.moveHistory().commands();
+  session_.moves_done = document.moveHistory().position();
   takeLesson(document);
   session_.ui = std::move(look);
   for (int panel = 0; panel < document.panels(); ++panel) {

@@ -66,18 +66,18 @@ std::size_t Film::picturesIn(const QString& folder) {
 }
 
 void Film::begin(const QString& path) {
-  const Tape& tape = document_.tape();
+  const MoveHistory& history = document_.moveHistory();
   path_ = path;
   video_ = !QFileInfo(path).isDir();
   earlier_ = video_ ? 0 : picturesIn(path);
   positions_ = {0};
-  for (std::size_t i = 0; i < tape.length(); ++i) {
-    if (std::holds_alternative<commands::Drag>(tape.at(i))) {
+  for (std::size_t i = 0; i < history.length(); ++i) {
+    if (std::holds_alternative<commands::Drag>(history.at(i))) {
       positions_.push_back(i + 1);
     }
   }
-  if (positions_.back() != tape.length()) {
-    positions_.push_back(tape.length());
+  if (positions_.back() != history.length()) {
+    positions_.push_back(history.length());
   }
   folder_ = std::make_unique<QTemporaryDir>((video_ ? QFileInfo(path).absolutePath() : path) +
                                             QStringLiteral("/.film-XXXXXX"));
@@ -88,7 +88,7 @@ void Film::begin(const QString& path) {
   next_ = 0;
   size_ = {};
   unwritten_ = stopped_ = false;
-  before_ = tape.position();
+  before_ = history.position();
   running_ = true;
   emit changed();
   document_.goTo(positions_.front());

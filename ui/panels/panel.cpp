@@ -129,8 +129,8 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  const Tape& tape = document_.tape();  // a session brings moves that this solver has not made
-  const bool hasMoved = statistics.passes > 0 || document_.cuts().count() > 0 || tape.passes(tape.position()) > 0;
+  const MoveHistory& history = document_.moveHistory();  // a session brings moves that this solver has not made
+  const bool hasMoved = statistics.passes > 0 || document_.cuts().count() > 0 || history.passes(history.position()) > 0;
   violation_->show(statistics, hasMoved, view_->isInMidPass());
   const QString help = QStringLiteral(
       "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is\n"

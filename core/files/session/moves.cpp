@@ -12,7 +12,7 @@
 #include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 namespace chainmail {
 namespace {

@@ -16,7 +16,7 @@
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 namespace chainmail {
 namespace {

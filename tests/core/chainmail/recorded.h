@@ -30,7 +30,7 @@ struct Recorded {
     recorder.end(simulation);
     return done;
   }
-  /// Records, as at the handover of a frame.
+  /// Records, as when a frame is handed over.
   void publish() {
     recorder.note_changes(simulation);
     simulation.forget_changes();

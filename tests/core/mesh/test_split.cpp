@@ -12,7 +12,7 @@
 #include "mesh/split_along.h"
 #include "program.h"
 #include "property.h"
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::test_split {
 
@@ -508,32 +508,32 @@ void SplitTest::a_drag_after_a_split_needs_a_grab() {
 
 void SplitTest::meshes_of_undone_splits_are_freed() {
   const MeshPointer mesh = sheet();
-  Tape tape;
+  MoveHistory history;
   std::weak_ptr<const Mesh> undone, done;
   {
     const auto split = split_of(mesh, line_across(3));
-    tape.note(commands::KeepState{1});
-    tape.note(commands::Split{split});
-    tape.note(commands::KeepState{2});
+    history.note(commands::KeepState{1});
+    history.note(commands::Split{split});
+    history.note(commands::KeepState{2});
     undone = split->after;
   }
-  tape.note(commands::RestoreState{1});
+  history.note(commands::RestoreState{1});
   QVERIFY(!undone.expired());
-  tape.note(commands::RestoreState{2});  // redo
-  QCOMPARE(tape.object().mesh, undone.lock());
-  tape.note(commands::RestoreState{1});
-  tape.note(commands::DropState{2});
+  history.note(commands::RestoreState{2});  // redo
+  QCOMPARE(history.object().mesh, undone.lock());
+  history.note(commands::RestoreState{1});
+  history.note(commands::DropState{2});
   {
     const auto split = split_of(mesh, {{60, -20}, {80, 200}});
-    tape.note(commands::Split{split});
+    history.note(commands::Split{split});
     done = split->after;
   }
   QVERIFY(undone.expired());
-  QCOMPARE(tape.object().mesh, done.lock());
-  tape.note(commands::RestoreState{1});
-  QCOMPARE(tape.position(), 0U);
-  tape.note(commands::DropState{1});
-  tape.note(commands::ReplaceMesh{mesh});
+  QCOMPARE(history.object().mesh, done.lock());
+  history.note(commands::RestoreState{1});
+  QCOMPARE(history.position(), 0U);
+  history.note(commands::DropState{1});
+  history.note(commands::ReplaceMesh{mesh});
   QVERIFY(done.expired());
 }
 
@@ -569,18 +569,18 @@ void SplitTest::recorded_splits_are_replayed() {
                                  commands::Drag{{3, 1, 0}},
                                  commands::Release{},
                                  commands::Split{second}};
-  Tape tape;
+  MoveHistory history;
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::single_precision);
   for (const Command& command : all) {
-    tape.note(command);
+    history.note(command);
     simulation.apply(command);
-    QCOMPARE(tape.object().mesh ? tape.object().mesh : mesh, simulation.mesh_pointer());
-    QCOMPARE(tape.object().cuts, simulation.body().cuts().links());
-    QVERIFY(std::ranges::equal(tape.object().pins, simulation.body().pins()));
+    QCOMPARE(history.object().mesh ? history.object().mesh : mesh, simulation.mesh_pointer());
+    QCOMPARE(history.object().cuts, simulation.body().cuts().links());
+    QVERIFY(std::ranges::equal(history.object().pins, simulation.body().pins()));
   }
-  QCOMPARE(tape.object(0).mesh, mesh);
-  QCOMPARE(tape.object(7).mesh, first->after);
-  QCOMPARE(first_mesh(tape.commands()), mesh);
+  QCOMPARE(history.object(0).mesh, mesh);
+  QCOMPARE(history.object(7).mesh, first->after);
+  QCOMPARE(first_mesh(history.commands()), mesh);
   QCOMPARE(last_mesh(mesh, all), second->after);
 }
 

@@ -91,9 +91,9 @@ void ReplayDock::makeActions() {
   forward_ = add("replayForward", QStringLiteral("Move &forward"), "stepForward",
                  QKeySequence(QStringLiteral("Ctrl+Alt+Right")), QStringLiteral("Goes forward by one pass"),
                  [=, this] { stopAndGo(nextMove()); });
-  last_ =
-      add("replayLast", QStringLiteral("Go to &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
-          QStringLiteral("Shows the object after the last move"), [=, this] { stopAndGo(document_.tape().length()); });
+  last_ = add("replayLast", QStringLiteral("Go to &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
+              QStringLiteral("Shows the object after the last move"),
+              [=, this] { stopAndGo(document_.moveHistory().length()); });
   menu_->addSeparator();
   add("openMoves", QStringLiteral("Open &moves…"), "open", {},
       QStringLiteral("Opens recorded moves of this mesh; the object returns to rest, ready to play them"),
@@ -121,24 +121,26 @@ void ReplayDock::scheduleShow() {
 }
 
 QString ReplayDock::describe() const {
-  const Tape& tape = document_.tape();
-  if (tape.length() == 0) {
+  const MoveHistory& history = document_.moveHistory();
+  if (history.length() == 0) {
     return QStringLiteral("No moves yet: everything you do to the object is recorded here");
   }
-  return QStringLiteral("move %L1 of %L2").arg(tape.passes(tape.position())).arg(tape.passes(tape.length()));
+  return QStringLiteral("move %L1 of %L2")
+      .arg(history.passes(history.position()))
+      .arg(history.passes(history.length()));
 }
 
 void ReplayDock::showTape() {
   if (wanted_) {
     goTo(*wanted_);
   }
-  const Tape& tape = document_.tape();
+  const MoveHistory& history = document_.moveHistory();
   const QSignalBlocker block(slider_);
-  slider_->setRange(0, int(tape.length()));
-  slider_->setValue(int(wanted_.value_or(tape.position())));
+  slider_->setRange(0, int(history.length()));
+  slider_->setValue(int(wanted_.value_or(history.position())));
   position_->setText(describe());
-  const bool some = tape.length() > 0, filming = film_.running();
-  const bool behind = tape.position() > 0, ahead = tape.position() < tape.length();
+  const bool some = history.length() > 0, filming = film_.running();
+  const bool behind = history.position() > 0, ahead = history.position() < history.length();
   for (QAction* action : {first_, back_}) {
     action->setEnabled(behind && !filming);
   }
@@ -154,19 +156,19 @@ void ReplayDock::showTape() {
 }
 
 std::size_t ReplayDock::nextMove() const {
-  const Tape& tape = document_.tape();
-  for (std::size_t i = tape.position(); i < tape.length(); ++i) {
-    if (isMove(tape.at(i))) {
+  const MoveHistory& history = document_.moveHistory();
+  for (std::size_t i = history.position(); i < history.length(); ++i) {
+    if (isMove(history.at(i))) {
       return i + 1;
     }
   }
-  return tape.length();
+  return history.length();
 }
 
 std::size_t ReplayDock::previousMove() const {
-  const Tape& tape = document_.tape();
-  for (std::size_t i = tape.position(); i > 1; --i) {
-    if (isMove(tape.at(i - 2))) {
+  const MoveHistory& history = document_.moveHistory();
+  for (std::size_t i = history.position(); i > 1; --i) {
+    if (isMove(history.at(i - 2))) {
       return i - 1;
     }
   }
@@ -191,7 +193,7 @@ void ReplayDock::setPlaying(bool on) {
     playing_.stop();
     return;
   }
-  if (document_.tape().position() == document_.tape().length()) {
+  if (document_.moveHistory().position() == document_.moveHistory().length()) {
     goTo(0);
   }
   playing_.start(1000 / speed_->currentData().toInt());
@@ -201,7 +203,7 @@ void ReplayDock::playOn() {
   if (!document_.idle()) {
     return;
   }
-  if (document_.tape().position() == document_.tape().length()) {
+  if (document_.moveHistory().position() == document_.moveHistory().length()) {
     setPlaying(false);
   } else {
     document_.goTo(nextMove());
@@ -347,7 +349,7 @@ void ReplayDock::saveMoves(const QString& path) {
   document_.noteRelaxation();
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
               [this, path, mesh = document_.unsplitMesh(),
-               moves = document_.tape().commands()](const Progress& progress) -> Jobs::Finish {
+               moves = document_.moveHistory().commands()](const Progress& progress) -> Jobs::Finish {
                 write_file(asPath(path), [&](std::ostream& out) { write_moves(out, moves, *mesh, progress); });
                 return [this, path] { emit saved(path); };
               });

@@ -22,7 +22,7 @@ struct ObjectState {
 
 /// The state of a simulation, without its algorithm and statistics, from which another simulation can continue. It is a
 /// value that shares large constant data, and may be moved to another thread.
-struct Handover {
+struct SimulationState {
   ObjectState object;
   std::map<commands::StateId, ObjectState> kept;  // snapshots for undo
   commands::SetRelaxation relaxation;

@@ -19,7 +19,7 @@ MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands
 /// current object. Settings of the solver (algorithm, relaxation) are not recorded.
 /// RestoreState moves the position back to where the state was saved. Later commands stay until a new command replaces
 /// them.
-class Tape {
+class MoveHistory {
  public:
   /// Records a command. Call this when the command is sent.
   void note(const Command& command);

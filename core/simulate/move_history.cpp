@@ -1,4 +1,4 @@
-#include "simulate/tape.h"
+#include "simulate/move_history.h"
 
 #include <algorithm>
 #include <set>
@@ -23,7 +23,7 @@ MeshPointer mesh_before(const Command& command) {
 
 }  // namespace
 
-void Tape::note(const Command& command) {
+void MoveHistory::note(const Command& command) {
   using namespace commands;
   if (const auto* keep = std::get_if<KeepState>(&command)) {
     kept_[keep->state] = last();
@@ -41,7 +41,7 @@ void Tape::note(const Command& command) {
   }
 }
 
-void Tape::add(const Command& command) {
+void MoveHistory::add(const Command& command) {
   if (position_ < timeline_.size()) {
     timeline_.resize(position_);
     ++timeline_number_;
@@ -58,7 +58,7 @@ void Tape::add(const Command& command) {
   ++position_;
 }
 
-void Tape::begin() {
+void MoveHistory::begin() {
   timeline_.clear();
   position_ = 0;
   ++timeline_number_;
@@ -68,7 +68,7 @@ void Tape::begin() {
 }
 
 /// Drops commands to which neither the timeline nor a kept state returns.
-void Tape::drop_unreachable() {
+void MoveHistory::drop_unreachable() {
   std::vector<bool> reachable(nodes_.size());
   const auto mark = [&](Node node) {
     for (; node != none && !reachable[node]; node = nodes_[node].before) {
@@ -100,7 +100,7 @@ void Tape::drop_unreachable() {
 }
 
 /// Begins the timeline of a new object, which keeps the global softness, the kind of energy and the frame.
-void Tape::begin_mesh(const Mesh& mesh) {
+void MoveHistory::begin_mesh(const Mesh& mesh) {
   const auto before = object().softness;
   begin();
   if (const Softness kept = kept_for(mesh, *before); kept != Softness()) {
@@ -108,7 +108,7 @@ void Tape::begin_mesh(const Mesh& mesh) {
   }
 }
 
-void Tape::return_to(Node last) {
+void MoveHistory::return_to(Node last) {
   std::vector<Node> way;
   Node node = last;
   for (; nodes_[node].before != none; node = nodes_[node].before) {
@@ -124,7 +124,7 @@ void Tape::return_to(Node last) {
   }
 }
 
-void Tape::load(const std::vector<Command>& commands) {
+void MoveHistory::load(const std::vector<Command>& commands) {
   begin();
   for (const Command& command : commands) {
     add(command);
@@ -132,7 +132,7 @@ void Tape::load(const std::vector<Command>& commands) {
   position_ = 0;
 }
 
-std::vector<Command> Tape::commands() const {
+std::vector<Command> MoveHistory::commands() const {
   std::vector<Command> all;
   for (const Node node : timeline_) {
     all.push_back(nodes_[node].command);
@@ -140,7 +140,7 @@ std::vector<Command> Tape::commands() const {
   return all;
 }
 
-std::vector<Command> Tape::last_drag() const {
+std::vector<Command> MoveHistory::last_drag() const {
   std::vector<Command> drag;
   for (std::size_t i = position_; i > 0; --i) {
     const bool is_grab = is_one_of<commands::Grab>(at(i - 1));
@@ -174,7 +174,7 @@ MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands
   return last;
 }
 
-MeshPointer Tape::first_mesh() const {
+MeshPointer MoveHistory::first_mesh() const {
   MeshPointer first;
   for (std::size_t i = 0; i < length() && !first; ++i) {
     first = mesh_before(at(i));
@@ -182,7 +182,7 @@ MeshPointer Tape::first_mesh() const {
   return first;
 }
 
-Tape::Object Tape::object(std::size_t position) const {
+MoveHistory::Object MoveHistory::object(std::size_t position) const {
   std::set<LinkId> cuts;
   std::set<ElementId> pins;
   Object object;
