@@ -80,7 +80,7 @@ class ObjectDrawing {
   virtual void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                           const ColourScale& scale, Shape shape, float width) = 0;
   /// Calls `draw` to paint text over everything else, in logical pixels.
-  virtual void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) = 0;
+  virtual void paintOver(const Scene& scene, const std::function<void(QPainter&)>& draw) = 0;
 
   // Common to all drawings (logical pixels).
   static constexpr float valuedWidth = 2;  // antialiasing changes the colours of thinner lines

@@ -613,7 +613,7 @@ void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> posi
   vertexArray_.release();
 }
 
-void ObjectPainter::drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) {
+void ObjectPainter::paintOver(const Scene& scene, const std::function<void(QPainter&)>& draw) {
   QOpenGLPaintDevice device(scene.size.toSize());
   device.setDevicePixelRatio(double(scene.pixelRatio));
   QPainter painter(&device);

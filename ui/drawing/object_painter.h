@@ -48,7 +48,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
                    float width = 1) override;
   void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                   const ColourScale& scale, Shape shape, float width) override;
-  void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
+  void paintOver(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
 
   /// See DrawnParts.
   unsigned step() const { return parts_.step(); }

@@ -404,7 +404,7 @@ void VectorPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   }
 }
 
-void VectorPainter::drawWords(const Scene& /*scene*/, const std::function<void(QPainter&)>& draw) {
+void VectorPainter::paintOver(const Scene& /*scene*/, const std::function<void(QPainter&)>& draw) {
   flush();
   draw(painter_);
 }

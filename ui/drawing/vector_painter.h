@@ -28,7 +28,7 @@ class VectorPainter : public ObjectDrawing {
                    float width = 1) override;
   void drawValued(const Scene& scene, std::span<const QVector3D> positions, std::span<const float> values,
                   const ColourScale& scale, Shape shape, float width) override;
-  void drawWords(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
+  void paintOver(const Scene& scene, const std::function<void(QPainter&)>& draw) override;
 
  private:
   /// The position of a point in the view, and its distance from the eye (mesh units).

@@ -685,7 +685,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, Detail
 }
 
 /// Draws everything except the frame of the keyboard focus. The panel must have a frame.
-void View::draw(const Easel& on) {
+void View::draw(const PaintTarget& on) {
   takeFrames(on);
   drawObjects(on);
   const Frame& frame = *document_.frame(panel_);
@@ -703,14 +703,14 @@ const Frame* View::ghostFrame() const { return ghost_.of ? document_.frame(*ghos
 
 /// Passes the newest frames to the painters. A painter sends only the changes since its last frame to the graphics
 /// card.
-void View::takeFrames(const Easel& on) {
+void View::takeFrames(const PaintTarget& on) {
   on.own.setFrame(*document_.frame(panel_), document_.cuts());
   if (on.ghost != nullptr) {
     on.ghost->setFrame(*ghostFrame(), document_.cuts());
   }
 }
 
-void View::drawObjects(const Easel& on) {
+void View::drawObjects(const PaintTarget& on) {
   const double pixelsPerUnit = 1 / camera_->unitsPerPixel(size());
   const ObjectDrawing::Paint ownPaint = objectPaint();
   const auto drawOwn = [&] { on.own.drawObject(on.scene, ownPaint, pixelsPerUnit); };
@@ -747,7 +747,7 @@ ObjectDrawing::Paint View::colouredPaint() {
 
 /// Draws the selection, the highlight, the pins and the tool's stroke. Pins are drawn after the highlight, so that the
 /// cursor's mark does not hide them.
-void View::drawMarks(const Easel& on) {
+void View::drawMarks(const PaintTarget& on) {
   const auto& in = on.scene;
   if (links_.marks() || selectedHere_) {
     const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
@@ -762,7 +762,7 @@ void View::drawMarks(const Easel& on) {
   }
 }
 
-void View::drawHighlight(const Easel& on) {
+void View::drawHighlight(const PaintTarget& on) {
   const auto& in = on.scene;
   const Highlight& highlight = document_.highlight();
   // All panels show the handle, and the links that would be cut.
@@ -785,7 +785,7 @@ void View::drawHighlight(const Easel& on) {
   }
 }
 
-void View::drawAnnotations(const Easel& on) {
+void View::drawAnnotations(const PaintTarget& on) {
   std::vector<Annotation> annotations;
   for (const Overlay* overlay : overlays_) {
     const auto more = overlay->annotations(*this);
@@ -797,7 +797,7 @@ void View::drawAnnotations(const Easel& on) {
   for (const Annotation& annotation : annotations) {
     on.own.drawStroke(on.scene, std::array{annotation.line.p1(), annotation.line.p2()}, colours::marked);
   }
-  on.own.drawWords(on.scene, [&](QPainter& painter) {
+  on.own.paintOver(on.scene, [&](QPainter& painter) {
     for (const Annotation& annotation : annotations) {
       drawAnnotation(painter, annotation, on.scene.background, size());
     }
@@ -828,13 +828,13 @@ bool View::showsAll() const {
 }
 
 /// If the object is out of view, draws an arrow at the edge that points to it, and says how to see it.
-void View::drawWayBack(const Easel& on) {
+void View::drawWayBack(const PaintTarget& on) {
   const auto object = wayToObject();
   if (!object) {
     return;
   }
   const QPointF middle = QRectF(rect()).center();
-  on.own.drawWords(on.scene, [&](QPainter& painter) {
+  on.own.paintOver(on.scene, [&](QPainter& painter) {
     painter.setPen(QColor(colours::marked));
     painter.drawText(rect(), Qt::AlignCenter, QStringLiteral("The object is out of view. Press F to show it."));
   });
@@ -846,7 +846,7 @@ void View::drawWayBack(const Easel& on) {
   const double room = std::min((middle.x() - arrowMargin) / std::max(std::abs(along.x()), 1e-9),
                                (middle.y() - arrowMargin) / std::max(std::abs(along.y()), 1e-9));
   const QPointF tip = middle + room * along, neck = tip - arrowHead * along;
-  on.own.drawWords(on.scene, [&](QPainter& painter) {
+  on.own.paintOver(on.scene, [&](QPainter& painter) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(QPen(QColor(colours::marked), 3));
     painter.setBrush(QColor(colours::marked));
@@ -866,14 +866,14 @@ void View::drawFocus() {
 
 void View::drawCube() {
   if (camera_->spatial() && painterReady_) {
-    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_),
+    painter_.paintOver(scene(devicePixelRatioF(), colours::background, detail_),
                        [this](QPainter& painter) { OrientationCube(*camera_, size()).draw(painter); });
   }
 }
 
 void View::drawRing() {
   if (ring_ && underMouse() && painterReady_) {
-    painter_.drawWords(scene(devicePixelRatioF(), colours::background, detail_), [this](QPainter& painter) {
+    painter_.paintOver(scene(devicePixelRatioF(), colours::background, detail_), [this](QPainter& painter) {
       painter.setRenderHint(QPainter::Antialiasing);
       painter.setBrush(Qt::NoBrush);
       painter.setPen(QPen(QColor(colours::background), ringWidth + 2));

@@ -147,7 +147,7 @@ class View : public QOpenGLWidget {
 
  private:
   /// The painters of one paint, and the scene that they draw.
-  struct Easel {
+  struct PaintTarget {
     ObjectDrawing& own;
     ObjectDrawing* ghost;  // null without a ghost
     ObjectDrawing::Scene scene;
@@ -177,15 +177,15 @@ class View : public QOpenGLWidget {
   void paint();
   void startOver();
   void paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail detail);
-  void draw(const Easel& on);
-  void takeFrames(const Easel& on);
-  void drawObjects(const Easel& on);
+  void draw(const PaintTarget& on);
+  void takeFrames(const PaintTarget& on);
+  void drawObjects(const PaintTarget& on);
   ObjectDrawing::Paint objectPaint();
   ObjectDrawing::Paint colouredPaint();
-  void drawMarks(const Easel& on);
-  void drawHighlight(const Easel& on);
-  void drawAnnotations(const Easel& on);
-  void drawWayBack(const Easel& on);
+  void drawMarks(const PaintTarget& on);
+  void drawHighlight(const PaintTarget& on);
+  void drawAnnotations(const PaintTarget& on);
+  void drawWayBack(const PaintTarget& on);
   void drawFocus();
   void drawCube();
   void drawRing();
