@@ -29,15 +29,15 @@ constexpr double line_lift = 1e-3;  // of the object: links on faces are in fron
 constexpr WorkLimits work_limits{limits::thumbnail_seconds, limits::thumbnail_memory, limits::thumbnail_bytes};
 
 /// What a file shows: an object in a state.
-struct Shown {
+struct LoadedScene {
   MeshPointer mesh;
   Cuts cuts;
   std::vector<double> positions;
 };
 
-Shown at_rest(const MeshPointer& mesh) { return {mesh, Cuts(mesh), mesh->rest}; }
+LoadedScene at_rest(const MeshPointer& mesh) { return {mesh, Cuts(mesh), mesh->rest}; }
 
-Shown session_of(const std::filesystem::path& path) {
+LoadedScene session_of(const std::filesystem::path& path) {
   const auto open = [&](const std::string& name, std::uint32_t, const Progress& progress) {
     const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
     std::error_code none;
@@ -52,7 +52,7 @@ Shown session_of(const std::filesystem::path& path) {
   ElementBlocks all(session.mesh->element_count());
   all.insert_all();
   body.restore(session.panels.front().positions, all);
-  Shown shown = at_rest(session.mesh);
+  LoadedScene shown = at_rest(session.mesh);
   body.copy_positions(shown.positions);
   for (const LinkId link : session.cuts) {
     shown.cuts.cut(link);
@@ -62,9 +62,9 @@ Shown session_of(const std::filesystem::path& path) {
 
 /// Looks at an object so that it fills the picture: from the front in a plane, else from the front, the right and
 /// above.
-class Look {
+class ThumbnailView {
  public:
-  explicit Look(const Shown& shown) : shown_(shown) {
+  explicit ThumbnailView(const LoadedScene& shown) : shown_(shown) {
     const bool is_spatial = shown.mesh->space_dimension == 3;
     const double yaw = is_spatial ? std::numbers::pi / 6 : 0, pitch = is_spatial ? std::numbers::pi / 7 : 0;
     right_ = {std::cos(yaw), 0, -std::sin(yaw)};
@@ -114,7 +114,7 @@ class Look {
     return {at[axes[0]], shown_.mesh->space_dimension > 1 ? at[axes[1]] : 0, 0};
   }
 
-  const Shown& shown_;
+  const LoadedScene& shown_;
   std::vector<Point> seen_;  // position of each element along the axes of the picture
   Point right_, up_, toward_;
   Point low_ = Point::Constant(std::numeric_limits<double>::infinity());
@@ -123,7 +123,7 @@ class Look {
 };
 
 /// Returns the faces of the object and of its cells.
-std::vector<std::array<ElementId, 3>> faces_of(const Shown& shown) {
+std::vector<std::array<ElementId, 3>> faces_of(const LoadedScene& shown) {
   std::vector<std::array<ElementId, 3>> faces;
   for (const auto& [a, b, c] : shown.mesh->triangles) {
     if (!is_cut_between(*shown.mesh, shown.cuts, a, b) && !is_cut_between(*shown.mesh, shown.cuts, b, c) &&
@@ -156,46 +156,46 @@ void draw_within(double budget, std::size_t count, Cost cost, Draw draw) {
   }
 }
 
-void draw_faces(Raster& picture, const Look& look, const std::vector<std::array<ElementId, 3>>& faces) {
+void draw_faces(Raster& picture, const ThumbnailView& view, const std::vector<std::array<ElementId, 3>>& faces) {
   const auto corners = [&](std::size_t i) {
-    return std::array{look.place(faces[i][0]), look.place(faces[i][1]), look.place(faces[i][2])};
+    return std::array{view.place(faces[i][0]), view.place(faces[i][1]), view.place(faces[i][2])};
   };
   draw_within(
       limits::thumbnail_samples, faces.size(), [&](std::size_t i) { return picture.cost_of_triangle(corners(i)); },
-      [&](std::size_t i) { picture.draw_triangle(corners(i), look.lit(faces[i])); });
+      [&](std::size_t i) { picture.draw_triangle(corners(i), view.lit(faces[i])); });
 }
 
-void draw_links(Raster& picture, const Look& look, const Shown& shown) {
+void draw_links(Raster& picture, const ThumbnailView& view, const LoadedScene& shown) {
   const auto& links = shown.mesh->links;
   draw_within(
       limits::thumbnail_samples, links.size(),
       [&](std::size_t i) {
         return shown.cuts.is_cut(LinkId(i)) ? 0
-                                            : picture.cost_of_line(look.place(links[i][0]), look.place(links[i][1]));
+                                            : picture.cost_of_line(view.place(links[i][0]), view.place(links[i][1]));
       },
       [&](std::size_t i) {
         if (!shown.cuts.is_cut(LinkId(i))) {
-          picture.draw_line(look.place(links[i][0], line_lift), look.place(links[i][1], line_lift), link_colour);
+          picture.draw_line(view.place(links[i][0], line_lift), view.place(links[i][1], line_lift), link_colour);
         }
       });
 }
 
-Raster draw(const Shown& shown, std::uint32_t size) {
+Raster draw(const LoadedScene& shown, std::uint32_t size) {
   Raster picture(size);
-  const Look look(shown);
+  const ThumbnailView view(shown);
   const auto faces = faces_of(shown);
-  draw_faces(picture, look, faces);
+  draw_faces(picture, view, faces);
   // Links inside a volume are hidden anyway, and so many on a large surface that they would hide it.
   constexpr std::size_t max_links = 3000;
   if (faces.empty() || (shown.mesh->tetrahedra.empty() && shown.mesh->links.size() <= max_links)) {
-    draw_links(picture, look, shown);
+    draw_links(picture, view, shown);
   }
   return picture;
 }
 
 /// Returns the picture of a file as PNG.
 std::string png_of(const std::filesystem::path& path, std::uint32_t pixels) {
-  const Shown shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
+  const LoadedScene shown = is_session(path) ? session_of(path) : at_rest(chainmail::open_mesh(path).mesh);
   finish_in_sandbox();
   std::ostringstream png;
   draw(shown, pixels).write_png(png);

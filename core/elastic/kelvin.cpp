@@ -10,13 +10,13 @@ namespace {
 using std::numbers::pi;
 
 /// The corners of a facet relative to a point.
-struct Seen {
+struct FacetFromPoint {
   std::array<Point, 3> r;
   std::array<double, 3> distance;
 };
 
-Seen see(const Facet& facet, const Point& point) {
-  Seen seen;
+FacetFromPoint from_point(const Facet& facet, const Point& point) {
+  FacetFromPoint seen;
   for (std::size_t i = 0; i < 3; ++i) {
     seen.r[i] = facet.corner[i] - point;
     seen.distance[i] = seen.r[i].norm();
@@ -25,7 +25,7 @@ Seen see(const Facet& facet, const Point& point) {
 }
 
 /// Formula of van Oosterom and Strackee (1983).
-double solid_angle(const Seen& seen) {
+double solid_angle(const FacetFromPoint& seen) {
   const auto& [a, b, c] = seen.r;
   const auto& [length_a, length_b, length_c] = seen.distance;
   return 2 * std::atan2(a.dot(b.cross(c)), length_a * length_b * length_c + a.dot(b) * length_c + b.dot(c) * length_a +
@@ -51,7 +51,7 @@ double integrate_inverse_cubed(double s1, double s2, double r1, double r2, doubl
   return (s2 / r2 - s1 / r1) / q_squared;
 }
 
-EdgeIntegrals integrate_edge(const Facet& facet, const Seen& seen, std::size_t edge, double height) {
+EdgeIntegrals integrate_edge(const Facet& facet, const FacetFromPoint& seen, std::size_t edge, double height) {
   const double s1 = facet.along[edge].dot(seen.r[edge]), length = facet.length[edge], s2 = s1 + length;
   const double r1 = seen.distance[edge], r2 = seen.distance[(edge + 1) % 3];
   EdgeIntegrals of;
@@ -94,7 +94,7 @@ Eigen::Matrix3d kelvin_traction(const Point& r, const Point& normal, double pois
          (8 * pi * (1 - poisson) * distance * distance);
 }
 
-double solid_angle(const Facet& facet, const Point& point) { return solid_angle(see(facet, point)); }
+double solid_angle(const Facet& facet, const Point& point) { return solid_angle(from_point(facet, point)); }
 
 // Let d be the height of the plane above the point, n its normal, r = ρ + d n, m the direction outward across an edge
 // in the plane, and τ the direction along it. The divergence theorem in the plane turns all integrals except the solid
@@ -106,7 +106,7 @@ double solid_angle(const Facet& facet, const Point& point) { return solid_angle(
 //     3 ∫ ρ / r⁵     = −Σ m ∫ 1/r³                                                    since ∇ (1 / r³)
 //     3 d² ∫ 1 / r⁵  = ∫ 1/r³ + Σ (m·ρ) ∫ 1/r³                                        since ∇·(ρ / r³)
 KelvinIntegrals integrate_kelvin(const Facet& facet, const Point& point, double poisson) {
-  const Seen seen = see(facet, point);
+  const FacetFromPoint seen = from_point(facet, point);
   const Point& n = facet.normal;
   const double height = n.dot(facet.centroid - point), angle = solid_angle(seen);
   double inverse = -height * angle;                       // ∫ 1 / r

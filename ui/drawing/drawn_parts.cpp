@@ -64,7 +64,7 @@ void DrawnParts::chooseParts(const ObjectDrawing::Scene& scene, const ObjectDraw
   const Parts parts = partsOf(scene, paint, pixelsPerUnit);
   outdated_ = outdated_ || parts != parts_;
   parts_ = parts;
-  const auto plane = parts_.ofSurface ? paint.look.section : std::nullopt;
+  const auto plane = parts_.ofSurface ? paint.options.section : std::nullopt;
   sectionOutdated_ = sectionOutdated_ || plane != plane_;
   plane_ = plane;
 }
@@ -73,12 +73,13 @@ void DrawnParts::chooseParts(const ObjectDrawing::Scene& scene, const ObjectDraw
 /// of them if their colours are values.
 DrawnParts::Parts DrawnParts::partsOf(const ObjectDrawing::Scene& scene, const ObjectDrawing::Paint& paint,
                                       double pixelsPerUnit) const {
-  const Look& look = paint.look;
+  const DrawOptions& options = paint.options;
   // Only links are shown while the surface of a large mesh is being computed.
-  const bool ofSurface = look.faces && mesh_->space_dimension == 3 && mesh_->has_cells() && levels_->hasSurface(mesh_);
-  Parts parts{look.faces, look.links, ofSurface,
-              ObjectDrawing::isSolid(*mesh_, look) && (ofSurface || !mesh_->has_cells())};
-  if (!parts.solid || !look.links) {
+  const bool ofSurface =
+      options.faces && mesh_->space_dimension == 3 && mesh_->has_cells() && levels_->hasSurface(mesh_);
+  Parts parts{options.faces, options.links, ofSurface,
+              ObjectDrawing::isSolid(*mesh_, options) && (ofSurface || !mesh_->has_cells())};
+  if (!parts.solid || !options.links) {
     return parts;
   }
   const bool valued = paint.values != nullptr && paint.values->ofLinks;

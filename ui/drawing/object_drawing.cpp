@@ -22,10 +22,10 @@ bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {
   QColor face = ownColour(mesh, paint);
-  if (isSolid(mesh, paint.look)) {
+  if (isSolid(mesh, paint.options)) {
     return colours::light(face);
   }
-  if (!paint.look.links) {
+  if (!paint.options.links) {
     return colours::solid(face);
   }
   face.setAlphaF(planeFaceOpacity);
@@ -37,7 +37,7 @@ QColor ObjectDrawing::ownColour(const Mesh& mesh, const Paint& paint) {
 }
 
 QColor ObjectDrawing::linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
-  if (!isSolid(mesh, paint.look)) {
+  if (!isSolid(mesh, paint.options)) {
     return paint.colour;
   }
   QColor colour = colours::edge(ownColour(mesh, paint));
@@ -56,7 +56,7 @@ Lighting ObjectDrawing::lighting(const Mesh& mesh, const Paint& paint) {
 }
 
 float ObjectDrawing::fade(const Mesh& mesh, const Paint& paint) {
-  return !isSolid(mesh, paint.look) ? linksFade : facesByValues(&mesh, paint) ? 0 : solidFade;
+  return !isSolid(mesh, paint.options) ? linksFade : facesByValues(&mesh, paint) ? 0 : solidFade;
 }
 
 float ObjectDrawing::frontSign(const Mesh& mesh) {

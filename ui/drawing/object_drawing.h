@@ -12,8 +12,8 @@
 
 #include "drawing/colour_values.h"
 #include "drawing/detail_budget.h"
+#include "drawing/draw_options.h"
 #include "drawing/lighting.h"
-#include "drawing/look.h"
 #include "mesh/cuts.h"
 #include "simulate/frame.h"
 
@@ -43,7 +43,7 @@ class ObjectDrawing {
     QColor colour;
     const ColourValues* values = nullptr;
     ColourScale scale;
-    Look look = {};
+    DrawOptions options = {};
   };
   /// Marks differ in shape, not only in colour. The numbers are the shader's SHADING.
   enum class Mark { disc = 2, diamond = 3, ring = 4 };
@@ -91,8 +91,8 @@ class ObjectDrawing {
   /// Returns true if every element gets a mark: there are few, and they are far enough apart.
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
   /// True if the object is drawn as a surface in space, which is lit and hides everything behind it.
-  static bool isSolid(const Mesh& mesh, const Look& look) {
-    return look.faces && mesh.space_dimension == 3 && (!mesh.triangles.empty() || mesh.has_cells());
+  static bool isSolid(const Mesh& mesh, const DrawOptions& options) {
+    return options.faces && mesh.space_dimension == 3 && (!mesh.triangles.empty() || mesh.has_cells());
   }
   /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent. Faces are grey if
   /// values colour the links.
@@ -121,11 +121,11 @@ class ObjectDrawing {
   /// True if the values of the elements colour the faces. In a plane, this requires that links are hidden.
   static bool facesByValues(const Mesh* mesh, const Paint& paint) {
     return valuesFit(mesh, paint) && !paint.values->ofLinks && !showsPicture(*mesh) &&
-           (!paint.look.links || isSolid(*mesh, paint.look));
+           (!paint.options.links || isSolid(*mesh, paint.options));
   }
   /// True if values colour the links.
   static bool linksByValues(const Mesh* mesh, const Paint& paint) {
-    return valuesFit(mesh, paint) && !(isSolid(*mesh, paint.look) && facesByValues(mesh, paint));
+    return valuesFit(mesh, paint) && !(isSolid(*mesh, paint.options) && facesByValues(mesh, paint));
   }
 };
 

@@ -262,9 +262,9 @@ void ObjectPainter::useMap(const ColourScale& scale) {
 }
 
 /// Passes rest positions to the program in use if a section or a picture needs them, and turns the section on.
-void ObjectPainter::useRest(const Look& look) {
+void ObjectPainter::useRest(const DrawOptions& options) {
   const bool pictured = showsPicture(*mesh_);
-  if (!look.section && !pictured) {
+  if (!options.section && !pictured) {
     return;
   }
   if (restMesh_ != mesh_) {
@@ -274,8 +274,8 @@ void ObjectPainter::useRest(const Look& look) {
   rest_.bind();
   program_->enableAttributeArray(2);
   program_->setAttributeBuffer(2, GL_FLOAT, 0, 3);
-  if (look.section) {
-    program_->setUniformValue("section", sectionVector(*mesh_, *look.section));
+  if (options.section) {
+    program_->setUniformValue("section", sectionVector(*mesh_, *options.section));
     glEnable(GL_CLIP_DISTANCE0);
   }
 }
@@ -304,10 +304,10 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& wanted, double p
     sendParts();
   }
   Paint paint = wanted;
-  paint.look.links = paint.look.links && !leavesLinksOut();
+  paint.options.links = paint.options.links && !leavesLinksOut();
   lighting_ = lighting(*mesh_, paint);
   fade_ = fade(*mesh_, paint);
-  const bool solid = isSolid(*mesh_, paint.look) && faceIndices_ > 0;
+  const bool solid = isSolid(*mesh_, paint.options) && faceIndices_ > 0;
   if (solid) {
     sendNormals();
   }
@@ -323,7 +323,7 @@ void ObjectPainter::drawObject(const Scene& scene, const Paint& wanted, double p
 void ObjectPainter::drawParts(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   drawFaces(scene, paint);
   drawWires(scene, paint, pixelsPerUnit);
-  if (paint.look.links && !isSolid(*mesh_, paint.look) && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
+  if (paint.options.links && !isSolid(*mesh_, paint.options) && step() == 1 && marksElements(*mesh_, pixelsPerUnit)) {
     drawEveryElement(scene, paint);
   }
 }
@@ -356,7 +356,7 @@ ObjectPainter::Drawn ObjectPainter::drawnNow(const Scene& scene, const Paint& pa
           frameSeries_,
           parts,
           paint.scale,
-          paint.look};
+          paint.options};
 }
 
 void ObjectPainter::sendParts() {
@@ -415,7 +415,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
     const bool mirrored = seen(0, 0) * seen(1, 1) < seen(0, 1) * seen(1, 0);
     program_->setUniformValue("front_sign", mirrored ? -frontSign_ : frontSign_);
   }
-  useRest(paint.look);
+  useRest(paint.options);
   faces_.bind();
   glDrawElements(GL_TRIANGLES, faceIndices_, GL_UNSIGNED_INT, nullptr);
   drawFresh(scene, paint);
@@ -433,7 +433,7 @@ void ObjectPainter::drawFresh(const Scene& scene, const Paint& paint) {
     positions_.bind();
     use(scene, colours::inner, 1, 3);
     useNormals();
-    useRest(paint.look);
+    useRest(paint.options);
   }
   fresh_.bind();
   glDrawElements(GL_TRIANGLES, freshIndices_, GL_UNSIGNED_INT, nullptr);
@@ -490,7 +490,7 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pix
   } else {
     use(scene, linkColour(*mesh_, paint, pixelsPerUnit), 0, mesh_->space_dimension);
   }
-  useRest(paint.look);
+  useRest(paint.options);
   links_.bind();
   if (count <= maxIndicesSmoothed) {
     glLineWidth((byValues ? valuedWidth : 1) * scene.pixelRatio);
@@ -509,7 +509,7 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   } else {
     use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
   }
-  useRest(paint.look);
+  useRest(paint.options);
   program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
   glDrawArrays(GL_POINTS, 0, GLsizei(mesh_->element_count()));
 }

@@ -68,7 +68,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
     float pixelRatio = 0;
     std::uint64_t values = 0, frame = 0, series = 0, parts = 0;
     ColourScale scale;
-    Look look;
+    DrawOptions options;
     bool operator==(const Drawn&) const = default;
   };
 
@@ -82,7 +82,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void useValues(const Scene& scene, const Paint& paint, int shading);
   void uploadValues(const ColourValues& values);
   void useMap(const ColourScale& scale);
-  void useRest(const Look& look);
+  void useRest(const DrawOptions& options);
   void useTexture();
   bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
 

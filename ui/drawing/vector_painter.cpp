@@ -76,7 +76,7 @@ QVector3D VectorPainter::inSpace(ElementId element) const {
 
 // Pieces: projected, faded and clipped marks, lines and faces
 
-VectorPainter::Seen VectorPainter::seen(const Scene& scene, const QVector3D& position) {
+VectorPainter::Projected VectorPainter::projected(const Scene& scene, const QVector3D& position) {
   const QVector4D inView = scene.toView * QVector4D(position, 1), clip = scene.toClip * inView;
   const QSizeF size = scene.logicalSize();
   return {{(1 + double(clip.x() / clip.w())) / 2 * size.width(), (1 - double(clip.y() / clip.w())) / 2 * size.height()},
@@ -101,7 +101,7 @@ void VectorPainter::add(const Scene& scene, std::span<const QVector3D> positions
                         Mark mark, float lift) {
   Piece piece{{}, int(positions.size()), -lift, colour, width, mark};
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Seen corner = seen(scene, positions[i]);
+    const Projected corner = projected(scene, positions[i]);
     if (!corner.before) {
       return;
     }
@@ -156,33 +156,33 @@ void VectorPainter::addFaceClipped(Piece piece, const QRectF& view) {
 void VectorPainter::drawObject(const Scene& scene, const Paint& wanted, double pixelsPerUnit) {
   parts_.choose(scene, wanted, pixelsPerUnit);
   Paint paint = wanted;
-  paint.look.links = paint.look.links && !parts_.leavesLinksOut();
+  paint.options.links = paint.options.links && !parts_.leavesLinksOut();
   lighting_ = lighting(*frame_->mesh, paint);
   fade_ = fade(*frame_->mesh, paint);
   addFaces(scene, paint);
   addCap(scene);
   addLinks(scene, paint, pixelsPerUnit);
-  if (paint.look.links && !isSolid(*frame_->mesh, paint.look) && parts_.step() == 1 &&
+  if (paint.options.links && !isSolid(*frame_->mesh, paint.options) && parts_.step() == 1 &&
       marksElements(*frame_->mesh, pixelsPerUnit)) {
     addElements(scene, paint);
   }
 }
 
-double VectorPainter::beforeSection(ElementId element, const Look& look) const {
-  return look.section ? look.section->before(frame_->mesh->rest_position(element)) : 0;
+double VectorPainter::beforeSection(ElementId element, const DrawOptions& options) const {
+  return options.section ? options.section->before(frame_->mesh->rest_position(element)) : 0;
 }
 
-std::array<float, 2> VectorPainter::shown(ElementId from, ElementId to, const Look& look) const {
-  const double first = beforeSection(from, look), last = beforeSection(to, look);
+std::array<float, 2> VectorPainter::shown(ElementId from, ElementId to, const DrawOptions& options) const {
+  const double first = beforeSection(from, options), last = beforeSection(to, options);
   const float meets = float(first / (first - last));
   return {first > 0 ? (last > 0 ? 1 : meets) : 0, last > 0 ? (first > 0 ? 0 : meets) : 1};
 }
 
-std::vector<QVector3D> VectorPainter::shown(std::span<const ElementId> corners, const Look& look) const {
+std::vector<QVector3D> VectorPainter::shown(std::span<const ElementId> corners, const DrawOptions& options) const {
   std::vector<QVector3D> positions;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
-    const double before = beforeSection(a, look), next = beforeSection(b, look);
+    const double before = beforeSection(a, options), next = beforeSection(b, options);
     if (!(before > 0)) {
       positions.push_back(inSpace(a));
     }
@@ -228,7 +228,7 @@ QColor VectorPainter::folded(const Scene& scene, const Paint& paint, const std::
 void VectorPainter::addFaces(const Scene& scene, const Paint& paint) {
   const Mesh& mesh = *frame_->mesh;
   const auto faces = parts_.faces(), fresh = parts_.freshFaces();
-  if (isSolid(mesh, paint.look)) {
+  if (isSolid(mesh, paint.options)) {
     auto all = faces;
     all.insert(all.end(), fresh.begin(), fresh.end());
     normals_.setFaces(std::move(all), mesh.element_count());
@@ -244,7 +244,7 @@ void VectorPainter::addFaces(const Scene& scene, const Paint& paint, std::span<c
   const bool opaque = mesh.space_dimension == 3 || showsPicture(mesh) || facesByValues(&mesh, paint);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     const auto elements = corners.subspan(i, 3);
-    const auto positions = shown(elements, paint.look);
+    const auto positions = shown(elements, paint.options);
     for (std::size_t j = 2; j < positions.size(); ++j) {
       const std::array part{positions[0], positions[j - 1], positions[j]};
       add(scene, part, colourOf(scene, paint, elements, part, colour), opaque ? seamWidth : 0);
@@ -301,7 +301,7 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint, double pixe
       byValues && paint.values->ofLinks ? parts_.valuesOf(links.numbers, *paint.values) : std::vector<float>();
   for (std::size_t i = 0; i < links.numbers.size(); ++i) {
     const ElementId a = links.ends[2 * i], b = links.ends[2 * i + 1];
-    const auto [first, last] = shown(a, b, paint.look);
+    const auto [first, last] = shown(a, b, paint.options);
     if (!(first < last)) {
       continue;
     }
@@ -338,7 +338,7 @@ void VectorPainter::addElements(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(&mesh, paint), ofElements = byValues && !paint.values->ofLinks;
   const QColor colour = byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour);
   for (ElementId element = 0; element < mesh.element_count(); ++element) {
-    if (beforeSection(element, paint.look) > 0) {
+    if (beforeSection(element, paint.options) > 0) {
       continue;
     }
     const QVector3D position = inSpace(element);

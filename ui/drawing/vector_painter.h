@@ -32,7 +32,7 @@ class VectorPainter : public ObjectDrawing {
 
  private:
   /// The position of a point in the view, and its distance from the eye (mesh units).
-  struct Seen {
+  struct Projected {
     QPointF at;
     float distance = 0;
     bool before = false;  // true if it is in front of the eye
@@ -48,18 +48,18 @@ class VectorPainter : public ObjectDrawing {
   };
 
   QVector3D inSpace(ElementId element) const;
-  static Seen seen(const Scene& scene, const QVector3D& position);
+  static Projected projected(const Scene& scene, const QVector3D& position);
   QColor faded(const Scene& scene, const QColor& colour, float distance) const;
   void add(const Scene& scene, std::span<const QVector3D> positions, const QColor& colour, float width,
            Mark mark = Mark::disc, float lift = 0);
   void addClipped(Piece piece, const QRectF& view);
   void addFaceClipped(Piece piece, const QRectF& view);
   /// Returns how far an element is in front of the section at rest (mesh units); 0 without a section.
-  double beforeSection(ElementId element, const Look& look) const;
+  double beforeSection(ElementId element, const DrawOptions& options) const;
   /// Returns the part of a line that the section does not hide, as two fractions of the line, or the corners of that
   /// part of a face.
-  std::array<float, 2> shown(ElementId from, ElementId to, const Look& look) const;
-  std::vector<QVector3D> shown(std::span<const ElementId> corners, const Look& look) const;
+  std::array<float, 2> shown(ElementId from, ElementId to, const DrawOptions& options) const;
+  std::vector<QVector3D> shown(std::span<const ElementId> corners, const DrawOptions& options) const;
   /// Returns the colour of a lit face. Its light is that of the smooth normal at its corners, except at creases.
   QColor lit(const Scene& scene, std::span<const QVector3D> positions, std::span<const ElementId> corners,
              const QColor& colour) const;

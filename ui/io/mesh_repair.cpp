@@ -10,7 +10,7 @@ namespace chainmail {
 namespace {
 
 /// Elements that Show selects together.
-struct Shown {
+struct DefectGroup {
   QString name;
   std::vector<ElementId> elements;  // ascending
 };
@@ -22,8 +22,8 @@ std::vector<ElementId> ascending(std::vector<ElementId> elements) {
 }
 
 /// Returns what Show selects, one after another: all duplicates, all loose points, each hole, all other edges.
-std::vector<Shown> shownOf(const Defects& defects) {
-  std::vector<Shown> all;
+std::vector<DefectGroup> groupsOf(const Defects& defects) {
+  std::vector<DefectGroup> all;
   const auto add = [&all](const QString& name, const std::vector<ElementId>& elements) {
     if (!elements.empty()) {
       all.push_back({name, ascending(elements)});
@@ -116,8 +116,8 @@ void MeshRepair::dismiss() {
 
 void MeshRepair::showNext() {
   if (const Checked* known = ofTheObject()) {
-    const std::vector<Shown> all = shownOf(*known->defects);
-    const Shown& one = all[next_++ % all.size()];
+    const std::vector<DefectGroup> all = groupsOf(*known->defects);
+    const DefectGroup& one = all[next_++ % all.size()];
     document_.select(one.elements);
     bar_->showShown(QStringLiteral("Selected: %1").arg(one.name));
   }

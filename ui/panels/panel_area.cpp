@@ -103,7 +103,7 @@ void PanelArea::addPanel() {
   if (tool_ != nullptr) {
     panel->view().setTool(tool_);
   }
-  panel->view().setLook(look_);
+  panel->view().setDrawOptions(drawOptions_);
   panel->head().setActions(headActions_);
   panel->showFigures(figures_);
   panel->enlargeTexts(lecture_ ? lectureTexts : 1);
@@ -164,11 +164,11 @@ void PanelArea::setTool(Tool& tool) {
   }
 }
 
-void PanelArea::setLook(const Look& look) {
-  look_.faces = look.faces;
-  look_.links = look.links;
+void PanelArea::setDrawOptions(const DrawOptions& options) {
+  drawOptions_.faces = options.faces;
+  drawOptions_.links = options.links;
   for (Panel* panel : panels_) {
-    panel->view().setLook(look_);
+    panel->view().setDrawOptions(drawOptions_);
   }
 }
 
@@ -188,8 +188,8 @@ void PanelArea::setLecture(bool on) {
 }
 
 void PanelArea::setSection(const std::optional<SectionPlane>& section) {
-  look_.section = section;
-  setLook(look_);
+  drawOptions_.section = section;
+  setDrawOptions(drawOptions_);
 }
 
 /// Returns the panels, hidden and wide ones first. Linked views share one camera, which must fit the narrowest view

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drawing/camera.h"
-#include "drawing/look.h"
+#include "drawing/draw_options.h"
 #include "panels/colouring.h"
 #include "panels/panel_links.h"
 
@@ -37,8 +37,8 @@ class PanelArea : public QWidget {
   void setHeadActions(const QList<QAction*>& actions);
   /// Repaints all panels after an overlay has changed.
   void refresh();
-  /// Sets the parts of the object that all panels draw. Ignores the section of `look`, which setSection() sets.
-  void setLook(const Look& look);
+  /// Sets the parts of the object that all panels draw. Ignores the section of `options`, which setSection() sets.
+  void setDrawOptions(const DrawOptions& options);
   void setSection(const std::optional<SectionPlane>& section);
   /// Shows or hides the figures of the last pass in all panels.
   void setFigures(bool on);
@@ -110,7 +110,7 @@ class PanelArea : public QWidget {
   std::vector<QVector3D> reach_;    // fitted views show these points, too (mesh units)
   std::shared_ptr<Camera> camera_;  // shared by all panels whose cameras are linked
   std::shared_ptr<MeshLevels> levels_;
-  Look look_;
+  DrawOptions drawOptions_;
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   QList<QAction*> headActions_;

@@ -167,8 +167,8 @@ std::optional<OverlayLegend> View::overlayLegend() const {
   return std::nullopt;
 }
 
-void View::setLook(const Look& look) {
-  look_ = look;
+void View::setDrawOptions(const DrawOptions& options) {
+  drawOptions_ = options;
   update();
 }
 
@@ -309,17 +309,17 @@ void View::searchUnderCursor() {
 Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
 
 std::function<bool(ElementId)> View::shown() const {
-  if (!look_.section) {
+  if (!drawOptions_.section) {
     return {};
   }
-  return [mesh = document_.mesh(), plane = *look_.section](ElementId element) {
+  return [mesh = document_.mesh(), plane = *drawOptions_.section](ElementId element) {
     return !(plane.before(mesh->rest_position(element)) > 0);
   };
 }
 
 bool View::showsSolid() const {
   const MeshPointer& mesh = document_.mesh();
-  return ObjectDrawing::isSolid(*mesh, look_) && (!mesh->has_cells() || levels_->hasSurface(mesh));
+  return ObjectDrawing::isSolid(*mesh, drawOptions_) && (!mesh->has_cells() || levels_->hasSurface(mesh));
 }
 
 std::optional<ElementId> View::elementAt(QPointF position) const {
@@ -339,7 +339,7 @@ std::optional<ElementId> View::elementAt(QPointF position) const {
   const auto isShown = shown();
   const auto near = nearest([&](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
   // The cap of a section is none of these faces, so the face that is found there may be hidden.
-  return near || look_.section ? near : front.cornerAt(position, isShown);
+  return near || drawOptions_.section ? near : front.cornerAt(position, isShown);
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
@@ -383,7 +383,7 @@ std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
   return faces;
 }
 
-bool View::splitsFaces() const { return look_.faces && can_split(*document_.mesh()); }
+bool View::splitsFaces() const { return drawOptions_.faces && can_split(*document_.mesh()); }
 
 SplitPointer View::splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const {
   const Frame* frame = document_.frame(panel_);
@@ -631,8 +631,8 @@ DetailBudget::Detail View::chooseDetail() {
     return DetailBudget::Detail::complete;
   }
   const Mesh& mesh = *frame->mesh;
-  const Seen now{&mesh, frame->number, frame->series, camera_->toView(), camera_->toClip(size())};
-  const Seen before = std::exchange(seen_, now);
+  const LastPicture now{&mesh, frame->number, frame->series, camera_->toView(), camera_->toClip(size())};
+  const LastPicture before = std::exchange(lastPicture_, now);
   const bool slow = showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::minShapes;
   if (!slow || budget_.affordsComplete()) {
     return DetailBudget::Detail::complete;
@@ -718,7 +718,7 @@ void View::drawObjects(const PaintTarget& on) {
     drawOwn();
     return;
   }
-  const ObjectDrawing::Paint ghostPaint{panelColour(document_, *ghost_.of), nullptr, {}, look_};
+  const ObjectDrawing::Paint ghostPaint{panelColour(document_, *ghost_.of), nullptr, {}, drawOptions_};
   on.own.drawSeeThrough(on.scene, ghost_.ownOpacity(), drawOwn);
   on.ghost->drawSeeThrough(on.scene, ghost_.opacity(),
                            [&] { on.ghost->drawObject(on.scene, ghostPaint, pixelsPerUnit); });
@@ -728,8 +728,8 @@ void View::drawObjects(const PaintTarget& on) {
 /// are hidden.
 ObjectDrawing::Paint View::objectPaint() {
   auto paint = colouredPaint();
-  paint.look = look_;
-  paint.look.links = look_.links || (paint.values != nullptr && paint.values->ofLinks);
+  paint.options = drawOptions_;
+  paint.options.links = drawOptions_.links || (paint.values != nullptr && paint.values->ofLinks);
   return paint;
 }
 

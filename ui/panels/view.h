@@ -57,7 +57,7 @@ class View : public QOpenGLWidget {
   /// The legend of the first overlay that has one for this panel.
   std::optional<OverlayLegend> overlayLegend() const;
   /// Sets the parts of the object that are drawn.
-  void setLook(const Look& look);
+  void setDrawOptions(const DrawOptions& options);
   void setGhost(const Ghost& ghost);
   /// Marks the cursor with a ring.
   void setRing(bool on);
@@ -200,18 +200,18 @@ class View : public QOpenGLWidget {
   std::shared_ptr<MeshLevels> levels_;
   mutable ClusterBoxes boxes_;  // of the newest frame that was searched
   ObjectPainter painter_;
-  Look look_;
+  DrawOptions drawOptions_;
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // exists while there is a ghost
   FrameMeter meter_;
   /// All that moves in a view: object and camera.
-  struct Seen {
+  struct LastPicture {
     const Mesh* mesh = nullptr;
     std::uint64_t frame = 0, series = 0;
     QMatrix4x4 toView, toClip;
-    bool operator==(const Seen&) const = default;
+    bool operator==(const LastPicture&) const = default;
   };
-  Seen seen_;     // in the last picture
+  LastPicture lastPicture_;
   QTimer still_;  // ends some time after the last movement; then the object is drawn completely
   DetailBudget budget_;
   DetailBudget::Detail detail_ = DetailBudget::Detail::complete;

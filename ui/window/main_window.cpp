@@ -172,7 +172,7 @@ void MainWindow::listen() {
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
   connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(pinLayers_->foot()); });
-  connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setLook(showMenu_->look()); });
+  connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setDrawOptions(showMenu_->drawOptions()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
   connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);

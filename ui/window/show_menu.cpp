@@ -17,7 +17,7 @@ struct Choice {
   const char* text;
   Qt::Key key;
   const char* tip;
-  Look look;
+  DrawOptions options;
 };
 constexpr std::array choices{
     Choice{"links", "showLinks", "&Links", Qt::Key_1, "All links of the object, without faces", {false, true}},
@@ -102,12 +102,12 @@ void ShowMenu::forgetShown() {
   adapt();
 }
 
-Look ShowMenu::look() const {
+DrawOptions ShowMenu::drawOptions() const {
   if (!hasFaces(*document_.mesh())) {
     return {};
   }
   const QString name = chosen();
-  return std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->look;
+  return std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->options;
 }
 
 void ShowMenu::adapt() {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "document/document.h"
-#include "drawing/look.h"
+#include "drawing/draw_options.h"
 
 namespace chainmail {
 
@@ -20,7 +20,7 @@ class ShowMenu : public QObject {
 
   /// Returns the names of all choices.
   static QStringList names();
-  Look look() const;
+  DrawOptions drawOptions() const;
   /// Returns the submenu, which exists after fill().
   QMenu& menu() const { return *menu_; }
   /// Returns the name of the choice for this kind of object, as sessions store it.
