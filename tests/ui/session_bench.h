@@ -2,7 +2,7 @@
 
 #include "document/session_draft.h"
 #include "window.h"
-#include "window/window_look.h"
+#include "window/window_layout.h"
 
 namespace chainmail {
 
@@ -30,7 +30,9 @@ inline void changeEverything(Workbench& bench) {
   bench.settle();
 }
 
-inline Session sessionOf(Workbench& bench) { return SessionDraft(bench.document(), lookOf(bench.window)).finished({}); }
+inline Session sessionOf(Workbench& bench) {
+  return SessionDraft(bench.document(), layoutOf(bench.window)).finished({});
+}
 
 inline void compare(const Session& again, const Session& before) {
   QCOMPARE(again.name, before.name);

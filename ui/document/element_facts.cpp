@@ -11,13 +11,13 @@ namespace {
 
 constexpr int digits = 6;  // significant digits; a position in single precision has about 7
 
-/// Calls `look` with each uncut link of an element.
-template <class Look>
-void eachLink(const Document& document, ElementId element, Look look) {
+/// Calls `visit` with each uncut link of an element.
+template <class Visit>
+void eachLink(const Document& document, ElementId element, Visit visit) {
   const Mesh& mesh = *document.mesh();
   for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
     if (!document.cuts().is_cut(mesh.entry_link[entry])) {
-      look(mesh.entry_link[entry]);
+      visit(mesh.entry_link[entry]);
     }
   }
 }

@@ -4,7 +4,7 @@
 
 namespace chainmail {
 
-SessionDraft::SessionDraft(Document& document, std::string look) {
+SessionDraft::SessionDraft(Document& document, std::string layout) {
   session_.name = document.name().toStdString();
   session_.mesh = document.mesh();
   session_.cuts = document.cuts().links();
@@ -15,7 +15,7 @@ SessionDraft::SessionDraft(Document& document, std::string look) {
   session_.moves = document.moveHistory().commands();
   session_.moves_done = document.moveHistory().position();
   takeLesson(document);
-  session_.ui = std::move(look);
+  session_.ui = std::move(layout);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
     snapshots_.push_back(document.snapshot(panel).share());

@@ -12,8 +12,8 @@ namespace chainmail {
 /// later, after all commands posted before. Copies of the draft share these positions.
 class SessionDraft {
  public:
-  /// `look` is the state of the window as text.
-  SessionDraft(Document& document, std::string look);
+  /// `layout` is the state of the window as text.
+  SessionDraft(Document& document, std::string layout);
 
   const MeshPointer& mesh() const { return session_.mesh; }
   /// Returns the complete session. Waits for the solvers, so do not call it in the GUI thread. Throws Cancelled.

@@ -58,10 +58,10 @@ struct Autosave::Writing {
   std::atomic<bool> done = false;
 };
 
-Autosave::Autosave(Document& document, LookAccess look, QObject* parent)
+Autosave::Autosave(Document& document, LayoutAccess layout, QObject* parent)
     : QObject(parent),
       document_(document),
-      look_(std::move(look)),
+      layout_(std::move(layout)),
       path_(unsaved_work::newPath()),
       lock_(unsaved_work::lockOf(path_)),
       timer_(this) {
@@ -136,7 +136,7 @@ QString Autosave::keep() {
   std::promise<std::string> failure;
   std::future<std::string> known = failure.get_future();
   try {
-    run([&failure, path = path_, draft = SessionDraft(document_, look_.read())] {
+    run([&failure, path = path_, draft = SessionDraft(document_, layout_.read())] {
       failure.set_value(keepAs(path, draft));
     });
   } catch (...) {  // no memory for the draft
@@ -177,7 +177,7 @@ bool Autosave::setAside() {
     return false;
   }
   const QString path = unsaved_work::closedPath(unsaved_work::newPath());
-  run([path, draft = SessionDraft(document_, look_.read())] {
+  run([path, draft = SessionDraft(document_, layout_.read())] {
     try {
       save_session(asPath(path), draft.finished({}), {}, Readers::owner);
       unsaved_work::discardOldest();
@@ -195,7 +195,7 @@ void Autosave::listen() {
   });
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
   connect(&document_, &Document::frameReady, this, &Autosave::noticeChange);
-  look_.follow(*this, [this] { noticeChange(); });
+  layout_.follow(*this, [this] { noticeChange(); });
   connect(&document_, &Document::meshChanged, this, &Autosave::holdMemory);
   connect(&document_, &Document::panelsChanged, this, &Autosave::holdMemory);
   if (const Application* application = Application::get()) {
@@ -264,7 +264,7 @@ void Autosave::noticeChange() {
 }
 
 Autosave::Mark Autosave::mark() const {
-  Mark mark{steps_, {}, look_.read()};
+  Mark mark{steps_, {}, layout_.read()};
   for (int panel = 0; panel < document_.panels(); ++panel) {
     const Frame* frame = document_.frame(panel);
     mark.changed.push_back(frame == nullptr || frame->changed.empty() ? 0 : *std::ranges::max_element(frame->changed));
@@ -306,7 +306,7 @@ void Autosave::save() {
 void Autosave::startWriting() {
   Mark now = mark();
   if (now == saved_) {
-    return;  // the frame or the look changed back
+    return;  // the frame or the layout changed back
   }
   changed_ = false;
   begun_ = std::chrono::steady_clock::now();
@@ -314,7 +314,7 @@ void Autosave::startWriting() {
   const auto writing = std::make_shared<Writing>();
   writing->hasEarlier = hasPositions_;
   writing->object = object_;
-  run([this, writing, draft = SessionDraft(document_, now.look)] { write(*writing, draft); });
+  run([this, writing, draft = SessionDraft(document_, now.layout)] { write(*writing, draft); });
   saved_ = std::move(now);
   writing_ = writing;
 }

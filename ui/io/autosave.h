@@ -18,10 +18,10 @@ class SessionDraft;
 
 /// Reads and sets how the window shows its object: cameras, colours, docks. A session keeps it as JSON that only the
 /// window interprets.
-struct LookAccess {
+struct LayoutAccess {
   std::function<std::string()> read;
-  /// Parts that the look lacks stay unchanged.
-  std::function<void(const std::string& look)> set;
+  /// Parts that the layout lacks stay unchanged.
+  std::function<void(const std::string& layout)> set;
   /// Calls `changed` whenever the result of `read` changes, while `context` exists.
   std::function<void(QObject& context, const std::function<void()>& changed)> follow;
 };
@@ -29,7 +29,7 @@ struct LookAccess {
 /// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file
 /// of its own, which stays until another object is open. Each file is written completely or not at all, and only the
 /// user may read it. A lock shows whether the program still runs or has crashed. The files are removed once the user
-/// has saved the work. The window's look is part of the work, but a change of the look alone is not saved.
+/// has saved the work. The window's layout is part of the work, but a change of the layout alone is not saved.
 ///
 /// One thread writes, from the start to the end: when the system has no more threads, this one is there. The memory
 /// that a writing takes is held in between. If a writing fails nevertheless, earlier files stay, and it is tried again
@@ -39,7 +39,7 @@ class Autosave : public QObject {
   Q_OBJECT
 
  public:
-  Autosave(Document& document, LookAccess look, QObject* parent);
+  Autosave(Document& document, LayoutAccess layout, QObject* parent);
   /// Removes the files, unless keep() was called.
   ~Autosave() override;
 
@@ -83,7 +83,7 @@ class Autosave : public QObject {
   struct Mark {
     std::uint64_t steps = 0;             // number of edits, undos and redos
     std::vector<std::uint64_t> changed;  // per panel: number of the last frame that changed a position
-    std::string look;                    // cameras, colours, docks
+    std::string layout;                  // cameras, colours, docks
 
     bool operator==(const Mark&) const = default;
   };
@@ -111,7 +111,7 @@ class Autosave : public QObject {
   Mark mark() const;
 
   Document& document_;
-  const LookAccess look_;
+  const LayoutAccess layout_;
   const QString path_;  // also read by the thread
   QLockFile lock_;
   QTimer timer_;

@@ -20,8 +20,8 @@ namespace {
 
 /// Returns the file that an automatically saved session was opened from or saved to, if any.
 QString ownFile(const Session& session) {
-  const auto look = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
-  return look[QStringLiteral("file")].toString();
+  const auto layout = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
+  return layout[QStringLiteral("file")].toString();
 }
 
 void write(const QString& path, const Session& session, bool inPlace, const Progress& progress) {
@@ -47,11 +47,11 @@ void showPanels(Document& document, const Session& session) {
 
 }  // namespace
 
-Sessions::Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* parent)
+Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent)
     : QObject(parent),
       document_(document),
       jobs_(jobs),
-      look_(std::move(look)),
+      layout_(std::move(layout)),
       recovery_(new RecoveryBar),
       reload_(new ReloadBar),
       watch_(new SessionWatch(document, this)) {
@@ -86,7 +86,7 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
     document_.undoStack().clear();
   }
   document_.undoStack().setClean();
-  look_.set(session->ui);
+  layout_.set(session->ui);
   emit opened(path);
   if (isAside) {
     emit noted(QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
@@ -96,7 +96,7 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
 void Sessions::savePath(const QString& path, bool inPlace) {
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
               [this, path, inPlace, steps = steps_, mesh = document_.unsplitMesh(),
-               draft = SessionDraft(document_, look_.read())](const Progress& progress) -> Jobs::Finish {
+               draft = SessionDraft(document_, layout_.read())](const Progress& progress) -> Jobs::Finish {
                 try {
                   write(path, draft.finished(progress), inPlace, progress);
                 } catch (const NotReplaceable& refused) {
@@ -125,7 +125,7 @@ void Sessions::know(const QString& path, const std::optional<FileState>& state) 
 bool Sessions::isChangedOutside(const QString& path) const { return watch_->isChanged(path); }
 
 void Sessions::protect() {
-  autosave_ = std::make_unique<Autosave>(document_, look_, this);
+  autosave_ = std::make_unique<Autosave>(document_, layout_, this);
   connect(autosave_.get(), &Autosave::failed, this, &Sessions::failed);
   connect(autosave_.get(), &Autosave::recovered, this, &Sessions::recovered);
   recovery_->offer();
@@ -151,7 +151,7 @@ void Sessions::restore(const QString& path) {
                 return [this, session, path] {
                   showPanels(document_, *session);
                   document_.restore(session, ownFile(*session), QStringLiteral("restore unsaved work"));
-                  look_.set(session->ui);
+                  layout_.set(session->ui);
                   auto lock = recovery_->take();
                   if (autosave_) {
                     autosave_->adopt(path, std::move(lock), document_.unsplitMesh());

@@ -19,7 +19,7 @@ class Sessions : public QObject {
   Q_OBJECT
 
  public:
-  Sessions(Document& document, Jobs& jobs, LookAccess look, QObject* parent);
+  Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent);
   ~Sessions() override;
 
   /// Opens a session in the background: as one undo step, or as the first object of the window.
@@ -60,7 +60,7 @@ class Sessions : public QObject {
 
   Document& document_;
   Jobs& jobs_;
-  const LookAccess look_;
+  const LayoutAccess layout_;
   std::uint64_t steps_ = 0;  // number of edits, undos and redos
   RecoveryBar* recovery_;
   ReloadBar* reload_;

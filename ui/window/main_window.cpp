@@ -50,7 +50,7 @@
 #include "window/panel_actions.h"
 #include "window/show_menu.h"
 #include "window/theme_menu.h"
-#include "window/window_look.h"
+#include "window/window_layout.h"
 
 namespace chainmail {
 namespace {
@@ -85,8 +85,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       selectTool_(document_),
       sessions_(new Sessions(
           document_, jobs_,
-          {[this] { return lookOf(*this); }, [this](const std::string& look) { takeLook(*this, look); },
-           [this](QObject& context, const std::function<void()>& changed) { followLook(*this, context, changed); }},
+          {[this] { return layoutOf(*this); }, [this](const std::string& layout) { applyLayout(*this, layout); },
+           [this](QObject& context, const std::function<void()>& changed) { followLayout(*this, context, changed); }},
           this)),
       files_(new FileActions(*this, document_, jobs_, *sessions_)),
       messages_(new MessageBar),

@@ -1,4 +1,4 @@
-#include "window/window_look.h"
+#include "window/window_layout.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -66,15 +66,15 @@ void fitWhenShown(MainWindow& window) {
   QObject::connect(&document.undoStack(), &QUndoStack::indexChanged, wait, &QObject::deleteLater);
 }
 
-void takeCameras(MainWindow& window, const QJsonObject& look) {
+void takeCameras(MainWindow& window, const QJsonObject& layout) {
   PanelLinks& links = window.area().links();
-  links.setCameras(look[QStringLiteral("linked")].toBool(links.cameras()));
-  const QJsonArray cameras = look[QStringLiteral("cameras")].toArray();
+  links.setCameras(layout[QStringLiteral("linked")].toBool(links.cameras()));
+  const QJsonArray cameras = layout[QStringLiteral("cameras")].toArray();
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
     view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
     if (view.camera()->framed()) {
-      view.frame(view.outline(false));  // the window of the saved look may have had another size
+      view.frame(view.outline(false));  // the window of the saved layout may have had another size
     }
     emit view.cameraChanged();
     view.update();
@@ -94,31 +94,31 @@ void takeColours(MainWindow& window, const QString& name) {
 
 }  // namespace
 
-std::string lookOf(MainWindow& window) {
+std::string layoutOf(MainWindow& window) {
   QJsonArray cameras;
   for (int panel = 0; panel < window.document().panels(); ++panel) {
     cameras << toJson(window.panel(panel).view().camera()->pose());
   }
-  const QJsonObject look{{QStringLiteral("cameras"), cameras},
-                         {QStringLiteral("linked"), window.area().links().cameras()},
-                         {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
-                         {QStringLiteral("show"), window.showMenu().chosen()},
-                         {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
-                         {QStringLiteral("docks"), window.dockPlaces()},
-                         {QStringLiteral("file"), window.document().sessionFile()}};
-  return QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString();
+  const QJsonObject layout{{QStringLiteral("cameras"), cameras},
+                           {QStringLiteral("linked"), window.area().links().cameras()},
+                           {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
+                           {QStringLiteral("show"), window.showMenu().chosen()},
+                           {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
+                           {QStringLiteral("docks"), window.dockPlaces()},
+                           {QStringLiteral("file"), window.document().sessionFile()}};
+  return QJsonDocument(layout).toJson(QJsonDocument::Compact).toStdString();
 }
 
-void takeLook(MainWindow& window, const std::string& json) {
-  const QJsonObject look = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
-  window.takeDockPlaces(look[QStringLiteral("docks")].toArray());
-  window.showMenu().show(look[QStringLiteral("show")].toString());
-  window.docks().get<SectionDock>().take(look[QStringLiteral("section")].toObject());
-  takeColours(window, look[QStringLiteral("colour")].toString());
-  takeCameras(window, look);
+void applyLayout(MainWindow& window, const std::string& json) {
+  const QJsonObject layout = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
+  window.takeDockPlaces(layout[QStringLiteral("docks")].toArray());
+  window.showMenu().show(layout[QStringLiteral("show")].toString());
+  window.docks().get<SectionDock>().take(layout[QStringLiteral("section")].toObject());
+  takeColours(window, layout[QStringLiteral("colour")].toString());
+  takeCameras(window, layout);
 }
 
-void followLook(MainWindow& window, QObject& context, const std::function<void()>& changed) {
+void followLayout(MainWindow& window, QObject& context, const std::function<void()>& changed) {
   const auto followPanel = [&context, changed](Panel* panel) {
     QObject::connect(&panel->view(), &View::cameraChanged, &context, changed);
   };
