@@ -230,10 +230,10 @@ void check_own_name(const std::string& name) {
 }
 
 /// Marks of own methods in plots: an hourglass, in colours that differ.
-constexpr std::array<AlgorithmLook, 4> own_looks{{{"M-1-1H1L-1 1H1Z", "#117733"},
-                                                  {"M-1-1H1L-1 1H1Z", "#aa4499"},
-                                                  {"M-1-1H1L-1 1H1Z", "#999933"},
-                                                  {"M-1-1H1L-1 1H1Z", "#44aa99"}}};
+constexpr std::array<PlotStyle, 4> own_styles{{{"M-1-1H1L-1 1H1Z", "#117733"},
+                                               {"M-1-1H1L-1 1H1Z", "#aa4499"},
+                                               {"M-1-1H1L-1 1H1Z", "#999933"},
+                                               {"M-1-1H1L-1 1H1Z", "#44aa99"}}};
 
 }  // namespace
 
@@ -253,7 +253,7 @@ void register_method(const MethodDescription& description, MethodFactory factory
        .label = texts->label,
        .source = texts->source,
        .summary = texts->summary,
-       .look = own_looks[std::size_t(others) % own_looks.size()],
+       .style = own_styles[std::size_t(others) % own_styles.size()],
        .make = [factory = std::move(factory), texts](inner::Precision, int) -> std::unique_ptr<inner::Method> {
          std::unique_ptr<Method> method = factory();
          if (method == nullptr) {

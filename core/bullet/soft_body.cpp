@@ -266,7 +266,7 @@ AlgorithmInfo bullet_soft_body() {
           .label = "Bullet soft body",
           .source = *source,
           .summary = "links return to their rest length one after another, in frames of a physics engine",
-          .look = {"M-.65 1.15V-.1C-.65-.65-.35-1.05 0-1.35C.35-1.05 .65-.65 .65-.1V1.15Z", "#736ea0"},  // bullet
+          .style = {"M-.65 1.15V-.1C-.65-.65-.35-1.05 0-1.35C.35-1.05 .65-.65 .65-.1V1.15Z", "#736ea0"},  // bullet
           .make = [](Precision, int) -> std::unique_ptr<Method> { return std::make_unique<BulletMethod>(); },
           .needs_pins = true,
           .obeys_iterations = true,

@@ -16,7 +16,7 @@ namespace chainmail {
 enum class Family { chainmail, elastic };
 
 /// Mark of an algorithm in plots.
-struct AlgorithmLook {
+struct PlotStyle {
   std::string_view path;    // SVG path about (0, 0), of size 1
   std::string_view colour;  // empty: the colour of lines and text
 };
@@ -32,7 +32,7 @@ struct AlgorithmInfo {
   std::string_view label;       // title in the window and in reports
   std::string_view source;      // publication
   std::string_view summary;     // one sentence for help texts
-  AlgorithmLook look;
+  PlotStyle style;
 
   MakeMethod make;  // what answers a move
   /// Finds the waiting list of a recorded pass at each of its steps; null if the algorithm has no list.

@@ -66,7 +66,7 @@ inline AlgorithmInfo failing_entry(const std::shared_ptr<FailingMoves>& moves) {
           .label = "Failing",
           .source = "nobody 2000",
           .summary = "fails",
-          .look = {"M0 0H1V1Z", "#123456"},
+          .style = {"M0 0H1V1Z", "#123456"},
           .make = [moves](Precision, int) { return std::make_unique<FailingMethod>(moves); }};
 }
 

@@ -10,14 +10,14 @@
 #include "common/text.h"
 #include "common/theme.h"
 #include "common/write_bytes.h"
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 
 namespace chainmail {
 namespace {
 
 // Logical pixels.
-constexpr double markUnit = 4.6;  // unit of a look, which is drawn about (0, 0)
-constexpr double markSide = 3.2;  // side of a look's square, in its units
+constexpr double markUnit = 4.6;  // unit of a style, which is drawn about (0, 0)
+constexpr double markSide = 3.2;  // side of a style's square, in its units
 constexpr double curveWidth = 1.4;
 constexpr double keyWidth = 22, betweenKeys = 16, betweenLabels = 5;
 
@@ -33,10 +33,10 @@ QColor mixed(const QColor& one, const QColor& other, double share) {
                           mix(one.blueF(), other.blueF()));
 }
 
-/// Returns the colour of a look, mixed with the text colour until it has enough contrast to the background.
-QColor lookColour(std::size_t look, const QPalette& palette) {
+/// Returns the colour of a style, mixed with the text colour until it has enough contrast to the background.
+QColor styleColour(std::size_t style, const QPalette& palette) {
   const QColor ink = palette.color(QPalette::WindowText), ground = palette.color(QPalette::Window);
-  const QString name = text(report::look_at(look).colour);
+  const QString name = text(report::style_at(style).colour);
   if (name.isEmpty()) {
     return ink;
   }
@@ -48,12 +48,12 @@ QColor lookColour(std::size_t look, const QPalette& palette) {
 }
 
 /// Looks are SVG paths, which Qt's SVG renderer draws as vectors.
-void paintLook(QPainter& painter, std::size_t look, const QColor& colour, bool hollow, const QRectF& square) {
+void paintMark(QPainter& painter, std::size_t style, const QColor& colour, bool hollow, const QRectF& square) {
   const QString svg =
       QStringLiteral(
           "<svg xmlns='http://www.w3.org/2000/svg' viewBox='-1.6 -1.6 3.2 3.2'>"
           "<path d='%1' stroke='%2' stroke-width='0.33' fill='%3' fill-opacity='0.75'/></svg>")
-          .arg(text(report::look_at(look).path), colour.name(), hollow ? QStringLiteral("none") : colour.name());
+          .arg(text(report::style_at(style).path), colour.name(), hollow ? QStringLiteral("none") : colour.name());
   QSvgRenderer(svg.toUtf8()).render(&painter, square);
 }
 
@@ -87,7 +87,7 @@ PlotPainting::PlotPainting(const report::Plot& plot, const QPalette& palette)
 
 QColor PlotPainting::colourOf(std::size_t series) const {
   const report::PlotSeries& one = plot_.series[series];
-  return one.colour.empty() ? lookColour(one.look, palette_) : QColor(text(one.colour));
+  return one.colour.empty() ? styleColour(one.style, palette_) : QColor(text(one.colour));
 }
 
 QPointF PlotPainting::positionOf(double x, double y) const {
@@ -237,7 +237,7 @@ void PlotPainting::paintMarks(QPainter& painter) const {
   std::vector<QRectF> notes;
   for (const report::PlotMark& mark : panel()->marks) {
     const QPointF centre = positionOf(mark.x, mark.y);
-    paintLook(painter, plot_.series[mark.series].look, colourOf(mark.series), mark.hollow, markSquare(centre));
+    paintMark(painter, plot_.series[mark.series].style, colourOf(mark.series), mark.hollow, markSquare(centre));
     paintNote(painter, centre, text(mark.note), notes);
   }
 }
@@ -246,7 +246,7 @@ void PlotPainting::paintMarks(QPainter& painter) const {
 void PlotPainting::paintKey(QPainter& painter, std::size_t series, QPointF centre) const {
   const report::PlotSeries& one = plot_.series[series];
   if (one.colour.empty()) {
-    paintLook(painter, one.look, colourOf(series), false, markSquare(centre));
+    paintMark(painter, one.style, colourOf(series), false, markSquare(centre));
     return;
   }
   const QPointF half((keyWidth - 6) / 2, 0);
@@ -309,13 +309,13 @@ void PlotPainting::paintLegend(QPainter& painter, const QRectF& area) const {
 }
 
 QPixmap plotMark(Algorithm algorithm, bool hollow, int size, double devicePixelRatio, const QPalette& palette) {
-  const std::size_t look = report::look_of(algorithm);
+  const std::size_t style = report::style_of(algorithm);
   QPixmap picture(QSize(size, size) * devicePixelRatio);
   picture.setDevicePixelRatio(devicePixelRatio);
   picture.fill(Qt::transparent);
   QPainter painter(&picture);
   painter.setRenderHint(QPainter::Antialiasing);
-  paintLook(painter, look, lookColour(look, palette), hollow, QRectF(0, 0, size, size));
+  paintMark(painter, style, styleColour(style, palette), hollow, QRectF(0, 0, size, size));
   return picture;
 }
 

@@ -43,7 +43,7 @@ QRgb shade(std::string_view name, colours::Ground ground, int copy) {
 }  // namespace
 
 colours::Colour algorithmColour(Algorithm algorithm, int copy) {
-  const std::string_view name = info(algorithm).look.colour;
+  const std::string_view name = info(algorithm).style.colour;
   return {shade(name, colours::Ground::dark, copy), shade(name, colours::Ground::light, copy)};
 }
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "report/page/format.h"
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 
 namespace chainmail::report {
 namespace {
@@ -155,12 +155,12 @@ bool is_empty(const Plot& plot) {
 }
 
 std::size_t series_of(Plot& plot, Algorithm algorithm) {
-  const std::size_t look = look_of(algorithm);
-  const auto found = std::ranges::find(plot.series, look, &PlotSeries::look);
+  const std::size_t style = style_of(algorithm);
+  const auto found = std::ranges::find(plot.series, style, &PlotSeries::style);
   if (found != plot.series.end()) {
     return static_cast<std::size_t>(found - plot.series.begin());
   }
-  plot.series.push_back({std::string(info(algorithm).label), look});
+  plot.series.push_back({std::string(info(algorithm).label), style});
   return plot.series.size() - 1;
 }
 

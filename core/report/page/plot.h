@@ -60,7 +60,7 @@ struct PlotAxis {
 /// An entry of the legend: a name with its shape and colour.
 struct PlotSeries {
   std::string label;
-  std::size_t look = 0;     // shape and colour of the marks: a look of report/page/looks.h
+  std::size_t style = 0;    // shape and colour of the marks: a style of report/page/plot_style.h
   std::string colour = {};  // colour of a series of lines without marks, as #rrggbb
 };
 

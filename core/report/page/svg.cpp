@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/page/format.h"
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 
 namespace chainmail::report {
 namespace {
@@ -153,7 +153,7 @@ class SvgDrawing {
 
   std::string colour_of(std::size_t series) const {
     const PlotSeries& one = plot_.series[series];
-    const std::string_view colour = one.colour.empty() ? look_at(one.look).colour : std::string_view(one.colour);
+    const std::string_view colour = one.colour.empty() ? style_at(one.style).colour : std::string_view(one.colour);
     return colour.empty() ? ink_ : std::string(colour);
   }
 
@@ -166,10 +166,10 @@ class SvgDrawing {
   }
 
   void draw_mark(double x, double y, std::size_t series, bool hollow, std::string_view title) {
-    const Look& look = look_at(plot_.series[series].look);
+    const PlotStyle& style = style_at(plot_.series[series].style);
     const std::string colour = colour_of(series);
     out_ << "<path transform=\"translate(" << coordinate(x) << ' ' << coordinate(y) << ") scale("
-         << coordinate(mark_size) << ")\" d=\"" << look.path << "\" stroke=\"" << colour
+         << coordinate(mark_size) << ")\" d=\"" << style.path << "\" stroke=\"" << colour
          << "\" stroke-width=\"0.33\" fill=\"" << (hollow ? "none" : colour) << "\" fill-opacity=\"0.75\">";
     if (!title.empty()) {
       out_ << "<title>" << escaped(title) << "</title>";

@@ -129,7 +129,7 @@ void BulletTest::its_entry_differs_from_the_others() {
   for (const AlgorithmInfo& one : every_algorithm()) {
     if (one.name != entry.name) {
       QVERIFY(one.algorithm != entry.algorithm);
-      QVERIFY(one.label != entry.label && one.look.path != entry.look.path && one.look.colour != entry.look.colour);
+      QVERIFY(one.label != entry.label && one.style.path != entry.style.path && one.style.colour != entry.style.colour);
     }
   }
   QVERIFY(info(bullet()).name == "bullet" && find_algorithm("bullet") == bullet());

@@ -202,7 +202,7 @@ void ReportTest::a_plot_has_every_contestant_on_it() {
   const Plot plot = violation_plot(comparison().cases[0]);
   QCOMPARE(plot.panels.size(), std::size_t{2});
   QCOMPARE(plot.series.size(), std::size_t{2});  // the refused contestant has no marks
-  QVERIFY(plot.series[0].look != plot.series[1].look);
+  QVERIFY(plot.series[0].style != plot.series[1].style);
   const auto& marks = plot.panels[1].marks;
   QCOMPARE(marks.size(), std::size_t{3});
   QVERIFY(!marks[0].hollow && marks[1].hollow && !marks[2].hollow);

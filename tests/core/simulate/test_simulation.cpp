@@ -202,7 +202,7 @@ AlgorithmInfo noting_entry(PassSettings& seen) {
           .label = "Noting",
           .source = "nobody 2000",
           .summary = "notes what it got",
-          .look = {"M0 0H1V1Z", "#123456"},
+          .style = {"M0 0H1V1Z", "#123456"},
           .make = [&seen](Precision precision, int) { return std::make_unique<NotingMethod>(seen, precision); }};
 }
 

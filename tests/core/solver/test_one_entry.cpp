@@ -7,7 +7,7 @@
 #include "core/chainmail/recorded.h"
 #include "files/results/report_json.h"
 #include "report/page/csv.h"
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"
 #include "solver/algorithms.h"
@@ -54,7 +54,7 @@ AlgorithmInfo dummy_entry() {
           .label = "Dummy ChainMail",
           .source = "nobody 2000",
           .summary = "does what Spiral does",
-          .look = {"M0 0H1V1Z", "#123456"},
+          .style = {"M0 0H1V1Z", "#123456"},
           .make = make_list_method<DummyList>,
           .history = follow_list<DummyList>};
 }
@@ -103,7 +103,7 @@ void OneEntryTest::an_algorithm_is_listed() {
   QVERIFY(elastic_algorithms().front().algorithm == Algorithm::linear_fem);
   QVERIFY(std::ranges::count(names_of(every_algorithm()), "another-name") == 1);
   QVERIFY(contains(algorithms_help(algorithms()), "another-name   Dummy ChainMail: does what Spiral does\n"));
-  QCOMPARE(report::look_at(report::look_of(dummy)).colour, std::string_view("#123456"));
+  QCOMPARE(report::style_at(report::style_of(dummy)).colour, std::string_view("#123456"));
   QCOMPARE(report::label(report::Contestant{dummy, 3}), std::string("Dummy ChainMail, 3 sweeps"));
 }
 
@@ -173,7 +173,7 @@ void OneEntryTest::names_are_unique() {
       count += name.empty() ? 0 : 1;
     }
     QVERIFY(!one.label.empty() && !one.source.empty() && !one.summary.empty());
-    shapes.insert(one.look.path);
+    shapes.insert(one.style.path);
   }
   names.erase("");
   QCOMPARE(names.size(), count);

@@ -2,7 +2,7 @@
 
 #include "common/panel_names.h"
 #include "report/page/format.h"
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 
 namespace chainmail {
 
@@ -36,7 +36,7 @@ report::Plot plotOf(const std::vector<SizeTestContestant>& contestants, std::spa
         panelName(contestant.panel).toStdString() + ' ' + std::string(info(contestant.algorithm).label);
     const std::size_t series = plot.series.size();
     plot.series.push_back(
-        {name, report::look_of(contestant.algorithm), QColor(contestant.colour).name().toStdString()});
+        {name, report::style_of(contestant.algorithm), QColor(contestant.colour).name().toStdString()});
     report::PlotCurve curve{series, {}};
     for (const SizeTestRow& row : rows) {
       if (row.panel == contestant.panel) {

@@ -1,17 +1,17 @@
-#include "report/page/looks.h"
+#include "report/page/plot_style.h"
 
 #include <algorithm>
 
 namespace chainmail::report {
 
-std::size_t look_of(Algorithm algorithm) {
+std::size_t style_of(Algorithm algorithm) {
   const auto all = every_algorithm();
   return static_cast<std::size_t>(std::ranges::find(all, algorithm, &AlgorithmInfo::algorithm) - all.begin());
 }
 
-const Look& look_at(std::size_t index) {
+const PlotStyle& style_at(std::size_t index) {
   const auto all = every_algorithm();
-  return all[index % all.size()].look;
+  return all[index % all.size()].style;
 }
 
 }  // namespace chainmail::report
