@@ -52,7 +52,7 @@ double in_a_child(const std::function<double()>& measure) {
 double bytes_per_element() {
   const double before = resident_bytes();
   const Scene scene("grid1024");
-  const Hand round = hand(Drag::whole_body, *scene.mesh);
+  const DragPath round = path_of(Drag::whole_body, *scene.mesh);
   std::vector<std::unique_ptr<SolverThread>> panels;
   for (const Algorithm algorithm : {Algorithm::generalized, Algorithm::natural_queue}) {
     panels.push_back(std::make_unique<SolverThread>(scene.mesh, algorithm, [] {}));
@@ -135,7 +135,7 @@ double two_panels() {
 /// a million elements has moved.
 double grab_to_frame(Algorithm algorithm) {
   const Scene scene("grid1000");
-  const Hand round = hand(Drag::whole_body, *scene.mesh);
+  const DragPath round = path_of(Drag::whole_body, *scene.mesh);
   SolverThread panel(scene.mesh, algorithm, [] {});
   panel.post(commands::SetSoftness{{stiff, {}}});
   std::vector<double> ms;

@@ -19,12 +19,12 @@ namespace {
 
 /// The handle on its closed path.
 struct Round {
-  Hand hand;
+  DragPath path;
   std::size_t next = 0;
 
   const Point& step() {
-    const Point& target = hand.targets[next];
-    next = (next + 1) % hand.targets.size();
+    const Point& target = path.targets[next];
+    next = (next + 1) % path.targets.size();
     return target;
   }
 };
@@ -45,7 +45,7 @@ std::unique_ptr<Solver> make(const MeshPointer& mesh, const std::string& algorit
 
 /// Returns the number of warm-up passes: two rounds of a local drag. A whole-body drag needs fewer, because its passes
 /// are all alike.
-std::size_t warm_up(Drag drag, const Hand& hand) { return drag == Drag::local ? 2 * hand.targets.size() : 4; }
+std::size_t warm_up(Drag drag, const DragPath& path) { return drag == Drag::local ? 2 * path.targets.size() : 4; }
 
 int passes(Drag drag, std::uint64_t elements) {
   return drag == Drag::local ? 1024 : std::clamp(2'000'000 / int(elements), 2, 400);
@@ -64,7 +64,7 @@ void check_whole(std::uint64_t moved, const Mesh& mesh) {
 void check_textbook(const MeshPointer& mesh, Textbook<float, 2>& textbook) {
   const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
   solver->body().set_softness({stiff, {}});
-  const Hand path = hand(Drag::whole_body, *mesh);
+  const DragPath path = path_of(Drag::whole_body, *mesh);
   for (const Point& target : path.targets) {
     solver->move(path.element, target);
     textbook.move(path.element, target);
@@ -102,18 +102,18 @@ struct Copy {
 Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag) {
   const std::shared_ptr<Solver> solver = make(scene.mesh, algorithm);
   solver->body().set_softness(softness(drag, *scene.mesh));
-  const auto round = std::make_shared<Round>(Round{hand(drag, *scene.mesh)});
+  const auto round = std::make_shared<Round>(Round{path_of(drag, *scene.mesh)});
   const auto pass = [solver, round, drag, mesh = scene.mesh, anew = is_without_memory(algorithm)] {
     if (anew) {
       solver->body().cut({});  // the solver assumes other links and forgets all data of the last pass
     }
-    const std::uint64_t moved = solver->move(round->hand.element, round->step()).moved;
+    const std::uint64_t moved = solver->move(round->path.element, round->step()).moved;
     if (drag != Drag::local) {
       check_whole(moved, *mesh);
     }
     return moved;
   };
-  for (std::size_t i = 0; i < warm_up(drag, round->hand); ++i) {
+  for (std::size_t i = 0; i < warm_up(drag, round->path); ++i) {
     pass();
   }
   const std::uint64_t elements = scene.mesh->element_count();
@@ -124,11 +124,11 @@ Contestant dragged_as_2004(const Scene& scene) {
   const auto object = std::make_shared<reference::Object<float>>(scene.mesh, [](ElementId, ElementId) {
     return reference::Factors{stiff.compression, stiff.stretch, stiff.shear};
   });
-  const auto round = std::make_shared<Round>(Round{hand(Drag::whole_body, *scene.mesh)});
+  const auto round = std::make_shared<Round>(Round{path_of(Drag::whole_body, *scene.mesh)});
   const auto pass = [object, round, mesh = scene.mesh] {
     const Point& to = round->step();
     const auto processed =
-        reference::move<reference::NaturalQueueChainMail>(*object, {{round->hand.element, {to[0], to[1], to[2]}}});
+        reference::move<reference::NaturalQueueChainMail>(*object, {{round->path.element, {to[0], to[1], to[2]}}});
     const auto moved = std::count_if(processed.begin(), processed.end(), [](const auto& one) { return one.moved; });
     check_whole(std::uint64_t(moved), *mesh);
     return std::uint64_t(moved);
@@ -139,9 +139,9 @@ Contestant dragged_as_2004(const Scene& scene) {
 Contestant dragged_by_textbook(const Scene& scene) {
   const auto object = std::make_shared<Textbook<float, 2>>(scene.mesh, stiff);
   check_textbook(scene.mesh, *object);
-  const auto round = std::make_shared<Round>(Round{hand(Drag::whole_body, *scene.mesh)});
+  const auto round = std::make_shared<Round>(Round{path_of(Drag::whole_body, *scene.mesh)});
   const auto pass = [object, round, mesh = scene.mesh] {
-    const std::uint64_t moved = object->move(round->hand.element, round->step());
+    const std::uint64_t moved = object->move(round->path.element, round->step());
     check_whole(moved, *mesh);
     return moved;
   };
@@ -168,7 +168,7 @@ double sweep_nanoseconds(const Scene& scene) {
   Softness soft;
   soft.energy = EnergyKind::isotropic;
   solver->body().set_softness(soft);
-  const Hand path = hand(Drag::whole_body, *scene.mesh);
+  const DragPath path = path_of(Drag::whole_body, *scene.mesh);
   for (std::size_t i = 0; i < warm_up(Drag::whole_body, path); ++i) {
     solver->move(path.element, path.targets[i]);
   }

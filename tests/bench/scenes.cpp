@@ -95,17 +95,17 @@ Softness softness(Drag drag, const Mesh& mesh) {
   return drag == Drag::local ? Softness() : drag == Drag::whole_body ? Softness{stiff, {}} : mixed_softness(mesh);
 }
 
-Hand hand(Drag drag, const Mesh& mesh) {
+DragPath path_of(Drag drag, const Mesh& mesh) {
   const auto [low, high] = bounds(mesh);
   const bool local = drag == Drag::local;
   const double local_radius = solid(mesh) ? 1 : 2.5;
   const double radius = local ? local_radius : (high - low).maxCoeff() / 8;
-  Hand hand{local ? middle(mesh) : 0, {}};
-  const Point centre = mesh.rest_position(hand.element);
+  DragPath path{local ? middle(mesh) : 0, {}};
+  const Point centre = mesh.rest_position(path.element);
   for (int i = 0; i < steps_of_a_round; ++i) {
-    hand.targets.emplace_back(centre + on_circle(mesh, radius, 2 * std::numbers::pi * i / steps_of_a_round));
+    path.targets.emplace_back(centre + on_circle(mesh, radius, 2 * std::numbers::pi * i / steps_of_a_round));
   }
-  return hand;
+  return path;
 }
 
 }  // namespace chainmail::bench

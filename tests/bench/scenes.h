@@ -21,7 +21,7 @@ std::string name(Drag drag);
 Softness softness(Drag drag, const Mesh& mesh);
 
 /// The handle: an element and its targets. The path is closed, so that passes can be repeated any number of times.
-struct Hand {
+struct DragPath {
   ElementId element = 0;
   std::vector<Point> targets;
 };
@@ -32,6 +32,6 @@ struct Hand {
 /// Local: the middle element, default softness, and a radius at which some hundred elements move in each pass.
 /// Whole-body: the first corner, on a circle with a diameter of a quarter of the object's width. Each of the 32 moves
 /// of a round (2.5 % of the width) is larger than the slack of all links together, so all elements move in every pass.
-Hand hand(Drag drag, const Mesh& mesh);
+DragPath path_of(Drag drag, const Mesh& mesh);
 
 }  // namespace chainmail::bench

@@ -18,7 +18,7 @@ inline void showValue(const LinkSoftness& softness, std::ostream& out) {
 namespace test {
 
 /// A move of the handle relative to its position, in quarters of a mesh unit: whole numbers shrink well.
-struct Hand {
+struct DragStep {
   std::uint32_t element;  // modulo the number of elements
   int x, y, z;
 
@@ -26,8 +26,8 @@ struct Hand {
   Point by() const { return Point(x, y, z) / 4; }
 };
 
-inline void showValue(const Hand& hand, std::ostream& out) {
-  out << '#' << hand.element << " by " << hand.by().transpose();
+inline void showValue(const DragStep& drag_step, std::ostream& out) {
+  out << '#' << drag_step.element << " by " << drag_step.by().transpose();
 }
 
 inline PassCount move_by(Solver& solver, const Mesh& mesh, ElementId element, const Point& by, Trace* trace = nullptr) {
@@ -35,12 +35,12 @@ inline PassCount move_by(Solver& solver, const Mesh& mesh, ElementId element, co
 }
 
 /// Draws moves of up to `reach` quarters of a mesh unit along each axis.
-inline rc::Gen<Hand> any_hand(int reach = 20) {
+inline rc::Gen<DragStep> any_drag_step(int reach = 20) {
   const auto quarters = rc::gen::inRange(-reach, reach + 1);
-  return rc::gen::construct<Hand>(rc::gen::inRange<std::uint32_t>(0, 1000), quarters, quarters, quarters);
+  return rc::gen::construct<DragStep>(rc::gen::inRange<std::uint32_t>(0, 1000), quarters, quarters, quarters);
 }
-inline rc::Gen<std::vector<Hand>> any_hands(int reach = 20) {
-  return rc::gen::container<std::vector<Hand>>(any_hand(reach));
+inline rc::Gen<std::vector<DragStep>> any_drag_steps(int reach = 20) {
+  return rc::gen::container<std::vector<DragStep>>(any_drag_step(reach));
 }
 
 /// Draws softness in hundredths, over the accepted and useful range.

@@ -183,11 +183,11 @@ void HandleTest::exact_agrees_with_bellman_and_ford() {
     const auto answer = bellman_and_ford(mesh, softness, solver->body().cuts());
     const auto elements = draw_handle(*mesh, 6);
     Handle handle(solver->body(), elements);
-    for (const Hand& hand : *any_hands(12)) {
+    for (const DragStep& drag_step : *any_drag_steps(12)) {
       const auto before = positions_of(*solver, *mesh);
-      Pose pose{handle.pose().pivot + hand.by(), handle.pose().rotation};
-      if (mesh->space_dimension > 1 && hand.element % 3 == 0) {
-        pose.rotation += Rotation{draw_axis(*mesh), hand.element % 40 - 20.0}.vector();
+      Pose pose{handle.pose().pivot + drag_step.by(), handle.pose().rotation};
+      if (mesh->space_dimension > 1 && drag_step.element % 3 == 0) {
+        pose.rotation += Rotation{draw_axis(*mesh), drag_step.element % 40 - 20.0}.vector();
       }
       solver->move(handle, pose);
       RC_ASSERT(!solver->remark().empty() || handle.pose() == pose);

@@ -35,9 +35,9 @@ void PinsTest::pins_stay() {
     carry_out(simulation, commands::Pin{pins});
     carry_out(simulation,
               commands::SetRelaxation{false, 1, *rc::gen::element(RelaxationScheme::mean, RelaxationScheme::link)});
-    for (const Hand& hand : *any_hands(40)) {
-      if (std::find(pins.begin(), pins.end(), hand.of(*mesh)) == pins.end()) {
-        drag_by(simulation, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : *any_drag_steps(40)) {
+      if (std::find(pins.begin(), pins.end(), drag_step.of(*mesh)) == pins.end()) {
+        drag_by(simulation, drag_step.of(*mesh), drag_step.by());
         carry_out(simulation, commands::Release{});
         simulation.relax(2, 1);
       }

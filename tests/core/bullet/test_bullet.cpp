@@ -275,7 +275,7 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
     ElasticOptions few;
     few.iterations = 20;
     solver.body().set_elastic(few);
-    for (const Hand& hand : *any_hands(4)) {
+    for (const DragStep& drag_step : *any_drag_steps(4)) {
       Body& body = solver.body();
       const LinkId link = *rc::gen::inRange<LinkId>(0, mesh->link_count());
       const ElementId element = *rc::gen::inRange<ElementId>(0, mesh->element_count());
@@ -301,7 +301,7 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
         default:
           break;
       }
-      if (body.is_pinned(hand.of(*mesh))) {
+      if (body.is_pinned(drag_step.of(*mesh))) {
         continue;
       }
       Solver fresh(mesh, bullet(), precision);
@@ -309,8 +309,8 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
       fresh.body().set_positions(positions_of(solver, *mesh));
       fresh.body().cut(body.cuts().links());
       fresh.body().pin(body.pins());
-      move_by(fresh, *mesh, hand.of(*mesh), hand.by());
-      move_by(solver, *mesh, hand.of(*mesh), hand.by());
+      move_by(fresh, *mesh, drag_step.of(*mesh), drag_step.by());
+      move_by(solver, *mesh, drag_step.of(*mesh), drag_step.by());
       RC_ASSERT(same_bits(positions_of(solver, *mesh), positions_of(fresh, *mesh)));
       RC_ASSERT(solver.remark() == fresh.remark());
       RC_ASSERT(std::ranges::equal(solver.moved(), fresh.moved()));

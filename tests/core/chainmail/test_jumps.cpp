@@ -125,13 +125,13 @@ void JumpsTest::nothing_outruns_the_hand_however_often_it_relaxes() {
     const auto mesh = draw_grid();
     Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
     carry_out(simulation, commands::SetSoftness{{*any_link_softness(), {}}});
-    for (const Hand& hand : *any_hands()) {
+    for (const DragStep& drag_step : *any_drag_steps()) {
       simulation.relax(*rc::gen::inRange(0, 5), *rc::gen::inRange(1, 101) / 100.0);
       const auto before = positions_of(simulation);
-      drag_by(simulation, hand.of(*mesh), hand.by());
+      drag_by(simulation, drag_step.of(*mesh), drag_step.by());
       const auto after = positions_of(simulation);
       for (std::size_t i = 0; i < after.size(); ++i) {
-        const double of_handle = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
+        const double of_handle = std::abs(drag_step.by()[mesh->axes[i % mesh->space_dimension]]);
         RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding);
       }
     }

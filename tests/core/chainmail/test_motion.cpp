@@ -65,7 +65,7 @@ void MotionTest::at_rest_a_zero_move_moves_nothing() {
     const auto solver = make_solver(mesh, *any_algorithm(), Precision::double_precision);
     // Any softness except rigid, because then the rest shape has no slack for rounding.
     solver->body().set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
-    const ElementId element = (*any_hand()).of(*mesh);
+    const ElementId element = (*any_drag_step()).of(*mesh);
     const auto before = positions_of(*solver, *mesh);
     const PassCount count = move_by(*solver, *mesh, element, Point(0, 0, 0));
     RC_ASSERT(count.moved == 0u);
@@ -79,7 +79,7 @@ void MotionTest::from_a_valid_state_a_zero_move_moves_nothing() {
   const auto holds = [] {
     const ValidState state(0.9);
     const auto before = positions_of(*state.solver, *state.mesh);
-    move_by(*state.solver, *state.mesh, (*any_hand()).of(*state.mesh), Point(0, 0, 0));
+    move_by(*state.solver, *state.mesh, (*any_drag_step()).of(*state.mesh), Point(0, 0, 0));
     const auto after = positions_of(*state.solver, *state.mesh);
     // A rigid link has no slack, so the state itself is valid only up to rounding.
     RC_ASSERT(largest_step(before, after) <= rounding_of_a_pass(state.precision, before));
@@ -93,11 +93,11 @@ void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
     const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
     const auto solver = make_solver(mesh, Algorithm::natural_queue, *any_precision());
     solver->body().set_softness({{0.75, 1.25, 0.125}, {}});
-    for (const Hand& hand : *any_hands()) {
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : *any_drag_steps()) {
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     }
     const auto before = positions_of(*solver, *mesh);
-    move_by(*solver, *mesh, (*any_hand()).of(*mesh), Point(0, 0, 0));
+    move_by(*solver, *mesh, (*any_drag_step()).of(*mesh), Point(0, 0, 0));
     RC_ASSERT(same_bits(before, positions_of(*solver, *mesh)));
   };
   QVERIFY(check_property("after drags of a grid a zero move of any element moves nothing", holds));
@@ -108,7 +108,7 @@ void MotionTest::a_move_inside_every_region_moves_the_grabbed_element_alone() {
     const ValidState state(0.5);
     const Mesh& mesh = *state.mesh;
     const auto before = positions_of(*state.solver, mesh);
-    const ElementId element = (*any_hand()).of(mesh);
+    const ElementId element = (*any_drag_step()).of(mesh);
     Point target = position_of(*state.solver, mesh, element);
     for (int k = 0; k < mesh.space_dimension; ++k) {
       const auto [low, high] = valid_interval(mesh, state.softness, before, element, k);
@@ -133,12 +133,12 @@ void MotionTest::from_a_valid_state_nothing_outruns_the_hand() {
     const ValidState state(0.9);
     state.solver->body().cut(draw_links(*state.mesh));
     const auto before = positions_of(*state.solver, *state.mesh);
-    const auto hand = *any_hand();
-    move_by(*state.solver, *state.mesh, hand.of(*state.mesh), hand.by());
+    const auto drag_step = *any_drag_step();
+    move_by(*state.solver, *state.mesh, drag_step.of(*state.mesh), drag_step.by());
     const auto after = positions_of(*state.solver, *state.mesh);
     const int n = state.mesh->space_dimension;
     for (std::size_t i = 0; i < after.size(); ++i) {
-      const double of_handle = std::abs(hand.by()[state.mesh->axes[i % n]]);
+      const double of_handle = std::abs(drag_step.by()[state.mesh->axes[i % n]]);
       RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding_of_a_pass(state.precision, after));
     }
   };
@@ -152,13 +152,13 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
     solver->body().set_softness({*any_link_softness(), {}});
     double rounding = 0;  // an earlier pass leaves its rounding in the state
-    for (const Hand& hand : *any_hands()) {
+    for (const DragStep& drag_step : *any_drag_steps()) {
       const auto before = positions_of(*solver, *mesh);
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
       const auto after = positions_of(*solver, *mesh);
       rounding += rounding_of_a_pass(precision, after);
       for (std::size_t i = 0; i < after.size(); ++i) {
-        const double of_handle = std::abs(hand.by()[mesh->axes[i % mesh->space_dimension]]);
+        const double of_handle = std::abs(drag_step.by()[mesh->axes[i % mesh->space_dimension]]);
         RC_ASSERT(std::abs(after[i] - before[i]) <= of_handle + rounding);
       }
     }
@@ -172,8 +172,8 @@ void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
     const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
     const Softness softness{*any_link_softness(), {}};
     solver->body().set_softness(softness);
-    for (const Hand& hand : *any_hands()) {
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : *any_drag_steps()) {
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
       // Rounding in rest lengths: 1e-9 is far above it, and far below visible violations.
       RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }
@@ -195,9 +195,9 @@ void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
     const auto precision = *any_precision();
     const auto one = make_solver(family.mesh, algorithm, precision);
     const auto other = make_solver(image, algorithm, precision);
-    for (const Hand& hand : *any_hands()) {
-      move_by(*one, mesh, hand.of(mesh), hand.by());
-      move_by(*other, *image, hand.of(mesh), -hand.by());
+    for (const DragStep& drag_step : *any_drag_steps()) {
+      move_by(*one, mesh, drag_step.of(mesh), drag_step.by());
+      move_by(*other, *image, drag_step.of(mesh), -drag_step.by());
     }
     const auto there = positions_of(*one, mesh), back = positions_of(*other, *image);
     for (std::size_t i = 0; i < there.size(); ++i) {

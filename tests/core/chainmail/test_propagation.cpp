@@ -159,9 +159,9 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->body().cut(draw_links(*mesh));
-    for (const Hand& hand : *any_hands()) {
+    for (const DragStep& drag_step : *any_drag_steps()) {
       Trace trace;
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by(), &trace);
       // Each bound about the sponsor is one rounded sum of a rounded bound: an ulp of the largest number on each axis,
       // and as much again for the size of the region.
       const double ulp = precision == Precision::single_precision ? 0x1p-23 : std::numeric_limits<double>::epsilon();
@@ -182,10 +182,10 @@ void PropagationTest::no_element_is_updated_twice() {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
     solver->body().set_softness(draw_softness(*mesh));
-    for (const Hand& hand : *any_hands()) {
+    for (const DragStep& drag_step : *any_drag_steps()) {
       Trace trace;
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
-      std::set<ElementId> updated{hand.of(*mesh)};
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by(), &trace);
+      std::set<ElementId> updated{drag_step.of(*mesh)};
       for (const TraceRow& row : trace) {
         RC_ASSERT(updated.contains(row.sponsor));  // every sponsor was updated before
         RC_ASSERT(updated.insert(row.element).second);
@@ -199,9 +199,9 @@ void PropagationTest::counts_agree_with_the_trace() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
-    const auto hand = *any_hand();
+    const auto drag_step = *any_drag_step();
     Trace trace;
-    const PassCount count = move_by(*solver, *mesh, hand.of(*mesh), hand.by(), &trace);
+    const PassCount count = move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by(), &trace);
     std::vector<ElementId> moved;
     for (const TraceRow& row : trace) {
       if (row.moved) {

@@ -97,7 +97,7 @@ void ReplayTest::a_drag_goes_as_without_memory() {
       const int drawn = *rc::gen::inRange(0, 3 * int(Event::count));
       const int reach = *rc::gen::element(1, 4, 400);
       drag.happen(drawn < int(Event::count) ? Event(drawn) : Event::move, *rc::gen::inRange<std::uint32_t>(0, 1000),
-                  (*any_hand(reach)).by());
+                  (*any_drag_step(reach)).by());
     }
   };
   QVERIFY(check_property("each pass is that of a solver that saw nothing before", holds));

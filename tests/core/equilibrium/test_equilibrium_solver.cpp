@@ -131,21 +131,21 @@ void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
   QVERIFY(check_property("the state has the least energy of all valid ones", [] {
     const MeshPointer mesh = draw_family().mesh;
     const Softness softness = draw_elastic_softness(*mesh);
-    const Hand hand = *any_hand(8);
+    const DragStep drag_step = *any_drag_step(8);
     std::vector<ElementId> pins =
         *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
     pins.resize(std::min<std::size_t>(pins.size(), 4));
-    Dragged dragged(mesh, softness, {}, hand.of(*mesh), Point::Zero());
+    Dragged dragged(mesh, softness, {}, drag_step.of(*mesh), Point::Zero());
     dragged.solver.body().cut(draw_links(*mesh));
-    std::erase(pins, hand.of(*mesh));
+    std::erase(pins, drag_step.of(*mesh));
     dragged.solver.body().pin(pins);
-    move_by(dragged.solver, *mesh, hand.of(*mesh), hand.by());
+    move_by(dragged.solver, *mesh, drag_step.of(*mesh), drag_step.by());
     const std::vector<double> start = displacements_of(dragged.solver);
     dragged.solve(1e-9);
     const std::vector<double> found = displacements_of(dragged.solver);
     reference::QuadraticProgram program(*mesh, softness, dragged.solver.body().cuts(), dragged.fixed(), start);
     const std::vector<double> expected = program.solve();
-    const double least = program.energy(expected), size = 1 + hand.by().norm();
+    const double least = program.energy(expected), size = 1 + drag_step.by().norm();
     RC_LOG() << "energy " << program.energy(found) << ", least " << least << '\n';
     RC_ASSERT(fraction_violated(dragged.solver) == 0);
     // One draw in some thousands ends 0.12 % above the least energy.
@@ -209,13 +209,13 @@ void EquilibriumSolverTest::every_iterate_is_valid() {
     const MeshPointer mesh = draw_family().mesh;
     Softness softness = draw_elastic_softness(*mesh);
     softness.energy = *rc::gen::element(EnergyKind::isotropic, EnergyKind::axial, EnergyKind::corotated);
-    const Hand hand = *any_hand();
-    Dragged dragged(mesh, softness, left_side(*mesh), hand.of(*mesh), hand.by(), *any_precision());
-    const Point handle = position_of(dragged.solver, *mesh, hand.of(*mesh));
+    const DragStep drag_step = *any_drag_step();
+    Dragged dragged(mesh, softness, left_side(*mesh), drag_step.of(*mesh), drag_step.by(), *any_precision());
+    const Point handle = position_of(dragged.solver, *mesh, drag_step.of(*mesh));
     for (int i = 0; i < 12; ++i) {
       dragged.equilibrium->iterate(dragged.solver.body(), dragged.held);
       RC_ASSERT(fraction_violated(dragged.solver) == 0);
-      RC_ASSERT(position_of(dragged.solver, *mesh, hand.of(*mesh)) == handle);
+      RC_ASSERT(position_of(dragged.solver, *mesh, drag_step.of(*mesh)) == handle);
     }
   }));
 }

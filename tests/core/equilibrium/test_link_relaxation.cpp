@@ -117,7 +117,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
     std::iota(all.begin(), all.end(), ElementId{0});
     solver->wake(all);
     for (int i = 0; i < 5; ++i) {
-      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, std::array{(*any_hand()).of(*mesh)});
+      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, std::array{(*any_drag_step()).of(*mesh)});
       // In rest lengths: only rounding.
       RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }

@@ -226,16 +226,16 @@ void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {
     shared.energy = own.energy = EnergyKind::isotropic;
     own.links.set(mesh->link_count() - 1, {0.123, 3.21, 0.77});
     const auto cuts = draw_links(*object);
-    const auto hands = *any_hands(10);
+    const auto drag_steps = *any_drag_steps(10);
     const double step = *rc::gen::element(1.0, 0.6);
     const auto relaxed = [&](const Softness& softness) {
       const auto solver = make_solver(mesh, algorithm, precision);
       solver->body().set_softness(softness);
       solver->body().cut(cuts);
       std::vector<double> positions;
-      for (const Hand& hand : hands) {
-        const ElementId held = hand.of(*object);
-        move_by(*solver, *mesh, held, hand.by());
+      for (const DragStep& drag_step : drag_steps) {
+        const ElementId held = drag_step.of(*object);
+        move_by(*solver, *mesh, held, drag_step.by());
         solver->wake_all();
         for (int sweep = 0; sweep < 3; ++sweep) {
           solver->relax(step, no_limit, std::array{held});

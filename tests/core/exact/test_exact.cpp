@@ -47,7 +47,7 @@ struct NarrowBuckets : BucketSchedule<Scalar> {
 /// Drags with Exact and this schedule. Returns the final positions. If the schedule promises it, checks that a pass
 /// visits no element more often than its region has sides.
 template <class Scalar, int Dimension, class Schedule>
-std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands,
+std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, const std::vector<DragStep>& drag_steps,
                          bool* visits_are_bounded = nullptr) {
   Body held(mesh, sizeof(Scalar) == sizeof(float) ? Precision::single_precision : Precision::double_precision);
   held.store_displacements(true);
@@ -55,9 +55,9 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
   auto body = held.view<Scalar, Dimension>();
   ExactPropagation<Scalar, Dimension, Schedule> exact;
   std::vector<ElementId> moved;
-  for (const Hand& hand : hands) {
-    const Handle handle(held, {hand.of(*mesh)});
-    HandleMove move{handle, {handle.grabbed().pivot + hand.by(), Point::Zero()}};
+  for (const DragStep& drag_step : drag_steps) {
+    const Handle handle(held, {drag_step.of(*mesh)});
+    HandleMove move{handle, {handle.grabbed().pivot + drag_step.by(), Point::Zero()}};
     const auto result = exact.propagate(body, move, moved, nullptr);
     if (visits_are_bounded != nullptr) {
       *visits_are_bounded = *visits_are_bounded && result.visits <= (result.checked + 1) * 2 * Dimension;
@@ -71,28 +71,28 @@ std::vector<Scalar> drag(const MeshPointer& mesh, const Softness& softness, cons
 }
 
 template <class Scalar, int Dimension>
-bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
-  const auto one = drag<Scalar, Dimension, AdaptiveSchedule<Scalar>>(mesh, softness, hands);
-  const auto other = drag<Scalar, Dimension, ShuffledSchedule<Scalar>>(mesh, softness, hands);
-  const auto third = drag<Scalar, Dimension, BucketSchedule<Scalar>>(mesh, softness, hands);
+bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<DragStep>& drag_steps) {
+  const auto one = drag<Scalar, Dimension, AdaptiveSchedule<Scalar>>(mesh, softness, drag_steps);
+  const auto other = drag<Scalar, Dimension, ShuffledSchedule<Scalar>>(mesh, softness, drag_steps);
+  const auto third = drag<Scalar, Dimension, BucketSchedule<Scalar>>(mesh, softness, drag_steps);
   const std::size_t size = one.size() * sizeof(Scalar);
   return std::memcmp(one.data(), other.data(), size) == 0 && std::memcmp(one.data(), third.data(), size) == 0;
 }
 
-bool visits_by_key(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
+bool visits_by_key(const MeshPointer& mesh, const Softness& softness, const std::vector<DragStep>& drag_steps) {
   using Buckets = NarrowBuckets<double>;
   bool bounded = true;
-  mesh->space_dimension == 1   ? drag<double, 1, Buckets>(mesh, softness, hands, &bounded)
-  : mesh->space_dimension == 2 ? drag<double, 2, Buckets>(mesh, softness, hands, &bounded)
-                               : drag<double, 3, Buckets>(mesh, softness, hands, &bounded);
+  mesh->space_dimension == 1   ? drag<double, 1, Buckets>(mesh, softness, drag_steps, &bounded)
+  : mesh->space_dimension == 2 ? drag<double, 2, Buckets>(mesh, softness, drag_steps, &bounded)
+                               : drag<double, 3, Buckets>(mesh, softness, drag_steps, &bounded);
   return bounded;
 }
 
 template <class Scalar>
-bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<Hand>& hands) {
-  return mesh->space_dimension == 1   ? schedules_agree<Scalar, 1>(mesh, softness, hands)
-         : mesh->space_dimension == 2 ? schedules_agree<Scalar, 2>(mesh, softness, hands)
-                                      : schedules_agree<Scalar, 3>(mesh, softness, hands);
+bool schedules_agree(const MeshPointer& mesh, const Softness& softness, const std::vector<DragStep>& drag_steps) {
+  return mesh->space_dimension == 1   ? schedules_agree<Scalar, 1>(mesh, softness, drag_steps)
+         : mesh->space_dimension == 2 ? schedules_agree<Scalar, 2>(mesh, softness, drag_steps)
+                                      : schedules_agree<Scalar, 3>(mesh, softness, drag_steps);
 }
 
 }  // namespace
@@ -121,10 +121,10 @@ void ExactTest::agrees_with_bellman_and_ford() {
     solver->body().set_softness(softness);
     solver->body().cut(draw_links(*mesh));
     const auto answer = bellman_and_ford(mesh, softness, solver->body().cuts());
-    for (const Hand& hand : *any_hands(40)) {
+    for (const DragStep& drag_step : *any_drag_steps(40)) {
       const auto before = positions_of(*solver, *mesh);
-      const ElementId element = hand.of(*mesh);
-      const Point target = position_of(*solver, *mesh, element) + hand.by();
+      const ElementId element = drag_step.of(*mesh);
+      const Point target = position_of(*solver, *mesh, element) + drag_step.by();
       solver->move(element, target);
       std::array<double, 3> carried{};
       for (int k = 0; k < mesh->space_dimension; ++k) {
@@ -149,9 +149,9 @@ void ExactTest::links_hold() {
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     double size = 0;
-    for (const Hand& hand : *any_hands(40)) {
+    for (const DragStep& drag_step : *any_drag_steps(40)) {
       const auto before = positions_of(*solver, *mesh);
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
       const auto after = positions_of(*solver, *mesh);
       size = std::max(size, largest_displacement(*mesh, after) + largest_step(before, after) + 1);
       for (LinkId link = 0; link < mesh->link_count(); ++link) {
@@ -169,10 +169,10 @@ void ExactTest::the_schedule_changes_no_bit() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
-    const auto hands = *any_hands(40);
+    const auto drag_steps = *any_drag_steps(40);
     ShuffledSchedule<float>::seed = ShuffledSchedule<double>::seed = *rc::gen::arbitrary<std::uint64_t>();
-    RC_ASSERT(schedules_agree<float>(mesh, softness, hands));
-    RC_ASSERT(schedules_agree<double>(mesh, softness, hands));
+    RC_ASSERT(schedules_agree<float>(mesh, softness, drag_steps));
+    RC_ASSERT(schedules_agree<double>(mesh, softness, drag_steps));
   };
   QVERIFY(check_property("a shuffled schedule ends in the same bits", holds));
 }
@@ -183,15 +183,15 @@ void ExactTest::visits_are_bounded() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
-    const auto hands = *any_hands(40);
+    const auto drag_steps = *any_drag_steps(40);
     const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
     solver->body().set_softness(softness);
-    for (const Hand& hand : hands) {
-      const PassCount count = move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : drag_steps) {
+      const PassCount count = move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
       const std::uint64_t elements = mesh->element_count();
       RC_ASSERT(count.visits <= elements + elements / 4 + 65 + 2 * elements * unsigned(mesh->space_dimension));
     }
-    RC_ASSERT(visits_by_key(mesh, softness, hands));
+    RC_ASSERT(visits_by_key(mesh, softness, drag_steps));
   };
   QVERIFY(check_property("visits are bounded by the elements reached and the space dimension", holds));
 }
@@ -201,11 +201,11 @@ void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
     solver->body().set_softness(draw_softness(*mesh));
-    for (const Hand& hand : *any_hands(40)) {
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : *any_drag_steps(40)) {
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     }
     const auto before = positions_of(*solver, *mesh);
-    const PassCount count = move_by(*solver, *mesh, (*any_hand()).of(*mesh), Point(0, 0, 0));
+    const PassCount count = move_by(*solver, *mesh, (*any_drag_step()).of(*mesh), Point(0, 0, 0));
     RC_ASSERT(count.checked == 0u);
     RC_ASSERT(same_bits(before, positions_of(*solver, *mesh)));
   };

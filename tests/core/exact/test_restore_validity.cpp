@@ -34,19 +34,19 @@ void RestoreValidityTest::a_start_that_is_not_valid_is_repaired() {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
     const auto solver = make_solver(mesh, Algorithm::generalized, precision);
-    for (const Hand& hand : *any_hands()) {
-      move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    for (const DragStep& drag_step : *any_drag_steps()) {
+      move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     }
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->set_algorithm(Algorithm::exact);
-    const auto hand = *any_hand();
+    const auto drag_step = *any_drag_step();
     const auto before = positions_of(*solver, *mesh);
-    move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     const auto after = positions_of(*solver, *mesh);
     for (int k = 0; k < mesh->space_dimension; ++k) {
-      const std::size_t at = std::size_t{hand.of(*mesh)} * mesh->space_dimension + k;
-      const double target = before[at] + hand.by()[mesh->axes[k]];
+      const std::size_t at = std::size_t{drag_step.of(*mesh)} * mesh->space_dimension + k;
+      const double target = before[at] + drag_step.by()[mesh->axes[k]];
       RC_ASSERT(std::abs(after[at] - target) <= 8 * half_ulp(precision) * (10 + std::abs(target)));
     }
     // Rounding: once for each envelope's path, once for the mean of both, and once for the pass.

@@ -76,12 +76,12 @@ void TautTest::exact_holds_every_link_between_pins() {
     const auto pins =
         *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
     solver->body().pin(pins);
-    for (const Hand& hand : *any_hands(80)) {
-      const ElementId element = hand.of(*mesh);
+    for (const DragStep& drag_step : *any_drag_steps(80)) {
+      const ElementId element = drag_step.of(*mesh);
       if (std::find(pins.begin(), pins.end(), element) != pins.end()) {
         continue;
       }
-      const Point target = position_of(*solver, *mesh, element) + hand.by();
+      const Point target = position_of(*solver, *mesh, element) + drag_step.by();
       const PassCount count = solver->move(element, target);
       // In rest lengths. Rounding along a path of up to 60 links is far below visible violations.
       RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-11);

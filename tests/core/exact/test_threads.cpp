@@ -29,7 +29,7 @@ struct Outcome {
 
 template <int Dimension>
 Outcome passes(const MeshPointer& mesh, const Softness& softness, const std::vector<LinkId>& cuts,
-               const std::vector<Hand>& hands, int threads) {
+               const std::vector<DragStep>& drag_steps, int threads) {
   Body held(mesh, Precision::double_precision);
   held.store_displacements(true);
   held.set_softness(softness);
@@ -38,9 +38,9 @@ Outcome passes(const MeshPointer& mesh, const Softness& softness, const std::vec
   ExactPropagation<double, Dimension, AlwaysShared<double>> exact;
   Outcome outcome;
   std::vector<ElementId> moved;
-  for (const Hand& hand : hands) {
-    const Handle handle(held, {hand.of(*mesh)});
-    HandleMove move{handle, {handle.grabbed().pivot + hand.by(), Point::Zero()}};
+  for (const DragStep& drag_step : drag_steps) {
+    const Handle handle(held, {drag_step.of(*mesh)});
+    HandleMove move{handle, {handle.grabbed().pivot + drag_step.by(), Point::Zero()}};
     exact.propagate(body, move, moved, nullptr, threads);
     outcome.moved.push_back(moved);
     std::ranges::sort(outcome.moved.back());
@@ -51,10 +51,10 @@ Outcome passes(const MeshPointer& mesh, const Softness& softness, const std::vec
 }
 
 Outcome passes(const MeshPointer& mesh, const Softness& softness, const std::vector<LinkId>& cuts,
-               const std::vector<Hand>& hands, int threads) {
-  return mesh->space_dimension == 1   ? passes<1>(mesh, softness, cuts, hands, threads)
-         : mesh->space_dimension == 2 ? passes<2>(mesh, softness, cuts, hands, threads)
-                                      : passes<3>(mesh, softness, cuts, hands, threads);
+               const std::vector<DragStep>& drag_steps, int threads) {
+  return mesh->space_dimension == 1   ? passes<1>(mesh, softness, cuts, drag_steps, threads)
+         : mesh->space_dimension == 2 ? passes<2>(mesh, softness, cuts, drag_steps, threads)
+                                      : passes<3>(mesh, softness, cuts, drag_steps, threads);
 }
 
 /// A drag of a large object with some threads: of one element, then of some, which also turn.
@@ -94,10 +94,10 @@ void ThreadsTest::shares_change_no_bit() {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
     const auto cuts = draw_links(*mesh);
-    const auto hands = *any_hands(40);
-    const Outcome alone = passes(mesh, softness, cuts, hands, 1);
+    const auto drag_steps = *any_drag_steps(40);
+    const Outcome alone = passes(mesh, softness, cuts, drag_steps, 1);
     for (const int threads : {2, 3, 8}) {
-      RC_ASSERT(passes(mesh, softness, cuts, hands, threads) == alone);
+      RC_ASSERT(passes(mesh, softness, cuts, drag_steps, threads) == alone);
     }
   };
   QVERIFY(check_property("a search in shares ends in the same bits and moves the same elements", holds));

@@ -24,12 +24,12 @@ namespace {
 
 /// Makes the same moves in two solvers. Returns true if they give the same bits, and the same candidates in the same
 /// order.
-bool move_alike(Solver& one, Solver& other, const Mesh& mesh, const std::vector<Hand>& hands) {
-  for (const Hand& hand : hands) {
-    const Point target = position_of(one, mesh, hand.of(mesh)) + hand.by();
+bool move_alike(Solver& one, Solver& other, const Mesh& mesh, const std::vector<DragStep>& drag_steps) {
+  for (const DragStep& drag_step : drag_steps) {
+    const Point target = position_of(one, mesh, drag_step.of(mesh)) + drag_step.by();
     Trace first, second;
-    one.move(hand.of(mesh), target, &first);
-    other.move(hand.of(mesh), target, &second);
+    one.move(drag_step.of(mesh), target, &first);
+    other.move(drag_step.of(mesh), target, &second);
     if (first != second || !same_bits(positions_of(one, mesh), positions_of(other, mesh))) {
       return false;
     }
@@ -88,14 +88,14 @@ void CutsTest::cut_and_uncut_is_the_identity() {
     const auto precision = *any_precision();
     const auto untouched = make_solver(mesh, algorithm, precision);
     const auto mended = make_solver(mesh, algorithm, precision);
-    const auto hands = *any_hands();
-    RC_ASSERT(move_alike(*untouched, *mended, *mesh, hands));
+    const auto drag_steps = *any_drag_steps();
+    RC_ASSERT(move_alike(*untouched, *mended, *mesh, drag_steps));
     const auto links = draw_links(*mesh);
     mended->body().cut(links);
     RC_ASSERT(mended->body().cuts().count() > 0 || links.empty());
     mended->body().uncut(links);
     RC_ASSERT(mended->body().cuts().count() == 0u);
-    RC_ASSERT(move_alike(*untouched, *mended, *mesh, hands));
+    RC_ASSERT(move_alike(*untouched, *mended, *mesh, drag_steps));
   };
   QVERIFY(check_property("later moves give the same bits and the same trace", holds));
 }
@@ -124,11 +124,11 @@ void CutsTest::disconnected_parts_do_not_move() {
     const auto& mesh = draw_family().mesh;
     const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
     solver->body().cut(draw_links(*mesh));
-    const auto hand = *any_hand(80);
+    const auto drag_step = *any_drag_step(80);
     const auto before = positions_of(*solver, *mesh);
-    move_by(*solver, *mesh, hand.of(*mesh), hand.by());
+    move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     const auto after = positions_of(*solver, *mesh);
-    const auto connected = connected_to(*mesh, solver->body().cuts(), hand.of(*mesh));
+    const auto connected = connected_to(*mesh, solver->body().cuts(), drag_step.of(*mesh));
     for (std::size_t i = 0; i < before.size(); ++i) {
       RC_ASSERT(connected[i / mesh->space_dimension] || before[i] == after[i]);
     }

@@ -56,16 +56,16 @@ void PreparingTest::changes_no_bit() {
         solver->body().pin(std::vector{pin});
       }
     }
-    for (const Hand& hand : *any_hands(20)) {
-      const ElementId element = hand.of(*mesh);
+    for (const DragStep& drag_step : *any_drag_steps(20)) {
+      const ElementId element = drag_step.of(*mesh);
       with->prepare(element);
       if (element == pin) {
         continue;
       }
       // Two moves of each drag: the second one goes on from what the first one left.
       for (int i = 0; i < 2; ++i) {
-        const PassCount one = move_by(*with, *mesh, element, hand.by());
-        const PassCount other = move_by(*without, *mesh, element, hand.by());
+        const PassCount one = move_by(*with, *mesh, element, drag_step.by());
+        const PassCount other = move_by(*without, *mesh, element, drag_step.by());
         RC_ASSERT(one.checked == other.checked);
         RC_ASSERT(one.moved == other.moved);
         RC_ASSERT(sorted(with->moved()) == sorted(without->moved()));

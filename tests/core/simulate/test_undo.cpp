@@ -114,8 +114,8 @@ void UndoTest::any_change_is_undone() {
       carry_out(simulation, commands::SetSoftness{draw_softness(simulation.mesh())});
       carry_out(simulation, commands::Cut{draw_links(simulation.mesh())});
       carry_out(simulation, commands::Uncut{draw_links(simulation.mesh())});
-      const auto hand = *any_hand();
-      drag_by(simulation, hand.of(simulation.mesh()), hand.by());
+      const auto drag_step = *any_drag_step();
+      drag_by(simulation, drag_step.of(simulation.mesh()), drag_step.by());
       simulation.relax(*rc::gen::inRange(0, 3), 1);
     };
     work();
@@ -193,7 +193,7 @@ void UndoTest::states_come_back_in_any_order() {
         carry_out(simulation, commands::RestoreState{state});
         RC_ASSERT(SavedState(simulation).same_object(kept[state]));
       }
-      const auto hand = *any_hand();
+      const auto drag_step = *any_drag_step();
       switch (*rc::gen::inRange(0, 4)) {
         case 0:
           carry_out(simulation, commands::Reset{});
@@ -202,7 +202,7 @@ void UndoTest::states_come_back_in_any_order() {
           carry_out(simulation, commands::SetAlgorithm{algorithm == Algorithm::exact ? algorithm : Algorithm::spiral});
           break;
         default:
-          drag_by(simulation, hand.of(simulation.mesh()), hand.by());
+          drag_by(simulation, drag_step.of(simulation.mesh()), drag_step.by());
       }
     }
   };

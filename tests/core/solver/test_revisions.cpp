@@ -235,7 +235,7 @@ void live(const MeshPointer& mesh, const std::vector<Algorithm>& all, const std:
       RC_LOG() << "event " << int(event) << '\n';
       life.happen(event, *rc::gen::inRange<std::uint32_t>(0, 1000));
     }
-    life.move((*any_hand(*rc::gen::element(1, 2, reach))).by(), *rc::gen::element(0, 0, 5, -20));
+    life.move((*any_drag_step(*rc::gen::element(1, 2, reach))).by(), *rc::gen::element(0, 0, 5, -20));
   }
 }
 
