@@ -65,9 +65,9 @@ class RigidHandle {
     const Eigen::Matrix3d turn = (turn_of(rotation) - before) * (before + Eigen::Matrix3d::Identity()).transpose();
     std::vector<Offset> offsets = offsets_;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
-      const Point way = turn * arms_[i];
+      const Point displacement = turn * arms_[i];
       for (int k = 0; k < Dimension; ++k) {
-        offsets[i][k] += static_cast<Scalar>(way[mesh_->axes[std::size_t(k)]]);
+        offsets[i][k] += static_cast<Scalar>(displacement[mesh_->axes[std::size_t(k)]]);
       }
     }
     return offsets;

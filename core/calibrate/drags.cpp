@@ -60,11 +60,11 @@ ReferenceDrag draw(const Mesh& mesh, const std::vector<ElementId>& free, std::mt
   ReferenceDrag drag;
   drag.element = free[random() % free.size()];
   const double distance = report::uniform(random, shortest_drag, farthest_drag) * (high - low).maxCoeff();
-  const Point way = distance * random_direction(mesh, random), start = mesh.rest_position(drag.element);
-  drag.target = start + way;
+  const Point displacement = distance * random_direction(mesh, random), start = mesh.rest_position(drag.element);
+  drag.target = start + displacement;
   drag.moves.commands.emplace_back(commands::Grab{drag.element});
   for (int move = 1; move <= moves; ++move) {
-    drag.moves.commands.emplace_back(commands::Drag{start + way * move / moves});
+    drag.moves.commands.emplace_back(commands::Drag{start + displacement * move / moves});
   }
   return drag;
 }

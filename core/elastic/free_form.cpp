@@ -49,9 +49,9 @@ class FreeForm final : public ElasticSolver {
   }
 
   void move(const ElasticMotion& motion, const Progress& /*progress*/) override {
-    const Eigen::MatrixXd way = way_of(motion);
-    controls_ = begun_controls_ + control_response_ * way;
-    fields(displacements_).noalias() = fields(begun_) + way.transpose() * response_.transpose();
+    const Eigen::MatrixXd displacement = way_of(motion);
+    controls_ = begun_controls_ + control_response_ * displacement;
+    fields(displacements_).noalias() = fields(begun_) + displacement.transpose() * response_.transpose();
     for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
       fields(displacements_).col(handle_.elements[i]) = displacement_of(handle_, i, motion);  // exact, without rounding
     }
@@ -97,10 +97,10 @@ class FreeForm final : public ElasticSolver {
   void move_control_point(std::size_t point, std::span<const double> position) override {
     const auto row = static_cast<Eigen::Index>(point);
     const Eigen::Map<const Eigen::VectorXd> to(position.data(), dimension_);
-    const Eigen::VectorXd way = to - volume_.rest(row) - controls_.row(row).transpose();
-    controls_.row(row) += way.transpose();
+    const Eigen::VectorXd displacement = to - volume_.rest(row) - controls_.row(row).transpose();
+    controls_.row(row) += displacement.transpose();
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      fields(displacements_).col(e) += volume_.weights(e)[row] * way;
+      fields(displacements_).col(e) += volume_.weights(e)[row] * displacement;
     }
     hold_pins();
     place_controls();
@@ -167,9 +167,9 @@ class FreeForm final : public ElasticSolver {
     if (handle_.elements.size() == 1) {
       return (displacement_of(handle_, 0, motion) - fields(begun_).col(handle_.elements[0])).transpose();
     }
-    Eigen::MatrixXd way(dimension_ + 1, dimension_);
-    way << motion.turn.transpose(), motion.translation.transpose();
-    return way;
+    Eigen::MatrixXd displacement(dimension_ + 1, dimension_);
+    displacement << motion.turn.transpose(), motion.translation.transpose();
+    return displacement;
   }
 
   /// Sets the state from which the handle's displacement is measured.

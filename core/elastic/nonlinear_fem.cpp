@@ -118,9 +118,9 @@ class NonlinearFem final : public ElasticSolver {
   /// Otherwise returns the reason, and `displacements` is the last converged state.
   std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
                     std::vector<double>& displacements, const Progress& progress) {
-    std::vector<double> way;
+    std::vector<double> displacement;
     for (std::size_t i = 0; i < target.size(); ++i) {
-      way.push_back(target[i] - displacements[carried[i / dimension_] * dimension_ + i % dimension_]);
+      displacement.push_back(target[i] - displacements[carried[i / dimension_] * dimension_ + i % dimension_]);
     }
     double done = 0, step = 1;
     int number = 1;
@@ -129,8 +129,8 @@ class NonlinearFem final : public ElasticSolver {
       const double next = std::min(1.0, done + step);
       std::vector<double> trial = displacements;
       std::vector<double> increment(displacements.size(), 0.0);
-      for (std::size_t i = 0; i < way.size(); ++i) {
-        increment[carried[i / dimension_] * dimension_ + i % dimension_] = way[i] * (next - done);
+      for (std::size_t i = 0; i < displacement.size(); ++i) {
+        increment[carried[i / dimension_] * dimension_ + i % dimension_] = displacement[i] * (next - done);
       }
       if (newton.solve(trial, increment, progress.part(done, next))) {
         displacements = std::move(trial);

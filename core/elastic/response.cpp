@@ -60,8 +60,8 @@ void LinearResponse::move(const ElasticMotion& motion, const Progress& /*progres
   const Eigen::Map<const Eigen::VectorXd> base(base_.data(), all.size());
   all = base;
   if (handle_.elements.size() == 1) {
-    const SmallVector way = motion.translation - base.segment(n * handle_.elements[0], n);
-    all.noalias() += response_ * way;
+    const SmallVector displacement = motion.translation - base.segment(n * handle_.elements[0], n);
+    all.noalias() += response_ * displacement;
     return;
   }
   Factors factors = Factors::Ones(response_.cols());

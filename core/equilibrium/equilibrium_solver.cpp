@@ -65,15 +65,15 @@ class Equilibrator final : public EquilibriumSolver {
     show(body);
   }
 
-  bool solve(Body& body, std::span<const ElementId> held, double residual, int most,
+  bool solve(Body& body, std::span<const ElementId> held, double tolerance, int max_iterations,
              const Progress& progress) override {
     prepared_ = false;
     follow(body, held);
     bool reached = false;
-    for (int i = 0; i < most && !reached; ++i) {
-      progress.report(double(i) / most);
+    for (int i = 0; i < max_iterations && !reached; ++i) {
+      progress.report(double(i) / max_iterations);
       step(progress);
-      reached = residual_ <= residual;
+      reached = residual_ <= tolerance;
     }
     show(body);
     return reached;

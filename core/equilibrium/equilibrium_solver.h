@@ -45,9 +45,9 @@ class EquilibriumSolver {
   /// other: then the handle moves to where the pins allow it. Throws Error if pins contradict each other, and
   /// Cancelled; nothing has moved then.
   virtual void iterate(Body& body, std::span<const ElementId> held, const Progress& progress = {}) = 0;
-  /// Iterates until the residual is at most this, or `most` iterations were made. Returns true if the residual was
-  /// reached.
-  virtual bool solve(Body& body, std::span<const ElementId> held, double residual, int most,
+  /// Iterates until the residual is at most `tolerance`, or `max_iterations` were made. Returns true if the residual
+  /// was reached.
+  virtual bool solve(Body& body, std::span<const ElementId> held, double tolerance, int max_iterations,
                      const Progress& progress = {}) = 0;
 
   /// Estimated distance of the last iterate from the equilibrium: see EquilibriumCertificate.

@@ -14,7 +14,7 @@
 
 namespace chainmail {
 
-/// The way from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each.
+/// The transfer from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each.
 template <int Rows, int Dimension>
 class MultigridStage {
  public:
@@ -145,7 +145,7 @@ class MultigridStage {
   template <class Matrix>
   Changes update(const Matrix& matrix, const std::vector<std::uint32_t>& rows, bool cut, Coarse& coarse) {
     Changes changes;
-    std::vector<std::uint32_t> moved = rows;  // rows whose way to the coarse level changes
+    std::vector<std::uint32_t> moved = rows;  // rows whose transfer to the coarse level changes
     for (const std::uint32_t row : rows) {
       update_inverse(matrix, row);
     }

@@ -116,7 +116,7 @@ class Relaxation::Slice {
     for (Scalar& x : mean) {
       x /= static_cast<Scalar>(count);
     }
-    if (go(element, mean, box, static_cast<Scalar>(step_), element) && step_ < 1) {
+    if (move_toward(element, mean, box, static_cast<Scalar>(step_), element) && step_ < 1) {
       wake_next(element);
     }
   }
@@ -185,7 +185,7 @@ class Relaxation::Slice {
       const Coordinates here = position_by(element, neighbour), there = position_by(neighbour, element);
       const Scalar half = static_cast<Scalar>(step_) / 2;
       for (const auto& [one, position] : {std::pair(element, here), std::pair(neighbour, there)}) {
-        if (!stays(one) && go(one, position, box_of(one), half, element)) {
+        if (!stays(one) && move_toward(one, position, box_of(one), half, element)) {
           wake_next(element);
         }
       }
@@ -295,10 +295,10 @@ class Relaxation::Slice {
     });
   }
 
-  Coordinates moved_by(ElementId element, const Vector& way) const {
+  Coordinates moved_by(ElementId element, const Vector& displacement) const {
     Coordinates position;
     for (int k = 0; k < Dimension; ++k) {
-      position[k] = static_cast<Scalar>(double(body_.positions[element][k]) + way[k]);
+      position[k] = static_cast<Scalar>(double(body_.positions[element][k]) + displacement[k]);
     }
     return position;
   }
@@ -308,7 +308,7 @@ class Relaxation::Slice {
     if (stays(element)) {
       return;
     }
-    SmallQuadratic<Dimension> energy;  // of the way that the element goes
+    SmallQuadratic<Dimension> energy;  // of the displacement of the element
     for_each_deflection(element, [&](ElementId, const Deflection& link) {
       energy.add(link.weights.axial, link.direction, link.along, link.weights.lateral, link.all);
     });
@@ -319,7 +319,7 @@ class Relaxation::Slice {
       high[k] = double(box.high[k]) - double(body_.positions[element][k]);
     }
     const Coordinates position = moved_by(element, energy.least_inside(low, high));
-    if (go(element, position, box, static_cast<Scalar>(step_), element) && step_ < 1) {
+    if (move_toward(element, position, box, static_cast<Scalar>(step_), element) && step_ < 1) {
       wake_next(element);
     }
   }
@@ -332,11 +332,11 @@ class Relaxation::Slice {
       }
       const auto [axial, lateral] = link.weights;
       const double share = lateral > 0 ? lateral / (axial + lateral) : 0;
-      const Vector way = (1 - share) * link.along * link.direction + share * link.all;
-      const Coordinates here = moved_by(element, way), there = moved_by(neighbour, -way);
+      const Vector displacement = (1 - share) * link.along * link.direction + share * link.all;
+      const Coordinates here = moved_by(element, displacement), there = moved_by(neighbour, -displacement);
       const Scalar half = static_cast<Scalar>(step_) / 2;
       for (const auto& [one, position] : {std::pair(element, here), std::pair(neighbour, there)}) {
-        if (!stays(one) && go(one, position, box_of(one), half, element)) {
+        if (!stays(one) && move_toward(one, position, box_of(one), half, element)) {
           wake_next(element);
         }
       }
@@ -346,7 +346,7 @@ class Relaxation::Slice {
   /// Moves an element a step toward a position, as far as its neighbours' regions allow, and wakes its neighbours.
   /// Returns true if it moved. Elements with a larger id than the visited one are visited in this sweep, the others in
   /// the next.
-  bool go(ElementId element, const Coordinates& position, const Box& box, Scalar step, ElementId visited) {
+  bool move_toward(ElementId element, const Coordinates& position, const Box& box, Scalar step, ElementId visited) {
     const double taken = take_step(element, position, box, step);
     if (taken == 0) {
       return false;

@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// A convex quadratic function of a few numbers: the energy of the links of one element, over the way d (mesh units)
-/// that the element goes, ½ dᵀ A d − fᵀ d.
+/// A convex quadratic function of a few numbers: the energy of the links of one element, over the displacement d (mesh
+/// units) that the element goes, ½ dᵀ A d − fᵀ d.
 template <int Dimension>
 class SmallQuadratic {
  public:
@@ -51,21 +51,21 @@ class SmallQuadratic {
     return parts.eigenvectors() * along;
   }
 
-  /// Returns the best of the minimisers over the sides, edges and corners of the box: on each axis the way is free, at
-  /// the lower or at the upper bound. Most often it is on the bounds that the free minimiser is beyond.
+  /// Returns the best of the minimisers over the sides, edges and corners of the box: on each axis the displacement is
+  /// free, at the lower or at the upper bound. Most often it is on the bounds that the free minimiser is beyond.
   Vector least_on_side(const Vector& free, const Vector& low, const Vector& high) const {
     const int nearest = side_of(free, low, high);
-    if (Vector way = least_on(nearest, low, high); is_least(way, nearest)) {
-      return way;
+    if (Vector displacement = least_on(nearest, low, high); is_least(displacement, nearest)) {
+      return displacement;
     }
     Vector best = Vector::Zero();
     double least = std::numeric_limits<double>::infinity();
     constexpr int sides = Dimension == 1 ? 3 : Dimension == 2 ? 9 : 27;
     for (int side = 0; side < sides; ++side) {
-      const Vector way = least_on(side, low, high);  // not a number if it is outside the box
-      if (const double value = way.dot(matrix_ * way / 2 - force_); value < least) {
+      const Vector displacement = least_on(side, low, high);  // not a number if it is outside the box
+      if (const double value = displacement.dot(matrix_ * displacement / 2 - force_); value < least) {
         least = value;
-        best = way;
+        best = displacement;
       }
     }
     return best;
@@ -82,9 +82,9 @@ class SmallQuadratic {
 
   /// True if the function rises from the minimiser on a side to the inside of the box, which has no lower value then
   /// (the conditions of Karush, Kuhn and Tucker).
-  bool is_least(const Vector& way, int side) const {
-    const Vector slope = matrix_ * way - force_;
-    bool rises = !way.hasNaN();
+  bool is_least(const Vector& displacement, int side) const {
+    const Vector slope = matrix_ * displacement - force_;
+    bool rises = !displacement.hasNaN();
     for (int k = 0; k < Dimension; ++k, side /= 3) {
       rises = rises && (side % 3 == 0 || (side % 3 == 1 ? slope[k] >= 0 : slope[k] <= 0));
     }
@@ -94,7 +94,7 @@ class SmallQuadratic {
   /// Returns the minimiser on one side, whose digits to base 3 are 0 for an axis that is free, 1 for the lower and 2
   /// for the upper bound; not a number if it is outside the box or if another side is the same.
   Vector least_on(int side, const Vector& low, const Vector& high) const {
-    Vector way = Vector::Zero();
+    Vector displacement = Vector::Zero();
     std::array<bool, Dimension> is_free{};
     for (int k = 0; k < Dimension; ++k, side /= 3) {
       const bool is_empty = low[k] > high[k];
@@ -102,12 +102,12 @@ class SmallQuadratic {
         return nowhere();
       }
       is_free[k] = side % 3 == 0 && !is_empty;
-      way[k] = side % 3 == 0 ? 0 : side % 3 == 1 ? low[k] : high[k];
+      displacement[k] = side % 3 == 0 ? 0 : side % 3 == 1 ? low[k] : high[k];
     }
-    if (!way.allFinite()) {
+    if (!displacement.allFinite()) {
       return nowhere();
     }
-    Vector found = with_fixed(way, is_free);
+    Vector found = with_fixed(displacement, is_free);
     for (int k = 0; k < Dimension; ++k) {
       if (is_free[k] && !(low[k] <= found[k] && found[k] <= high[k])) {
         return nowhere();
@@ -116,10 +116,10 @@ class SmallQuadratic {
     return found;
   }
 
-  /// Returns the minimiser with the axes that are not free as in `way`.
-  Vector with_fixed(const Vector& way, const std::array<bool, Dimension>& is_free) const {
+  /// Returns the minimiser with the axes that are not free as in `displacement`.
+  Vector with_fixed(const Vector& displacement, const std::array<bool, Dimension>& is_free) const {
     Matrix matrix = matrix_;
-    Vector right = force_ - matrix_ * way;
+    Vector right = force_ - matrix_ * displacement;
     const double size = matrix_.trace() / Dimension;
     for (int k = 0; k < Dimension; ++k) {
       if (!is_free[k]) {
@@ -129,7 +129,7 @@ class SmallQuadratic {
         right[k] = 0;
       }
     }
-    return way + solved(matrix, right);
+    return displacement + solved(matrix, right);
   }
 
   static Vector nowhere() { return Vector::Constant(std::numeric_limits<double>::quiet_NaN()); }

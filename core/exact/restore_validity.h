@@ -66,7 +66,7 @@ class RestoreValidity {
 
  private:
   using Labels = std::vector<double>;
-  enum class Way { up, down };
+  enum class Side { up, down };
 
   bool is_inner(ElementId a, ElementId b) const { return handle_.size() > 1 && is_held(a) && is_held(b); }
   bool is_held(ElementId element) const { return std::ranges::binary_search(handle_, element); }
@@ -89,31 +89,31 @@ class RestoreValidity {
     return true;
   }
 
-  /// Computes the highest position to which links let every element go, from all sources together; for Way::down the
+  /// Computes the highest position to which links let every element go, from all sources together; for Side::down the
   /// lowest one, negated.
   template <class Sources>
-  void search(const Labels& u, const Sources& sources, Way way, int k) {
+  void search(const Labels& u, const Sources& sources, Side side, int k) {
     search_.begin(body_.mesh->element_count());
     for (const ElementId source : sources) {
-      search_.add_source(source, way == Way::up ? u[source] : -u[source]);
+      search_.add_source(source, side == Side::up ? u[source] : -u[source]);
     }
     search_.run(body_, [&](ElementId from, ElementId to, EntryId entry) {
       if (is_inner(from, to)) {
         return PathSearch::unreached;
       }
       const auto& region = body_.regions[entry];
-      return double(way == Way::up ? region.high[k] : -region.low[k]);
+      return double(side == Side::up ? region.high[k] : -region.low[k]);
     });
   }
 
   /// Clamps displacements to the range that the anchors allow.
   void clamp(Labels& u, const std::vector<ElementId>& anchors, int k) {
     const Labels positions = u;
-    search(positions, anchors, Way::down, k);
+    search(positions, anchors, Side::down, k);
     for (ElementId e = 0; e < u.size(); ++e) {
       u[e] = std::max(u[e], -search_.label(e));
     }
-    search(positions, anchors, Way::up, k);
+    search(positions, anchors, Side::up, k);
     for (ElementId e = 0; e < u.size(); ++e) {
       u[e] = std::min(u[e], search_.label(e));
     }
@@ -145,10 +145,10 @@ class RestoreValidity {
       all[e] = e;
     }
     Labels between(u.size());
-    for (const Way way : {Way::up, Way::down}) {
-      search(u, all, way, k);
+    for (const Side side : {Side::up, Side::down}) {
+      search(u, all, side, k);
       for (ElementId e = 0; e < u.size(); ++e) {
-        between[e] += search_.label(e) / (way == Way::up ? 2 : -2);
+        between[e] += search_.label(e) / (side == Side::up ? 2 : -2);
       }
     }
     return between;
@@ -167,12 +167,12 @@ class RestoreValidity {
   void check_pin(const Labels& u, std::span<const ElementId> pins, ElementId pin, int k) {
     ElementId worst = pin;
     double most = 0;
-    for (const Way way : {Way::up, Way::down}) {
-      search(u, std::span(&pin, 1), way, k);
+    for (const Side side : {Side::up, Side::down}) {
+      search(u, std::span(&pin, 1), side, k);
       for (const ElementId other : pins) {
         const double size = std::max({std::abs(u[pin]), std::abs(u[other]), reach_});
         const double rounding = epsilon_ * size * (search_.hops(other) + 8.0);
-        const double outside = (way == Way::up ? u[other] : -u[other]) - search_.label(other);
+        const double outside = (side == Side::up ? u[other] : -u[other]) - search_.label(other);
         if (outside > std::max(rounding, most)) {
           most = outside;
           worst = other;

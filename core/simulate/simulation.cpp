@@ -200,7 +200,7 @@ void Simulation::relax(int count, double step, double until) {
   }
   measure_.reset();
   if (!info(solver_->relaxation()).sweeps) {
-    take_relaxed([&] { return solver_->settle(until, count, grabbed(), progress_); });
+    take_relaxed([&] { return solver_->solve(until, count, grabbed(), progress_); });
     return;
   }
   if (last_handle_) {

@@ -177,9 +177,10 @@ RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<cons
   return equilibrate([&] { equilibrium_->iterate(body_, held, progress_); });
 }
 
-RelaxationResult Solver::settle(double until, int most, std::span<const ElementId> held, const Progress& progress) {
+RelaxationResult Solver::solve(double tolerance, int max_iterations, std::span<const ElementId> held,
+                               const Progress& progress) {
   const RunningPass running;
-  return equilibrate([&] { equilibrium_->solve(body_, held, until, most, progress); });
+  return equilibrate([&] { equilibrium_->solve(body_, held, tolerance, max_iterations, progress); });
 }
 
 /// Runs iterations toward the equilibrium. If they fail in the middle, the next ones use nothing of them.

@@ -89,10 +89,12 @@ class Solver {
   /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
   /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
   RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held);
-  /// Runs iterations of the scheme `equilibrium` until the residual is at most `until`, but at most `most`. Moves the
-  /// elements once, at the end. Throws Error if pins contradict each other, and Cancelled; nothing has moved then.
-  RelaxationResult settle(double until, int most, std::span<const ElementId> held, const Progress& progress);
-  /// The elements that the last call of relax or settle moved, once per move.
+  /// Runs iterations of the scheme `equilibrium` until the residual is at most `tolerance`, but at most
+  /// `max_iterations`. Moves the elements once, at the end. Throws Error if pins contradict each other, and Cancelled;
+  /// nothing has moved then.
+  RelaxationResult solve(double tolerance, int max_iterations, std::span<const ElementId> held,
+                         const Progress& progress);
+  /// The elements that the last call of relax or solve moved, once per move.
   std::span<const ElementId> relaxed() const;
   /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it as it is.
   std::optional<EquilibriumCertificate> certificate();

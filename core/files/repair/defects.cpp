@@ -118,35 +118,35 @@ class Borders {
   }
 
  private:
-  /// Walks along unused edges, and takes each loop out of the way.
+  /// Walks along unused edges, and takes each loop out of the path.
   void walk(ElementId from, std::vector<Loop>& found) {
-    std::vector<ElementId> way{from};
-    std::vector<std::uint32_t> taken;                          // the edge behind each element of the way
-    std::unordered_map<ElementId, std::size_t> on{{from, 0}};  // index of each element of the way
-    while (!way.empty()) {
-      const auto edge = unused_at(way.back());
+    std::vector<ElementId> path{from};
+    std::vector<std::uint32_t> taken;                          // the edge behind each element of the path
+    std::unordered_map<ElementId, std::size_t> on{{from, 0}};  // index of each element of the path
+    while (!path.empty()) {
+      const auto edge = unused_at(path.back());
       if (!edge) {  // a dead end, like a fin whose edge ends at the border: goes back
-        on.erase(way.back());
-        way.pop_back();
-        taken.resize(way.empty() ? 0 : way.size() - 1);
+        on.erase(path.back());
+        path.pop_back();
+        taken.resize(path.empty() ? 0 : path.size() - 1);
         continue;
       }
       used_[*edge] = true;
       const auto [a, b] = border_[*edge].ends;
-      const ElementId next = a == way.back() ? b : a;
+      const ElementId next = a == path.back() ? b : a;
       taken.push_back(*edge);
       const auto known = on.find(next);
       if (known == on.end()) {
-        on[next] = way.size();
-        way.push_back(next);
+        on[next] = path.size();
+        path.push_back(next);
         continue;
       }
       const std::size_t begin = known->second;
-      found.push_back({{way.begin() + std::ptrdiff_t(begin), way.end()}, border_[taken[begin]].triangle});
-      for (std::size_t i = begin + 1; i < way.size(); ++i) {
-        on.erase(way[i]);
+      found.push_back({{path.begin() + std::ptrdiff_t(begin), path.end()}, border_[taken[begin]].triangle});
+      for (std::size_t i = begin + 1; i < path.size(); ++i) {
+        on.erase(path[i]);
       }
-      way.resize(begin + 1);
+      path.resize(begin + 1);
       taken.resize(begin);
     }
   }

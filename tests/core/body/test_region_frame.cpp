@@ -258,7 +258,7 @@ void RegionFrameTest::relaxation_and_equilibrium_turn_with_the_object() {
           solver->relax(1, 1'000'000, scene.handle);
         }
       } else {
-        solver->settle(1e-9, 2000, scene.handle, {});
+        solver->solve(1e-9, 2000, scene.handle, {});
       }
       return solver;
     };
