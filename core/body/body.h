@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <span>
@@ -22,7 +23,7 @@
 namespace chainmail {
 
 /// Numbers that grow when a part of a body changes. A method that keeps something for its next move also keeps the
-/// revisions that it was made for, and compares them with the body's when it uses it.
+/// revisions of the parts that it depends on, and compares them with the body's when it uses it.
 struct Revisions {
   std::uint64_t cuts = 0;       // links were cut or restored
   std::uint64_t restored = 0;   // cut links were restored
@@ -32,6 +33,15 @@ struct Revisions {
   std::uint64_t elastic = 0;    // options of elasticity changed
   std::uint64_t positions = 0;  // positions were set, other than by a move or by relaxation
   std::uint64_t relaxed = 0;    // relaxation moved elements
+
+  /// Returns the revisions of some parts only: the others are 0.
+  Revisions only(std::initializer_list<std::uint64_t Revisions::*> parts) const {
+    Revisions result;
+    for (const auto part : parts) {
+      result.*part = this->*part;
+    }
+    return result;
+  }
 
   bool operator==(const Revisions&) const = default;
 };

@@ -14,7 +14,7 @@ namespace chainmail {
 /// Candidates are taken from the first list that is not empty, in the order right, left, top, bottom, front, back (+x,
 /// −x, +y, −y, +z, −z). An element that was taken from a list feeds that list and those of later axes; the grabbed
 /// element feeds all. Within a list: first in, first out. All candidates are admitted.
-class DirectionLists {
+class DirectionLists : public PlainList {
  public:
   static constexpr bool admits_updated = true;
   static constexpr TakingOrder order = TakingOrder::by_key;
@@ -33,9 +33,9 @@ class DirectionLists {
     return from_ == all_lists || list == from_ || list / 2 > from_ / 2;
   }
   /// Candidates with the largest key are taken first.
-  double key(Candidate candidate) const { return -list_of(candidate); }
+  double key(Candidate candidate, double /*violation*/) const { return -list_of(candidate); }
 
-  void admit(Candidate candidate) { lists_[std::size_t(list_of(candidate))].admit(candidate); }
+  void admit(Candidate candidate, double /*violation*/) { lists_[std::size_t(list_of(candidate))].admit(candidate); }
   /// No list before the one in use is fed, so those stay empty.
   bool empty() {
     while (first_ < list_count && lists_[std::size_t(first_)].empty()) {

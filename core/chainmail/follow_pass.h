@@ -35,20 +35,12 @@ struct WaitingLog {
 };
 
 /// A waiting list that logs what enters and leaves.
-template <class List>
+template <WaitingList List>
 class LoggedList : public List {
  public:
   explicit LoggedList(WaitingLog& log) : log_(&log) {}
-  void admit(Candidate candidate) {
-    if constexpr (requires { this->key(candidate); }) {
-      log_->enter(candidate, this->key(candidate));
-    } else {
-      log_->enter(candidate, 0);
-    }
-    List::admit(candidate);
-  }
   void admit(Candidate candidate, double violation) {
-    log_->enter(candidate, violation);
+    log_->enter(candidate, List::key(candidate, violation));
     List::admit(candidate, violation);
   }
   Candidate take() {
@@ -114,11 +106,10 @@ class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}
   template <class Body>
-  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/) {
+  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/,
+             Replay /*uses*/) {
     return false;
   }
-  template <class Body>
-  void begin_anew(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/) {}
 
   template <class Body>
   bool update(Body& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
@@ -173,7 +164,7 @@ WaitingHistory follow_pass(const RecordedPass& pass, TakingOrder order, Run run)
 }
 
 /// The history of a pass by one waiting list.
-template <class List>
+template <WaitingList List>
 WaitingHistory follow_list(const RecordedPass& pass) {
   return follow_pass(pass, List::order, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
     LoggedList<List> list(log);

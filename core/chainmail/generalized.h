@@ -112,7 +112,7 @@ class Generalized {
   template <class Scalar, int Dimension>
   void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) {
-    if (!record.begin(body, handle, moved)) {
+    if (!record.begin(body, handle, moved, Replay::whole)) {
       GeneralizedPass<Scalar, Dimension>(body, record, list_).run(handle, moved);
     }
   }

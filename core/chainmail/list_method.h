@@ -46,7 +46,7 @@ class PredictedPass {
   PredictedPass(PassRecord& record, const Progress& progress) : record_(record), progress_(progress) {}
 
   template <class View>
-  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/) {
+  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/, Replay /*uses*/) {
     record_.predict(body, handle);
     return false;
   }
@@ -65,7 +65,7 @@ class PredictedPass {
 };
 
 /// The common loop with a waiting list.
-template <class List>
+template <WaitingList List>
 struct Propagation {
   template <class View>
   void propagate(View& body, PassRecord& record, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
@@ -75,7 +75,7 @@ struct Propagation {
   /// Lists the steps of a pass in which every element moves, unless their order depends on positions.
   template <class View>
   void predict(View& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
-    if constexpr (!requires { List::by_violation; }) {
+    if constexpr (!List::by_violation) {
       PredictedPass predicted(record, progress);
       std::vector<ElementId> none;
       List own;  // a cancelled pass leaves candidates in it
@@ -86,14 +86,14 @@ struct Propagation {
   List list;
 };
 
-template <class List>
+template <WaitingList List>
 struct ListMethodOf {
   template <class Scalar, int Dimension>
   using Typed = ListMethod<Propagation<List>, Scalar, Dimension>;
 };
 
 /// Makes the method of an algorithm that differs from others in its waiting list only.
-template <class List>
+template <WaitingList List>
 inline constexpr auto make_list_method = &make_method<ListMethodOf<List>::template Typed>;
 
 template <class Scalar, int Dimension>

@@ -125,7 +125,7 @@ struct NaturalQueue {
   template <class Scalar, int Dimension>
   void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) const {
-    if (!record.begin(body, handle, moved, true)) {
+    if (!record.begin(body, handle, moved, Replay::up_to_a_difference)) {
       NaturalQueuePass<Scalar, Dimension>(body, record, moved).run(handle);
     }
   }

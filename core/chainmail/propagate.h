@@ -14,35 +14,21 @@ namespace chainmail {
 /// admitted, handle element by handle element. `moved` receives the elements that moved, in order of update, without
 /// the handle; it must be unchanged since the last pass. `record`, a PassRecord or a substitute, receives the processed
 /// candidates. Each element is updated at most once (thesis 3.1 and 4.1; Li and Brodlie 2003).
-template <class List, class Body, class Record>
+template <WaitingList List, class Body, class Record>
 void propagate(Body& body, List& list, Record& record, std::span<const ElementId> handle,
                std::vector<ElementId>& moved) {
-  const auto admit = [&](Candidate candidate, ElementId neighbour) {
-    if constexpr (requires { List::by_violation; }) {
-      list.admit(candidate, body.violation(neighbour, candidate.sponsor, candidate.entry));
-    } else if constexpr (requires { list.admits(candidate); }) {
-      if (list.admits(candidate)) {
-        list.admit(candidate);
-      }
-    } else {
-      list.admit(candidate);
-    }
-  };
   const auto admit_neighbours = [&](ElementId sponsor) {
     body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
-      if (List::admits_updated || !body.updated(neighbour)) {
-        admit({entry, sponsor}, neighbour);
+      const Candidate candidate{entry, sponsor};
+      if ((List::admits_updated || !body.updated(neighbour)) && list.admits(candidate)) {
+        list.admit(candidate, List::by_violation ? body.violation(neighbour, sponsor, entry) : 0);
       }
     });
   };
-  if constexpr (requires { List::by_violation; }) {
-    record.begin_anew(body, handle, moved);
-  } else if (record.begin(body, handle, moved)) {
+  if (record.begin(body, handle, moved, List::by_violation ? Replay::none : Replay::whole)) {
     return;
   }
-  if constexpr (requires { list.begin(*body.mesh); }) {
-    list.begin(*body.mesh);
-  }
+  list.begin(*body.mesh);
   moved.clear();
   body.begin_pass();
   std::ranges::for_each(handle, [&](ElementId element) { body.mark_updated(element); });

@@ -55,6 +55,13 @@ std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step
   return steps.size();
 }
 
+/// What a pass may use of the last one.
+enum class Replay {
+  none,               // nothing: its order depends on positions
+  whole,              // all of it, or else the pass runs from the beginning
+  up_to_a_difference  // the pass goes on where the outcomes differ
+};
+
 /// The processed candidates of the last pass, for the next pass of the same handle. Or those of a pass that has not
 /// happened: one that moves every element, for the first pass of a handle.
 ///
@@ -65,11 +72,13 @@ std::size_t replay(const BodyView<Scalar, Dimension>& body, std::span<const Step
 class PassRecord {
  public:
   /// Begins a pass. Returns true if a replay was all of it. Otherwise the pass must run, from the beginning or from
-  /// step agreed(), and end() must be called. `goes_on`: the pass can run from there.
+  /// step agreed(), and end() must be called.
   template <class View>
-  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved, bool goes_on = false) {
+  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved, Replay uses) {
     make_room(body);
-    const Conditions conditions = conditions_of(body);
+    if (uses == Replay::none) {
+      handle_.clear();
+    }
     const bool is_known = is_of(body, handle);
     const bool tries = is_known && unused_ == 0;
     agreed_ = tries ? replay(body, steps()) : 0;
@@ -80,7 +89,7 @@ class PassRecord {
       failures_ = 0;
       return true;
     }
-    if (!is_known || (tries && (goes_on || 2 * agreed_ >= count_))) {
+    if (!is_known || (tries && (uses == Replay::up_to_a_difference || 2 * agreed_ >= count_))) {
       failures_ = unused_ = 0;
     } else if (tries) {
       failures_ = std::min(failures_ + 1, max_failures);
@@ -88,17 +97,10 @@ class PassRecord {
     } else {
       --unused_;
     }
-    conditions_ = conditions;
+    made_for_ = revisions_of(body);
     handle_.assign(handle.begin(), handle.end());
     next_ = 0;
     return false;
-  }
-
-  /// Begins a pass of an algorithm whose order of candidates depends on positions: it is never replayed.
-  template <class View>
-  void begin_anew(View& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
-    handle_.clear();
-    begin(body, handle, moved);
   }
 
   /// True if the steps are those of a pass of this handle on the body as it is.
@@ -111,7 +113,7 @@ class PassRecord {
   template <class View>
   void predict(View& body, std::span<const ElementId> handle) {
     make_room(body);
-    conditions_ = conditions_of(body);
+    made_for_ = revisions_of(body);
     handle_.assign(handle.begin(), handle.end());
     failures_ = unused_ = 0;
     count_ = next_ = agreed_ = 0;
@@ -163,19 +165,14 @@ class PassRecord {
   void end(std::size_t count) { count_ = count; }
 
  private:
-  /// What a record is valid for, with the handle.
-  struct Conditions {
-    std::uint64_t cuts = 0, pins = 0, softness = 0;
-    bool operator==(const Conditions&) const = default;
-  };
-
+  /// The parts of a body that a record depends on, besides the handle.
   template <class View>
-  static Conditions conditions_of(const View& body) {
-    return {body.revisions().cuts, body.revisions().pins, body.revisions().softness};
+  static Revisions revisions_of(const View& body) {
+    return body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::softness});
   }
   template <class View>
   bool is_of(const View& body, std::span<const ElementId> handle) const {
-    return conditions_of(body) == conditions_ && std::ranges::equal(handle, handle_);
+    return revisions_of(body) == made_for_ && std::ranges::equal(handle, handle_);
   }
   /// Lists the elements that the replayed steps moved.
   void list_moved(std::vector<ElementId>& moved) const {
@@ -193,7 +190,7 @@ class PassRecord {
   std::size_t count_ = 0;
   std::size_t next_ = 0;
   std::size_t agreed_ = 0;
-  Conditions conditions_;
+  Revisions made_for_;
   std::vector<ElementId> handle_;  // of the last pass; empty before it
   bool is_predicted_ = false;      // the steps are of a pass that has not happened
   int failures_ = 0;               // replays in a row that failed

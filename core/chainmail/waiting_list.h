@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,22 +17,45 @@ struct Candidate {
   ElementId sponsor;  // 8 bytes in all
 };
 
-// To add an algorithm that differs from others in its list only, add a list here and an entry in algorithms.cpp. A list
-// has empty, admit and take; `order` for the replay of a pass; `admits_updated`; and `by_violation` if admit also
-// receives how far the candidate lies outside its valid region.
-
 /// The order in which candidates are taken from a list: by their entry, or the largest key first.
 enum class TakingOrder { first_in, last_in, by_key };
 
+/// The candidates of a pass that wait: what the loop of a pass (propagate.h) asks of a list. The list defines the
+/// algorithm. To add one that differs from others in its list only, add a list here and an entry in algorithms.cpp.
+template <class List>
+concept WaitingList = requires(List list, const List constant, const Mesh& mesh, Candidate candidate,
+                               double violation) {
+  { List::order } -> std::convertible_to<TakingOrder>;
+  // True if elements that have been updated may enter; they are dropped when they are taken.
+  { List::admits_updated } -> std::convertible_to<bool>;
+  // True if the order depends on `violation`: how far the candidate lies outside its valid region (rest lengths).
+  // Others get 0, and their passes can be replayed, because their order depends only on which elements moved.
+  { List::by_violation } -> std::convertible_to<bool>;
+  list.begin(mesh);
+  { constant.admits(candidate) } -> std::same_as<bool>;
+  { constant.key(candidate, violation) } -> std::same_as<double>;  // for TakingOrder::by_key
+  list.admit(candidate, violation);
+  { list.empty() } -> std::same_as<bool>;
+  { list.take() } -> std::same_as<Candidate>;
+};
+
+/// What most lists have in common: every candidate is admitted, and violation does not matter.
+struct PlainList {
+  static constexpr bool by_violation = false;
+  void begin(const Mesh& /*mesh*/) {}
+  bool admits(Candidate /*candidate*/) const { return true; }
+  double key(Candidate /*candidate*/, double /*violation*/) const { return 0; }
+};
+
 /// Generalized ChainMail (thesis 3.1, Li and Brodlie 2003): candidates enter at the front, so the last one in is taken
 /// first; all are admitted.
-class FrontList {
+class FrontList : public PlainList {
  public:
   static constexpr bool admits_updated = true;
   static constexpr TakingOrder order = TakingOrder::last_in;
 
   bool empty() const { return candidates_.empty(); }
-  void admit(Candidate candidate) { candidates_.push_back(candidate); }
+  void admit(Candidate candidate, double /*violation*/) { candidates_.push_back(candidate); }
   Candidate take() {
     const Candidate candidate = candidates_.back();
     candidates_.pop_back();
@@ -46,20 +70,29 @@ class FrontList {
 using BackList = Ring<Candidate>;
 
 /// Spiral (thesis 3.2, first alteration): candidates enter at the back; all are admitted.
-struct SpiralList : BackList {
+class SpiralList : public PlainList {
+ public:
   static constexpr bool admits_updated = true;
   static constexpr TakingOrder order = TakingOrder::first_in;
+
+  bool empty() const { return candidates_.empty(); }
+  void admit(Candidate candidate, double /*violation*/) { candidates_.admit(candidate); }
+  Candidate take() { return candidates_.take(); }
+
+ private:
+  BackList candidates_;
 };
 
 /// Enhanced ChainMail (Schill et al. 1998): the largest violation is taken first, ties by entry; only those not yet
 /// updated are admitted. Until a candidate is taken, its element does not move, and its sponsor has been updated: so
 /// the violation at entry equals the violation when taken.
-class EnhancedList {
+class EnhancedList : public PlainList {
  public:
   static constexpr bool admits_updated = false;
   static constexpr TakingOrder order = TakingOrder::by_key;
   static constexpr bool by_violation = true;
 
+  double key(Candidate /*candidate*/, double violation) const { return violation; }
   bool empty() const { return heap_.empty(); }
   void admit(Candidate candidate, double violation) {
     heap_.push_back({violation, entered_++, candidate});

@@ -51,7 +51,7 @@ class ExactPropagation {
   /// Prepares the first move of an element: computes the regions of all elements. They are used if that move, too,
   /// would have computed them all, so no bit depends on them. Throws Cancelled.
   void prepare(const State& body, const Handle& handle, int threads, const Progress& progress) {
-    const Prepared wanted{conditions_of(body, handle), threads};
+    const Basis wanted = basis_of(body, handle, threads);
     if (prepared_for_ == wanted || is_made_for(body, handle, threads)) {
       return;
     }
@@ -75,29 +75,23 @@ class ExactPropagation {
  private:
   using Offset = Position<Scalar, Dimension>;
 
-  /// What the regions are valid for.
-  struct Conditions {
-    std::uint64_t cuts = 0, pins = 0, softness = 0;
+  /// What regions depend on.
+  struct Basis {
+    Revisions revisions;
     ElementId first = no_element;  // of the handle
     std::uint64_t grab = 0;        // of a handle of many
-    std::uint64_t positions = 0;   // of a handle of many, whose offsets come from them
-    bool operator==(const Conditions&) const = default;
-  };
-
-  /// What the prepared regions are valid for.
-  struct Prepared {
-    Conditions conditions;
     int threads = 0;
-    bool operator==(const Prepared&) const = default;
+    bool operator==(const Basis&) const = default;
   };
 
-  static Conditions conditions_of(const State& body, const Handle& handle) {
-    const Revisions& now = body.revisions();
-    return {
-        now.cuts, now.pins, now.softness, handle.elements()[0], handle.grab(), handle.has_one() ? 0 : now.positions};
+  /// The offsets of a handle of many come from positions.
+  static Basis basis_of(const State& body, const Handle& handle, int threads) {
+    Revisions now = body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::softness});
+    now.positions = handle.has_one() ? 0 : body.revisions().positions;
+    return {now, handle.elements()[0], handle.grab(), threads};
   }
   bool is_made_for(const State& body, const Handle& handle, int threads) const {
-    return conditions_of(body, handle) == made_for_ && threads == threads_ && is_where_it_was(body, handle);
+    return basis_of(body, handle, threads) == made_for_ && is_where_it_was(body, handle);
   }
 
   void begin_one(const State& body, const Handle& handle, const Reach& reach, int threads) {
@@ -105,7 +99,7 @@ class ExactPropagation {
       return;
     }
     offsets_.clear();
-    const Prepared wanted{conditions_of(body, handle), threads};
+    const Basis wanted = basis_of(body, handle, threads);
     if (prepared_for_ == wanted && prepared_.moves_all(body, reach)) {
       std::swap(regions_, prepared_);
       prepared_for_ = {};
@@ -113,7 +107,7 @@ class ExactPropagation {
       regions_.begin(body, handle.elements(), offsets_, threads);
     }
     threads_ = threads;
-    made_for_ = wanted.conditions;
+    made_for_ = wanted;
   }
 
   void begin_many(const State& body, const Handle& handle, int threads) {
@@ -125,7 +119,7 @@ class ExactPropagation {
     std::fill_n(at_.at, Dimension, Scalar{0});
     threads_ = threads;
     regions_.begin(body, handle.elements(), offsets_, threads);
-    made_for_ = conditions_of(body, handle);
+    made_for_ = basis_of(body, handle, threads);
   }
 
   /// True if nothing has moved an element of a handle of many since the last pass. Relaxation may, after a release.
@@ -367,8 +361,8 @@ class ExactPropagation {
   Offset at_{};  // of a handle of many: its displacement after the last pass
   HandleRegions<Scalar, Dimension, Schedule> regions_;
   HandleRegions<Scalar, Dimension, Schedule> prepared_;  // of all elements, for the first move of an element
-  Prepared prepared_for_;
-  Conditions made_for_;
+  Basis prepared_for_;
+  Basis made_for_;
   int threads_ = 1;                       // the regions were made with
   std::vector<Piece> pieces_;             // of this pass
   RigidHandle<Scalar, Dimension> shape_;  // of a handle of many; the members below too

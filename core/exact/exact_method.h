@@ -33,7 +33,7 @@ class ExactMethod final : public Method {
       restore.run(body.pins());
     }
     links_hold_ = true;
-    made_for_ = conditions_of(body.revisions());
+    made_for_ = revisions_of(body);
     handle_.assign(move.handle.elements().begin(), move.handle.elements().end());
     body.reach().since_rest = std::max(body.reach().since_rest, size);
     PassCount count = propagation_.propagate(view, move, output.moved, output.trace, output.threads);
@@ -72,7 +72,7 @@ class ExactMethod final : public Method {
 
   /// True if nothing has changed since the last pass left all links valid, outside the handle of many that it had.
   bool holds(const Body& body, const Handle& handle) const {
-    return links_hold_ && made_for_ == conditions_of(body.revisions()) &&
+    return links_hold_ && made_for_ == revisions_of(body) &&
            (handle_.size() == 1 || std::ranges::equal(handle_, handle.elements()));
   }
 
@@ -88,13 +88,9 @@ class ExactMethod final : public Method {
     furthest = std::max(furthest, size);
   }
 
-  /// What keeps the links valid that a pass left valid. Cutting links and pinning elements do.
-  struct Conditions {
-    std::uint64_t restored = 0, softness = 0, positions = 0;
-    bool operator==(const Conditions&) const = default;
-  };
-  static Conditions conditions_of(const Revisions& revisions) {
-    return {revisions.restored, revisions.softness, revisions.positions};
+  /// The changes that may make valid links invalid. To cut links or to pin elements does not.
+  static Revisions revisions_of(const Body& body) {
+    return body.revisions().only({&Revisions::restored, &Revisions::softness, &Revisions::positions});
   }
 
   /// Counts the restoring and the pass after it as one pass. An element has moved if its position changed in total.
@@ -132,7 +128,7 @@ class ExactMethod final : public Method {
   ExactPropagation<Scalar, Dimension> propagation_;
   PathSearch search_;
   bool links_hold_ = false;        // all links were valid after the last pass
-  Conditions made_for_;            // of that pass
+  Revisions made_for_;             // of that pass
   std::vector<ElementId> handle_;  // of that pass
 };
 

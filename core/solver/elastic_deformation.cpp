@@ -118,9 +118,9 @@ PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, 
   return take_answer(body, {}, output.moved);
 }
 
-ElasticDeformation::Conditions ElasticDeformation::conditions_of(const Body& body) {
-  const Revisions& now = body.revisions();
-  return {now.cuts, now.pins, now.elastic};
+/// The parts of a body that a preparation depends on.
+Revisions ElasticDeformation::revisions_of(const Body& body) {
+  return body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::elastic});
 }
 
 std::uint64_t ElasticDeformation::positions_of(const Body& body) {
@@ -130,8 +130,8 @@ std::uint64_t ElasticDeformation::positions_of(const Body& body) {
 /// A solver that would begin anew at the next move is dropped: the one of the copy is new, too.
 std::vector<double> ElasticDeformation::hand_over(const Body& body) {
   held_ = {};
-  if (!solver_ || conditions_of(body) != made_for_ || positions_of(body) != positions_) {
-    const bool waits = !solver_ && conditions_of(body) == made_for_ && positions_of(body) == positions_;
+  if (!solver_ || revisions_of(body) != made_for_ || positions_of(body) != positions_) {
+    const bool waits = !solver_ && revisions_of(body) == made_for_ && positions_of(body) == positions_;
     solver_.reset();
     return waits ? memory_ : std::vector<double>();
   }
@@ -142,15 +142,15 @@ std::vector<double> ElasticDeformation::hand_over(const Body& body) {
 
 void ElasticDeformation::take_over(const Body& body, const std::vector<double>& memory) {
   memory_ = memory;
-  made_for_ = conditions_of(body);
+  made_for_ = revisions_of(body);
   positions_ = positions_of(body);
 }
 
 void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
-  const Conditions conditions = conditions_of(body);
+  const Revisions revisions = revisions_of(body);
   const std::uint64_t positions = positions_of(body);
   const bool knows_positions = solver_ && positions_ == positions;
-  if (solver_ && conditions == made_for_ && (knows_positions || pin_displacements(body) == pinned_)) {
+  if (solver_ && revisions == made_for_ && (knows_positions || pin_displacements(body) == pinned_)) {
     if (!knows_positions) {
       held_ = {};
       solver_->reset();
@@ -165,8 +165,8 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
       progress);
-  const bool remembers = !memory_.empty() && made_for_ == conditions && positions_ == positions;
-  made_for_ = conditions;
+  const bool remembers = !memory_.empty() && made_for_ == revisions && positions_ == positions;
+  made_for_ = revisions;
   positions_ = positions;
   const std::vector<double> memory = std::exchange(memory_, {});
   remembers ? solver_->recall(memory) : take_positions(body);

@@ -22,13 +22,7 @@ class ElasticDeformation final : public Method {
   void take_over(const Body& body, const std::vector<double>& memory) override;
 
  private:
-  /// What a preparation is valid for.
-  struct Conditions {
-    std::uint64_t cuts = 0, pins = 0, elastic = 0;
-    bool operator==(const Conditions&) const = default;
-  };
-
-  static Conditions conditions_of(const Body& body);
+  static Revisions revisions_of(const Body& body);
   static std::uint64_t positions_of(const Body& body);
   void prepare(const Body& body, const Progress& progress);
   void take_positions(const Body& body);
@@ -39,7 +33,7 @@ class ElasticDeformation final : public Method {
 
   ElasticMethod method_;
   std::unique_ptr<ElasticSolver> solver_;
-  Conditions made_for_;
+  Revisions made_for_;
   std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
   std::vector<double> pinned_;   // displacements of the pins that it was made for
   std::vector<double> memory_;   // that the solver needs when it is made, if the body is then as it was
