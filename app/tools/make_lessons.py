@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the lessons of this folder: sessions with captions, as resources/manual/sessions.md describes them.
+"""Makes the lessons of resources/lessons: sessions with captions, as resources/manual/sessions.md describes them.
 
-    resources/lessons/make_lessons.py [FOLDER]
+    app/tools/make_lessons.py [FOLDER]
 
 Needs only Python's standard library. The result is the same each time.
 """
@@ -11,8 +11,8 @@ import math
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).parent
-MESHES = HERE / "../../meshes"
+ROOT = Path(__file__).parent / "../.."
+MESHES = ROOT / "meshes"
 # Softness of the links, as in the Stiffness dock.
 STANDARD = {"compression": 0.8, "stretch": 1.2, "shear": 0.1}
 
@@ -276,7 +276,7 @@ LESSONS = {"order": why_order_matters, "waiting-list": waiting_list, "exact": ex
 
 
 def main():
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "resources/lessons"
     for name, make in LESSONS.items():
         make().save(folder / f"{name}.chainmail")
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the samples of this folder that `chainmail generate` cannot make; see README.md.
+"""Makes the samples of meshes that `chainmail generate` cannot make; see meshes/README.md.
 
-    meshes/make_samples.py [FOLDER]
+    app/tools/make_samples.py [FOLDER]
 
 Needs only Python's standard library, and the program gmsh (4.8 or later) to fill the organ. The result is the same each
 time, except for the output of gmsh, which depends on its version.
@@ -240,7 +240,7 @@ def write_mha(path, size=(26, 24, 12)):
 
 
 def main():
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[2] / "meshes"
     points, triangles = organ()
     write_obj(folder / "organ.obj", points, triangles)
     write_filled(folder / "organ.msh", points, triangles)
