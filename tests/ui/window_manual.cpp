@@ -171,8 +171,8 @@ class WindowManual : public QObject {
     for (const QString& page : pagesInSource()) {
       QTest::newRow(qPrintable(page)) << manual + page;
     }
-    for (const char* file :
-         {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "meshes/README.md", "tests/bench/README.md"}) {
+    for (const char* file : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "meshes/README.md",
+                             "tests/README.md", "tests/bench/README.md"}) {
       QTest::newRow(file) << QString::fromLatin1(file);
     }
   }
