@@ -80,11 +80,9 @@ void write_calibration(std::ostream& out, const CalibrationOptions& how, const C
   const bool at_equilibrium = !info(how.scheme).sweeps;
   out << info(how.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
       << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
-      << ") with\n  compression " << figure(result.softness.compression) << ", stretch "
-      << figure(result.softness.stretch) << ", shear " << figure(result.softness.shear) << ", ";
+      << ") with\n  " << report::region_in_words(result.softness) << ", ";
   if (at_equilibrium) {
-    out << "lateral " << figure(result.softness.lateral) << ", exponent " << figure(result.softness.exponent)
-        << ", at equilibrium (" << info(how.energy).name << " energy)";
+    out << report::energy_in_words(result.softness) << ", at equilibrium (" << info(how.energy).name << " energy)";
   } else {
     out << result.sweeps << " sweeps per move";
   }

@@ -285,8 +285,8 @@ void add_model(CLI::App& app, DeformArguments& options) {
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
   options.global = add_softness(app);
   options.softness = add_value(app, "--softness", "FILE",
-                               "softness of single links: CSV rows a,b,compression,stretch,shear or "
-                               "a,b,compression,stretch,shear,lateral,stiffness,exponent");
+                               "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) +
+                                   " or a,b," + softness_names(","));
   options.relax = add_value(app, "--relax", "N",
                             "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
                                 std::to_string(equilibrium_iterations) + "]");

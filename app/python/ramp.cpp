@@ -53,7 +53,7 @@ void put_verdict(Table& table, const report::RampVerdict& verdict) {
   table.put("method", name_of(verdict.algorithm));
   table.put("largest_width", verdict.largest_width);
   table.put("lost", verdict.lost);
-  table.put("growth_exponent", verdict.growth ? std::optional(verdict.growth->exponent) : std::nullopt);
+  table.put("growth_exponent", verdict.growth ? std::optional(verdict.growth->power) : std::nullopt);
 }
 
 py::dict named(const report::Ramp& ramp) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -128,13 +129,12 @@ inline inner::RelaxationScheme scheme_of(RelaxationScheme scheme) {
   static_assert(inner::relaxation_schemes.size() == 3);
   return inner::RelaxationScheme(int(scheme));
 }
-inline inner::LinkSoftness softness_of(const LinkSoftness& softness) {
-  return {softness.compression, softness.stretch,   softness.shear,
-          softness.lateral,     softness.stiffness, softness.exponent};
+/// Both have the same numbers in the same order: see the assertion in body.cpp.
+constexpr inner::LinkSoftness softness_of(const LinkSoftness& softness) {
+  return std::bit_cast<inner::LinkSoftness>(softness);
 }
-inline LinkSoftness softness_of(const inner::LinkSoftness& softness) {
-  return {softness.compression, softness.stretch,   softness.shear,
-          softness.lateral,     softness.stiffness, softness.exponent};
+constexpr LinkSoftness softness_of(const inner::LinkSoftness& softness) {
+  return std::bit_cast<LinkSoftness>(softness);
 }
 inline inner::EnergyKind energy_of(EnergyKind kind) { return static_cast<inner::EnergyKind>(kind); }
 inline EnergyKind energy_of(inner::EnergyKind kind) { return static_cast<EnergyKind>(kind); }

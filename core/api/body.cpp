@@ -11,12 +11,7 @@
 namespace chainmail::api {
 
 // Public headers cannot include the table of parameters, so its defaults are repeated there.
-static_assert(LinkSoftness().compression == parameters::compression.default_value &&
-              LinkSoftness().stretch == parameters::stretch.default_value &&
-              LinkSoftness().shear == parameters::shear.default_value &&
-              LinkSoftness().lateral == parameters::lateral.default_value &&
-              LinkSoftness().stiffness == parameters::stiffness.default_value &&
-              LinkSoftness().exponent == parameters::exponent.default_value);
+static_assert(softness_of(LinkSoftness()) == inner::LinkSoftness());
 static_assert(int(EnergyKind::isotropic) == int(inner::EnergyKind::isotropic) &&
               int(EnergyKind::axial) == int(inner::EnergyKind::axial) &&
               int(EnergyKind::corotated) == int(inner::EnergyKind::corotated));

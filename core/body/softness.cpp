@@ -22,6 +22,14 @@ void add_change(SoftnessChange& change, const LinkSoftness& before, const LinkSo
 
 }  // namespace
 
+std::string softness_names(std::string_view between, std::size_t first, std::size_t end) {
+  std::string names;
+  for (std::size_t i = first; i < end; ++i) {
+    names.append(i == first ? std::string_view() : between).append(softness_numbers[i].parameter->name);
+  }
+  return names;
+}
+
 void check(const LinkSoftness& softness) {
   for (const auto& [parameter, value] : softness_numbers) {
     check(*parameter, softness.*value);

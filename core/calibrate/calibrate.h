@@ -73,7 +73,7 @@ struct CalibrationResult {
 /// object's size. The same options give the same result.
 ///
 /// With sweeps, the search varies compression, stretch and shear. With the scheme `equilibrium`, it also varies the
-/// lateral stiffness and the exponent; then it starts at several points, because the error has several minima.
+/// numbers of the energy; then it starts at several points, because the error has several minima.
 ///
 /// Throws Error if nothing is pinned, a number is out of range, the object has no static solution, or no reference
 /// converges. Throws Cancelled if it is cancelled.

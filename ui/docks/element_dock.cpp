@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "common/dock_scroll.h"
 #include "common/parameter_row.h"
@@ -265,13 +266,14 @@ void ElementDock::showNeighbour(int row, EntryId entry) {
   const LinkSoftness& softness = document_.wholeSoftness()->of(link);
   put(*neighbours_, row, 0, QString::number(to));
   neighbours_->item(row, 0)->setData(Qt::UserRole, to);
-  put(*neighbours_, row, 1, figure(softness.compression));
-  put(*neighbours_, row, 2, figure(softness.stretch));
-  put(*neighbours_, row, 3, figure(softness.shear));
-  const QString energy = QStringLiteral("Lateral stiffness %1, link stiffness %2, length exponent %3")
-                             .arg(figure(softness.lateral), figure(softness.stiffness), figure(softness.exponent));
-  for (int column = 1; column <= 3; ++column) {
-    neighbours_->item(row, column)->setToolTip(energy);
+  QStringList energy;
+  for (const auto& [parameter, value] : std::span(softness_numbers).subspan(region_numbers)) {
+    const QString label = text(parameter->label);
+    energy << QStringLiteral("%1 %2").arg(energy.isEmpty() ? label : label.toLower(), figure(softness.*value));
+  }
+  for (int column = 1; column <= int(region_numbers); ++column) {
+    put(*neighbours_, row, column, figure(softness.*softness_numbers[std::size_t(column) - 1].value));
+    neighbours_->item(row, column)->setToolTip(energy.join(QStringLiteral(", ")));
   }
   put(*neighbours_, row, 4, isCut ? QStringLiteral("cut") : shownNumber(violation, 'g', 3));
 }

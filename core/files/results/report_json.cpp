@@ -250,7 +250,7 @@ Json to_json(const report::PhysicsObject& object) {
 Json to_json(const report::GrowthSeries& series) {
   Json json = begin_with(series.contestant);
   json["end"] = series.end;
-  json["exponent"] = series.growth ? Json(series.growth->exponent) : Json();
+  json["exponent"] = series.growth ? Json(series.growth->power) : Json();
   json["sizes"] = Json::array();
   for (const report::GrowthPoint& point : series.points) {
     json["sizes"].push_back({{"elements", point.elements},
@@ -273,7 +273,7 @@ Json to_json(const report::RampVerdict& verdict) {
   json["growth"] = nullptr;
   if (const auto& growth = verdict.growth) {
     json["growth"] = {
-        {"exponent", growth->exponent}, {"from", growth->from}, {"to", growth->to}, {"sizes", growth->sizes}};
+        {"exponent", growth->power}, {"from", growth->from}, {"to", growth->to}, {"sizes", growth->sizes}};
   }
   return json;
 }

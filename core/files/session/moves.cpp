@@ -70,7 +70,7 @@ ElementId MoveFields::element(const Json& json) const {
 LinkId MoveFields::link(const Json& json, std::size_t size) const {
   if (!json.is_array() || json.size() != size) {
     fail("a link is not an array of " + (size == 2 ? std::string("2") : "5 or 8"),
-         size == 2 ? "write [a, b]" : "write [a, b, compression, stretch, shear, lateral, stiffness, exponent]");
+         size == 2 ? "write [a, b]" : "write [a, b, " + softness_names(", ") + "]");
   }
   const ElementId a = element(json[0]), b = element(json[1]);
   const auto found = find_link(*mesh_, a, b);

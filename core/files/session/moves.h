@@ -19,8 +19,8 @@ namespace chainmail {
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
 ///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
 ///       {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 0.001},
-///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, "lateral": 1, "stiffness": 1,
-///        "exponent": -1, "energy": "corotated", "links": [[0, 1, 1, 1, 0, 1, 1, -1]]}]}
+///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, …, "energy": "corotated",
+///        "links": [[0, 1, 1, 1, 0, 1, 1, -1]]}]}
 ///
 /// The version is 2 if moves split the object:
 ///
@@ -31,8 +31,9 @@ namespace chainmail {
 /// A new element is at a + s (b − a) + t (c − a) at rest, where a, b and c have lower ids. See SplitEdit. The commands
 /// after it are about the object after the split.
 ///
-/// Links are named by their ends. A softness replaces the softness of all links; "links" may be left out. So may
-/// "lateral", "stiffness", "exponent" and "energy", and the last three numbers of a link: these are standard then.
+/// Links are named by their ends. A softness has all numbers of softness_numbers and replaces the softness of all
+/// links; "links" may be left out. So may "energy", and the numbers after the first three: they have their defaults
+/// then.
 
 /// Reads moves of a mesh from the text of a file. `path` appears in errors. Throws Error, with the number of the
 /// command from 0, for any command that a simulation of this mesh could not execute from rest; and Cancelled. Takes

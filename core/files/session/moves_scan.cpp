@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "body/softness.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -14,12 +15,16 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
-constexpr std::array<std::string_view, 23> command_keys{
-    "do",       "element",          "target",      "by",      "rotate",
-    "links",    "elements",         "compression", "stretch", "shear",
-    "lateral",  "stiffness",        "exponent",    "energy",  "sweeps",
-    "step",     "scheme",           "until",       "removed", "triangles",
-    "polygons", "removed_polygons", "frame"};
+// The keys of a command, besides the numbers of a softness.
+constexpr std::array<std::string_view, 17> command_keys{
+    "do",   "element", "target", "by",    "rotate",  "links",     "elements", "energy",          "sweeps",
+    "step", "scheme",  "until",  "frame", "removed", "triangles", "polygons", "removed_polygons"};
+
+bool is_command_key(std::string_view key) {
+  const auto is_named = [key](const SoftnessNumber& number) { return number.parameter->name == key; };
+  return std::ranges::find(command_keys, key) != command_keys.end() || std::ranges::any_of(softness_numbers, is_named);
+}
+
 // The long lists, which are kept without a tree.
 constexpr std::array<std::string_view, 6> list_keys{"links",     "elements", "removed",
                                                     "triangles", "polygons", "removed_polygons"};
@@ -145,8 +150,7 @@ void MovesScan::put(Json value) {
       ++commands_;
       break;
     case At::command:
-      if (std::ranges::find(command_keys, command_key_) != command_keys.end() ||
-          !std::exchange(command_has_unknown_, true)) {
+      if (is_command_key(command_key_) || !std::exchange(command_has_unknown_, true)) {
         command_.members[command_key_] = std::move(value);
       }
       break;

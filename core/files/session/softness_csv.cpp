@@ -13,12 +13,10 @@
 namespace chainmail {
 namespace {
 
-// A row has the first five fields, or all.
-constexpr std::array<std::string_view, 2 + softness_numbers.size()> softness_columns{
-    "a", "b", "compression", "stretch", "shear", "lateral", "stiffness", "exponent"};
-constexpr std::size_t short_columns = 2 + region_numbers;
-constexpr const char* softness_row_form =
-    "write 'a,b,compression,stretch,shear' or 'a,b,compression,stretch,shear,lateral,stiffness,exponent'";
+// Fields of a row: the two ends of a link, then the first numbers of its softness or all.
+constexpr std::size_t short_columns = 2 + region_numbers, all_columns = 2 + softness_numbers.size();
+
+std::string row_form(std::size_t columns) { return "a,b," + softness_names(",", 0, columns - 2); }
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -33,8 +31,8 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 bool is_header(std::span<const std::string_view> fields) {
-  const std::span<const std::string_view> all(softness_columns);
-  return std::ranges::equal(fields, all) || std::ranges::equal(fields, all.first(short_columns));
+  return std::ranges::equal(fields, fields_of(row_form(all_columns))) ||
+         std::ranges::equal(fields, fields_of(row_form(short_columns)));
 }
 
 class SoftnessReader {
@@ -90,10 +88,10 @@ LinkId SoftnessReader::read_link(std::string_view first, std::string_view second
 }
 
 void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
-  if (fields.size() != short_columns && fields.size() != softness_columns.size()) {
+  if (fields.size() != short_columns && fields.size() != all_columns) {
     fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
              ", not five or eight",
-         softness_row_form);
+         "write '" + row_form(short_columns) + "' or '" + row_form(all_columns) + "'");
   }
   const LinkId link = read_link(fields[0], fields[1]);
   LinkSoftness softness;

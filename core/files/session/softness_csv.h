@@ -9,7 +9,7 @@
 namespace chainmail {
 
 /// Reads the softness of single links: CSV rows `a,b,compression,stretch,shear` with the ids of the ends of a link in
-/// either order, or with three more columns `lateral,stiffness,exponent`; without them, these numbers are standard. A
+/// either order, or with a column for each number of softness_numbers; without them, these have their defaults. A
 /// first line with exactly these names, blank lines and comments after `#` are skipped. `path` appears
 /// in errors. Throws Error, with the line, for a malformed row, a link that does not exist or appears twice, and
 /// softness out of range.

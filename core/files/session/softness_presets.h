@@ -31,9 +31,9 @@ std::span<const BuiltInPreset> built_in_presets();
 std::string fault_of_name(std::string_view name);
 
 /// Presets as JSON: `{"version": 1, "presets": [{"name": "felt", "compression": 0.7, "stretch": 1.1, "shear": 0.2,
-/// "lateral": 0.1, "stiffness": 1, "exponent": -1}]}`. The last three numbers may be left out: they are standard then.
-/// `path` appears in errors. Throws Error for anything else, for more than limits::presets, for a name that
-/// is empty, too long or appears twice, and for softness out of range.
+/// …}]}`, with the numbers of softness_numbers. Those after the first three may be left out: they have their defaults
+/// then. `path` appears in errors. Throws Error for anything else, for more than limits::presets, for a name that is
+/// empty, too long or appears twice, and for softness out of range.
 std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path);
 /// Reads presets from a file.
 std::vector<SoftnessPreset> read_presets(const std::filesystem::path& path);

@@ -219,16 +219,16 @@ bool is_tiny(std::string_view word) {
   const std::size_t end = std::min(word.find_first_of("eE"), word.size());
   const std::string_view digits = word.substr(0, end);
   const std::size_t first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), digits.size());
-  std::string_view power = word.substr(std::min(end + 1, word.size()));
-  power.remove_prefix(power.starts_with('+') ? 1 : 0);
-  std::int64_t exponent = 0;
-  const auto parsed = std::from_chars(power.data(), power.data() + power.size(), exponent);
+  std::string_view written = word.substr(std::min(end + 1, word.size()));
+  written.remove_prefix(written.starts_with('+') ? 1 : 0);
+  std::int64_t power = 0;
+  const auto parsed = std::from_chars(written.data(), written.data() + written.size(), power);
   if (parsed.ec == std::errc::result_out_of_range) {
-    return power.starts_with('-');
+    return written.starts_with('-');
   }
   // The power of ten of the first digit.
   return first == std::string_view::npos ||
-         exponent + (std::int64_t(point) - std::int64_t(first)) - (first < point ? 1 : 0) < 0;
+         power + (std::int64_t(point) - std::int64_t(first)) - (first < point ? 1 : 0) < 0;
 }
 
 std::optional<double> parse_number(std::string_view word) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 namespace chainmail::report {
 namespace {
@@ -103,17 +104,41 @@ std::string figure(double number, int digits) {
   }
   std::string text = written(number, std::chars_format::general, digits);
   // 1e-07 reads better as 1e-7.
-  if (const auto exponent = text.find('e'); exponent != std::string::npos) {
-    const auto first = exponent + 2;
+  if (const auto power = text.find('e'); power != std::string::npos) {
+    const auto first = power + 2;
     text.erase(first, text.find_first_not_of('0', first) - first);
-    if (text[exponent + 1] == '+') {
-      text.erase(exponent + 1, 1);
+    if (text[power + 1] == '+') {
+      text.erase(power + 1, 1);
     }
   }
   return text;
 }
 
 std::string figure(const std::optional<double>& number) { return number ? figure(*number) : "n/a"; }
+
+namespace {
+
+/// Formats numbers of a softness with their names.
+std::string in_words(const LinkSoftness& softness, std::span<const SoftnessNumber> numbers) {
+  std::string text;
+  for (const auto& [parameter, value] : numbers) {
+    text += (text.empty() ? "" : ", ") + std::string(parameter->name) + " " + figure(softness.*value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string region_in_words(const LinkSoftness& softness) {
+  return in_words(softness, std::span(softness_numbers).first(region_numbers));
+}
+
+/// The stiffness of all links at once changes nothing, so no calibration finds it.
+std::string energy_in_words(const LinkSoftness& softness) {
+  std::vector<SoftnessNumber> found(softness_numbers.begin() + region_numbers, softness_numbers.end());
+  std::erase_if(found, [](const SoftnessNumber& one) { return one.value == &LinkSoftness::stiffness; });
+  return in_words(softness, found);
+}
 
 std::string signed_percent(const std::optional<double>& change) {
   return change ? (*change > 0 ? "+" : "") + figure(100 * *change) : figure(change);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "body/softness.h"
+
 namespace chainmail::report {
 
 /// Formats a number for people, with three significant digits in every locale; `n/a` if there is none. Numbers from
@@ -23,6 +25,9 @@ std::string percent(double share);
 std::string signed_percent(const std::optional<double>& change);
 /// Formats a number of things for people; `n/a` if there is none.
 std::string count(const std::optional<std::uint64_t>& number);
+/// Formats the numbers that a calibration finds, with their names: those of the valid region, or those of the energy.
+std::string region_in_words(const LinkSoftness& softness);
+std::string energy_in_words(const LinkSoftness& softness);
 /// Formats a number for programs, with the fewest digits that read back as the same number; empty if there is none.
 std::string all_digits(double number);
 std::string all_digits(const std::optional<double>& number);

@@ -170,10 +170,8 @@ std::string about(const Calibration& calibration) {
   return !calibration.refusal.empty()
              ? who + ": left out, " + calibration.refusal
              : who + " in " + figure(calibration.seconds) + " s on " + std::to_string(calibration.drags) +
-                   " drags of other elements: compression " + figure(calibration.softness.compression) + ", stretch " +
-                   figure(calibration.softness.stretch) + ", shear " + figure(calibration.softness.shear) + ", " +
-                   (calibration.equilibrium ? "lateral " + figure(calibration.softness.lateral) + ", exponent " +
-                                                  figure(calibration.softness.exponent)
+                   " drags of other elements: " + region_in_words(calibration.softness) + ", " +
+                   (calibration.equilibrium ? energy_in_words(calibration.softness)
                                             : std::to_string(calibration.sweeps) + " sweeps");
 }
 
@@ -251,7 +249,7 @@ FigureTable::Row row_of(const GrowthSeries& series) {
   row.cells = {std::to_string(last.elements),
                figure(last.ms_per_move),
                figure(last.prepare_ms),
-               series.growth ? figure(series.growth->exponent) : "n/a",
+               series.growth ? figure(series.growth->power) : "n/a",
                errors.empty() ? "n/a" : figure(errors.front()),
                errors.empty() ? "n/a" : figure(errors.back()),
                series.end};

@@ -50,7 +50,7 @@ void write_verdict(std::ostream& out, const Ramp& ramp, const RampVerdict& verdi
     out << right_aligned(verdict.lost ? "never" : "not measured", 18) << right_aligned("", 30);
   }
   if (const auto& growth = verdict.growth) {
-    out << right_aligned(figure(growth->exponent), 10) << "  " << std::to_string(std::uint64_t(growth->from)) << " to "
+    out << right_aligned(figure(growth->power), 10) << "  " << std::to_string(std::uint64_t(growth->from)) << " to "
         << std::to_string(std::uint64_t(growth->to));
   }
   out << '\n';

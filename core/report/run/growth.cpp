@@ -40,7 +40,7 @@ std::optional<Growth> growth_of(std::span<const SizedTime> times, double from) {
   if (!(squares > 0)) {
     return std::nullopt;
   }
-  growth.exponent = together / squares;
+  growth.power = together / squares;
   return growth;
 }
 

@@ -16,9 +16,9 @@ struct SizedTime {
   double ms = 0;
 };
 
-/// Growth of times: ms ∝ elements^exponent, by least squares over the logarithms.
+/// Growth of times: ms ∝ elements^power, by least squares over the logarithms.
 struct Growth {
-  double exponent = 0;
+  double power = 0;
   double from = 0, to = 0;  // range of sizes (elements)
   int sizes = 0;
 };

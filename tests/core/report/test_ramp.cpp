@@ -102,13 +102,13 @@ void RampTest::growth_of_a_power_law() {
   }
   const auto growth = growth_of(times, 1000);
   QVERIFY(growth.has_value());
-  QVERIFY(std::abs(growth->exponent - 1.5) < 1e-12);  // a few roundings of logarithms
+  QVERIFY(std::abs(growth->power - 1.5) < 1e-12);  // a few roundings of logarithms
   QCOMPARE(growth->from, 1000.0);
   QCOMPARE(growth->to, 2e5);
   QCOMPARE(growth->sizes, 4);
   // Computed by hand: (ln n, ln ms) = (0, 0), (1, 2), (2, 1) has the slope 1/2.
   const double e = std::numbers::e;
-  QVERIFY(std::abs(growth_of(std::vector<SizedTime>{{1, 1}, {e, e * e}, {e * e, e}}, 0)->exponent - 0.5) < 1e-12);
+  QVERIFY(std::abs(growth_of(std::vector<SizedTime>{{1, 1}, {e, e * e}, {e * e, e}}, 0)->power - 0.5) < 1e-12);
 }
 
 void RampTest::growth_needs_three_sizes() {
