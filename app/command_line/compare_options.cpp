@@ -132,7 +132,7 @@ report::Case case_of(const std::string& file, const CompareArguments& arguments)
   const Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
-  const RegionFrame frame = frame_of(arguments.softness, *opened.mesh);
+  const RegionAxes frame = frame_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()),
           "mesh from a file",
           opened.mesh,
@@ -150,7 +150,7 @@ void refuse_pins(const CompareArguments& arguments) {
 
 std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments) {
   for (report::Case& one : cases) {
-    one.softness.frame = frame_of(arguments.softness, *one.mesh);
+    one.softness.axes = frame_of(arguments.softness, *one.mesh);
   }
   return cases;
 }

@@ -42,8 +42,8 @@ EnergyKind energy_of(const CLI::Option* option) {
   return energy_kind_of(*name);
 }
 
-RegionFrame frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
-  const auto text = value_of(arguments.frame);
+RegionAxes frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
+  const auto text = value_of(arguments.axes);
   if (!text || *text == "axes") {
     return {};
   }
@@ -53,12 +53,12 @@ RegionFrame frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
       std::cerr << "chainmail: --frame object: the object has equal spreads, so not all of its principal axes exist; "
                    "the axes nearest to those of the world are used. Give a rotation, such as z:45, instead\n";
     }
-    return principal.frame;
+    return principal.axes;
   }
   try {
-    RegionFrame frame(FrameKind::given, parse_rotation("--frame", *text).vector());
-    check(frame, mesh);
-    return frame;
+    RegionAxes axes(AxesKind::given, parse_rotation("--frame", *text).vector());
+    check(axes, mesh);
+    return axes;
   } catch (const Error& error) {
     const bool is_rotation = text->find(':') != std::string::npos;
     throw is_rotation ? Error("--frame", error.problem(), error.remedy())
@@ -73,10 +73,9 @@ SoftnessArguments add_softness(CLI::App& app) {
     arguments.numbers[i] = add_parameter(app, *softness_numbers[i].parameter);
   }
   arguments.energy = add_energy(app);
-  arguments.frame =
-      add_value(app, "--frame", "axes|object|AXIS:DEGREES",
-                "valid regions lie along the axes of the world, the principal axes of the object at rest, "
-                "or axes turned by a rotation; AXIS is x, y, z or X,Y,Z [axes]");
+  arguments.axes = add_value(app, "--frame", "axes|object|AXIS:DEGREES",
+                             "valid regions lie along the axes of the world, the principal axes of the object at rest, "
+                             "or axes turned by a rotation; AXIS is x, y, z or X,Y,Z [axes]");
   return arguments;
 }
 

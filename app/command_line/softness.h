@@ -15,15 +15,15 @@ EnergyKind energy_of(const CLI::Option* option);
 /// The options for the softness of all links, for the kind of energy, and for the axes of valid regions.
 struct SoftnessArguments {
   std::array<CLI::Option*, softness_numbers.size()> numbers{};
-  CLI::Option *energy = nullptr, *frame = nullptr;
+  CLI::Option *energy = nullptr, *axes = nullptr;
 };
 SoftnessArguments add_softness(CLI::App& app);
 /// Returns the softness of all links: the numbers of `usual`, where options override them. Throws Error, with the
 /// option, if a value is out of range or the kind of energy is not known.
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual = {});
 
-/// Returns the frame of the option for this mesh; that of the world without the option. Throws Error, with the option,
+/// Returns the axes of the option for this mesh; those of the world without the option. Throws Error, with the option,
 /// if the value is not one or does not fit the mesh. Warns, on standard error, if principal axes do not exist.
-RegionFrame frame_of(const SoftnessArguments& arguments, const Mesh& mesh);
+RegionAxes frame_of(const SoftnessArguments& arguments, const Mesh& mesh);
 
 }  // namespace chainmail::command_line

@@ -26,15 +26,15 @@ void put_positions(py::dict& state, const chainmail::Snapshot& positions, const 
   state["from_rest"] = runs.from_rest;
   state["runs"] = bytes_of(runs.runs);
   state["held"] = bytes_of(runs.held);
-  state["frame"] = tuple_of_point(runs.frame.rotation());
+  state["frame"] = tuple_of_point(runs.axes.rotation());
 }
 
 chainmail::Snapshot positions_from(const StateFields& state, const chainmail::Mesh& mesh,
                                    chainmail::Precision precision) {
-  const RegionFrame frame(FrameKind::given, point_from(state, "frame"));
+  const RegionAxes frame(AxesKind::given, point_from(state, "frame"));
   check(frame, mesh);
   return chainmail::snapshot_of(
-      {state.get<bool>("from_rest"), state.ids("runs"), state.reals("held"), frame.is_turned() ? frame : RegionFrame()},
+      {state.get<bool>("from_rest"), state.ids("runs"), state.reals("held"), frame.is_turned() ? frame : RegionAxes()},
       mesh, precision);
 }
 
@@ -51,8 +51,8 @@ void put_softness(py::dict& state, const Softness& softness) {
   state["own_links"] = bytes_of(links);
   state["own_softness"] = bytes_of(numbers);
   state["energy"] = word_for(api::energy_of(softness.energy));
-  state["axes"] = frame_kinds[std::size_t(softness.frame.kind())];
-  state["turned_by"] = tuple_of_point(softness.frame.rotation());
+  state["axes"] = axes_kinds[std::size_t(softness.axes.kind())];
+  state["turned_by"] = tuple_of_point(softness.axes.rotation());
 }
 
 OwnSoftness own_softness_from(const StateFields& state, const chainmail::Mesh& mesh) {
@@ -74,11 +74,11 @@ OwnSoftness own_softness_from(const StateFields& state, const chainmail::Mesh& m
 }
 
 Softness whole_softness_from(const StateFields& state, const chainmail::Mesh& mesh) {
-  const std::vector<std::string_view> kinds(frame_kinds.begin(), frame_kinds.end());
-  const auto kind = FrameKind(word_of("axes", state.get<std::string>("axes"), kinds));
+  const std::vector<std::string_view> kinds(axes_kinds.begin(), axes_kinds.end());
+  const auto kind = AxesKind(word_of("axes", state.get<std::string>("axes"), kinds));
   return {api::softness_of(state.get<api::LinkSoftness>("softness")), own_softness_from(state, mesh),
           api::energy_of(energy_of(state.get<std::string>("energy"))),
-          kind == FrameKind::axes ? RegionFrame() : RegionFrame(kind, point_from(state, "turned_by"))};
+          kind == AxesKind::axes ? RegionAxes() : RegionAxes(kind, point_from(state, "turned_by"))};
 }
 
 py::object body_parts(Object& object) {
@@ -88,7 +88,7 @@ py::object body_parts(Object& object) {
   py::dict state;
   state["mesh"] = shared_mesh(body.mesh());
   state["precision"] = word_for(body.precision());
-  state["works_in_frame"] = from.works_in_frame;
+  state["works_in_axes"] = from.works_in_axes;
   state["stores_displacements"] = from.stores_displacements;
   put_softness(state, *from.softness);
   state["elasticity"] = body.elasticity();
@@ -106,7 +106,7 @@ api::BodyState body_state_from(const StateFields& state, const chainmail::Mesh& 
   const auto [since_rest, since_check] = state.get<std::pair<double, double>>("reach");
   const auto precision = api::precision_of(precision_of(state.get<std::string>("precision")));
   return {.precision = precision,
-          .works_in_frame = state.get<bool>("works_in_frame"),
+          .works_in_axes = state.get<bool>("works_in_axes"),
           .stores_displacements = state.get<bool>("stores_displacements"),
           .softness = std::make_shared<const Softness>(whole_softness_from(state, mesh)),
           .elastic = {{elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations},

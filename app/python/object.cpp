@@ -31,9 +31,9 @@ void Object::check_no_views(std::string_view before) const {
 void Object::check_views(std::string_view method) {
   const chainmail::Body& impl = Access::body(body());
   const AlgorithmInfo& next = info(api::algorithm_of(method));
-  const bool works_in_frame = next.family() == Family::chainmail;
+  const bool works_in_axes = next.family() == Family::chainmail;
   if (next.from_rest != impl.stores_displacements() ||
-      (works_in_frame != impl.works_in_frame() && impl.softness().frame.is_turned())) {
+      (works_in_axes != impl.works_in_axes() && impl.softness().axes.is_turned())) {
     check_no_views("change the method");
   }
 }

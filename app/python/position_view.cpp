@@ -46,7 +46,7 @@ void copy_stored(const View& view, const chainmail::Mesh& mesh, double* out) {
 void copy_into(api::Body& body, std::span<double> out) {
   const py::gil_scoped_release unlocked;
   chainmail::Body& impl = Access::impl(body).body();
-  if (impl.stores_displacements() || impl.frame().is_turned()) {
+  if (impl.stores_displacements() || impl.region_axes().is_turned()) {
     body.copy_positions(out);
   } else {
     impl.with_view([&](const auto& view) { copy_stored(view, impl.mesh(), out.data()); });
@@ -77,7 +77,7 @@ void check_view(const chainmail::Body& body) {
     throw Error("view", "the method of the body stores displacements from rest, not positions",
                 "use positions(), which copies");
   }
-  if (body.frame().is_turned()) {
+  if (body.region_axes().is_turned()) {
     throw Error("view", "the body stores coordinates along turned axes", "use positions(), which copies");
   }
 }

@@ -213,21 +213,21 @@ EnergyKind Body::energy() const { return energy_of(impl_->body().softness().ener
 void Body::set_frame(const Rotation& rotation) {
   guarded([&] { inner::check(rotation_of(rotation), impl_->body().mesh()); });
   Softness next = impl_->body().softness();
-  next.frame = RegionFrame(FrameKind::given, rotation_of(rotation).vector());
-  guarded([&] { inner::check(next.frame, impl_->body().mesh()); });
+  next.axes = RegionAxes(AxesKind::given, rotation_of(rotation).vector());
+  guarded([&] { inner::check(next.axes, impl_->body().mesh()); });
   impl_->set_softness(next);
 }
 
 bool Body::set_frame_of_object() {
   const PrincipalAxes principal = principal_axes(impl_->body().mesh());
   Softness next = impl_->body().softness();
-  next.frame = principal.frame;
+  next.axes = principal.axes;
   impl_->set_softness(next);
   return principal.are_unique;
 }
 
 Rotation Body::frame() const {
-  const Point& turn = impl_->body().softness().frame.rotation();
+  const Point& turn = impl_->body().softness().axes.rotation();
   const double angle = turn.norm();
   return angle > 0 ? Rotation{vector_of(turn / angle), angle * 180 / std::numbers::pi} : Rotation();
 }

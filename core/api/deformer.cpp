@@ -31,7 +31,7 @@ struct Deformer::Impl {
   void set_algorithm(Algorithm next) {
     solver().set_algorithm(next);
     // A copied body may store positions the other way.
-    solver().body().work_in_frame(info(next).family() == Family::chainmail);
+    solver().body().work_in_axes(info(next).family() == Family::chainmail);
     solver().body().store_displacements(info(next).from_rest);
     algorithm = next;
   }

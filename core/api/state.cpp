@@ -33,7 +33,7 @@ BodyState state_of(const Body& body) {
   const auto& impl = Access::impl(body);
   inner::Body& from = impl.solver->body();
   return {.precision = from.precision(),
-          .works_in_frame = from.works_in_frame(),
+          .works_in_axes = from.works_in_axes(),
           .stores_displacements = from.stores_displacements(),
           .softness = from.shared_softness(),
           .elastic = from.elastic(),
@@ -50,7 +50,7 @@ Body body_of(const Mesh& mesh, const BodyState& state) {
                                                                           : Precision::double_precision);
   auto& impl = Access::impl(result);
   inner::Body& body = impl.body();
-  body.work_in_frame(state.works_in_frame);
+  body.work_in_axes(state.works_in_axes);
   body.store_displacements(state.stores_displacements);
   body.set_softness(state.softness);
   body.set_elastic(state.elastic);
@@ -72,14 +72,14 @@ void check(const BodyState& state, const inner::Mesh& mesh) {
       inner::check_links(mesh, std::span(&link, 1));
       inner::check(softness);
     }
-    inner::check(state.softness->frame, mesh);
+    inner::check(state.softness->axes, mesh);
     inner::check(state.elastic);
     inner::check_links(mesh, state.cuts);
     for (const auto* elements : {&state.pins, &state.handle}) {
       check_ids(mesh, *elements);
     }
     inner::check(state.positions, mesh, state.precision);
-    inner::check(state.positions.frame, mesh);
+    inner::check(state.positions.axes, mesh);
   });
   check_reach(state.reach);
   if (std::ranges::adjacent_find(state.handle, std::greater_equal()) != state.handle.end()) {

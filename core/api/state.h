@@ -14,7 +14,7 @@ namespace chainmail::api {
 /// A body as values, without its mesh.
 struct BodyState {
   inner::Precision precision = inner::Precision::double_precision;
-  bool works_in_frame = true;
+  bool works_in_axes = true;
   bool stores_displacements = false;
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   ElasticOptions elastic = {};

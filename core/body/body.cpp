@@ -39,26 +39,26 @@ double shift_of(const View& body, bool from_rest, ElementId element, int k) {
   return from_rest == body.from_rest ? -0.0 : from_rest ? rest : -rest;
 }
 
-/// Returns the coordinates of a block, which are in another frame, in the frame of a body.
-std::vector<double> turned(const Mesh& mesh, std::vector<double> held, const RegionFrame& from, const RegionFrame& to) {
+/// Returns the coordinates of a block, which are along other axes, along the axes of a body.
+std::vector<double> turned(const Mesh& mesh, std::vector<double> held, const RegionAxes& from, const RegionAxes& to) {
   for (std::size_t at = 0; at < held.size(); at += std::size_t(mesh.space_dimension)) {
     turn_into_world(mesh, from, held.data() + at);
-    turn_into_frame(mesh, to, held.data() + at);
+    turn_into_axes(mesh, to, held.data() + at);
   }
   return held;
 }
 
-AxisTurn turn_into_world_of(const Mesh& mesh, const RegionFrame& frame) {
+AxisTurn turn_into_world_of(const Mesh& mesh, const RegionAxes& axes) {
   AxisTurn turn{mesh.space_dimension, {}};
   for (std::size_t row = 0; row < std::size_t(mesh.space_dimension); ++row) {
     for (std::size_t column = 0; column < std::size_t(mesh.space_dimension); ++column) {
-      turn.rows[row][column] = frame.axes()(mesh.axes[row], mesh.axes[column]);
+      turn.rows[row][column] = axes.matrix()(mesh.axes[row], mesh.axes[column]);
     }
   }
   return turn;
 }
 
-/// Returns the displacements from rest, in the coordinates of the body's frame.
+/// Returns the displacements from rest, in the coordinates of the body's axes.
 constexpr auto displacements_in_view = []<class View>(const View& view) {
   std::vector<double> result(view.mesh->rest.size());
   for (std::size_t at = 0; at < result.size(); ++at) {
@@ -145,8 +145,8 @@ void Body::set_pins(std::vector<ElementId> pins) {
 
 void Body::set_softness(std::shared_ptr<const Softness> softness) {
   const SoftnessChange change = softness_ ? change_of(*softness_, *softness) : SoftnessChange{true, true};
-  if (works_in_frame_ && softness->frame.rotation() != frame_.rotation()) {
-    store_in(softness->frame, *softness);
+  if (works_in_axes_ && softness->axes.rotation() != region_axes_.rotation()) {
+    store_in(softness->axes, *softness);
   } else if (change.regions) {
     std::visit([&](auto& typed) { typed.regions.set(*stored_mesh_, *softness, stores_displacements_); }, typed_);
   }
@@ -173,22 +173,22 @@ PositionView Body::view_of_stored(const Mesh& from_rest, const AxisTurn* turn) c
       typed_);
 }
 
-void Body::work_in_frame(bool works) {
-  const RegionFrame frame = works ? softness_->frame : RegionFrame();
-  if (frame.rotation() != frame_.rotation()) {
-    store_in(frame, *softness_);
+void Body::work_in_axes(bool works) {
+  const RegionAxes axes = works ? softness_->axes : RegionAxes();
+  if (axes.rotation() != region_axes_.rotation()) {
+    store_in(axes, *softness_);
   }
-  works_in_frame_ = works;
+  works_in_axes_ = works;
 }
 
-void Body::store_in(const RegionFrame& frame, const Softness& softness) {
-  const MeshPointer mesh = in_frame(mesh_, frame);
-  const AxisTurn turn = turn_into_world_of(*mesh_, frame);
-  const std::vector<double> away = turned(*mesh_, with_view(displacements_in_view), frame_, frame);
+void Body::store_in(const RegionAxes& axes, const Softness& softness) {
+  const MeshPointer mesh = in_axes(mesh_, axes);
+  const AxisTurn turn = turn_into_world_of(*mesh_, axes);
+  const std::vector<double> away = turned(*mesh_, with_view(displacements_in_view), region_axes_, axes);
   std::visit([&](auto& typed) { typed.regions.set(*mesh, softness, stores_displacements_); }, typed_);
   // Nothing runs out of memory from here on.
   stored_mesh_ = mesh;
-  frame_ = frame.is_turned() ? RegionFrame(FrameKind::given, frame.rotation()) : RegionFrame();
+  region_axes_ = axes.is_turned() ? RegionAxes(AxesKind::given, axes.rotation()) : RegionAxes();
   turn_ = turn;
   with_view([&]<class View>(const View& view) {
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
@@ -204,7 +204,7 @@ void Body::store_in(const RegionFrame& frame, const Softness& softness) {
 
 template <class Out>
 void Body::copy(ElementId first, std::span<Out> out) const {
-  if (frame_.is_turned()) {
+  if (region_axes_.is_turned()) {
     const auto view = positions();
     const auto dimension = std::size_t(mesh_->space_dimension);
     for (std::size_t at = 0; at < out.size(); ++at) {
@@ -231,8 +231,8 @@ void Body::copy_positions(ElementId first, std::span<double> out) const { copy(f
 
 void Body::set_positions(std::span<const double> in) {
   const std::vector<double> stored =
-      frame_.is_turned() ? turned(*mesh_, {in.begin(), in.end()}, {}, frame_) : std::vector<double>();
-  in = frame_.is_turned() ? std::span<const double>(stored) : in;
+      region_axes_.is_turned() ? turned(*mesh_, {in.begin(), in.end()}, {}, region_axes_) : std::vector<double>();
+  in = region_axes_.is_turned() ? std::span<const double>(stored) : in;
   with_view([in]<class View>(const View& view) {
     for (std::size_t i = 0; i < in.size(); ++i) {
       view.set_position(static_cast<ElementId>(i / View::Dimension), int(i % View::Dimension), in[i]);
@@ -259,7 +259,7 @@ Snapshot Body::snapshot(const ElementBlocks& away) const {
 void Body::update(Snapshot& snapshot, const ElementBlocks& blocks, const ElementBlocks& away) const {
   snapshot.blocks.resize(away.block_count());
   snapshot.from_rest = stores_displacements_;
-  snapshot.frame = frame_;
+  snapshot.axes = region_axes_;
   std::visit(
       [&]<class Scalar, int Dimension>(const Typed<Scalar, Dimension>& typed) {
         blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
@@ -281,10 +281,10 @@ void Body::restore(const Snapshot& snapshot, const ElementBlocks& blocks) {
   with_view([&](const auto& view) {
     blocks.for_each_block([&](std::size_t block, ElementId first, ElementId end) {
       const Snapshot::Block held = snapshot.blocks.empty() ? nullptr : snapshot.blocks[block];
-      if (held != nullptr && snapshot.frame.rotation() == frame_.rotation()) {
+      if (held != nullptr && snapshot.axes.rotation() == region_axes_.rotation()) {
         restore_block(view, *held, first, end, snapshot.from_rest);
       } else if (held != nullptr) {
-        restore_block(view, turned(*mesh_, *held, snapshot.frame, frame_), first, end, snapshot.from_rest);
+        restore_block(view, turned(*mesh_, *held, snapshot.axes, region_axes_), first, end, snapshot.from_rest);
       } else {
         put_to_rest(view, first, end);
       }

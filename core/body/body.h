@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "body/positions.h"
-#include "body/region_frame.h"
+#include "body/region_axes.h"
 #include "body/region_table.h"
 #include "body/snapshot.h"
 #include "body/softness.h"
@@ -51,7 +51,7 @@ class BodyView;
 
 /// The state of one object: mesh, positions, cuts, pins and softness. Each part that can change has a revision.
 ///
-/// Positions are in one precision and as many axes as the space has. They may be stored in the coordinates of a frame:
+/// Positions are in one precision and as many axes as the space has. They may be stored along turned axes:
 /// views give access to these, everything else speaks of the world. Bulk functions work on any body; a method that
 /// needs typed access asks for a view.
 class Body {
@@ -85,17 +85,18 @@ class Body {
 
   PositionView positions() const;
 
-  /// The frame whose coordinates are stored: that of the softness, or none while the body does not work in it.
-  const RegionFrame& frame() const { return frame_; }
+  /// The axes whose coordinates are stored: those of the softness, or those of the world while the body does not work
+  /// in them.
+  const RegionAxes& region_axes() const { return region_axes_; }
   /// The mesh with its rest positions in these coordinates: mesh() itself if nothing is turned. The views of methods
   /// have it, and so do the valid regions.
   const MeshPointer& stored_mesh() const { return stored_mesh_; }
   /// The positions in these coordinates.
   PositionView stored_positions() const;
-  /// Works in the frame of the softness, as the ChainMail family does, or along the axes of the world. This rounds if
-  /// the frame is turned, except at rest.
-  void work_in_frame(bool works);
-  bool works_in_frame() const { return works_in_frame_; }
+  /// Works along the axes of the softness, as the ChainMail family does, or along the axes of the world. This rounds if
+  /// the axes are turned, except at rest.
+  void work_in_axes(bool works);
+  bool works_in_axes() const { return works_in_axes_; }
 
   /// Writes the coordinates of the elements from `first` on into `out`, space_dimension per element (mesh units).
   void copy_positions(ElementId first, std::span<float> out) const;
@@ -174,15 +175,15 @@ class Body {
   /// Call this after positions were set.
   void note_positions_set(bool at_rest);
   PositionView view_of_stored(const Mesh& from_rest, const AxisTurn* turn) const;
-  const AxisTurn* turn() const { return frame_.is_turned() ? &turn_ : nullptr; }
-  /// Stores the positions in the coordinates of a frame, with the regions of a softness in it.
-  void store_in(const RegionFrame& frame, const Softness& softness);
+  const AxisTurn* turn() const { return region_axes_.is_turned() ? &turn_ : nullptr; }
+  /// Stores the positions in the coordinates of some axes, with the regions of a softness along them.
+  void store_in(const RegionAxes& axes, const Softness& softness);
 
   MeshPointer mesh_;
   MeshPointer stored_mesh_;
-  RegionFrame frame_;
-  AxisTurn turn_;  // from the frame into the world
-  bool works_in_frame_ = true;
+  RegionAxes region_axes_;
+  AxisTurn turn_;  // from the axes into the world
+  bool works_in_axes_ = true;
   Precision precision_;
   Cuts cuts_;
   std::vector<ElementId> pins_;  // ascending

@@ -33,7 +33,7 @@ double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x,
 }
 
 /// Typed access to a body for the loops of a pass, for one scalar and one space dimension. It is a handful of pointers:
-/// made for a pass, not kept. All coordinates are those of the body's frame.
+/// made for a pass, not kept. All coordinates are those of the body's axes.
 template <class Scalar_, int Dimension_>
 class BodyView {
  private:

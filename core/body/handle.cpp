@@ -143,13 +143,13 @@ void Handle::begin() {
   grab_ = has_one() ? 0 : new_grab();
 }
 
-Handle Handle::in_frame(const RegionFrame& frame) const {
+Handle Handle::in_axes(const RegionAxes& axes) const {
   Handle result = *this;
   for (Point& position : result.positions_) {
-    position = frame.into_frame(position);
+    position = axes.into_axes(position);
   }
-  result.pivot_ = frame.into_frame(pivot_);
-  result.pose_ = into_frame(frame, pose_);
+  result.pivot_ = axes.into_axes(pivot_);
+  result.pose_ = into_axes(axes, pose_);
   return result;
 }
 

@@ -30,12 +30,12 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
-/// Return a pose in the coordinates of a frame, and back.
-inline Pose into_frame(const RegionFrame& frame, const Pose& pose) {
-  return {frame.into_frame(pose.pivot), frame.into_frame(pose.rotation)};
+/// Return a pose in the coordinates of turned axes, and back.
+inline Pose into_axes(const RegionAxes& axes, const Pose& pose) {
+  return {axes.into_axes(pose.pivot), axes.into_axes(pose.rotation)};
 }
-inline Pose into_world(const RegionFrame& frame, const Pose& pose) {
-  return {frame.into_world(pose.pivot), frame.into_world(pose.rotation)};
+inline Pose into_world(const RegionAxes& axes, const Pose& pose) {
+  return {axes.into_world(pose.pivot), axes.into_world(pose.rotation)};
 }
 
 /// A rigid motion of a handle from where it was grabbed. It displaces a point at `arm` from the pivot by
@@ -100,8 +100,8 @@ class Handle {
   /// Returns the target of element number i for a motion (mesh units). Without a motion, this is exactly where it was
   /// grabbed. A handle of one element goes to the pivot of the pose instead, which needs no difference.
   Point target(std::size_t i, const RigidMotion& motion) const { return positions_[i] + motion.of(arm(i)); }
-  /// Returns the same handle in the coordinates of a frame.
-  Handle in_frame(const RegionFrame& frame) const;
+  /// Returns the same handle in the coordinates of turned axes.
+  Handle in_axes(const RegionAxes& axes) const;
 
  private:
   void begin();

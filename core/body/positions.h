@@ -50,7 +50,7 @@ Position<Scalar, Dimension> clamped(const Position<Scalar, Dimension>& position,
   return result;
 }
 
-/// Turns vectors from a frame into the world, on the axes that exist.
+/// Turns vectors from turned axes into the world, on the axes that exist.
 struct AxisTurn {
   int dimension = 0;
   std::array<std::array<double, 3>, 3> rows{};  // row k gives axis k of the world
@@ -69,7 +69,7 @@ struct AxisTurn {
 class PositionView {
  public:
   /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh. If `turn` is given,
-  /// what they hold is in the coordinates of a frame.
+  /// what they hold is along turned axes.
   PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr,
                const AxisTurn* turn = nullptr)
       : first_(static_cast<const std::byte*>(first)),

@@ -50,18 +50,18 @@ Region<Scalar, Dimension> valid_region(const Mesh& mesh, ElementId from, Element
   return valid_region<Scalar, Dimension>(rest_vector, softness, about_rest_vector);
 }
 
-/// The same along the axes of a frame, for a mesh whose coordinates are those of the world.
+/// The same along turned axes, for a mesh whose coordinates are those of the world.
 template <class Scalar, int Dimension>
-Region<Scalar, Dimension> valid_region(const Mesh& mesh, const RegionFrame& frame, ElementId from, ElementId to,
+Region<Scalar, Dimension> valid_region(const Mesh& mesh, const RegionAxes& axes, ElementId from, ElementId to,
                                        const LinkSoftness& softness) {
-  if (!frame.is_turned()) {
+  if (!axes.is_turned()) {
     return valid_region<Scalar, Dimension>(mesh, from, to, softness);
   }
   double rest_vector[Dimension];
   for (int k = 0; k < Dimension; ++k) {
     rest_vector[k] = mesh.rest[std::size_t{to} * Dimension + k] - mesh.rest[std::size_t{from} * Dimension + k];
   }
-  turn_into_frame(mesh, frame, rest_vector);
+  turn_into_axes(mesh, axes, rest_vector);
   return valid_region<Scalar, Dimension>(rest_vector, softness);
 }
 

@@ -69,14 +69,14 @@ bool Snapshot::operator==(const Snapshot& other) const {
   if (is_at_rest() && other.is_at_rest()) {
     return from_rest == other.from_rest;
   }
-  return from_rest == other.from_rest && frame.rotation() == other.frame.rotation() &&
+  return from_rest == other.from_rest && axes.rotation() == other.axes.rotation() &&
          std::ranges::equal(blocks, other.blocks, [](const Block& one, const Block& two) {
            return one == two || (one != nullptr && two != nullptr && *one == *two);
          });
 }
 
 PositionRuns runs_of(const Snapshot& snapshot, const Mesh& mesh) {
-  PositionRuns result{snapshot.from_rest, {}, {}, snapshot.frame};
+  PositionRuns result{snapshot.from_rest, {}, {}, snapshot.axes};
   snapshot.away(mesh).for_each_run([&](ElementId first, ElementId end) {
     result.runs.insert(result.runs.end(), {first, end});
   });
@@ -102,8 +102,8 @@ Snapshot snapshot_of(const PositionRuns& positions, const Mesh& mesh, Precision 
         const auto rest = mesh.rest.begin() + std::ptrdiff_t(first * dimension);
         block = positions.from_rest ? std::make_shared<std::vector<double>>(count)
                                     : std::make_shared<std::vector<double>>(rest, rest + std::ptrdiff_t(count));
-        for (std::size_t at = 0; at < count && positions.frame.is_turned(); at += dimension) {
-          turn_into_frame(mesh, positions.frame, block->data() + at);
+        for (std::size_t at = 0; at < count && positions.axes.is_turned(); at += dimension) {
+          turn_into_axes(mesh, positions.axes, block->data() + at);
         }
       }
       std::transform(held, held + std::ptrdiff_t(dimension), block->begin() + std::ptrdiff_t((e - first) * dimension),
@@ -112,7 +112,7 @@ Snapshot snapshot_of(const PositionRuns& positions, const Mesh& mesh, Precision 
                      });
     }
   }
-  return {positions.from_rest, {blocks.begin(), blocks.end()}, positions.frame};
+  return {positions.from_rest, {blocks.begin(), blocks.end()}, positions.axes};
 }
 
 void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision) {

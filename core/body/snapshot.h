@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body/positions.h"
-#include "body/region_frame.h"
+#include "body/region_axes.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 
@@ -25,8 +25,8 @@ struct Snapshot {
   bool from_rest = false;
   /// One for each block of the mesh; or none if all elements are at rest.
   std::vector<Block> blocks;
-  /// The frame whose coordinates they are.
-  RegionFrame frame = {};
+  /// The axes whose coordinates they are.
+  RegionAxes axes = {};
 
   bool is_at_rest() const;
   /// Returns the blocks with an element that may be away from rest.
@@ -43,8 +43,8 @@ struct PositionRuns {
   std::vector<ElementId> runs;
   /// space_dimension coordinates for each element of the runs.
   std::vector<double> held;
-  /// The frame whose coordinates they are.
-  RegionFrame frame = {};
+  /// The axes whose coordinates they are.
+  RegionAxes axes = {};
 
   bool operator==(const PositionRuns&) const = default;
 };

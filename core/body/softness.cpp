@@ -160,7 +160,7 @@ void set_energy(Softness& softness, EnergyKind kind) {
 }
 
 Softness kept_for(const Mesh& mesh, const Softness& softness) {
-  return {softness.global, {}, softness.energy, frame_for(mesh, softness.frame)};
+  return {softness.global, {}, softness.energy, axes_for(mesh, softness.axes)};
 }
 
 bool has_global_regions(const Softness& softness) {
@@ -169,7 +169,7 @@ bool has_global_regions(const Softness& softness) {
 }
 
 SoftnessChange change_of(const Softness& before, const Softness& after) {
-  SoftnessChange change{.regions = before.frame.rotation() != after.frame.rotation(),
+  SoftnessChange change{.regions = before.axes.rotation() != after.axes.rotation(),
                         .energy = before.energy != after.energy};
   add_change(change, before.global, after.global);
   for (const auto& [link, own] : before.links) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "body/energy_kind.h"
-#include "body/region_frame.h"
+#include "body/region_axes.h"
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
 
@@ -163,7 +163,7 @@ struct Softness {
   LinkSoftness global;
   OwnSoftness links;
   EnergyKind energy = standard_energy;
-  RegionFrame frame = {};
+  RegionAxes axes = {};
 
   const LinkSoftness& of(LinkId link) const {
     const LinkSoftness* own = links.find(link);

@@ -18,7 +18,7 @@ class CarriedPositions {
  public:
   CarriedPositions(const Split& split, const Snapshot& positions, Precision precision)
       : split_(split),
-        after_mesh_(in_frame(split.after, positions.frame)),
+        after_mesh_(in_axes(split.after, positions.axes)),
         after_(*after_mesh_),
         old_(split.before->element_count()),
         dimension_(std::size_t(after_.space_dimension)),
@@ -48,7 +48,7 @@ class CarriedPositions {
   Snapshot::Block block(std::size_t number) const;
 
   const Split& split_;
-  MeshPointer after_mesh_;  // in the frame of the positions
+  MeshPointer after_mesh_;  // in the axes of the positions
   const Mesh& after_;
   ElementId old_;
   std::size_t dimension_;
@@ -110,7 +110,7 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
   if (softness->links.empty()) {
     return softness;
   }
-  Softness result{softness->global, {}, softness->energy, softness->frame};
+  Softness result{softness->global, {}, softness->energy, softness->axes};
   for (LinkId link = 0; link < split.parents.size(); ++link) {
     LinkId one = split.parents[link], other = one;
     if (one == Split::none) {

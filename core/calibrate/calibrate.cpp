@@ -118,7 +118,7 @@ class Bench {
   /// Returns the residuals of a softness and a number of sweeps on some drags.
   std::vector<Residual> residuals(const std::vector<ReferenceDrag>& drags, const LinkSoftness& softness, int sweeps) {
     std::vector<Residual> residuals;
-    object_.softness = {softness, {}, energy_, object_.softness.frame};
+    object_.softness = {softness, {}, energy_, object_.softness.axes};
     const double done = std::min(1.0, double(evaluations_) / wanted_);
     for (const ReferenceDrag& drag : drags) {
       runner_.run(at_equilibrium_ ? in_one_move(drag.moves) : drag.moves, {sweeps, at_equilibrium_},
@@ -159,7 +159,7 @@ class Bench {
     Simulation& simulation = *dragged_[i];
     const double done = std::min(1.0, double(evaluations_) / wanted_);
     simulation.set_progress(progress_.part(done, done));
-    simulation.apply(commands::SetSoftness{Softness{softness, {}, energy_, object_.softness.frame}});
+    simulation.apply(commands::SetSoftness{Softness{softness, {}, energy_, object_.softness.axes}});
     simulation.apply(commands::Drag{drags_.fitted[i].target});
     simulation.apply(commands::Relax{equilibrium_iterations, 1, RelaxationScheme::equilibrium, smooth_residual});
     return residual_of(

@@ -75,19 +75,19 @@ struct RecordedBody {
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
     const Softness& softness = *pass.conditions->softness;
     const auto region =
-        valid_region<float, Dimension>(*mesh, softness.frame, sponsor, element, softness.of(mesh->entry_link[entry]));
-    if (softness.frame.is_turned()) {
-      const auto own = in_frame(element), about = in_frame(sponsor);
+        valid_region<float, Dimension>(*mesh, softness.axes, sponsor, element, softness.of(mesh->entry_link[entry]));
+    if (softness.axes.is_turned()) {
+      const auto own = in_axes(element), about = in_axes(sponsor);
       return candidate_violation(*mesh, element, own.data(), sponsor, about.data(), region);
     }
     return candidate_violation(*mesh, element, &positions[std::size_t{element} * Dimension], sponsor,
                                &positions[std::size_t{sponsor} * Dimension], region);
   }
-  /// Returns the position of an element in the coordinates of the frame, which the pass computed in.
-  std::array<float, Dimension> in_frame(ElementId element) const {
+  /// Returns the position of an element along the axes in which the pass computed in.
+  std::array<float, Dimension> in_axes(ElementId element) const {
     std::array<double, Dimension> own;
     std::copy_n(positions.begin() + std::ptrdiff_t(std::size_t{element} * Dimension), Dimension, own.begin());
-    turn_into_frame(*mesh, pass.conditions->softness->frame, own.data());
+    turn_into_axes(*mesh, pass.conditions->softness->axes, own.data());
     std::array<float, Dimension> result;
     std::copy(own.begin(), own.end(), result.begin());
     return result;

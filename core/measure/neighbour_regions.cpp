@@ -9,19 +9,19 @@ namespace chainmail {
 namespace {
 
 template <int Dimension>
-NeighbourRegion region_of(const Mesh& mesh, const RegionFrame& frame, const LinkSoftness& softness,
+NeighbourRegion region_of(const Mesh& mesh, const RegionAxes& axes, const LinkSoftness& softness,
                           const PositionView& position, ElementId about, ElementId neighbour) {
-  const auto region = valid_region<double, Dimension>(mesh, frame, about, neighbour, softness);
-  const Point sponsor = frame.into_frame(point_of(mesh, position, about));
+  const auto region = valid_region<double, Dimension>(mesh, axes, about, neighbour, softness);
+  const Point sponsor = axes.into_axes(point_of(mesh, position, about));
   const Point at = point_of(mesh, position, neighbour);
-  Point low = sponsor, high = sponsor, nearest = frame.into_frame(at);
+  Point low = sponsor, high = sponsor, nearest = axes.into_axes(at);
   for (int k = 0; k < Dimension; ++k) {
     const int axis = mesh.axes[std::size_t(k)];
     low[axis] += region.low[k];
     high[axis] += region.high[k];
     nearest[axis] = std::clamp(nearest[axis], low[axis], high[axis]);
   }
-  return {neighbour, 0, low, high, frame, at, frame.into_world(nearest)};
+  return {neighbour, 0, low, high, axes, at, axes.into_world(nearest)};
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::vector<NeighbourRegion> neighbour_regions(const Mesh& mesh, const Softness&
   for_each_neighbour(mesh, cuts, about, [&](ElementId neighbour, EntryId entry) {
     if (regions.size() < at_most) {
       const LinkId link = mesh.entry_link[entry];
-      regions.push_back(of_dimension(mesh, softness.frame, softness.of(link), position, about, neighbour));
+      regions.push_back(of_dimension(mesh, softness.axes, softness.of(link), position, about, neighbour));
       regions.back().link = link;
       regions.back().inside = link_violation(mesh, softness, position, link) <= counts_as_violated;
     }

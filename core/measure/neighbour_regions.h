@@ -14,11 +14,11 @@ namespace chainmail {
 struct NeighbourRegion {
   ElementId neighbour = 0;
   LinkId link = 0;
-  /// Lowest and highest corner of the valid region along the axes of the frame (mesh units). On axes that do not exist
+  /// Lowest and highest corner of the valid region along its axes (mesh units). On axes that do not exist
   /// both are the constant coordinate.
   Point low = Point::Zero(), high = Point::Zero();
-  /// The frame in whose coordinates the two corners are.
-  RegionFrame frame = {};
+  /// The axes in whose coordinates the two corners are.
+  RegionAxes axes = {};
   /// Position of the neighbour (mesh units).
   Point at = Point::Zero();
   /// Nearest point of the region; equal to the position if that is inside.
@@ -28,7 +28,7 @@ struct NeighbourRegion {
 
   /// Returns a corner in the world: at the high end of axis k if bit k of i is set.
   Point corner(int i) const {
-    return frame.into_world(
+    return axes.into_world(
         {(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]});
   }
 };

@@ -10,15 +10,15 @@ namespace chainmail {
 namespace {
 
 template <int Dimension>
-double excess(const Mesh& mesh, const LinkSoftness& softness, const RegionFrame& frame, const PositionView& position,
+double excess(const Mesh& mesh, const LinkSoftness& softness, const RegionAxes& axes, const PositionView& position,
               ElementId a, ElementId b) {
-  const auto region = valid_region<double, Dimension>(mesh, frame, a, b, softness);
+  const auto region = valid_region<double, Dimension>(mesh, axes, a, b, softness);
   double vector[Dimension];
   for (int k = 0; k < Dimension; ++k) {
     vector[k] = position.between(a, b, k);
   }
-  if (frame.is_turned()) {
-    turn_into_frame(mesh, frame, vector);
+  if (axes.is_turned()) {
+    turn_into_axes(mesh, axes, vector);
   }
   double square = 0;
   for (int k = 0; k < Dimension; ++k) {
@@ -72,10 +72,10 @@ double axial_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts
 double link_violation(const Mesh& mesh, const Softness& softness, const PositionView& position, LinkId link) {
   const auto [a, b] = mesh.links[link];
   const LinkSoftness& of_link = softness.of(link);
-  const RegionFrame& frame = softness.frame;
-  const double outside = mesh.space_dimension == 1   ? excess<1>(mesh, of_link, frame, position, a, b)
-                         : mesh.space_dimension == 2 ? excess<2>(mesh, of_link, frame, position, a, b)
-                                                     : excess<3>(mesh, of_link, frame, position, a, b);
+  const RegionAxes& axes = softness.axes;
+  const double outside = mesh.space_dimension == 1   ? excess<1>(mesh, of_link, axes, position, a, b)
+                         : mesh.space_dimension == 2 ? excess<2>(mesh, of_link, axes, position, a, b)
+                                                     : excess<3>(mesh, of_link, axes, position, a, b);
   if (outside == 0) {
     return 0;
   }

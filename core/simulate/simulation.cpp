@@ -341,7 +341,7 @@ void Simulation::carry_out(const commands::Release&) {
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness->global);
-  check(command.softness->frame, *mesh_);
+  check(command.softness->axes, *mesh_);
   for (const auto& [link, softness] : command.softness->links) {
     check_links(*mesh_, std::span(&link, 1));
     check(softness);
@@ -367,15 +367,15 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 /// Equal softness leaves all regions unchanged.
 void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
-    const RegionFrame before = body().frame();
+    const RegionAxes before = body().region_axes();
     solver_->body().set_softness(softness);
     note_frame(before);
   }
 }
 
 /// Another frame rounds all positions, also those at rest.
-void Simulation::note_frame(const RegionFrame& before) {
-  if (body().frame().rotation() != before.rotation()) {
+void Simulation::note_frame(const RegionAxes& before) {
+  if (body().region_axes().rotation() != before.rotation()) {
     note_rounding();
   }
 }
@@ -454,14 +454,14 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 }
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
-  const RegionFrame frame = body().frame();
+  const RegionAxes frame = body().region_axes();
   solver_->set_algorithm(command.algorithm);
   note_frame(frame);
   const Algorithm before = std::exchange(algorithm_, command.algorithm);
   if (before == algorithm_) {
     return;
   }
-  if (info(before).from_rest != info(algorithm_).from_rest && (!away_.empty() || body().frame().is_turned())) {
+  if (info(before).from_rest != info(algorithm_).from_rest && (!away_.empty() || body().region_axes().is_turned())) {
     note_rounding();  // by converting between displacements and positions
   }
   statistics_.algorithm = algorithm_;
@@ -630,7 +630,7 @@ Simulation::State Simulation::current_state() {
     last_kept_.blocks[block] = state.positions.blocks[block];
   });
   last_kept_.from_rest = state.positions.from_rest;
-  last_kept_.frame = state.positions.frame;
+  last_kept_.axes = state.positions.axes;
   unkept_.clear();
   return state;
 }
@@ -690,7 +690,8 @@ void Simulation::take_positions(const Snapshot& positions) {
   changed_.insert(unkept_);
   last_kept_ = positions;
   unkept_.clear();
-  if (positions.from_rest != info(algorithm_).from_rest || positions.frame.rotation() != body().frame().rotation()) {
+  if (positions.from_rest != info(algorithm_).from_rest ||
+      positions.axes.rotation() != body().region_axes().rotation()) {
     unkept_ = away_;  // the positions have been converted and rounded
   }
 }

@@ -15,10 +15,10 @@ Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
   store_for(algorithm_);
 }
 
-/// Stores positions as the algorithm needs them. Valid regions lie along the axes of their frame: so does the ChainMail
+/// Stores positions as the algorithm needs them. Valid regions lie along their own axes: so does the ChainMail
 /// family. All others have no such axes, or have their own.
 void Solver::store_for(const AlgorithmInfo& algorithm) {
-  body_.work_in_frame(algorithm.family() == Family::chainmail);
+  body_.work_in_axes(algorithm.family() == Family::chainmail);
   body_.store_displacements(algorithm.from_rest);
 }
 
@@ -81,7 +81,7 @@ void Solver::take_over(const SolverMemory& memory) {
 
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
   check_free(body_, handle.elements());
-  if (body_.frame().is_turned()) {
+  if (body_.region_axes().is_turned()) {
     return move_in_frame(handle, target, trace);
   }
   HandleMove move{handle, target};
@@ -92,12 +92,12 @@ PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
   return count;
 }
 
-/// The same in the coordinates of the body's frame. A target that is reached, and a pose that is kept, are not rounded.
+/// The same in the coordinates of the body's axes. A target that is reached, and a pose that is kept, are not rounded.
 PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace) {
-  const RegionFrame& frame = body_.frame();
-  const Handle turned = handle.in_frame(frame);
+  const RegionAxes& axes = body_.region_axes();
+  const Handle turned = handle.in_axes(axes);
   const ElementId first = handle.elements()[0];
-  Pose to = into_frame(frame, target);
+  Pose to = into_axes(axes, target);
   if (handle.has_one() && target.pivot == point_of(body_.mesh(), body_.positions(), first)) {
     to.pivot = point_of(*body_.stored_mesh(), body_.stored_positions(), first);
   }
@@ -105,7 +105,7 @@ PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace
   const PassCount count = run([&](Method& method) {
     return method.move(body_, move, {moved_, trace, threads_, progress_});
   });
-  handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(frame, move.pose));
+  handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(axes, move.pose));
   return count;
 }
 

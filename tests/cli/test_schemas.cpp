@@ -171,9 +171,9 @@ Session session_with_a_split() {
 Session turned_session() {
   Session session = session_on(made(MeshKind::tetra, {3, 3, 3}));
   Softness softness = *session.softness;
-  softness.frame = RegionFrame(FrameKind::object, {0.1, 0.2, 0.3});
+  softness.axes = RegionAxes(AxesKind::object, {0.1, 0.2, 0.3});
   session.softness = std::make_shared<const Softness>(softness);
-  session.panels[0].positions.frame = RegionFrame(FrameKind::given, softness.frame.rotation());
+  session.panels[0].positions.axes = RegionAxes(AxesKind::given, softness.axes.rotation());
   session.moves.insert(session.moves.begin(), commands::SetSoftness{session.softness});
   session.lesson.title = "A lesson";
   session.lesson.steps = {
@@ -273,7 +273,7 @@ void SchemasTest::add_sessions() {
 
 void SchemasTest::add_moves() {
   const SplitPointer split = split_square();
-  const Softness softness{{}, {{0, {}}}, EnergyKind::axial, RegionFrame(FrameKind::given, {0, 0, 1})};
+  const Softness softness{{}, {{0, {}}}, EnergyKind::axial, RegionAxes(AxesKind::given, {0, 0, 1})};
   commands::Drag turn{{1, 2, 0}};
   turn.relative = true;
   turn.rotation = {Point(0, 0, 1), 20};

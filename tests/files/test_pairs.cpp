@@ -31,7 +31,7 @@ struct Scene {
   std::vector<ElementId> pins;
   LinkSoftness global;
   std::map<Ends, LinkSoftness> own;
-  RegionFrame frame;
+  RegionAxes frame;
   std::vector<EnergyKind> energies{EnergyKind::isotropic};  // one after another
   std::vector<Algorithm> algorithms;                        // the last one moves
   std::vector<ElementId> handle{0};
@@ -226,7 +226,7 @@ std::vector<Feature> object_features() {
   const auto pin = [](Scene& s) { s.pins = {29, 12, 23}; };
   const auto soften_links = [](Scene& s) { s.own = {{{0, 1}, {1, 1, 0}}, {{7, 8}, {0.5, 1.5, 0.3}}}; };
   const auto soften = [](Scene& s) { s.global = {0.6, 1.4, 0.2}; };
-  const auto turn = [](Scene& s) { s.frame = {FrameKind::given, Point(0, 0, 20 * std::numbers::pi / 180)}; };
+  const auto turn = [](Scene& s) { s.frame = {AxesKind::given, Point(0, 0, 20 * std::numbers::pi / 180)}; };
   return {{"cut", cut, leave_cut_links_out},
           {"split", split, split_before},
           {"pin", pin, [](Scene& s) { std::ranges::reverse(s.pins); }},

@@ -105,17 +105,17 @@ void SessionTest::what_is_written_reads_back() {
 void SessionTest::a_frame_comes_back() {
   Session session = session_on(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}));
   QVERIFY(!QString::fromStdString(session_text(session)).contains(QStringLiteral("frame")));
-  const RegionFrame frame(FrameKind::object, {0.1, 1.0 / 3, -0.7});
+  const RegionAxes frame(AxesKind::object, {0.1, 1.0 / 3, -0.7});
   Softness softness = *session.softness;
-  softness.frame = frame;
+  softness.axes = frame;
   session.softness = std::make_shared<const Softness>(softness);
-  session.panels[0].positions.frame = RegionFrame(FrameKind::given, frame.rotation());
+  session.panels[0].positions.axes = RegionAxes(AxesKind::given, frame.rotation());
   session.moves.insert(session.moves.begin(), commands::SetSoftness{session.softness});
   const std::string text = session_text(session);
   const Session again = parse_session(text, "a.chainmail");
   compare(again, session);
   QVERIFY(*std::get<commands::SetSoftness>(again.moves[0]).softness == softness);
-  QVERIFY(again.panels[1].positions.frame == RegionFrame());
+  QVERIFY(again.panels[1].positions.axes == RegionAxes());
   QCOMPARE(session_text(again), text);
 }
 

@@ -474,7 +474,7 @@ Life::Step Life::softness_step(const Action& action) const {
     case Kind::change_energy:
       return [=](Document& d, std::size_t) { d.setEnergy(EnergyKind(action.which % 3)); };
     case Kind::turn_regions:
-      return [=](Document& d, std::size_t) { d.setFrame(action.which % 2 == 0 ? FrameKind::object : FrameKind::axes); };
+      return [=](Document& d, std::size_t) { d.setFrame(action.which % 2 == 0 ? AxesKind::object : AxesKind::axes); };
     default:
       return {};
   }

@@ -204,32 +204,32 @@ class WindowDocks : public QObject {
     bench.document().replaceMesh(build_mesh(std::move(parts)), QStringLiteral("leaning"), QStringLiteral("open"));
     auto* field = bench.find<QComboBox>("frame");
     auto* note = bench.find<QLabel>("frameNote");
-    const auto choose = [&](FrameKind kind) {
+    const auto choose = [&](AxesKind kind) {
       field->setCurrentIndex(field->findData(int(kind)));
       emit field->activated(field->currentIndex());
     };
-    const auto now = [&] { return bench.document().wholeSoftness()->frame; };
-    QCOMPARE(field->currentData().toInt(), int(FrameKind::axes));
+    const auto now = [&] { return bench.document().wholeSoftness()->axes; };
+    QCOMPARE(field->currentData().toInt(), int(AxesKind::axes));
     QCOMPARE(field->count(), 2);
     const int steps = bench.document().undoStack().count();
-    choose(FrameKind::object);
-    QVERIFY(now().kind() == FrameKind::object && now().is_turned() && note->isHidden());
+    choose(AxesKind::object);
+    QVERIFY(now().kind() == AxesKind::object && now().is_turned() && note->isHidden());
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("regions along the object's axes"));
     bench.find<QDoubleSpinBox>("shearSpin")->setValue(0.5);
     QVERIFY(now().is_turned());
     bench.document().undoStack().undo();
     bench.document().undoStack().undo();
-    QVERIFY(now() == RegionFrame());
-    QCOMPARE(field->currentData().toInt(), int(FrameKind::axes));
+    QVERIFY(now() == RegionAxes());
+    QCOMPARE(field->currentData().toInt(), int(AxesKind::axes));
     bench.document().undoStack().redo();
-    QVERIFY(now().kind() == FrameKind::object);
+    QVERIFY(now().kind() == AxesKind::object);
     QCOMPARE(bench.document().undoStack().count(), steps + 2);
     // A square has no axes of its own: the dock says so. The choice stays for the next object.
     bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("square"),
                                  QStringLiteral("open"));
-    QVERIFY(now().kind() == FrameKind::object && !now().is_turned() && !note->isHidden());
+    QVERIFY(now().kind() == AxesKind::object && !now().is_turned() && !note->isHidden());
     bench.trigger("resetStiffness");
-    QVERIFY(now() == RegionFrame() && note->isHidden());
+    QVERIFY(now() == RegionAxes() && note->isHidden());
   }
 
   void oneDragOfASliderIsOneStepOfUndo() {

@@ -47,8 +47,8 @@ void StiffnessDock::addFrame() {
   frame_->setObjectName(QStringLiteral("frame"));
   frame_->setAccessibleName(QStringLiteral("Regions along"));
   frame_->setFocusPolicy(Qt::StrongFocus);
-  frame_->addItem(QStringLiteral("World's axes"), int(FrameKind::axes));
-  frame_->addItem(QStringLiteral("Object's axes"), int(FrameKind::object));
+  frame_->addItem(QStringLiteral("World's axes"), int(AxesKind::axes));
+  frame_->addItem(QStringLiteral("Object's axes"), int(AxesKind::object));
   const QString help = QStringLiteral(
       "Axes along which valid regions lie.\nWorld's axes: x, y and z\nObject's axes: the principal axes of the object "
       "at rest, so that a turned object deforms as it does unturned");
@@ -66,21 +66,20 @@ void StiffnessDock::addFrame() {
       QStringLiteral("The object extends equally in several directions, so not all of its axes exist. Those nearest to "
                      "the world's axes are used."));
   column_->addWidget(frameNote_);
-  connect(frame_, &QComboBox::activated, this,
-          [this] { document_.setFrame(FrameKind(frame_->currentData().toInt())); });
+  connect(frame_, &QComboBox::activated, this, [this] { document_.setFrame(AxesKind(frame_->currentData().toInt())); });
 }
 
 void StiffnessDock::showFrame() {
-  const RegionFrame& frame = document_.wholeSoftness()->frame;
-  const int given = frame_->findData(int(FrameKind::given));
-  if (frame.kind() == FrameKind::given && given < 0) {
-    frame_->addItem(QStringLiteral("Given axes"), int(FrameKind::given));
-  } else if (frame.kind() != FrameKind::given && given >= 0) {
+  const RegionAxes& frame = document_.wholeSoftness()->axes;
+  const int given = frame_->findData(int(AxesKind::given));
+  if (frame.kind() == AxesKind::given && given < 0) {
+    frame_->addItem(QStringLiteral("Given axes"), int(AxesKind::given));
+  } else if (frame.kind() != AxesKind::given && given >= 0) {
     frame_->removeItem(given);
   }
   frame_->setCurrentIndex(frame_->findData(int(frame.kind())));
   frame_->setEnabled(document_.mesh()->space_dimension > 1);
-  if (frame.kind() != FrameKind::object) {
+  if (frame.kind() != AxesKind::object) {
     frameNote_->hide();
     notedMesh_.reset();
   } else if (notedMesh_ != document_.mesh()) {  // takes time in proportion to the object

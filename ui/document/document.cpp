@@ -351,18 +351,18 @@ void Document::setSoftness(const LinkSoftness& global, const QString& text, int 
   if (global != softness()) {
     Change edit = change(text, gesture);
     edit.after.softness = std::make_shared<const Softness>(
-        Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->frame});
+        Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->axes});
     apply(std::move(edit));
   }
 }
 
-void Document::setFrame(FrameKind kind) {
-  const RegionFrame frame = kind == FrameKind::object ? principal_axes(*mesh()).frame : RegionFrame();
-  if (kind != FrameKind::given && frame != wholeSoftness()->frame) {
+void Document::setFrame(AxesKind kind) {
+  const RegionAxes frame = kind == AxesKind::object ? principal_axes(*mesh()).frame : RegionAxes();
+  if (kind != AxesKind::given && frame != wholeSoftness()->axes) {
     Softness softness = *wholeSoftness();
-    softness.frame = frame;
-    Change edit = change(kind == FrameKind::object ? QStringLiteral("regions along the object's axes")
-                                                   : QStringLiteral("regions along the axes"));
+    softness.axes = frame;
+    Change edit = change(kind == AxesKind::object ? QStringLiteral("regions along the object's axes")
+                                                  : QStringLiteral("regions along the axes"));
     edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     apply(std::move(edit));
   }
@@ -414,7 +414,7 @@ void Document::setSoftnessAndRelaxation(const LinkSoftness& global, const comman
     Change edit = change(text);
     if (global != softness()) {
       edit.after.softness = std::make_shared<const Softness>(
-          Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->frame});
+          Softness{global, wholeSoftness()->links, wholeSoftness()->energy, wholeSoftness()->axes});
     }
     edit.after.relaxation = relaxation;
     apply(std::move(edit));

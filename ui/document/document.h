@@ -166,7 +166,7 @@ class Document : public QObject {
   void setSoftness(const LinkSoftness& global, const QString& text, int gesture = 0);
   void setEnergy(EnergyKind kind);
   /// Sets the axes along which valid regions lie: those of the world, or the principal axes of the object.
-  void setFrame(FrameKind kind);
+  void setFrame(AxesKind kind);
   /// Sets the softness of these links. If `own` is empty, the global softness applies to them again.
   void setSoftnessOf(const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
   /// Resets all links to the default softness, including links with a softness of their own.

@@ -54,7 +54,7 @@ NeighbourRegion RegionLens::magnified(const NeighbourRegion& region) const {
     *point = magnified(*point);
   }
   for (Point* point : {&larger.low, &larger.high}) {
-    *point = region.frame.into_frame(magnified(region.frame.into_world(*point)));
+    *point = region.axes.into_axes(magnified(region.axes.into_world(*point)));
   }
   return larger;
 }

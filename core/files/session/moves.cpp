@@ -40,7 +40,7 @@ class MoveFields : public JsonFields {
   std::vector<std::uint32_t> indices(const MoveMembers& command, const std::string& key) const;
   SplitEdit split(const MoveMembers& command) const;
 
-  RegionFrame frame(const Json& members) { return JsonFields::frame(members, *mesh_, principal_); }
+  RegionAxes axes(const Json& members) { return JsonFields::axes(members, *mesh_, principal_); }
 
   const MeshPointer& mesh() const { return mesh_; }
   /// From now on, commands are about this mesh.
@@ -54,7 +54,7 @@ class MoveFields : public JsonFields {
   std::uint32_t index(const Json& json, const std::string& key) const;
 
   MeshPointer mesh_;
-  std::optional<RegionFrame> principal_;  // principal axes of the mesh, once they are needed
+  std::optional<RegionAxes> principal_;  // principal axes of the mesh, once they are needed
 };
 
 ElementId MoveFields::element(const Json& json) const {
@@ -307,7 +307,7 @@ Command MovesReader::softness(const Members& of) {
   keys.insert(keys.end(), {"do", "energy", "frame", "links"});
   fields_.check_keys(of.members, keys);
   Softness result{
-      fields_.softness(of.members), {}, fields_.energy(of.members, absent_energy_), fields_.frame(of.members)};
+      fields_.softness(of.members), {}, fields_.energy(of.members, absent_energy_), fields_.axes(of.members)};
   if (!of.members.contains("links")) {
     return commands::SetSoftness{result};
   }

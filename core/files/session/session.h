@@ -90,7 +90,7 @@ bool is_session(const std::filesystem::path& path);
 /// "text" and "until" may be left out.
 ///
 /// "frame" of "softness" is left out for the axes of the world. "frame" of a panel is there if its coordinates are
-/// those of a turned frame.
+/// those of turned axes.
 ///
 /// "moves" are left out above limits::session_moves; "lattice", "hexahedra" and "texture" if there are none; and
 /// "elastic" if it is the standard one. If the neighbours are not in ascending order, "counts" (of each element) and

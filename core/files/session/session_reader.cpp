@@ -112,11 +112,11 @@ void SessionReader::take_softness() {
   auto keys = softness_keys();
   keys.insert(keys.end(), {"energy", "frame", "own"});
   fields_.check_keys(object, keys);
-  std::optional<RegionFrame> principal;
+  std::optional<RegionAxes> principal;
   Softness softness{fields_.softness(object),
                     {},
                     fields_.energy(object, absent_energy_),
-                    fields_.frame(object, *result_.mesh, principal)};
+                    fields_.axes(object, *result_.mesh, principal)};
   take_own(softness, object);
   try {
     for (const auto& [link, own] : softness.links) {
@@ -193,12 +193,11 @@ void SessionReader::take_elastic() {
 }
 
 Snapshot SessionReader::positions(const Json& object, Precision precision) const {
-  const RegionFrame frame = object.contains("frame")
-                                ? RegionFrame(FrameKind::given, fields_.rotation_vector(object, "frame"))
-                                : RegionFrame();
-  check(frame, *result_.mesh);
+  const RegionAxes axes =
+      object.contains("frame") ? RegionAxes(AxesKind::given, fields_.rotation_vector(object, "frame")) : RegionAxes();
+  check(axes, *result_.mesh);
   return snapshot_of(
-      {fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held"), frame},
+      {fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held"), axes},
       *result_.mesh, precision);
 }
 

@@ -242,8 +242,8 @@ void SessionWriter::write_panel(const Session::Panel& panel, const Progress& pro
   out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
        << std::string_view(single ? "float" : "double")
        << "\", \"from_rest\": " << std::string_view(runs.from_rest ? "true" : "false");
-  if (runs.frame.is_turned()) {
-    const Point& turn = runs.frame.rotation();
+  if (runs.axes.is_turned()) {
+    const Point& turn = runs.axes.rotation();
     out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
     out_ << ", " << digits_(turn.y(), Precision::double_precision);
     out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";

@@ -153,28 +153,28 @@ Point JsonFields::rotation_vector(const Json& object, const std::string& key) co
   return {number(values[0]), number(values[1]), number(values[2])};
 }
 
-RegionFrame JsonFields::frame(const Json& object, const Mesh& mesh, std::optional<RegionFrame>& principal) const {
+RegionAxes JsonFields::axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const {
   if (!object.contains("frame")) {
     return {};
   }
-  const Json& frame = this->object(object, "frame");
-  check_keys(frame, {"kind", "rotation"});
-  const std::string kind = text(frame, "kind");
-  const auto found = std::ranges::find(frame_kinds, kind);
-  if (found == frame_kinds.end()) {
+  const Json& axes = this->object(object, "frame");
+  check_keys(axes, {"kind", "rotation"});
+  const std::string kind = text(axes, "kind");
+  const auto found = std::ranges::find(axes_kinds, kind);
+  if (found == axes_kinds.end()) {
     fail("the kind of 'frame' is not known", "use axes, object or given");
   }
-  const auto which = FrameKind(found - frame_kinds.begin());
-  if (which == FrameKind::axes) {
+  const auto which = AxesKind(found - axes_kinds.begin());
+  if (which == AxesKind::axes) {
     return {};
   }
-  if (which == FrameKind::object && !frame.contains("rotation")) {
+  if (which == AxesKind::object && !axes.contains("rotation")) {
     if (!principal) {
-      principal = principal_axes(mesh).frame;
+      principal = principal_axes(mesh).axes;
     }
     return *principal;
   }
-  RegionFrame result(which, rotation_vector(frame, "rotation"));
+  RegionAxes result(which, rotation_vector(axes, "rotation"));
   try {
     check(result, mesh);
   } catch (const Error& error) {
@@ -197,9 +197,9 @@ void add_softness(nlohmann::ordered_json& object, const Softness& softness) {
     object[std::string(parameter->name)] = softness.global.*value;
   }
   object["energy"] = info(softness.energy).name;
-  if (const RegionFrame& frame = softness.frame; frame.kind() != FrameKind::axes) {
-    const Point& turn = frame.rotation();
-    object["frame"] = {{"kind", frame_kinds[std::size_t(frame.kind())]}, {"rotation", {turn.x(), turn.y(), turn.z()}}};
+  if (const RegionAxes& axes = softness.axes; axes.kind() != AxesKind::axes) {
+    const Point& turn = axes.rotation();
+    object["frame"] = {{"kind", axes_kinds[std::size_t(axes.kind())]}, {"rotation", {turn.x(), turn.y(), turn.z()}}};
   }
 }
 

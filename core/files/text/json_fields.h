@@ -47,9 +47,9 @@ class JsonFields {
   LinkSoftness softness(const Json& object) const;
   /// Returns the kind of energy of a softness, or `absent` if it is left out.
   EnergyKind energy(const Json& object, EnergyKind absent = standard_energy) const;
-  /// Returns the frame of a softness for this mesh; that of the world if it is left out. Principal axes without a
+  /// Returns the axes of a softness for this mesh; those of the world if they are left out. Principal axes without a
   /// rotation are found in the mesh, which takes time in proportion to its size, and are kept in `principal`.
-  RegionFrame frame(const Json& object, const Mesh& mesh, std::optional<RegionFrame>& principal) const;
+  RegionAxes axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const;
   /// Returns a rotation vector: the axis times the angle (radians).
   Point rotation_vector(const Json& object, const std::string& key) const;
   RelaxationScheme relaxation_scheme(const Json& name) const;
@@ -60,7 +60,7 @@ class JsonFields {
 
 /// Returns the names of the members that JsonFields::softness reads.
 std::vector<std::string> softness_keys();
-/// Adds the global softness, the kind of energy and a frame other than that of the world to an object, as JsonFields
+/// Adds the global softness, the kind of energy and axes other than those of the world to an object, as JsonFields
 /// reads them.
 void add_softness(nlohmann::ordered_json& object, const Softness& softness);
 

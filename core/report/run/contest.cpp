@@ -49,7 +49,7 @@ class Contest::Participant {
       object_.elastic.iterations = std::uint32_t(contestant.limit);
     }
     if (contestant.calibrated) {
-      object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.frame};
+      object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.axes};
     }
     const auto before = bytes_in_use();
     try {

@@ -92,7 +92,7 @@ void note(SuiteResult& result, const DragReference& reference, const StrainLaw& 
 class Turned {
  public:
   Turned(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options)
-      : turn_(FrameKind::given, rotation_by(*object.mesh, turned_by)),
+      : turn_(AxesKind::given, rotation_by(*object.mesh, turned_by)),
         object_(turned(object, turn_.rotation())),
         contest_(object_, contestants, options, Measured::errors) {}
 
@@ -121,7 +121,7 @@ class Turned {
   }
 
  private:
-  RegionFrame turn_;
+  RegionAxes turn_;
   Case object_;
   Contest contest_;
 };

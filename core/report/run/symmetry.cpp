@@ -18,13 +18,13 @@ namespace {
 // Contestants whose move takes longer than this (s), with all preparation, do not run on the turned objects.
 constexpr double longest_answer = 10;
 
-/// Returns the frame that turns with the object. Principal axes are found anew, as a user's would be.
-RegionFrame turned(const RegionFrame& frame, const Mesh& mesh, const Eigen::Matrix3d& turn) {
-  if (frame.kind() != FrameKind::given) {
-    return frame_for(mesh, frame);
+/// Returns the axes turned with the object. Principal axes are found anew, as a user's would be.
+RegionAxes turned(const RegionAxes& axes, const Mesh& mesh, const Eigen::Matrix3d& turn) {
+  if (axes.kind() != AxesKind::given) {
+    return axes_for(mesh, axes);
   }
-  const Eigen::AngleAxisd both(Eigen::Matrix3d(turn * frame.axes()));
-  return {FrameKind::given, both.angle() * both.axis()};
+  const Eigen::AngleAxisd both(Eigen::Matrix3d(turn * axes.matrix()));
+  return {AxesKind::given, both.angle() * both.axis()};
 }
 
 /// Returns one move to the end of a drag without a cut.
@@ -44,7 +44,7 @@ RecordedMoves one_move(const Case& object) {
 /// Returns the answer of a contestant, turned back: space_dimension coordinates per element. Throws Error, also if the
 /// contestant does not reach its target.
 std::vector<double> answer_of(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options,
-                              const RegionFrame& back, const std::stop_token& stop) {
+                              const RegionAxes& back, const std::stop_token& stop) {
   Runner runner(object, *contestant.algorithm, Precision::double_precision, options);
   runner.run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, stop);
   const Simulation& simulation = runner.simulation();
@@ -54,7 +54,7 @@ std::vector<double> answer_of(const Case& object, const PhysicsContestant& conte
   std::vector<double> positions(object.mesh->rest.size());
   simulation.body().copy_positions(positions);
   for (std::size_t at = 0; at < positions.size(); at += std::size_t(object.mesh->space_dimension)) {
-    turn_into_frame(*object.mesh, back, positions.data() + at);
+    turn_into_axes(*object.mesh, back, positions.data() + at);
   }
   return positions;
 }
@@ -76,10 +76,10 @@ Point rotation_by(const Mesh& mesh, double degrees) {
 }
 
 Case turned(const Case& object, const Point& rotation) {
-  const RegionFrame turn(FrameKind::given, rotation), back(FrameKind::given, -rotation);
+  const RegionAxes turn(AxesKind::given, rotation), back(AxesKind::given, -rotation);
   Case result = object;
-  result.mesh = in_frame(object.mesh, back);
-  result.softness.frame = turned(object.softness.frame, *result.mesh, turn.axes());
+  result.mesh = in_axes(object.mesh, back);
+  result.softness.axes = turned(object.softness.axes, *result.mesh, turn.matrix());
   for (RecordedMoves& moves : result.drags) {
     for (Command& command : moves.commands) {
       if (auto* drag = std::get_if<commands::Drag>(&command)) {
@@ -113,7 +113,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
     }
     Symmetry& one = result.emplace_back(Symmetry{contestants[i], {}, {}});
     if (contestants[i].calibrated) {
-      object.softness = {*contestants[i].calibrated, {}, asked.softness.energy, asked.softness.frame};
+      object.softness = {*contestants[i].calibrated, {}, asked.softness.energy, asked.softness.axes};
     } else {
       object.softness = asked.softness;
     }
@@ -129,7 +129,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
       for (const double degrees : symmetry_angles) {
         const Point rotation = rotation_by(mesh, degrees);
         const std::vector<double> back =
-            answer_of(turned(object, rotation), contestants[i], options, RegionFrame(FrameKind::given, rotation), stop);
+            answer_of(turned(object, rotation), contestants[i], options, RegionAxes(AxesKind::given, rotation), stop);
         const Distance apart = measure_distance(mesh, view_of(mesh, own), view_of(mesh, back));
         one.turns.push_back({degrees, apart.max, displacement > 0 ? apart.rms / displacement : 0});
       }

@@ -34,7 +34,7 @@ const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsCon
 /// Returns the rotation vector across the plane of the object, or about z.
 Point rotation_by(const Mesh& mesh, double degrees);
 
-/// Returns the case with its object, its frame of valid regions and its drags turned about the origin. Its 3D lists
+/// Returns the case with its object, its axes of valid regions and its drags turned about the origin. Its 3D lists
 /// stay those of the object, though its links no longer follow the axes.
 Case turned(const Case& object, const Point& rotation);
 

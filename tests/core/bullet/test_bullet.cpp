@@ -368,7 +368,7 @@ void BulletTest::an_object_at_rest_stays_at_rest() {
   Solver solver = patient(mesh, {0});
   for (const double turn : {0.0, 0.5}) {
     Softness softness;
-    softness.frame = RegionFrame(FrameKind::given, Point(0, 0, turn));
+    softness.axes = RegionAxes(AxesKind::given, Point(0, 0, turn));
     solver.body().set_softness(softness);
     solver.move(71, position_of(solver, *mesh, 71));
     QVERIFY(solver.moved().empty());
@@ -404,7 +404,7 @@ void BulletTest::a_turned_frame_does_not_matter() {
   Solver solver = patient(mesh, first_column(*mesh)), other = patient(mesh, first_column(*mesh));
   move_by(solver, *mesh, 47, {1, 0, 0});
   Softness turned;
-  turned.frame = RegionFrame(FrameKind::given, Point(0, 0, 0.5));
+  turned.axes = RegionAxes(AxesKind::given, Point(0, 0, 0.5));
   solver.body().set_softness(turned);
   const Point target = mesh->rest_position(47) + Point(1.5, 0.5, 0);
   solver.move(47, target);

@@ -374,7 +374,7 @@ void SplitTest::cuts_pins_and_softness_go_over() {
 
 namespace {
 
-const RegionFrame turned_frame(FrameKind::given, {0, 0, 0.4});
+const RegionAxes turned_frame(AxesKind::given, {0, 0, 0.4});
 
 }  // namespace
 
@@ -390,8 +390,8 @@ void SplitTest::every_number_and_the_frame_of_a_softness_go_over() {
     const Softness& after = simulation.softness();
     QCOMPARE(after.global, global);
     QVERIFY(after.energy == EnergyKind::axial);
-    QVERIFY(after.frame == turned_frame);
-    QVERIFY(simulation.body().frame() == turned_frame);
+    QVERIFY(after.axes == turned_frame);
+    QVERIFY(simulation.body().region_axes() == turned_frame);
     for (const auto& [link, softness] : after.links) {
       for (const auto& [parameter, value] : softness_numbers) {
         const double mean = (global.*value + own.*value) / 2;
@@ -417,7 +417,7 @@ void SplitTest::positions_go_over() {
     for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
       Simulation simulation(mesh, algorithm, precision);
       simulation.apply(
-          commands::SetSoftness{{{0.3, 2, 0.5}, {}, standard_energy, turned ? turned_frame : RegionFrame()}});
+          commands::SetSoftness{{{0.3, 2, 0.5}, {}, standard_energy, turned ? turned_frame : RegionAxes()}});
       QVERIFY(positions_after(*split, simulation.snapshot(), precision).is_at_rest());
       drag_by(simulation, 45, Point(2, 1, 0));
       QVERIFY(simulation.snapshot().blocks.front() != nullptr && simulation.snapshot().blocks.back() == nullptr);

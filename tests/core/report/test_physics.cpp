@@ -426,7 +426,7 @@ void PhysicsTest::drags_are_what_they_say() {
 void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
   const auto contestants =
       contestants_of({Algorithm::natural_queue, Algorithm::exact, Algorithm::linear_fem}, {0, 3}, true, {});
-  const auto differences = [&](const RegionFrame& frame) {
+  const auto differences = [&](const RegionAxes& frame) {
     std::map<std::pair<Algorithm, bool>, std::vector<TurnDifference>> result;
     const Case bar = pinned_bar(81, Softness{{}, {}, standard_energy, frame}, {});
     for (const Symmetry& one : symmetry_under_rotation(bar, contestants, CompareOptions(), [](double) {}, {})) {
@@ -434,8 +434,8 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
     }
     return result;
   };
-  auto along_axes = differences({}), along_object = differences({FrameKind::object, Point::Zero()});
-  auto given = differences({FrameKind::given, Point(0, 0, 0.3)});
+  auto along_axes = differences({}), along_object = differences({AxesKind::object, Point::Zero()});
+  auto given = differences({AxesKind::given, Point(0, 0, 0.3)});
   QCOMPARE(along_axes.size(), std::size_t{5});  // without sweeps, and at equilibrium
   for (auto* all : {&along_axes, &along_object, &given}) {
     const auto& fem = (*all)[{Algorithm::linear_fem, false}];

@@ -145,7 +145,7 @@ void FramesTest::an_undone_reset_changes_what_it_brings_back() {
 }
 
 void FramesTest::turned_axes_round_what_is_at_rest() {
-  const RegionFrame turned(FrameKind::given, Point(0, 0, 0.3));
+  const RegionAxes turned(AxesKind::given, Point(0, 0, 0.3));
   for (const AlgorithmInfo& one : algorithms()) {
     const MeshPointer mesh = jittered_triangles(9, 8, 2);
     if (!fits(one.algorithm, *mesh)) {

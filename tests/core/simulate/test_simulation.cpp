@@ -207,7 +207,7 @@ AlgorithmInfo noting_entry(PassSettings& seen) {
 }
 
 const Softness other_softness{
-    {0.4, 1.7, 0.3, 0.2, 3, -0.5}, {}, EnergyKind::axial, RegionFrame(FrameKind::given, {0, 0, 0.3})};
+    {0.4, 1.7, 0.3, 0.2, 3, -0.5}, {}, EnergyKind::axial, RegionAxes(AxesKind::given, {0, 0, 0.3})};
 const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17};
 const commands::SetRelaxation other_relaxation{true, 0.5, RelaxationScheme::link};
 
@@ -223,7 +223,7 @@ bool all_are_other() {
   return std::ranges::none_of(
              softness_numbers,
              [&](const SoftnessNumber& one) { return global.*one.value == LinkSoftness().*one.value; }) &&
-         links.empty() && energy != standard_energy && frame != RegionFrame() && young != elastic.material.young &&
+         links.empty() && energy != standard_energy && frame != RegionAxes() && young != elastic.material.young &&
          poisson != elastic.material.poisson && lattice[0] != elastic.lattice[0] && lattice[1] != elastic.lattice[1] &&
          lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && on != relaxation.on &&
          step != relaxation.step && scheme != relaxation.scheme;

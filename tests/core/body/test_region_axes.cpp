@@ -4,14 +4,14 @@
 #include <functional>
 #include <numbers>
 
-#include "body/region_frame.h"
+#include "body/region_axes.h"
 #include "core/families.h"
 #include "core/simulations.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "program.h"
 
-namespace chainmail::test_region_frame {
+namespace chainmail::test_region_axes {
 
 using namespace chainmail::test;
 
@@ -20,7 +20,7 @@ namespace {
 /// A rotation about an axis, in degrees.
 Point turn(const Point& axis, double degrees) { return axis.normalized() * (degrees * std::numbers::pi / 180); }
 
-Eigen::Matrix3d matrix_of(const Point& rotation) { return RegionFrame(FrameKind::given, rotation).axes(); }
+Eigen::Matrix3d matrix_of(const Point& rotation) { return RegionAxes(AxesKind::given, rotation).matrix(); }
 
 /// The object of a mesh after a rotation about the origin.
 MeshPointer turned_mesh(const MeshPointer& mesh, const Point& rotation) {
@@ -31,7 +31,7 @@ MeshPointer turned_mesh(const MeshPointer& mesh, const Point& rotation) {
   return build_mesh(std::move(parts));
 }
 
-/// What is done to an object: pins, cuts and drags, all turned by `rotation`, with regions in `frame`.
+/// What is done to an object: pins, cuts and drags, all turned by `rotation`, with regions in `axes`.
 struct Scene {
   MeshPointer mesh;
   std::vector<ElementId> pins, handle;
@@ -39,11 +39,11 @@ struct Scene {
   std::vector<Pose> moves;
 };
 
-std::unique_ptr<Solver> played(const Scene& scene, Algorithm algorithm, Precision precision, const RegionFrame& frame,
+std::unique_ptr<Solver> played(const Scene& scene, Algorithm algorithm, Precision precision, const RegionAxes& axes,
                                const Point& rotation) {
   auto solver =
       make_solver(rotation == Point::Zero() ? scene.mesh : turned_mesh(scene.mesh, rotation), algorithm, precision);
-  solver->body().set_softness(Softness{{0.8, 1.2, 0.1}, {}, standard_energy, frame});
+  solver->body().set_softness(Softness{{0.8, 1.2, 0.1}, {}, standard_energy, axes});
   solver->body().pin(scene.pins);
   solver->body().cut(scene.cuts);
   Handle handle(solver->body(), scene.handle);
@@ -86,8 +86,8 @@ Scene space_scene() {
 
 }  // namespace
 
-/// Valid regions in a frame of the object.
-class RegionFrameTest : public QObject {
+/// Valid regions along axes of the object.
+class RegionAxesTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -106,7 +106,7 @@ class RegionFrameTest : public QObject {
   void a_frame_that_leaves_the_plane_is_refused();
 };
 
-void RegionFrameTest::a_turned_object_answers_as_the_object_does_data() {
+void RegionAxesTest::a_turned_object_answers_as_the_object_does_data() {
   QTest::addColumn<bool>("in_space");
   QTest::addColumn<Algorithm>("algorithm");
   QTest::addColumn<double>("degrees");
@@ -120,7 +120,7 @@ void RegionFrameTest::a_turned_object_answers_as_the_object_does_data() {
   }
 }
 
-void RegionFrameTest::a_turned_object_answers_as_the_object_does() {
+void RegionAxesTest::a_turned_object_answers_as_the_object_does() {
   QFETCH(const bool, in_space);
   QFETCH(const Algorithm, algorithm);
   QFETCH(const double, degrees);
@@ -128,7 +128,7 @@ void RegionFrameTest::a_turned_object_answers_as_the_object_does() {
   const Point rotation = turn(in_space ? Point(1, 2, 3) : Point(0, 0, 1), degrees);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
     const auto one = played(scene, algorithm, precision, {}, Point::Zero());
-    const auto other = played(scene, algorithm, precision, {FrameKind::given, rotation}, rotation);
+    const auto other = played(scene, algorithm, precision, {AxesKind::given, rotation}, rotation);
     QVERIFY2(difference(*one, *other, rotation) < 1e-4,
              qPrintable(QString::number(difference(*one, *other, rotation))));
     QVERIFY(std::abs(violation_of(*one) - violation_of(*other)) < 1e-4);
@@ -143,7 +143,7 @@ void RegionFrameTest::a_turned_object_answers_as_the_object_does() {
   }
 }
 
-void RegionFrameTest::without_a_frame_a_turned_object_answers_differently() {
+void RegionAxesTest::without_a_frame_a_turned_object_answers_differently() {
   for (const Scene& scene : {plane_scene(), space_scene()}) {
     const Point rotation = turn(Point(0, 0, 1), 45);
     for (const Algorithm algorithm : {Algorithm::exact, Algorithm::natural_queue}) {
@@ -154,7 +154,7 @@ void RegionFrameTest::without_a_frame_a_turned_object_answers_differently() {
   }
 }
 
-void RegionFrameTest::principal_axes_turn_with_the_object() {
+void RegionAxesTest::principal_axes_turn_with_the_object() {
   for (const Scene& scene : {plane_scene(), space_scene()}) {
     const bool in_space = scene.mesh->space_dimension == 3;
     for (const double degrees : {0.0, 30.0, 45.0, 90.0, 200.0}) {
@@ -164,53 +164,53 @@ void RegionFrameTest::principal_axes_turn_with_the_object() {
       QVERIFY(own.are_unique && other.are_unique);
       // The axes of the one are those of the other, in any order and with any sign.
       const Eigen::Matrix3d common =
-          (own.frame.axes().transpose() * matrix_of(rotation).transpose() * other.frame.axes()).cwiseAbs();
+          (own.axes.matrix().transpose() * matrix_of(rotation).transpose() * other.axes.matrix()).cwiseAbs();
       QVERIFY(common.colwise().maxCoeff().minCoeff() > 1 - 1e-9);
-      QVERIFY(other.frame.axes().diagonal().minCoeff() >= 0);
-      const auto one = played(scene, Algorithm::exact, Precision::double_precision, own.frame, Point::Zero());
-      const auto turned = played(scene, Algorithm::exact, Precision::double_precision, other.frame, rotation);
+      QVERIFY(other.axes.matrix().diagonal().minCoeff() >= 0);
+      const auto one = played(scene, Algorithm::exact, Precision::double_precision, own.axes, Point::Zero());
+      const auto turned = played(scene, Algorithm::exact, Precision::double_precision, other.axes, rotation);
       QVERIFY(difference(*one, *turned, rotation) < 1e-4);
     }
   }
 }
 
-void RegionFrameTest::principal_axes_of_a_symmetric_object_are_those_of_the_world() {
+void RegionAxesTest::principal_axes_of_a_symmetric_object_are_those_of_the_world() {
   const MeshPointer cube = generate({MeshKind::block, {4, 4, 4}, 1, {}});
   for (const MeshPointer& mesh : {cube, turned_mesh(cube, turn(Point(1, 2, 3), 40)), sphere(16, 9)}) {
     const PrincipalAxes axes = principal_axes(*mesh);
     QVERIFY(!axes.are_unique);
-    QVERIFY(mesh->element_count() != 64 || !axes.frame.is_turned());
+    QVERIFY(mesh->element_count() != 64 || !axes.axes.is_turned());
   }
   const MeshPointer bar = generate({MeshKind::block, {9, 3, 3}, 1, {}});
-  QVERIFY(!principal_axes(*bar).frame.is_turned());
+  QVERIFY(!principal_axes(*bar).axes.is_turned());
   const PrincipalAxes leaning = principal_axes(*turned_mesh(bar, turn(Point(0, 0, 1), 30)));
   QVERIFY(!leaning.are_unique);
-  QVERIFY((leaning.frame.rotation() - turn(Point(0, 0, 1), 30)).norm() < 1e-9);
-  QVERIFY(!principal_axes(*generate({MeshKind::grid, {8, 8, 1}, 1, {}})).frame.is_turned());
-  QVERIFY(!principal_axes(*generate({MeshKind::block, {9, 5, 3}, 1, {}})).frame.is_turned());
+  QVERIFY((leaning.axes.rotation() - turn(Point(0, 0, 1), 30)).norm() < 1e-9);
+  QVERIFY(!principal_axes(*generate({MeshKind::grid, {8, 8, 1}, 1, {}})).axes.is_turned());
+  QVERIFY(!principal_axes(*generate({MeshKind::block, {9, 5, 3}, 1, {}})).axes.is_turned());
 }
 
-void RegionFrameTest::an_identity_frame_gives_the_same_bits() {
+void RegionAxesTest::an_identity_frame_gives_the_same_bits() {
   const Scene scene = space_scene();
   for (const Algorithm algorithm : {Algorithm::exact, Algorithm::natural_queue, Algorithm::enhanced}) {
     const auto one = played(scene, algorithm, Precision::single_precision, {}, Point::Zero());
     const auto other =
-        played(scene, algorithm, Precision::single_precision, principal_axes(*scene.mesh).frame, Point::Zero());
-    QVERIFY(other->body().stored_mesh() == scene.mesh || principal_axes(*scene.mesh).frame.is_turned());
+        played(scene, algorithm, Precision::single_precision, principal_axes(*scene.mesh).axes, Point::Zero());
+    QVERIFY(other->body().stored_mesh() == scene.mesh || principal_axes(*scene.mesh).axes.is_turned());
     const auto plain =
-        played(scene, algorithm, Precision::single_precision, {FrameKind::given, Point::Zero()}, Point::Zero());
+        played(scene, algorithm, Precision::single_precision, {AxesKind::given, Point::Zero()}, Point::Zero());
     for (ElementId e = 0; e < scene.mesh->element_count(); ++e) {
       QVERIFY(point_of(*scene.mesh, one->body().positions(), e) == point_of(*scene.mesh, plain->body().positions(), e));
     }
   }
 }
 
-void RegionFrameTest::world_coordinates_come_back() {
+void RegionAxesTest::world_coordinates_come_back() {
   const Scene scene = space_scene();
   for (const Algorithm algorithm : {Algorithm::exact, Algorithm::natural_queue}) {
     auto solver = make_solver(scene.mesh, algorithm, Precision::double_precision);
     Body& body = solver->body();
-    body.set_softness(Softness{{}, {}, standard_energy, {FrameKind::given, turn(Point(3, 1, 2), 50)}});
+    body.set_softness(Softness{{}, {}, standard_energy, {AxesKind::given, turn(Point(3, 1, 2), 50)}});
     QCOMPARE(body.positions()(7, 0), scene.mesh->rest[21]);
     std::vector<double> positions(scene.mesh->rest);
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -228,29 +228,29 @@ void RegionFrameTest::world_coordinates_come_back() {
   }
 }
 
-void RegionFrameTest::far_from_the_origin_exact_keeps_its_digits() {
+void RegionAxesTest::far_from_the_origin_exact_keeps_its_digits() {
   const Scene scene = space_scene();
   MeshParts parts = placed(*scene.mesh, [](const Point& at) { return Point(at + Point(1e6, -2e6, 3e6)); });
   const MeshPointer mesh = build_mesh(std::move(parts));
-  const auto frame = [](double degrees) {
-    return Softness{{}, {}, standard_energy, {FrameKind::given, turn(Point(1, 2, 3), degrees)}};
+  const auto axes = [](double degrees) {
+    return Softness{{}, {}, standard_energy, {AxesKind::given, turn(Point(1, 2, 3), degrees)}};
   };
   const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
-  solver->body().set_softness(frame(30));
+  solver->body().set_softness(axes(30));
   solver->move(50, mesh->rest_position(50) + Point(0.5, 0.3, 0.1));
   const double before = solver->body().positions().between(49, 50, 0);
   QVERIFY(std::abs(point_of(*mesh, solver->body().positions(), 50).x() - mesh->rest_position(50).x() - 0.5) < 1e-6);
-  solver->body().set_softness(frame(70));
+  solver->body().set_softness(axes(70));
   QVERIFY(std::abs(solver->body().positions().between(49, 50, 0) - before) < 1e-6);
 }
 
-void RegionFrameTest::relaxation_and_equilibrium_turn_with_the_object() {
+void RegionAxesTest::relaxation_and_equilibrium_turn_with_the_object() {
   const Point rotation = turn(Point(1, 2, 3), 30);
   for (const RelaxationScheme scheme :
        {RelaxationScheme::mean, RelaxationScheme::link, RelaxationScheme::equilibrium}) {
-    const auto settled = [&](const RegionFrame& frame, const Point& by) {
+    const auto settled = [&](const RegionAxes& axes, const Point& by) {
       const Scene scene = space_scene();
-      auto solver = played(scene, Algorithm::exact, Precision::double_precision, frame, by);
+      auto solver = played(scene, Algorithm::exact, Precision::double_precision, axes, by);
       solver->set_relaxation(scheme);
       solver->wake_all();
       if (info(scheme).sweeps) {
@@ -262,19 +262,19 @@ void RegionFrameTest::relaxation_and_equilibrium_turn_with_the_object() {
       }
       return solver;
     };
-    const auto one = settled({}, Point::Zero()), other = settled({FrameKind::given, rotation}, rotation);
+    const auto one = settled({}, Point::Zero()), other = settled({AxesKind::given, rotation}, rotation);
     QVERIFY2(difference(*one, *other, rotation) < 1e-4,
              qPrintable(QString::number(difference(*one, *other, rotation))));
     QVERIFY(violation_of(*other) < 1e-5);
   }
 }
 
-void RegionFrameTest::a_snapshot_of_another_frame_is_restored() {
+void RegionAxesTest::a_snapshot_of_another_frame_is_restored() {
   const Scene scene = space_scene();
   const auto from = played(scene, Algorithm::exact, Precision::double_precision,
-                           {FrameKind::given, turn(Point(1, 0, 2), 25)}, Point::Zero());
+                           {AxesKind::given, turn(Point(1, 0, 2), 25)}, Point::Zero());
   const auto to = played(scene, Algorithm::natural_queue, Precision::double_precision,
-                         {FrameKind::given, turn(Point(0, 1, 2), -70)}, Point::Zero());
+                         {AxesKind::given, turn(Point(0, 1, 2), -70)}, Point::Zero());
   ElementBlocks all(scene.mesh->element_count());
   all.insert_all();
   const Snapshot snapshot = from->body().snapshot(all);
@@ -283,20 +283,20 @@ void RegionFrameTest::a_snapshot_of_another_frame_is_restored() {
   // What a file has comes back to the bit.
   for (const Solver* one : {from.get(), to.get()}) {
     const Snapshot held = one->body().snapshot(all);
-    QVERIFY(held.frame.is_turned());
+    QVERIFY(held.axes.is_turned());
     QVERIFY(snapshot_of(runs_of(held, *scene.mesh), *scene.mesh, Precision::double_precision) == held);
   }
 }
 
-void RegionFrameTest::undo_restores_the_frame_exactly() {
+void RegionAxesTest::undo_restores_the_frame_exactly() {
   const Scene scene = plane_scene();
   Simulation simulation(scene.mesh, Algorithm::natural_queue, Precision::single_precision);
   simulation.apply(commands::Grab{{60}});
   simulation.apply(commands::Drag{scene.mesh->rest_position(60) + Point(3, 1, 0)});
   simulation.apply(commands::Release{});
-  const auto frame = [&](double degrees) {
+  const auto axes = [&](double degrees) {
     return commands::SetSoftness{std::make_shared<const Softness>(
-        Softness{{}, {}, standard_energy, {FrameKind::given, turn({0, 0, 1}, degrees)}})};
+        Softness{{}, {}, standard_energy, {AxesKind::given, turn({0, 0, 1}, degrees)}})};
   };
   std::vector<std::vector<double>> states;
   const auto keep = [&](commands::StateId id) {
@@ -305,53 +305,53 @@ void RegionFrameTest::undo_restores_the_frame_exactly() {
     simulation.body().copy_positions(states.back());
   };
   keep(0);
-  simulation.apply(frame(30));
+  simulation.apply(axes(30));
   QVERIFY(!simulation.changed().empty());
   keep(1);
   simulation.apply(commands::Grab{{20}});
   simulation.apply(commands::Drag{scene.mesh->rest_position(20) + Point(-2, 2, 0)});
   simulation.apply(commands::Release{});
   keep(2);
-  simulation.apply(frame(60));
+  simulation.apply(axes(60));
   keep(3);
   for (const commands::StateId id : {2, 0, 3, 1, 2}) {
     simulation.apply(commands::RestoreState{id});
     std::vector<double> now(scene.mesh->rest.size());
     simulation.body().copy_positions(now);
     QVERIFY(now == states[std::size_t(id)]);
-    QCOMPARE(simulation.body().frame().is_turned(), id != 0);
+    QCOMPARE(simulation.body().region_axes().is_turned(), id != 0);
   }
 }
 
-void RegionFrameTest::elastic_methods_work_along_the_axes_of_the_world() {
+void RegionAxesTest::elastic_methods_work_along_the_axes_of_the_world() {
   const Scene scene = space_scene();
   const auto one = played(scene, Algorithm::linear_fem, Precision::double_precision, {}, Point::Zero());
   const auto other = played(scene, Algorithm::linear_fem, Precision::double_precision,
-                            {FrameKind::given, turn(Point(1, 2, 3), 30)}, Point::Zero());
+                            {AxesKind::given, turn(Point(1, 2, 3), 30)}, Point::Zero());
   QCOMPARE(difference(*one, *other, Point::Zero()), 0.0);
-  // ChainMail goes on from there in its frame.
+  // ChainMail goes on from there along its axes.
   other->set_algorithm(Algorithm::exact);
-  QVERIFY(other->body().frame().is_turned());
+  QVERIFY(other->body().region_axes().is_turned());
   QVERIFY(difference(*one, *other, Point::Zero()) < 1e-12);
   other->set_algorithm(Algorithm::linear_fem);
-  QVERIFY(!other->body().frame().is_turned());
+  QVERIFY(!other->body().region_axes().is_turned());
 }
 
-void RegionFrameTest::a_frame_that_leaves_the_plane_is_refused() {
+void RegionAxesTest::a_frame_that_leaves_the_plane_is_refused() {
   Simulation simulation(plane_scene().mesh, Algorithm::exact, Precision::single_precision);
   const auto set = [&](const Point& rotation) {
     simulation.apply(commands::SetSoftness{
-        std::make_shared<const Softness>(Softness{{}, {}, standard_energy, {FrameKind::given, rotation}})});
+        std::make_shared<const Softness>(Softness{{}, {}, standard_energy, {AxesKind::given, rotation}})});
   };
   QVERIFY_THROWS_EXCEPTION(Error, set({1, 0, 0}));
   QVERIFY_THROWS_EXCEPTION(Error, set({0, 0, std::nan("")}));
-  QVERIFY(!simulation.body().frame().is_turned());
+  QVERIFY(!simulation.body().region_axes().is_turned());
   set({0, 0, 1});
-  QVERIFY(simulation.body().frame().is_turned());
+  QVERIFY(simulation.body().region_axes().is_turned());
 }
 
-CHAINMAIL_TEST(RegionFrameTest)
+CHAINMAIL_TEST(RegionAxesTest)
 
-}  // namespace chainmail::test_region_frame
+}  // namespace chainmail::test_region_axes
 
-#include "test_region_frame.moc"
+#include "test_region_axes.moc"

@@ -1,4 +1,4 @@
-#include "body/region_frame.h"
+#include "body/region_axes.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -83,13 +83,13 @@ PrincipalAxes principal_axes_in_plane(const Mesh& mesh, const Eigen::Matrix3d& s
   const int a = mesh.axes[0], b = mesh.axes[1];
   const double difference = spread(a, a) - spread(b, b), mixed = 2 * spread(a, b);
   if (!(std::hypot(difference, mixed) > equal_spreads * (spread(a, a) + spread(b, b)))) {
-    return {{FrameKind::object, Point::Zero()}, false};
+    return {{AxesKind::object, Point::Zero()}, false};
   }
   double angle = std::atan2(mixed, difference) / 2;  // of the axis of the largest spread, from a toward b
   const double quarter = std::acos(0.0);
   angle -= quarter * std::round(angle / quarter);
   const Point normal = Point::Unit(a).cross(Point::Unit(b));
-  return {{FrameKind::object, std::abs(angle) < no_turn ? Point(Point::Zero()) : Point(angle * normal)}, true};
+  return {{AxesKind::object, std::abs(angle) < no_turn ? Point(Point::Zero()) : Point(angle * normal)}, true};
 }
 
 PrincipalAxes principal_axes_in_space(const Eigen::Matrix3d& spread) {
@@ -98,77 +98,77 @@ PrincipalAxes principal_axes_in_space(const Eigen::Matrix3d& spread) {
   const double least = equal_spreads * spreads[2];
   const bool low_equal = !(spreads[1] - spreads[0] > least), high_equal = !(spreads[2] - spreads[1] > least);
   if (low_equal && high_equal) {
-    return {{FrameKind::object, Point::Zero()}, false};
+    return {{AxesKind::object, Point::Zero()}, false};
   }
   if (low_equal || high_equal) {
     const Point single = solver.eigenvectors().col(low_equal ? 2 : 0);
-    return {{FrameKind::object, rotation_of(axes_about(single))}, false};
+    return {{AxesKind::object, rotation_of(axes_about(single))}, false};
   }
-  return {{FrameKind::object, rotation_of(nearest_to_world(solver.eigenvectors()))}, true};
+  return {{AxesKind::object, rotation_of(nearest_to_world(solver.eigenvectors()))}, true};
 }
 
 }  // namespace
 
-RegionFrame::RegionFrame(FrameKind kind, const Point& rotation) : kind_(kind), rotation_(rotation) {
+RegionAxes::RegionAxes(AxesKind kind, const Point& rotation) : kind_(kind), rotation_(rotation) {
   if (is_turned()) {
     const double angle = rotation.norm();
-    axes_ = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+    matrix_ = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
   }
 }
 
-void turn_into_world(const Mesh& mesh, const RegionFrame& frame, double* coordinates) {
-  turn_coordinates(mesh, coordinates, [&](const Point& vector) { return frame.into_world(vector); });
+void turn_into_world(const Mesh& mesh, const RegionAxes& axes, double* coordinates) {
+  turn_coordinates(mesh, coordinates, [&](const Point& vector) { return axes.into_world(vector); });
 }
 
-void turn_into_frame(const Mesh& mesh, const RegionFrame& frame, double* coordinates) {
-  turn_coordinates(mesh, coordinates, [&](const Point& vector) { return frame.into_frame(vector); });
+void turn_into_axes(const Mesh& mesh, const RegionAxes& axes, double* coordinates) {
+  turn_coordinates(mesh, coordinates, [&](const Point& vector) { return axes.into_axes(vector); });
 }
 
 PrincipalAxes principal_axes(const Mesh& mesh) {
   const Eigen::Matrix3d spread = covariance_of(mesh);
   if (mesh.space_dimension < 2 || !(spread.trace() > 0)) {
-    return {{FrameKind::object, Point::Zero()}, mesh.space_dimension < 2};
+    return {{AxesKind::object, Point::Zero()}, mesh.space_dimension < 2};
   }
   return mesh.space_dimension == 2 ? principal_axes_in_plane(mesh, spread) : principal_axes_in_space(spread);
 }
 
-RegionFrame frame_for(const Mesh& mesh, const RegionFrame& frame) {
-  if (frame.kind() == FrameKind::object) {
-    return principal_axes(mesh).frame;
+RegionAxes axes_for(const Mesh& mesh, const RegionAxes& axes) {
+  if (axes.kind() == AxesKind::object) {
+    return principal_axes(mesh).axes;
   }
   try {
-    check(frame, mesh);
-    return frame;
+    check(axes, mesh);
+    return axes;
   } catch (const Error&) {
     return {};
   }
 }
 
-void check(const RegionFrame& frame, const Mesh& mesh) {
+void check(const RegionAxes& axes, const Mesh& mesh) {
   // The axes of an angle that is too large are not numbers.
-  if (!frame.rotation().allFinite() || !frame.axes().allFinite()) {
+  if (!axes.rotation().allFinite() || !axes.matrix().allFinite()) {
     throw Error("frame", "its rotation is not finite", "give an axis and an angle as numbers");
   }
   for (int k = 0; k < 3 && mesh.space_dimension < 3; ++k) {
     const bool leaves_space = mesh.space_dimension == 1 || mesh.has_axis(k);
-    if (frame.rotation()[k] != 0 && leaves_space) {
+    if (axes.rotation()[k] != 0 && leaves_space) {
       throw Error("frame", std::string("turned about ") + "xyz"[k] + ", its axes would leave the space of the object",
                   mesh.space_dimension == 1 ? "use the frame 'axes'" : "turn it about the axis across the plane");
     }
   }
 }
 
-MeshPointer in_frame(const MeshPointer& mesh, const RegionFrame& frame) {
-  if (!frame.is_turned()) {
+MeshPointer in_axes(const MeshPointer& mesh, const RegionAxes& axes) {
+  if (!axes.is_turned()) {
     return mesh;
   }
   const auto turned = std::make_shared<Mesh>(*mesh);
   const auto step = std::size_t(mesh->space_dimension);
   for (std::size_t at = 0; at < turned->rest.size(); at += step) {
-    turn_into_frame(*mesh, frame, turned->rest.data() + at);
+    turn_into_axes(*mesh, axes, turned->rest.data() + at);
   }
   for (std::size_t at = 0; at < turned->shapes.size(); at += step) {
-    turn_into_frame(*mesh, frame, turned->shapes.data() + at);
+    turn_into_axes(*mesh, axes, turned->shapes.data() + at);
   }
   for (ElementId e = 0; e < turned->element_count(); ++e) {
     const Point position = turned->rest_position(e);
