@@ -161,7 +161,7 @@ class WindowFailures : public QObject {
     Document& document = bench.document();
     QObject context;
     connect(&document, &Document::cutsChanged, &context, [] { throw std::bad_alloc(); });
-    connect(&document, &Document::tapeChanged, &context, [] { throw 7; });
+    connect(&document, &Document::movesChanged, &context, [] { throw 7; });
     document.cut({3, 40});
     QCOMPARE(document.cuts().count(), 2U);
     QCOMPARE(document.undoStack().count(), 1);

@@ -248,7 +248,7 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
   const std::size_t until = player(bench).lesson().steps[1].until;
   std::vector<std::size_t> seen;
   QObject context;
-  connect(&bench.document(), &Document::tapeChanged, &context,
+  connect(&bench.document(), &Document::movesChanged, &context,
           [&] { seen.push_back(bench.document().moveHistory().position()); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);
@@ -269,7 +269,7 @@ void WindowLessons::theViewsStayStillWhileAStepPlays() {
   const double before = bench.view(0).camera()->pose().height;
   std::vector<double> seen;
   QObject context;
-  connect(&bench.document(), &Document::tapeChanged, &context,
+  connect(&bench.document(), &Document::movesChanged, &context,
           [&] { seen.push_back(bench.view(0).camera()->pose().height); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);

@@ -64,7 +64,7 @@ BackgroundReference::BackgroundReference(const Document& document) : document_(d
   connect(&progress_, &QTimer::timeout, this, &BackgroundReference::changed);
   connect(&jobs_, &Jobs::changed, this, [this] { jobs_.running() ? progress_.start() : progress_.stop(); });
   connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) { setState(sentence.toStdString()); });
-  connect(&document, &Document::tapeChanged, this, &BackgroundReference::followHandle);
+  connect(&document, &Document::movesChanged, this, &BackgroundReference::followHandle);
   for (const auto& signal : {&Document::pinsChanged, &Document::meshChanged, &Document::elasticChanged}) {
     connect(&document, signal, this, &BackgroundReference::outdate);
   }

@@ -313,7 +313,7 @@ void Document::showParts(const Change& change, bool done) {
   }
   if (change.followsTape) {
     setHighlight({});
-    showTape();
+    showMoves();
   }
 }
 
@@ -700,7 +700,7 @@ void Document::post(const Command& command) {
   if (log_->waits()) {
     log_->sample();
   }
-  Application::guarded([this] { emit tapeChanged(); });
+  Application::guarded([this] { emit movesChanged(); });
 }
 
 /// Called when a solver has become idle. Sends the newest move, which waits for the slowest solver, as soon as all are
@@ -710,7 +710,7 @@ void Document::receiveIdle() {
   if (log_->waits()) {
     log_->sample();
     if (!log_->waits()) {
-      emit tapeChanged();
+      emit movesChanged();
     }
   }
   if (idle()) {

@@ -232,7 +232,7 @@ class Document : public QObject {
   void selectionChanged();
   void lastDragChanged();
   /// The recorded commands, or the current position in them, have changed.
-  void tapeChanged();
+  void movesChanged();
   void sessionFileChanged();
   void meshFileChanged();
   /// A command was refused; `sentence` gives the reason.
@@ -286,7 +286,7 @@ class Document : public QObject {
   bool onlyLessonMoved() const;
   void keepWaypoint(std::size_t position);
   void dropWaypoints();
-  void showTape();
+  void showMoves();
 
   commands::StateId newState() { return nextState_++; }
 

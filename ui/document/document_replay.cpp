@@ -28,7 +28,7 @@ std::vector<T> without(const std::vector<T>& all, const std::vector<T>& some) {
 
 void Document::forgetMoves() {
   log_->history().load({});
-  emit tapeChanged();
+  emit movesChanged();
   emit lastDragChanged();
 }
 
@@ -40,7 +40,7 @@ void Document::noteRelaxation() {
   relaxationNoted_ = now->statistics.passes;
   const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, maxSweepsNoted);
   log_->history().note(commands::Relax{static_cast<std::uint32_t>(sweeps), relaxation().step, relaxation().scheme});
-  emit tapeChanged();
+  emit movesChanged();
 }
 
 /// Stops sweeps of relaxation, which may run for hours. Call it before the object changes. Drops the waypoints, because
@@ -72,7 +72,7 @@ void Document::goTo(std::size_t position) {
   edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsTape = true;
   apply(std::move(edit));
-  emit tapeChanged();
+  emit movesChanged();
 }
 
 /// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
@@ -97,7 +97,7 @@ void Document::loadMoves(const std::shared_ptr<const std::vector<Command>>& move
   };
   edit.followsTape = true;
   apply(std::move(edit));
-  emit tapeChanged();
+  emit movesChanged();
 }
 
 bool Document::recordsLesson() const {
@@ -150,7 +150,7 @@ void Document::goToInLesson(std::size_t position, const std::vector<Algorithm>& 
   };
   edit.followsTape = true;
   apply(std::move(edit));
-  emit tapeChanged();
+  emit movesChanged();
 }
 
 /// Replays the commands from the nearest known state up to `position`. Another algorithm, or relaxation in idle time,
@@ -210,7 +210,7 @@ void Document::dropWaypoints() {
 }
 
 /// Sets cuts, pins and softness to their state at the current position in the recorded commands.
-void Document::showTape() {
+void Document::showMoves() {
   const MoveHistory::Object object = moveHistory().object();
   const std::vector<LinkId> cut = cuts().links();
   if (cut != object.cuts) {

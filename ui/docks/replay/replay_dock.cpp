@@ -46,15 +46,15 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   connect(&playing_, &QTimer::timeout, this, &ReplayDock::playOn);
   refresh_.setSingleShot(true);
   refresh_.setInterval(tapeRefreshMilliseconds);
-  connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showTape);
-  connect(&document, &Document::tapeChanged, this, &ReplayDock::scheduleShow);
+  connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showMoves);
+  connect(&document, &Document::movesChanged, this, &ReplayDock::scheduleShow);
   connect(&document, &Document::meshChanged, this, [this] {
     if (std::exchange(played_, document_.unsplitMesh()) != document_.unsplitMesh()) {
       setPlaying(false);
     }
   });
   listenToFilm();
-  showTape();
+  showMoves();
 }
 
 // Actions.
@@ -130,7 +130,7 @@ QString ReplayDock::describe() const {
       .arg(history.passes(history.length()));
 }
 
-void ReplayDock::showTape() {
+void ReplayDock::showMoves() {
   if (wanted_) {
     goTo(*wanted_);
   }
@@ -294,7 +294,7 @@ void ReplayDock::listenToFilm() {
   });
   connect(&film_, &Film::failed, this, &ReplayDock::failed);
   connect(&film_, &Film::saved, this, &ReplayDock::saved);
-  connect(&film_, &Film::changed, this, &ReplayDock::showTape);
+  connect(&film_, &Film::changed, this, &ReplayDock::showMoves);
 }
 
 // Files.

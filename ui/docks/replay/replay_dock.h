@@ -48,7 +48,7 @@ class ReplayDock : public QDockWidget {
   QWidget* makeFilmBar();
   void listenToFilm();
   void scheduleShow();
-  void showTape();
+  void showMoves();
   QString describe() const;
   /// Return the position in the recorded commands after the next move, and before the last one. A move ends with its
   /// pass.
