@@ -357,10 +357,10 @@ void Document::setSoftness(const LinkSoftness& global, const QString& text, int 
 }
 
 void Document::setFrame(AxesKind kind) {
-  const RegionAxes frame = kind == AxesKind::object ? principal_axes(*mesh()).frame : RegionAxes();
-  if (kind != AxesKind::given && frame != wholeSoftness()->axes) {
+  const RegionAxes axes = kind == AxesKind::object ? principal_axes(*mesh()).axes : RegionAxes();
+  if (kind != AxesKind::given && axes != wholeSoftness()->axes) {
     Softness softness = *wholeSoftness();
-    softness.axes = frame;
+    softness.axes = axes;
     Change edit = change(kind == AxesKind::object ? QStringLiteral("regions along the object's axes")
                                                   : QStringLiteral("regions along the axes"));
     edit.after.softness = std::make_shared<const Softness>(std::move(softness));
