@@ -38,6 +38,7 @@ class HandoverTest : public QObject {
   void cut_off_anywhere_it_is_damaged();
   void changed_anywhere_it_is_damaged_or_another_mesh();
   void coordinates_must_be_finite();
+  void merged_voxels_must_be_possible();
 };
 
 void HandoverTest::a_mesh_comes_over_whole() {
@@ -98,6 +99,17 @@ void HandoverTest::changed_anywhere_it_is_damaged_or_another_mesh() {
     } catch (const Error& error) {
       QVERIFY(QString(error.what()).startsWith("a.msh: "));
     }
+  }
+}
+
+void HandoverTest::merged_voxels_must_be_possible() {
+  Volume volume;
+  volume.size = {2, 1, 1};
+  volume.spacing = Point(1, 1, 1);
+  volume.densities = {7, 8};
+  for (const std::uint32_t merged : {0U, ~0U}) {
+    volume.merged = merged;
+    QVERIFY(error_of([&] { decode_imported(encode_imported(volume), "a.nrrd"); }).startsWith("a.nrrd: the answer of"));
   }
 }
 

@@ -286,7 +286,8 @@ def test_a_body_beyond_measure(method):
         in_range(body)
 
 
-@pytest.mark.parametrize("size, error", [("3", TypeError), (2.5, TypeError), (None, TypeError), (2**70, chainmail.Error)])
+@pytest.mark.parametrize("size, error", [("3", TypeError), (2.5, TypeError), (None, TypeError), (2**32 + 3, chainmail.Error),
+                                         (2**70, chainmail.Error)])
 def test_sizes_that_are_none(size, error):
     with pytest.raises(error):
         chainmail.make_line(size)

@@ -191,6 +191,7 @@ class WindowComfort : public QObject {
     QVERIFY(!bar.isVisible());
     bar.say(QStringLiteral("fourth"));
     bar.say(QStringLiteral("fifth"));
+    QVERIFY(bench.find<QToolButton>("dismissAll")->isVisible());
     QTest::mouseClick(bench.find<QToolButton>("dismissAll"), Qt::LeftButton);
     QVERIFY(!bar.isVisible());
     QCOMPARE(bar.count(), 0);

@@ -183,6 +183,8 @@ class WindowKeyboard : public QObject {
       QTest::keyClick(keys, Qt::Key_K);  // the key of Cut
       QCOMPARE(fit->shortcut(), QKeySequence(Qt::Key_F));
       QVERIFY2(answer->text().startsWith(QStringLiteral("K belongs to 'Edit › Cut'")), qPrintable(answer->text()));
+      QTest::keyClick(keys, Qt::Key_Shift);  // alone, it is no key of an action
+      QVERIFY(fit->shortcut() == QKeySequence(Qt::Key_F) && !answer->text().isEmpty());
       QTest::keyClick(keys, Qt::Key_J, Qt::ControlModifier);
       QCOMPARE(fit->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
       QVERIFY(answer->text().isEmpty());

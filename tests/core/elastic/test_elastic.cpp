@@ -34,6 +34,7 @@ class ElasticTest : public QObject {
   void a_cantilever_bends_as_beams_do();
   void small_moves_are_linear();
   void the_hand_and_the_pins_are_where_they_are();
+  void options_out_of_range_are_refused();
 };
 
 namespace {
@@ -54,6 +55,16 @@ CornerDisplacements some_corners(int dimension, std::mt19937_64& random) {
 }
 
 }  // namespace
+
+void ElasticTest::options_out_of_range_are_refused() {
+  check(ElasticOptions());
+  ElasticOptions options;
+  options.iterations = 0;
+  QVERIFY_THROWS_EXCEPTION(Error, check(options));
+  options = {};
+  options.lattice[1] = 1;
+  QVERIFY_THROWS_EXCEPTION(Error, check(options));
+}
 
 void ElasticTest::uniform_strain_is_exact_data() {
   QTest::addColumn<int>("dimension");

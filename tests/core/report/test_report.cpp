@@ -200,6 +200,7 @@ void ReportTest::a_linear_axis_ends_at_a_round_number() {
 
 void ReportTest::a_plot_has_every_contestant_on_it() {
   const Plot plot = violation_plot(comparison().cases[0]);
+  QVERIFY(!is_empty(plot) && is_empty(Plot()));
   QCOMPARE(plot.panels.size(), std::size_t{2});
   QCOMPARE(plot.series.size(), std::size_t{2});  // the refused contestant has no marks
   QVERIFY(plot.series[0].style != plot.series[1].style);
