@@ -10,6 +10,7 @@
 #include "bench/process.h"
 #include "bench/scenes.h"
 #include "bench/window_program.h"
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "io/sessions.h"
 #include "mesh/generate.h"
@@ -41,11 +42,12 @@ class LargeScene {
     const auto build = [this, recipe](const Progress& progress) -> Jobs::Finish {
       const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
       prepareLevels(mesh, progress.part(0.8, 1));
-      return [this, mesh] { document().replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build")); };
+      return [this, mesh] { edits::replaceMesh(document(), mesh, QStringLiteral("large"), QStringLiteral("build")); };
     };
     const auto isShown = [&] {
-      return document().mesh()->element_count() == elements && document().frame(0) != nullptr &&
-             document().frame(1) != nullptr && application().viewPaints >= painted + 2 && document().settled();
+      return document().mesh()->element_count() == elements && document().solvers().frame(0) != nullptr &&
+             document().solvers().frame(1) != nullptr && application().viewPaints >= painted + 2 &&
+             document().solvers().settled();
     };
     const double ms = step(
         "open", [&] { window_.jobs().start(Jobs::Kind::load, QStringLiteral("Building"), build); }, isShown);
@@ -72,7 +74,7 @@ class LargeScene {
     step(what, press, [&] { return count >= moves; });
     mouse_.stop();
     QObject::disconnect(moving);
-    const Statistics &left = document().statistics(0), &right = document().statistics(1);
+    const Statistics &left = document().solvers().statistics(0), &right = document().solvers().statistics(1);
     std::printf("  passes: %s %.3f ms, %s %.3f ms, %llu moved\n", info(left.algorithm).name.data(), left.last_pass_ms,
                 info(right.algorithm).name.data(), right.last_pass_ms,
                 static_cast<unsigned long long>(right.last_pass.moved));
@@ -87,7 +89,7 @@ class LargeScene {
     const std::vector<LinkId> links(mesh.entry_link.begin() + mesh.first_entry[middle],
                                     mesh.entry_link.begin() + mesh.first_entry[middle + 1]);
     step(
-        "cut", [&] { document().cut(links); }, settled());
+        "cut", [&] { edits::cut(document(), links); }, settled());
     undo("undo the cut");
   }
   void undo(const char* what) {
@@ -96,9 +98,9 @@ class LargeScene {
   }
 
   void makeStiff() {
-    document().setAlgorithm(0, Algorithm::exact);
+    edits::setAlgorithm(document(), 0, Algorithm::exact);
     step(
-        "stiff", [&] { document().setSoftness(stiff, QStringLiteral("stiff")); }, settled());
+        "stiff", [&] { edits::setSoftness(document(), stiff, QStringLiteral("stiff")); }, settled());
     run(restMilliseconds);
   }
 
@@ -125,7 +127,7 @@ class LargeScene {
   View& view() { return window_.panel(0).view(); }
   QPointF centre() { return QRectF(view().rect()).center(); }
   Condition settled() {
-    return [this] { return document().settled(); };
+    return [this] { return document().solvers().settled(); };
   }
 
   /// Does a step, and runs the event loop until it is done. Returns the time (ms).

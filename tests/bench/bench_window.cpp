@@ -46,7 +46,8 @@ double until(const QElapsedTimer& clock, const char* what, const std::function<b
 double untilShown(MainWindow& window, const QElapsedTimer& clock, ElementId elements) {
   Document& document = window.document();
   until(clock, "the object in both panels", [&] {
-    return document.mesh()->element_count() == elements && document.frame(0) != nullptr && document.frame(1) != nullptr;
+    return document.mesh()->element_count() == elements && document.solvers().frame(0) != nullptr &&
+           document.solvers().frame(1) != nullptr;
   });
   const int before = application().viewPaints;
   window.panel(0).view().update();
@@ -84,7 +85,7 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   const double drew = app.drawingMilliseconds - drawing;
   const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - cpu - drew;
   mouse.stop();
-  const auto* frame = window.document().frame(0);
+  const auto* frame = window.document().solvers().frame(0);
   std::printf("local drag: %d frames and %d moves in %d s, %llu moved; GUI thread %.3f ms a frame, drawing %.1f ms\n",
               drawn, step - steps, dragMilliseconds / 1000,
               frame == nullptr ? 0ULL : static_cast<unsigned long long>(frame->statistics.last_pass.moved), own / drawn,
@@ -302,9 +303,9 @@ void measure(Results& results) {
   const FrameMilliseconds frame = guiMilliseconds(window);
   results.add("/window/gui_ms", frame.own);
   results.add("/window/painting_ms", frame.painting);
-  until(clock, "the solvers to end", [&] { return window.document().idle(); });
+  until(clock, "the solvers to end", [&] { return window.document().solvers().idle(); });
   results.add("/window/latency_ms", latencyMilliseconds(window));
-  until(clock, "the solvers to end", [&] { return window.document().idle(); });
+  until(clock, "the solvers to end", [&] { return window.document().solvers().idle(); });
   run(2000);  // the figures at rest are updated a moment later
   results.add("/window/idle_cpu", idleShare());
   const QTemporaryDir folder;

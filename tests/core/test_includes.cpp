@@ -333,7 +333,7 @@ void IncludesTest::fixed_waits_are_found_data() {
   row("  std::this_thread::sleep_for"
       "(1ms);",
       true);
-  row("  QTRY_VERIFY(bench.document().idle());", false);
+  row("  QTRY_VERIFY(bench.document().solvers().idle());", false);
   row("  QVERIFY(QTest::qWaitFor([&] { return done; }));", false);
   row("  QVERIFY(QTest::qWaitForWindowExposed(&window));", false);
   row("  QVERIFY(saved.wait(30'000));", false);

@@ -7,6 +7,7 @@
 
 #include "core/families.h"
 #include "document/document.h"
+#include "document/edits.h"
 #include "document/session_draft.h"
 #include "program.h"
 
@@ -17,7 +18,7 @@ using namespace chainmail::test;
 namespace {
 
 bool is_idle(Document& document) {
-  return QTest::qWaitFor([&document] { return document.idle(); }, 60'000);
+  return QTest::qWaitFor([&document] { return document.solvers().idle(); }, 60'000);
 }
 
 /// Writes the session of a document, and reads it as the next start of the program does.
@@ -29,7 +30,7 @@ std::shared_ptr<const Session> session_of(Document& document) {
 
 std::vector<ElementId> pins_of_solver(Document& document, int panel) {
   std::promise<std::vector<ElementId>> pins;
-  document.ask(panel, [&pins](const Simulation& now) {
+  document.solvers().ask(panel, [&pins](const Simulation& now) {
     pins.set_value({now.body().pins().begin(), now.body().pins().end()});
   });
   return pins.get_future().get();
@@ -62,26 +63,26 @@ class DocumentChangesTest : public QObject {
 
 void DocumentChangesTest::the_session_after_a_refused_drag_opens() {
   Document document(mesh_, QStringLiteral("sheet"));
-  document.setPinned({3}, true);
+  edits::setPinned(document, {3}, true);
   for (const ElementId element : {3u, 7u}) {
-    document.grab(element);
-    document.dragBy(Point(0.5, 1, 0));
-    document.release();
+    document.handle().grab(element);
+    document.handle().dragBy(Point(0.5, 1, 0));
+    document.handle().release();
     QVERIFY(is_idle(document));
   }
   const auto session = session_of(document);
   Document next(session->mesh, QStringLiteral("next"));
-  next.restore(session, {}, QStringLiteral("open"));
+  edits::restore(next, session, {}, QStringLiteral("open"));
   QCOMPARE(next.pins(), std::vector<ElementId>{3});
-  QCOMPARE(next.lastDrag().size(), std::size_t{2});  // the grab and the drag of element 7
+  QCOMPARE(next.moves().lastDrag().size(), std::size_t{2});  // the grab and the drag of element 7
 }
 
 void DocumentChangesTest::each_refused_grab_is_said() {
   Document document(mesh_, QStringLiteral("sheet"));
   const QSignalSpy refused(&document, &Document::refused);
-  document.setPinned({3}, true);
+  edits::setPinned(document, {3}, true);
   for (int attempt = 1; attempt <= 2; ++attempt) {
-    document.grab(3);
+    document.handle().grab(3);
     QTRY_COMPARE(refused.size(), qsizetype(attempt * document.panels()));
   }
 }
@@ -89,9 +90,9 @@ void DocumentChangesTest::each_refused_grab_is_said() {
 void DocumentChangesTest::a_change_ends_the_drag_in_the_solvers() {
   Document document(mesh_, QStringLiteral("sheet"));
   const QSignalSpy refused(&document, &Document::refused);
-  document.grab(7);
-  document.dragBy(Point(0.5, 1, 0));
-  document.setPinned({7}, true);
+  document.handle().grab(7);
+  document.handle().dragBy(Point(0.5, 1, 0));
+  edits::setPinned(document, {7}, true);
   QVERIFY(is_idle(document));
   for (int panel = 0; panel < document.panels(); ++panel) {
     QCOMPARE(pins_of_solver(document, panel), document.pins());
@@ -101,48 +102,48 @@ void DocumentChangesTest::a_change_ends_the_drag_in_the_solvers() {
 
 void DocumentChangesTest::a_change_after_a_session_saved_while_dragging_can_be_saved() {
   Document document(mesh_, QStringLiteral("sheet"));
-  document.grab(7);
-  document.dragBy(Point(0.5, 1, 0));
+  document.handle().grab(7);
+  document.handle().dragBy(Point(0.5, 1, 0));
   QVERIFY(is_idle(document));
   Document next(mesh_, QStringLiteral("next"));
   const QSignalSpy refused(&next, &Document::refused);
-  next.restore(session_of(document), {}, QStringLiteral("open"));
-  next.setPinned({7}, true);
+  edits::restore(next, session_of(document), {}, QStringLiteral("open"));
+  edits::setPinned(next, {7}, true);
   QVERIFY(is_idle(next));
   QCOMPARE(refused.size(), qsizetype{0});
   const auto session = session_of(next);
   QCOMPARE(session->pins, std::vector<ElementId>{7});
   // The same after a replay that ends within the drag.
-  document.release();
-  document.goTo(2);
-  document.setPinned({7}, true);
+  document.handle().release();
+  document.moves().goTo(2);
+  edits::setPinned(document, {7}, true);
   QVERIFY(is_idle(document));
   QCOMPARE(session_of(document)->pins, std::vector<ElementId>{7});
 }
 
 void DocumentChangesTest::a_split_keeps_the_mesh_file() {
   Document document(mesh_, QStringLiteral("sheet"));
-  document.setMeshFile(QStringLiteral("sheet.obj"));
-  document.split(split_of(document.mesh()));
-  QCOMPARE(document.meshFile(), QStringLiteral("sheet.obj"));
+  document.files().setMesh(QStringLiteral("sheet.obj"));
+  edits::split(document, split_of(document.mesh()));
+  QCOMPARE(document.files().mesh(), QStringLiteral("sheet.obj"));
 }
 
 void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
   Document document(mesh_, QStringLiteral("sheet"));
-  document.grab(7);
-  document.dragBy(Point(0.5, 1, 0));
-  document.release();
+  document.handle().grab(7);
+  document.handle().dragBy(Point(0.5, 1, 0));
+  document.handle().release();
   Session lesson = SessionDraft(document, "{}").finished({});
   LessonStep step;
   step.title = "step";
   step.until = lesson.moves_done;
   lesson.lesson = {"lesson", {step}};
   const LinkSoftness own{0.5, 1.5, 0.3};
-  document.setSoftness(own, QStringLiteral("softness"));
-  document.restore(std::make_shared<const Session>(lesson), {}, QStringLiteral("open"));
+  edits::setSoftness(document, own, QStringLiteral("softness"));
+  edits::restore(document, std::make_shared<const Session>(lesson), {}, QStringLiteral("open"));
   QVERIFY(document.softness() == LinkSoftness());
-  document.split(split_of(document.mesh()));
-  document.replaceMesh(mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
+  edits::split(document, split_of(document.mesh()));
+  edits::replaceMesh(document, mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
   QVERIFY(document.softness() == own);
 }
 

@@ -12,6 +12,8 @@
 
 #include "core/families.h"
 #include "document/document.h"
+#include "document/edits.h"
+#include "document/element_facts.h"
 #include "document/session_draft.h"
 #include "mesh/generate.h"
 #include "mesh/split.h"
@@ -91,11 +93,11 @@ std::vector<MeshPointer> meshes() {
 bool has_done_all(Document& document, bool frames = false) {
   constexpr int patience = 60'000, again = 2;  // ms
   const QDeadlineTimer end(patience);
-  const auto has = [&] { return frames ? document.settled() : document.idle(); };
+  const auto has = [&] { return frames ? document.solvers().settled() : document.solvers().idle(); };
   while (!has() && !end.hasExpired()) {
     QEventLoop loop;
-    QObject::connect(&document, &Document::frameReady, &loop, &QEventLoop::quit);
-    QObject::connect(&document, &Document::becameIdle, &loop, &QEventLoop::quit);
+    QObject::connect(&document.solvers(), &PanelSolvers::frameReady, &loop, &QEventLoop::quit);
+    QObject::connect(&document.solvers(), &PanelSolvers::becameIdle, &loop, &QEventLoop::quit);
     QTimer::singleShot(again, &loop, &QEventLoop::quit);
     loop.exec();
   }
@@ -134,7 +136,7 @@ struct SolverState {
 
 SolverState state_of(Document& document, int panel) {
   std::promise<SolverState> answer;
-  document.ask(panel, [&](const Simulation& now) {
+  document.solvers().ask(panel, [&](const Simulation& now) {
     SolverState state;
     state.agrees = now.mesh_pointer() == document.mesh() && now.softness() == *document.wholeSoftness() &&
                    now.elastic() == document.elastic() && now.relaxation() == document.relaxation() &&
@@ -169,24 +171,24 @@ struct Prefix {
 DocumentState observed(Document& document, const Prefix& prefix = {}) {
   RC_ASSERT(has_done_all(document));
   const Session session = SessionDraft(document, "{}").finished({});
-  const std::size_t skip = prefix.in(document.moveHistory());
+  const std::size_t skip = prefix.in(document.moves().history());
   const auto moves = std::span(session.moves).subspan(skip);
   const std::size_t done = session.moves_done - skip;
   DocumentState state{
       text_of(session, {}, 0), text_of(session, moves.first(done), done), text_of(session, moves, done), {}, {}, {}};
   state.facts << QStringLiteral("parts %1").arg(document.parts())
               << QStringLiteral("unsplit %1").arg(document.unsplitMesh()->link_count())
-              << QStringLiteral("files ") + document.sessionFile() + ' ' + document.meshFile()
-              << QStringLiteral("last drag %1").arg(document.lastDrag().size())
+              << QStringLiteral("files ") + document.files().session() + ' ' + document.files().mesh()
+              << QStringLiteral("last drag %1").arg(document.moves().lastDrag().size())
               << QStringLiteral("selected %1, %2")
-                     .arg(document.selection().elements.size())
-                     .arg(document.selection().links.size());
+                     .arg(document.selection().elements().size())
+                     .arg(document.selection().links().size());
   for (int panel = 0; panel < document.panels(); ++panel) {
     SolverState solver = state_of(document, panel);
     RC_ASSERT(solver.agrees);
     state.algorithms.push_back(document.algorithm(panel));
     state.positions.push_back(std::move(solver.positions));
-    state.facts << QStringLiteral("lacks pins %1").arg(document.lacksPins(panel));
+    state.facts << QStringLiteral("lacks pins %1").arg(lacksPins(document, panel));
   }
   return state;
 }
@@ -230,8 +232,8 @@ class Life {
   void look() {
     RC_ASSERT(has_done_all(*document_, true));
     for (int panel = 0; panel < document_->panels(); ++panel) {
-      RC_ASSERT(document_->frame(panel) != nullptr);
-      RC_ASSERT(document_->frame(panel)->positions == state_of(*document_, panel).positions);
+      RC_ASSERT(document_->solvers().frame(panel) != nullptr);
+      RC_ASSERT(document_->solvers().frame(panel)->positions == state_of(*document_, panel).positions);
     }
   }
 
@@ -253,7 +255,7 @@ class Life {
     const QStringList said = carried_out(*document_, step, 0);
     const DocumentState after = observed(*document_);
     if (action.kind != Kind::relax) {  // sweeps in idle time: their number differs
-      RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->moveHistory())).isEmpty() == said.isEmpty());
+      RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->moves().history())).isEmpty() == said.isEmpty());
       check(observed(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
     }
     if (action.kind == Kind::add_panel || action.kind == Kind::remove_panel) {
@@ -284,11 +286,11 @@ class Life {
     while (fresh->panels() < document_->panels()) {
       fresh->addPanel();
     }
-    fresh->restore(session, document_->sessionFile(), QStringLiteral("open"));
-    fresh->setMeshFile(document_->meshFile());
-    fresh->select(document_->selection().elements);
+    edits::restore(*fresh, session, document_->files().session(), QStringLiteral("open"));
+    fresh->files().setMesh(document_->files().mesh());
+    fresh->selection().set(document_->selection().elements());
     fresh->undoStack().clear();
-    prefix = session->moves.empty() ? Prefix(fresh->moveHistory()) : Prefix();
+    prefix = session->moves.empty() ? Prefix(fresh->moves().history()) : Prefix();
     return fresh;
   }
 
@@ -335,7 +337,7 @@ class Life {
       }
     }
     const QUndoCommand* present = stack.command(stack.index() - 1);
-    if (document_->held().empty()) {
+    if (document_->handle().held().empty()) {
       kept[present] = state;
     } else if (states_.contains(present)) {
       kept[present] = states_[present];  // undo ends the drag, and leads to what was there before it
@@ -368,15 +370,15 @@ Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) 
   const Rotation rotation = turns ? Rotation{Point(0, 0, 1), 15} : Rotation();
   const Kind kind = action.kind;
   return [=](Document& document, std::size_t) {
-    document.grab(elements);
-    document.dragBy(by / 2);
+    document.handle().grab(elements);
+    document.handle().dragBy(by / 2);
     RC_ASSERT(has_done_all(document));
-    document.dragBy(by, rotation);
+    document.handle().dragBy(by, rotation);
     RC_ASSERT(has_done_all(document));
     if (kind == Kind::cancel_drag) {
-      document.cancelDrag();
+      document.handle().cancel();
     } else if (kind != Kind::drag_and_keep) {
-      document.release();
+      document.handle().release();
     }
   };
 }
@@ -393,13 +395,13 @@ Life::Step Life::handle_step(const Action& action) const {
     case Kind::move_control_point:
       return [=](Document& d, std::size_t) {
         if (d.algorithm(0) == Algorithm::free_form) {
-          d.grabControlPoint(action.which % 8);
-          d.dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
-          d.release();
+          d.handle().grabControlPoint(action.which % 8);
+          d.handle().dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
+          d.handle().release();
         }
       };
     case Kind::select:
-      return [=](Document& d, std::size_t) { d.select({element}); };
+      return [=](Document& d, std::size_t) { d.selection().set({element}); };
     default:
       return {};
   }
@@ -409,7 +411,7 @@ void cut(Document& document, std::vector<LinkId> links) {
   std::ranges::sort(links);
   links.erase(std::ranges::unique(links).begin(), links.end());
   std::erase_if(links, [&document](LinkId one) { return document.cuts().is_cut(one); });
-  document.cut(links);
+  edits::cut(document, links);
 }
 
 /// Splits a triangle into three.
@@ -421,7 +423,8 @@ void split(Document& document, std::uint32_t which) {
     const ElementId p = mesh.element_count();
     std::array corners{a, b, c};
     std::ranges::sort(corners);
-    document.split(
+    edits::split(
+        document,
         make_split(document.mesh(), {{{corners, {0.25, 0.5}}}, {triangle}, {{a, b, p}, {b, c, p}, {c, a, p}}, {}, {}}));
   }
 }
@@ -440,19 +443,19 @@ Life::Step Life::object_step(const Action& action) const {
     case Kind::pin:
     case Kind::unpin:
       return [=, pin = action.kind == Kind::pin](Document& d, std::size_t) {
-        if (d.isPinned(element) != pin) {
-          d.setPinned({element}, pin);
+        if (isPinned(d, element) != pin) {
+          edits::setPinned(d, {element}, pin);
         }
       };
     case Kind::replace_mesh:
       return
           [other = meshes()[action.which % meshes().size()], rework = action.how % 2 == 0](Document& d, std::size_t) {
-            rework ? d.reworkMesh(other, d.name(), QStringLiteral("repair"))
-                   : d.replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
-            d.setMeshFile(rework ? d.meshFile() : QStringLiteral("other.obj"));
+            rework ? edits::reworkMesh(d, other, d.name(), QStringLiteral("repair"))
+                   : edits::replaceMesh(d, other, QStringLiteral("other"), QStringLiteral("build"));
+            d.files().setMesh(rework ? d.files().mesh() : QStringLiteral("other.obj"));
           };
     case Kind::reset:
-      return [](Document& d, std::size_t) { d.resetObject(); };
+      return [](Document& d, std::size_t) { edits::resetObject(d); };
     default:
       return {};
   }
@@ -464,17 +467,20 @@ Life::Step Life::softness_step(const Action& action) const {
                           action.how % 2 / 2.0,       1.0 + action.how % 3,     0};
   switch (action.kind) {
     case Kind::soften:
-      return [=](Document& d, std::size_t) { d.setSoftness(soft, QStringLiteral("softness")); };
+      return [=](Document& d, std::size_t) { edits::setSoftness(d, soft, QStringLiteral("softness")); };
     case Kind::soften_links:
       return [=, own = action.how % 4 != 0](Document& d, std::size_t) {
-        d.setSoftnessOf({std::min(link, other), std::max(link, other)}, own ? std::optional(soft) : std::nullopt);
+        edits::setSoftnessOf(d, {std::min(link, other), std::max(link, other)},
+                             own ? std::optional(soft) : std::nullopt);
       };
     case Kind::reset_softness:
-      return [](Document& d, std::size_t) { d.resetSoftness(); };
+      return [](Document& d, std::size_t) { edits::resetSoftness(d); };
     case Kind::change_energy:
-      return [=](Document& d, std::size_t) { d.setEnergy(EnergyKind(action.which % 3)); };
+      return [=](Document& d, std::size_t) { edits::setEnergy(d, EnergyKind(action.which % 3)); };
     case Kind::turn_regions:
-      return [=](Document& d, std::size_t) { d.setFrame(action.which % 2 == 0 ? AxesKind::object : AxesKind::axes); };
+      return [=](Document& d, std::size_t) {
+        edits::setRegionAxes(d, action.which % 2 == 0 ? AxesKind::object : AxesKind::axes);
+      };
     default:
       return {};
   }
@@ -487,13 +493,14 @@ void relax(Document& document) {
   auto relaxation = document.relaxation();
   document.undoStack().beginMacro(QStringLiteral("relax"));
   relaxation.on = true;
-  document.setRelaxation(relaxation);
+  edits::setRelaxation(document, relaxation);
   const auto has_relaxed = [&document] {
-    return document.settled() || (document.frame(0) != nullptr && document.frame(0)->statistics.sweeps > 0);
+    return document.solvers().settled() ||
+           (document.solvers().frame(0) != nullptr && document.solvers().frame(0)->statistics.sweeps > 0);
   };
   (void)QTest::qWaitFor(has_relaxed, patience);
   relaxation.on = false;
-  document.setRelaxation(relaxation);
+  edits::setRelaxation(document, relaxation);
   document.undoStack().endMacro();
 }
 
@@ -501,13 +508,13 @@ Life::Step Life::setting_step(const Action& action) const {
   switch (action.kind) {
     case Kind::set_relaxation:
       return [=](Document& d, std::size_t) {
-        d.setRelaxation({false, 0.25 + action.how % 3 / 4.0, relaxation_schemes[action.which % 3].scheme});
+        edits::setRelaxation(d, {false, 0.25 + action.how % 3 / 4.0, relaxation_schemes[action.which % 3].scheme});
       };
     case Kind::relax:
       return [](Document& d, std::size_t) { relax(d); };
     case Kind::change_material:
       return [=](Document& d, std::size_t) {
-        d.setElastic({{1.0 + action.which, 0.25}, {3, 3, 3}}, QStringLiteral("material"));
+        edits::setElastic(d, {{1.0 + action.which, 0.25}, {3, 3, 3}}, QStringLiteral("material"));
       };
     default:
       return {};
@@ -519,7 +526,7 @@ Life::Step Life::panel_step(const Action& action) const {
     case Kind::change_algorithm:
       return [panel = int(action.how) % document_->panels(),
               algorithm = algorithms()[action.which % algorithms().size()].algorithm](Document& d, std::size_t) {
-        d.setAlgorithm(panel, algorithm);
+        edits::setAlgorithm(d, panel, algorithm);
       };
     case Kind::add_panel:
       return [](Document& d, std::size_t) { d.addPanel(); };
@@ -534,18 +541,18 @@ Life::Step Life::move_step(const Action& action) const {
   switch (action.kind) {
     case Kind::load_moves:
       return [](Document& d, std::size_t skip) {
-        auto moves = d.moveHistory().commands();
+        auto moves = d.moves().history().commands();
         moves.erase(moves.begin(), moves.begin() + std::ptrdiff_t(skip));
-        d.loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("load"));
+        d.moves().load(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("load"));
       };
     case Kind::go_to:
-      return [at = action.which % (document_->moveHistory().length() + 1)](Document& d, std::size_t skip) {
-        d.goTo(at + skip);
+      return [at = action.which % (document_->moves().history().length() + 1)](Document& d, std::size_t skip) {
+        d.moves().goTo(at + skip);
       };
     case Kind::reload:
       return [session = std::make_shared<const Session>(SessionDraft(*document_, "{}").finished({}))](Document& d,
                                                                                                       std::size_t) {
-        d.restore(session, QStringLiteral("again.chainmail"), QStringLiteral("open"));
+        edits::restore(d, session, QStringLiteral("again.chainmail"), QStringLiteral("open"));
       };
     default:
       return {};

@@ -1,5 +1,6 @@
 // Makes the pictures of README.md for the target `pictures`.
 
+#include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/samples.h"
 #include "window.h"
@@ -24,12 +25,12 @@ struct Cloth : Workbench {
   /// Drags an element by `by`, in this number of passes.
   void drag(ElementId element, const Point& by, int passes) {
     const Point from = document().mesh()->rest_position(element);
-    document().grab(element);
+    document().handle().grab(element);
     for (int i = 1; i <= passes; ++i) {
-      document().drag(from + by * i / passes);
+      document().handle().drag(from + by * i / passes);
       settle();
     }
-    document().release();
+    document().handle().release();
     settleFigures();
   }
 
@@ -39,7 +40,7 @@ struct Cloth : Workbench {
 /// Saves a picture of a drag that shows the violation of each link in colour.
 bool saveViolation(const QString& path) {
   Cloth bench;
-  bench.document().setPinned({10 * width}, true);
+  edits::setPinned(bench.document(), {10 * width}, true);
   bench.trigger("colourBy-violation");
   bench.drag(8 * width + 19, Point(-2, 4, 0), 60);
   return bench.save(path);

@@ -196,7 +196,7 @@ void Monkey::resize() {
 void Monkey::wait() {
   const int milliseconds = int(below(40));
   say(QStringLiteral("wait for a frame, %1 ms at most").arg(milliseconds));
-  QSignalSpy(&bench_.document(), &Document::frameReady).wait(milliseconds);
+  QSignalSpy(&bench_.document().solvers(), &PanelSolvers::frameReady).wait(milliseconds);
 }
 
 }  // namespace chainmail

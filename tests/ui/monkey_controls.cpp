@@ -10,6 +10,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "document/edits.h"
 #include "monkey.h"
 
 namespace chainmail {
@@ -249,7 +250,7 @@ void Monkey::rest() {
   bench_.settle();
   commands::SetRelaxation off = bench_.document().relaxation();
   off.on = false;
-  bench_.document().setRelaxation(off);
+  edits::setRelaxation(bench_.document(), off);
   bench_.settle();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "document/edits.h"
 #include "document/session_draft.h"
 #include "window.h"
 #include "window/window_layout.h"
@@ -9,22 +10,22 @@ namespace chainmail {
 inline MeshPointer cloth() { return generate({MeshKind::cloth, {12, 9, 1}, 0.7, {}}); }
 
 inline void drag(Document& document, ElementId element, const Point& by) {
-  document.grab(element);
-  document.drag(document.mesh()->rest_position(element) + by);
-  document.release();
+  document.handle().grab(element);
+  document.handle().drag(document.mesh()->rest_position(element) + by);
+  document.handle().release();
 }
 
 /// Changes everything that a session stores.
 inline void changeEverything(Workbench& bench) {
   Document& document = bench.document();
-  document.setAlgorithm(0, Algorithm::exact);
-  document.setAlgorithm(1, Algorithm::spiral);
-  document.setPinned({0, 11}, true);
-  document.cut({3, 40});
-  document.setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
-  document.setSoftnessOf({5, 6}, LinkSoftness{1, 1, 0});
-  document.setRelaxation({false, 0.5, RelaxationScheme::link});
-  document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
+  edits::setAlgorithm(document, 0, Algorithm::exact);
+  edits::setAlgorithm(document, 1, Algorithm::spiral);
+  edits::setPinned(document, {0, 11}, true);
+  edits::cut(document, {3, 40});
+  edits::setSoftness(document, {0.7, 1.3, 0.15}, QStringLiteral("softness"));
+  edits::setSoftnessOf(document, {5, 6}, LinkSoftness{1, 1, 0});
+  edits::setRelaxation(document, {false, 0.5, RelaxationScheme::link});
+  edits::setElastic(document, {{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
   drag(document, 50, {1.3, -0.9, 0});
   drag(document, 100, {-0.1, 1.0 / 3, 0});
   bench.settle();

@@ -52,7 +52,7 @@ struct Workbench {
   void settle() {
     QCoreApplication::processEvents();  // pending requests may start a job
     QTRY_VERIFY_WITH_TIMEOUT(!window.jobs().running(), longestWait);
-    QTRY_VERIFY_WITH_TIMEOUT(document().idle(), longestWait);
+    QTRY_VERIFY_WITH_TIMEOUT(document().solvers().idle(), longestWait);
     QTRY_VERIFY_WITH_TIMEOUT(showsTheObject(), longestWait);
     awaitFrames();
     do {
@@ -74,7 +74,7 @@ struct Workbench {
   bool showsTheObject() {
     int frames = 0;
     for (int panel = 0; panel < document().panels(); ++panel) {
-      frames += document().frame(panel) != nullptr ? 1 : 0;
+      frames += document().solvers().frame(panel) != nullptr ? 1 : 0;
     }
     return frames == document().panels();
   }
@@ -83,10 +83,11 @@ struct Workbench {
   void awaitFrames() {
     std::vector<int> frames(Document::maxPanels, 0);
     QObject context;
-    QObject::connect(&document(), &Document::frameReady, &context, [&](int panel) { ++frames[std::size_t(panel)]; });
+    QObject::connect(&document().solvers(), &PanelSolvers::frameReady, &context,
+                     [&](int panel) { ++frames[std::size_t(panel)]; });
     const auto seen = [&] {
       // The first frame may have been under way before.
-      return document().settled() ||
+      return document().solvers().settled() ||
              std::all_of(frames.begin(), frames.begin() + document().panels(), [](int count) { return count >= 2; });
     };
     QTRY_VERIFY(seen());
@@ -125,7 +126,7 @@ struct Workbench {
   /// Returns the settings that a panel's solver uses, as reported by the solver.
   SolverSettings settings(int panel) {
     std::promise<SolverSettings> settings;
-    document().ask(panel, [&settings](const Simulation& simulation) {
+    document().solvers().ask(panel, [&settings](const Simulation& simulation) {
       settings.set_value({simulation.relaxation(), simulation.elastic()});
     });
     return settings.get_future().get();
@@ -143,7 +144,7 @@ struct Workbench {
                          Qt::LeftButton, modifiers);
         QApplication::sendEvent(&at, &move);
         // A user is usually slower than the solvers.
-        (void)QTest::qWaitFor([this] { return document().idle(); }, patience);
+        (void)QTest::qWaitFor([this] { return document().solvers().idle(); }, patience);
       }
     }
     if (release) {
@@ -156,7 +157,7 @@ struct Workbench {
   void dragFar() {
     const QPoint from = place(0, 31);
     stroke(0, {from, from + QPoint(170, -170), from + QPoint(-60, -100)});
-    document().setHighlight({});  // the mark would hide the colours below it
+    document().highlight().set({});  // the mark would hide the colours below it
   }
 
   /// Opens the menu of a panel's ghost button, as a click does, and chooses the item whose text starts with `begin`.

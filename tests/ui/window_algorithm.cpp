@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QStandardItemModel>
 
+#include "document/edits.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -28,7 +29,7 @@ class WindowAlgorithm : public QObject {
   void originalIsOfferedWhereItWorks() {
     Workbench bench;
     QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
-    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
+    edits::replaceMesh(bench.document(), cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
     for (int p = 0; p < 2; ++p) {
       QVERIFY(!item(bench, p, "3D ChainMail").isEnabled());
       QVERIFY(item(bench, p, "3D ChainMail").toolTip().contains(QStringLiteral("only on grids")));
@@ -40,7 +41,7 @@ class WindowAlgorithm : public QObject {
 
   void whereItDoesNotWorkItIsRefused() {
     Workbench bench(cloth());
-    bench.document().setAlgorithm(0, Algorithm::chainmail_3d);
+    edits::setAlgorithm(bench.document(), 0, Algorithm::chainmail_3d);
     QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
     QVERIFY(bench.window.messages().isVisible());
     QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Generalized ChainMail"));
@@ -49,10 +50,10 @@ class WindowAlgorithm : public QObject {
   void theSelectorFollowsWhatRunsOnAnotherMesh() {
     Workbench bench;
     bench.choose(0, "3D ChainMail");
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
-    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
+    edits::replaceMesh(bench.document(), cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
     bench.settle();
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::natural_queue);
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, Algorithm::natural_queue);
     QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
     QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Natural Queue ChainMail"));
     QVERIFY(bench.window.messages().isVisible());
@@ -60,7 +61,7 @@ class WindowAlgorithm : public QObject {
     bench.document().undoStack().undo();
     bench.settle();
     // The selector shows the algorithm that runs, for any mesh.
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, bench.document().algorithm(0));
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, bench.document().algorithm(0));
   }
 
   void everyAlgorithmDeformsAGrid_data() {
@@ -81,7 +82,7 @@ class WindowAlgorithm : public QObject {
   void exactStopsWhereThePinsHoldTheHandAndSaysSo() {
     Workbench bench(generate({MeshKind::line, {5, 1, 1}, 1, {}}));
     bench.choose(1, "Exact ChainMail");
-    bench.document().setPinned({0}, true);
+    edits::setPinned(bench.document(), {0}, true);
     auto* state = bench.find<QLabel>("state1");
     const QPoint from = bench.place(0, 4);
     const int link = bench.place(0, 1).x() - bench.place(0, 0).x();

@@ -10,6 +10,7 @@
 
 #include "docks/replay/replay_dock.h"
 #include "docks/report/report_thread.h"
+#include "document/edits.h"
 #include "fair_timer.h"
 #include "files/mesh/mesh_file.h"
 #include "folders.h"
@@ -41,43 +42,43 @@ MeshPointer solid(std::uint32_t width, std::uint32_t height) {
 /// Drags a corner. The solvers have not finished the move when this returns.
 void pull(Document& document) {
   const ElementId corner = document.mesh()->element_count() - 1;
-  document.grab(corner);
-  document.drag(document.mesh()->rest_position(corner) + Point(3, 2, 0));
+  document.handle().grab(corner);
+  document.handle().drag(document.mesh()->rest_position(corner) + Point(3, 2, 0));
 }
 
 /// Starts sweeps that would run for hours; a file of recorded moves may contain such a command.
 void relaxForHours(Workbench& bench) {
   const std::vector<Command> moves{commands::Grab{0}, commands::Drag{Point(-900, -700, 0)}, commands::Release{},
                                    commands::Relax{1'000'000, 1, RelaxationScheme::mean}};
-  bench.document().loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
+  bench.document().moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
   bench.settle();
   bench.trigger("replayLast");
-  QTRY_COMPARE(bench.document().moveHistory().position(), moves.size());
-  QVERIFY(!bench.document().idle());
+  QTRY_COMPARE(bench.document().moves().history().position(), moves.size());
+  QVERIFY(!bench.document().solvers().idle());
 }
 
 /// Returns a function that starts the preparation of an elastic method in the first panel.
 Begin prepares(Algorithm algorithm) {
   return [algorithm](Workbench& bench) {
-    bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
-    bench.document().setAlgorithm(0, algorithm);
+    edits::setPinned(bench.document(), layer(*bench.document().mesh(), *find_side("left")), true);
+    edits::setAlgorithm(bench.document(), 0, algorithm);
     bench.settle();
     pull(bench.document());
-    QVERIFY(!bench.document().idle());
+    QVERIFY(!bench.document().solvers().idle());
   };
 }
 
 void calibrates(Workbench& bench) {
-  bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
+  edits::setPinned(bench.document(), layer(*bench.document().mesh(), *find_side("left")), true);
   bench.trigger("showPhysics");
   bench.find<QPushButton>("calibrate")->click();
   QTRY_VERIFY_WITH_TIMEOUT(bench.window.jobs().running() && bench.window.jobs().share() > 0, 20'000);
 }
 
 void computesTheReference(Workbench& bench) {
-  bench.document().setPinned(layer(*bench.document().mesh(), *find_side("left")), true);
+  edits::setPinned(bench.document(), layer(*bench.document().mesh(), *find_side("left")), true);
   pull(bench.document());
-  bench.document().release();
+  bench.document().handle().release();
   bench.settle();
   bench.window.colouring().setMode(ColourMode::physicsError);
   QTRY_VERIFY_WITH_TIMEOUT(bench.window.panel(0).legend().title().contains(QStringLiteral("computing")), 20'000);
@@ -119,30 +120,30 @@ void goesToTheEnd(Workbench& bench) {
   for (int i = 0; i < 5000; ++i) {
     moves.emplace_back(commands::Drag{Point(i % 2 == 0 ? -900 : 900, -300, 0)});
   }
-  bench.document().loadMoves(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("open"));
+  bench.document().moves().load(std::make_shared<const std::vector<Command>>(std::move(moves)), QStringLiteral("open"));
   bench.settle();
   bench.trigger("replayLast");
-  QTRY_VERIFY(bench.document().moveHistory().position() > 0);
-  QVERIFY(!bench.document().idle());
+  QTRY_VERIFY(bench.document().moves().history().position() > 0);
+  QVERIFY(!bench.document().solvers().idle());
 }
 
 void plays(Workbench& bench) {
   drag(bench.document(), 5, {30, 20, 0});
   bench.settle();
   bench.trigger("replayPlay");
-  QTRY_VERIFY(bench.document().moveHistory().position() < bench.document().moveHistory().length());
+  QTRY_VERIFY(bench.document().moves().history().position() < bench.document().moves().history().length());
 }
 
 /// Starts Exact ChainMail, which has to search for the regions of all elements for each new handle.
 void takesALongPass(Workbench& bench) {
-  bench.document().setPinned({0, 5, 777}, true);
-  bench.document().setAlgorithm(0, Algorithm::exact);
-  bench.document().setAlgorithm(1, Algorithm::enhanced);
+  edits::setPinned(bench.document(), {0, 5, 777}, true);
+  edits::setAlgorithm(bench.document(), 0, Algorithm::exact);
+  edits::setAlgorithm(bench.document(), 1, Algorithm::enhanced);
   bench.settle();
   for (const ElementId element : {100'000U, 30'000U, 60'000U}) {
     drag(bench.document(), element, {100, 200, 0});
   }
-  QVERIFY(!bench.document().idle());
+  QVERIFY(!bench.document().solvers().idle());
 }
 
 }  // namespace
@@ -217,7 +218,7 @@ class WindowClose : public QObject {
   void whatIsUnsavedIsKeptThoughASolverWouldGoOnForHours() {
     auto bench = std::make_unique<Workbench>(grid(150));
     bench->window.sessions().protect();
-    bench->document().setPinned({7}, true);
+    edits::setPinned(bench->document(), {7}, true);
     relaxForHours(*bench);
     const test::FairTimer timer;
     QVERIFY(bench->window.close());
@@ -239,7 +240,7 @@ class WindowClose : public QObject {
     bench->window.sessions().protect();
     takesALongPass(*bench);
     for (int i = 0; i < 8; ++i) {  // each handle needs its own regions
-      bench->document().release();
+      bench->document().handle().release();
       pull(bench->document());
     }
     QVERIFY(bench->window.close());
@@ -258,9 +259,9 @@ class WindowClose : public QObject {
     Workbench bench(grid(150));
     relaxForHours(bench);
     bench.document().undo();
-    QTRY_VERIFY_WITH_TIMEOUT(bench.document().settled(), int(promised));
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().solvers().settled(), int(promised));
     for (int panel = 0; panel < bench.document().panels(); ++panel) {
-      const auto& positions = bench.document().frame(panel)->positions;
+      const auto& positions = bench.document().solvers().frame(panel)->positions;
       QVERIFY(std::equal(positions.begin(), positions.end(), bench.document().mesh()->rest.begin()));
     }
   }

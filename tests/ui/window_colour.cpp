@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QLocale>
 
+#include "document/edits.h"
 #include "drawing/colour_map.h"
 #include "measure/violation.h"
 #include "panels/legend.h"
@@ -52,7 +53,7 @@ class WindowColour : public QObject {
     colourBy(bench, "colourBy-stretch");
     const auto highest = [&](int panel) { return bench.window.panel(panel).legend().highest(); };
     QCOMPARE(highest(0), shown(1.2));
-    bench.document().setSoftness({0.8, 1.6, 0.1}, QStringLiteral("stretch"));
+    edits::setSoftness(bench.document(), {0.8, 1.6, 0.1}, QStringLiteral("stretch"));
     bench.settleFigures();
     QCOMPARE(highest(0), shown(1.6));
     QCOMPARE(highest(1), shown(1.6));
@@ -86,9 +87,9 @@ class WindowColour : public QObject {
     QFETCH(double, own);
     QFETCH(double, global);
     Workbench bench;
-    bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), 30, 31)}, LinkSoftness{0.2, 2.5, 0.7});
+    edits::setSoftnessOf(bench.document(), {*find_link(*bench.document().mesh(), 30, 31)}, LinkSoftness{0.2, 2.5, 0.7});
     // A cut of an earlier link: each colour must stay with its own link.
-    bench.document().cut({*find_link(*bench.document().mesh(), 0, 1)});
+    edits::cut(bench.document(), {*find_link(*bench.document().mesh(), 0, 1)});
     colourBy(bench, mode);
     for (int p = 0; p < 2; ++p) {
       QCOMPARE(bench.window.panel(p).legend().lowest(), shown(std::min(own, global)));
@@ -110,7 +111,7 @@ class WindowColour : public QObject {
     Workbench bench(generate({MeshKind::line, {3, 1, 1}, 1, {}}));
     colourBy(bench, "colourBy-stretch");
     QCOMPARE(bench.window.panel(0).legend().highest(), shown(1.2));
-    bench.document().cut({0, 1});
+    edits::cut(bench.document(), {0, 1});
     bench.settle();
     QTRY_COMPARE(bench.window.panel(0).legend().highest(), QString());
     QVERIFY(bench.window.panel(0).legend().isVisible());
@@ -121,12 +122,12 @@ class WindowColour : public QObject {
     colourBy(bench, "colourBy-violation");
     QVERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("live")));
     QVERIFY(bench.distanceFromColour(0, middleOf(bench, 0, 31, 32), colour_map::neutral) < alike);  // at rest
-    bench.document().setPinned({40}, true);  // the sequential algorithms violate a link next to this pin
+    edits::setPinned(bench.document(), {40}, true);  // the sequential algorithms violate a link next to this pin
     bench.dragFar();
     double largest = 0;
     std::array<LinkId, 2> worst{};
     for (int p = 0; p < 2; ++p) {
-      const Frame& frame = *bench.document().frame(p);
+      const Frame& frame = *bench.document().solvers().frame(p);
       double here = 0;
       for (LinkId link = 0; link < frame.mesh->link_count(); ++link) {
         const double one = link_violation(*frame.mesh, {}, frame.view(), link);
@@ -139,7 +140,7 @@ class WindowColour : public QObject {
     for (int p = 0; p < 2; ++p) {
       QTRY_COMPARE(bench.window.panel(p).legend().highest(), shown(largest));
     }
-    const Frame& left = *bench.document().frame(0);
+    const Frame& left = *bench.document().solvers().frame(0);
     const double share = link_violation(*left.mesh, {}, left.view(), worst[0]) / largest;
     const auto& ends = left.mesh->links[worst[0]];
     QVERIFY(bench.distanceFromColour(0, middleOf(bench, 0, ends[0], ends[1]), colour_map::at(share)) < alike);
@@ -174,7 +175,7 @@ class WindowColour : public QObject {
     bench.stroke(0, {from, from + QPoint(60, 30)});
     double largest = 0;
     for (int p = 0; p < 2; ++p) {
-      const Frame& frame = *bench.document().frame(p);
+      const Frame& frame = *bench.document().solvers().frame(p);
       largest = std::max(largest, measure_violation(*frame.mesh, {}, bench.document().cuts(), frame.view()).max);
     }
     QTRY_COMPARE(bench.window.panel(1).legend().highest(), shown(std::max(largest, 1e-4)));
@@ -185,8 +186,8 @@ class WindowColour : public QObject {
     for (const char* mode : {"colourBy-stretch", "colourBy-violation", "colourBy-distance"}) {
       colourBy(bench, mode);
       for (const auto kind : {MeshKind::tetra, MeshKind::line}) {
-        bench.document().replaceMesh(generate({kind, {6, 5, 4}, 1, {}}), QStringLiteral("other"),
-                                     QStringLiteral("build"));
+        edits::replaceMesh(bench.document(), generate({kind, {6, 5, 4}, 1, {}}), QStringLiteral("other"),
+                           QStringLiteral("build"));
         bench.settle();
         QVERIFY(bench.window.panel(1).legend().isVisible());
       }

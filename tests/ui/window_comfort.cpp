@@ -10,6 +10,7 @@
 #include "common/icons.h"
 #include "common/plot_painting.h"
 #include "common/theme.h"
+#include "document/edits.h"
 #include "document/panel_colour.h"
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
@@ -108,8 +109,8 @@ class WindowComfort : public QObject {
     Workbench bench;
     Document& document = bench.document();
     QCOMPARE(panelColour(document, 0).on(Ground::light), algorithmColour(Algorithm::generalized).on(Ground::light));
-    document.setAlgorithm(0, Algorithm::exact);
-    document.setAlgorithm(1, Algorithm::exact);
+    edits::setAlgorithm(document, 0, Algorithm::exact);
+    edits::setAlgorithm(document, 1, Algorithm::exact);
     bench.settle();
     for (const Ground ground : {Ground::dark, Ground::light}) {
       const QColor first = panelColour(document, 0).on(ground), second = panelColour(document, 1).on(ground);
@@ -242,7 +243,7 @@ class WindowComfort : public QObject {
     bench.settle();
     QCOMPARE(bench.position(0, moved), rest[0]);
     QCOMPARE(bench.document().undoStack().count(), 0);
-    QVERIFY(bench.document().lastDrag().empty());
+    QVERIFY(bench.document().moves().lastDrag().empty());
     QVERIFY(hints->isVisible());  // the user may still read them
     QTest::mouseClick(bench.find<QPushButton>("hintsDone"), Qt::LeftButton);
     QVERIFY(!hints->isVisible());

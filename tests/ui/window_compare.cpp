@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
+#include "document/edits.h"
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "measure/violation.h"
@@ -23,7 +24,7 @@ void hover(Workbench& bench, int panel, ElementId element) {
   const QPointF at = bench.place(panel, element);
   QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
   QApplication::sendEvent(&view, &move);
-  QTRY_VERIFY(bench.document().highlight().element == element);
+  QTRY_VERIFY(bench.document().highlight().marks().element == element);
   bench.settle();
 }
 
@@ -49,7 +50,7 @@ int alongFromColour(Workbench& bench, int panel, LinkId link, QColor colour) {
 }
 
 double violationOf(Workbench& bench, int panel, LinkId link) {
-  return link_violation(*bench.document().mesh(), {}, bench.document().frame(panel)->view(), link);
+  return link_violation(*bench.document().mesh(), {}, bench.document().solvers().frame(panel)->view(), link);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ class WindowCompare : public QObject {
   void eachPanelMayHaveItsOwnRange() {
     Workbench bench;
     bench.choose(1, "Exact ChainMail");  // it has no violation
-    bench.document().setPinned({40}, true);
+    edits::setPinned(bench.document(), {40}, true);
     bench.dragFar();
     bench.trigger("colourBy-violation");
     double largest = 0;
@@ -103,7 +104,7 @@ class WindowCompare : public QObject {
 
   void violationsAreSubtracted() {
     Workbench bench;
-    bench.document().setPinned({40}, true);
+    edits::setPinned(bench.document(), {40}, true);
     bench.trigger("colourBy-violationDifference");
     QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("A minus B")));
     bench.dragFar();
@@ -129,7 +130,7 @@ class WindowCompare : public QObject {
 
   void aGhostIsLaidOverAndBlendedIn() {
     Workbench bench;
-    bench.document().setPinned({40}, true);
+    edits::setPinned(bench.document(), {40}, true);
     bench.dragFar();
     const QImage own = bench.view(0).grabFramebuffer();
     LinkId apart = 0;  // the link at which the panels differ most
@@ -167,11 +168,11 @@ class WindowCompare : public QObject {
     bench.trigger("ghosts");
     bench.settle();
     const QImage before = bench.view(0).grabFramebuffer();
-    bench.document().cut({0, 1, 2, 3});
+    edits::cut(bench.document(), {0, 1, 2, 3});
     bench.dragFar();
     QVERIFY(bench.view(0).grabFramebuffer() != before);
-    bench.document().replaceMesh(generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("build"));
     bench.settle();
     QVERIFY(bench.view(1).ghost().of == 0);
     bench.trigger("ghosts");

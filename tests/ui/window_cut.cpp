@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 
+#include "document/edits.h"
 #include "window.h"
 
 namespace chainmail::window_cut {
@@ -29,7 +30,7 @@ class WindowCut : public QObject {
     bench.trigger("toolCut");
     const auto places = strokeBetweenColumns(bench);
     bench.stroke(0, places, false);
-    QCOMPARE(bench.document().highlight().links.size(), 7U);  // one per row
+    QCOMPARE(bench.document().highlight().marks().links.size(), 7U);  // one per row
     QCOMPARE(bench.document().cuts().count(), 0U);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
     bench.settle();
@@ -38,7 +39,7 @@ class WindowCut : public QObject {
       const auto link = find_link(*bench.document().mesh(), 9 * row + 3, 9 * row + 4);
       QVERIFY(bench.document().cuts().is_cut(*link));
     }
-    QVERIFY(bench.document().highlight().links.empty());
+    QVERIFY(bench.document().highlight().marks().links.empty());
 
     // The object now has two parts: both panels and the Mesh dock show this, and dragging one part does not move the
     // other.
@@ -62,7 +63,7 @@ class WindowCut : public QObject {
     const auto places = strokeBetweenColumns(bench);
     bench.stroke(0, places, false);
     QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QVERIFY(bench.document().highlight().links.empty());
+    QVERIFY(bench.document().highlight().marks().links.empty());
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
     bench.settle();
     QCOMPARE(bench.document().cuts().count(), 0U);
@@ -93,7 +94,7 @@ class WindowCut : public QObject {
   /// the same picture as a complete upload.
   void aPicturePatchedIsThePictureDrawnAnew() {
     Workbench bench(generate({MeshKind::cloth, {260, 250, 1}, 1, {}}));
-    bench.document().setSoftness({0.2, 2, 0.5}, QStringLiteral("soft"));
+    edits::setSoftness(bench.document(), {0.2, 2, 0.5}, QStringLiteral("soft"));
     View& view = bench.view(0);
     view.camera()->zoom(9, QPointF(view.width() / 2.0, view.height() / 2.0), view.size());
     const Camera near = *view.camera();
@@ -102,24 +103,24 @@ class WindowCut : public QObject {
       return view.grabFramebuffer();
     };
     const auto dragBy = [&bench](double travel) {
-      bench.document().grab(32'630);
-      bench.document().drag(bench.position(0, 32'630) + Point(travel, travel / 2, 0));
-      bench.document().release();
+      bench.document().handle().grab(32'630);
+      bench.document().handle().drag(bench.position(0, 32'630) + Point(travel, travel / 2, 0));
+      bench.document().handle().release();
       bench.settle();
     };
     const QImage before = picture();
     dragBy(4);
     const QPointF at = view.viewPosition(32'500);
-    bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
-    bench.document().cut(view.linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
+    edits::cut(bench.document(), view.linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
+    edits::cut(bench.document(), view.linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
     bench.document().undoStack().undo();
     QVERIFY(bench.document().cuts().count() > 0);
     dragBy(3);
     const QImage patched = picture();
     QVERIFY(patched != before);
 
-    bench.document().replaceMesh(generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("other"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("other"),
+                       QStringLiteral("build"));
     bench.settle();
     bench.document().undoStack().undo();  // everything is uploaded again
     *view.camera() = near;
@@ -137,15 +138,15 @@ class WindowCut : public QObject {
 
   void undoInMidStrokeGivesTheStrokeUp() {
     Workbench bench;
-    bench.document().replaceMesh(generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
-                                 QStringLiteral("build large"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
+                       QStringLiteral("build large"));
     bench.settle();
     bench.trigger("toolCut");
     const QPoint from = bench.place(0, 700);
     bench.stroke(0, {from + QPoint(-50, 3), from + QPoint(50, 3)}, false);
-    QVERIFY(!bench.document().highlight().links.empty());
+    QVERIFY(!bench.document().highlight().marks().links.empty());
     bench.document().undoStack().undo();  // the small mesh has no such links
-    QVERIFY(bench.document().highlight().links.empty());
+    QVERIFY(bench.document().highlight().marks().links.empty());
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settle();
     QCOMPARE(bench.document().cuts().count(), 0U);

@@ -14,6 +14,7 @@
 
 #include "docks/preset_row.h"
 #include "docks/replay/replay_dock.h"
+#include "document/edits.h"
 #include "folders.h"
 #include "fuzz/damage.h"
 #include "io/sessions.h"
@@ -107,11 +108,11 @@ class WindowDamaged : public QObject {
     bench.trigger("showReport");
     bench.trigger("linkCameras");
     bench.view(0).orbit({70, 35});
-    bench.document().setPinned({0, 1, 2}, true);
-    bench.document().cut({4, 5});
-    bench.document().grab(30);
-    bench.document().drag(bench.position(0, 30) + Point(0.5, 0.2, 0));
-    bench.document().release();
+    edits::setPinned(bench.document(), {0, 1, 2}, true);
+    edits::cut(bench.document(), {4, 5});
+    bench.document().handle().grab(30);
+    bench.document().handle().drag(bench.position(0, 30) + Point(0.5, 0.2, 0));
+    bench.document().handle().release();
     bench.settle();
     bench.window.sessions().savePath(source_.filePath(QStringLiteral("whole.chainmail")));
     bench.settle();
@@ -209,7 +210,7 @@ class WindowDamaged : public QObject {
     QVERIFY2(screen.width() >= bench.window.width() && screen.height() >= bench.window.height(),
              qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
     for (int panel = 0; panel < bench.document().panels(); ++panel) {
-      const Frame& frame = *bench.document().frame(panel);
+      const Frame& frame = *bench.document().solvers().frame(panel);
       QVERIFY(std::all_of(frame.positions.begin(), frame.positions.end(), [](float x) { return std::isfinite(x); }));
     }
     bench.trigger("fitView");

@@ -16,6 +16,7 @@
 #include <array>
 
 #include "common/icons.h"
+#include "document/edits.h"
 #include "window.h"
 #include "window/docks.h"
 #include "window/shortcuts.h"
@@ -82,20 +83,20 @@ class WindowDocks : public QObject {
     enter("99");
     QVERIFY(bench.document().selection().empty());  // it does not select the last element instead
     enter("7");
-    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
+    QCOMPARE(bench.document().selection().elements(), std::vector<ElementId>{7});
     enter("63");  // the first id beyond the last
     const auto answered = [&] {
       return bench.find<QLabel>("elementState")->text().contains(QStringLiteral("from 0 to 62"));
     };
     QVERIFY(answered());
-    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{7});
+    QCOMPARE(bench.document().selection().elements(), std::vector<ElementId>{7});
     QCOMPARE(id->value(), 7);
     Document& document = bench.document();
     const auto shown = [&] { return bench.find<QTableWidget>("elementPositions")->item(1, 1)->text(); };
     const QString before = shown();
-    document.grab(7);  // the frames of a drag refresh the dock, but the message stays
-    document.drag(document.mesh()->rest_position(7) + Point(0.5, 0, 0));
-    document.release();
+    document.handle().grab(7);  // the frames of a drag refresh the dock, but the message stays
+    document.handle().drag(document.mesh()->rest_position(7) + Point(0.5, 0, 0));
+    document.handle().release();
     QTRY_VERIFY(shown() != before);
     QVERIFY(answered());
     enter("8");
@@ -201,7 +202,8 @@ class WindowDocks : public QObject {
     MeshParts parts;
     parts.rest = {{0, 0, 0}, {3, 4, 0}, {6, 8, 0}, {-0.8, 0.6, 0}};
     parts.links = {{0, 1}, {1, 2}, {0, 3}};
-    bench.document().replaceMesh(build_mesh(std::move(parts)), QStringLiteral("leaning"), QStringLiteral("open"));
+    edits::replaceMesh(bench.document(), build_mesh(std::move(parts)), QStringLiteral("leaning"),
+                       QStringLiteral("open"));
     auto* field = bench.find<QComboBox>("frame");
     auto* note = bench.find<QLabel>("frameNote");
     const auto choose = [&](AxesKind kind) {
@@ -225,8 +227,8 @@ class WindowDocks : public QObject {
     QVERIFY(now().kind() == AxesKind::object);
     QCOMPARE(bench.document().undoStack().count(), steps + 2);
     // A square has no axes of its own: the dock says so. The choice stays for the next object.
-    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("square"),
-                                 QStringLiteral("open"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("square"),
+                       QStringLiteral("open"));
     QVERIFY(now().kind() == AxesKind::object && !now().is_turned() && !note->isHidden());
     bench.trigger("resetStiffness");
     QVERIFY(now() == RegionAxes() && note->isHidden());
@@ -336,11 +338,12 @@ class WindowDocks : public QObject {
     QCOMPARE(bench.document().relaxation().step, 0.5);
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(150, -150)}, false);
-    QTRY_VERIFY(bench.document().frame(1)->statistics.sweeps > 0);
+    QTRY_VERIFY(bench.document().solvers().frame(1)->statistics.sweeps > 0);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(150, -150));
     // Relaxation stops by itself, at most 10 s after the last pass.
-    QTRY_VERIFY_WITH_TIMEOUT(
-        !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.document().solvers().frame(0)->statistics.relaxing &&
+                                 !bench.document().solvers().frame(1)->statistics.relaxing,
+                             12'000);
     on->click();
     QVERIFY(!bench.document().relaxation().on);
   }
@@ -380,8 +383,9 @@ class WindowDocks : public QObject {
     };
     QTRY_VERIFY_WITH_TIMEOUT(shown() != QStringLiteral("–") && shown().toDouble() < 1e-3, 12'000);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(100, -100));
-    QTRY_VERIFY_WITH_TIMEOUT(
-        !bench.document().frame(0)->statistics.relaxing && !bench.document().frame(1)->statistics.relaxing, 12'000);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.document().solvers().frame(0)->statistics.relaxing &&
+                                 !bench.document().solvers().frame(1)->statistics.relaxing,
+                             12'000);
     scheme->setCurrentText(QStringLiteral("link"));
     QVERIFY(residual->isHidden() && step->isEnabled() && !step->toolTip().contains(QStringLiteral("no step")));
     bench.trigger("undo");
@@ -414,7 +418,7 @@ class WindowDocks : public QObject {
     QTRY_COMPARE(bench.find<QLabel>("painted0")->text(), QStringLiteral("idle"));
     QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
     // The figures of another algorithm do not count for the new one, which makes no pass until the object is moved.
-    bench.document().setAlgorithm(1, bench.document().algorithm(0));
+    edits::setAlgorithm(bench.document(), 1, bench.document().algorithm(0));
     bench.settle();
     QTRY_COMPARE(bench.find<QLabel>("painted1")->text(), QStringLiteral("idle"));
     for (const char* name : {"passes1", "median1", "worst1"}) {

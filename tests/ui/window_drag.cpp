@@ -3,6 +3,7 @@
 #include <QWheelEvent>
 #include <future>
 
+#include "document/edits.h"
 #include "window.h"
 
 namespace chainmail::window_drag {
@@ -17,25 +18,25 @@ class WindowDrag : public QObject {
     Workbench bench;
     QVERIFY(bench.shown);
     QTest::mouseMove(&bench.view(1), bench.place(1, 31) + QPoint(4, 3));
-    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(31));
-    QVERIFY(!bench.document().highlight().grabbed);
+    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(31));
+    QVERIFY(!bench.document().highlight().marks().grabbed);
     QTest::mouseMove(&bench.view(1), QPoint(2, 2));
-    QTRY_VERIFY(!bench.document().highlight().element);
+    QTRY_VERIFY(!bench.document().highlight().marks().element);
   }
 
   void aHoverPreparesTheDrag() {
     Workbench bench;
     Document& document = bench.document();
-    document.setAlgorithm(1, Algorithm::exact);
-    document.setSoftness({1, 1, 0}, QStringLiteral("rigid"));
+    edits::setAlgorithm(document, 1, Algorithm::exact);
+    edits::setSoftness(document, {1, 1, 0}, QStringLiteral("rigid"));
     bench.settle();
-    QCOMPARE(document.preparedDrags(), 0);
+    QCOMPARE(document.solvers().prepared(), 0);
     const QPoint from = bench.place(1, 31);
     QTest::mouseMove(&bench.view(1), from + QPoint(2, 1));
-    QTRY_COMPARE(document.preparedDrags(), 1);
+    QTRY_COMPARE(document.solvers().prepared(), 1);
     bench.stroke(1, {from, from + QPoint(60, -80)}, false);
     bench.settle();
-    QCOMPARE(document.frame(1)->statistics.last_pass.moved, std::uint64_t{62});
+    QCOMPARE(document.solvers().frame(1)->statistics.last_pass.moved, std::uint64_t{62});
     QTest::mouseRelease(&bench.view(1), Qt::LeftButton, {}, from + QPoint(60, -80));
   }
 
@@ -51,53 +52,53 @@ class WindowDrag : public QObject {
     const QPoint from = bench.place(panel, element), to = from + QPoint(60, -80);
     bench.stroke(panel, {from + QPoint(3, 2), to + QPoint(3, 2)}, false);
     bench.settle();
-    QVERIFY(bench.document().highlight().grabbed);
+    QVERIFY(bench.document().highlight().marks().grabbed);
     for (int p = 0; p < 2; ++p) {
       // The element stays under the cursor, up to the rounding of mouse positions.
       QVERIFY((bench.place(p, element) - to).manhattanLength() <= 2);
-      QVERIFY(bench.document().frame(p)->statistics.passes > 0);
+      QVERIFY(bench.document().solvers().frame(p)->statistics.passes > 0);
     }
     QCOMPARE(bench.position(0, element), bench.position(1, element));
     QTest::mouseRelease(&bench.view(panel), Qt::LeftButton, {}, to);
-    QVERIFY(!bench.document().highlight().grabbed);
+    QVERIFY(!bench.document().highlight().marks().grabbed);
   }
 
   void aMoveGoesToIdleSolversAtOnce() {
     Workbench bench;
     Document& document = bench.document();
-    document.grab(31);
+    document.handle().grab(31);
     const auto finish = [&document] {
-      while (!document.idle()) {
+      while (!document.solvers().idle()) {
         QCoreApplication::processEvents();
       }
     };
     for (int i = 1; i <= 5; ++i) {
       finish();
-      const std::size_t recorded = document.moveHistory().length();
-      document.drag(Point(4, 3 + 0.1 * i, 0));
-      QCOMPARE(document.moveHistory().length(), recorded + 1);
+      const std::size_t recorded = document.moves().history().length();
+      document.handle().drag(Point(4, 3 + 0.1 * i, 0));
+      QCOMPARE(document.moves().history().length(), recorded + 1);
     }
     // While a solver is busy, only the newest move waits.
     finish();
     std::promise<void> busy;
-    document.ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
-    const std::size_t recorded = document.moveHistory().length();
+    document.solvers().ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
+    const std::size_t recorded = document.moves().history().length();
     for (int i = 1; i <= 200; ++i) {
-      document.drag(Point(4, 4 + 0.01 * i, 0));
+      document.handle().drag(Point(4, 4 + 0.01 * i, 0));
     }
-    QCOMPARE(document.moveHistory().length(), recorded);
+    QCOMPARE(document.moves().history().length(), recorded);
     busy.set_value();
     finish();
     bench.settle();
     QCOMPARE(bench.position(1, 31), Point(4, 6, 0));
-    QCOMPARE(document.moveHistory().length(), recorded + 1);
-    document.release();
+    QCOMPARE(document.moves().history().length(), recorded + 1);
+    document.handle().release();
   }
 
   void pressingBesideTheObjectMovesNothing() {
     Workbench bench;
     bench.stroke(0, {QPoint(5, 5), QPoint(80, 80)});
-    QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     QCOMPARE(bench.position(0, 0), bench.document().mesh()->rest_position(0));
   }
 
@@ -107,8 +108,8 @@ class WindowDrag : public QObject {
     const int link = bench.place(0, 32).x() - from.x();
     bench.stroke(0, {from, from + QPoint(link / 14, 0)});
     for (int p = 0; p < 2; ++p) {
-      QVERIFY(bench.document().frame(p)->statistics.passes > 0);
-      QCOMPARE(bench.document().frame(p)->statistics.last_pass.moved, 0U);
+      QVERIFY(bench.document().solvers().frame(p)->statistics.passes > 0);
+      QCOMPARE(bench.document().solvers().frame(p)->statistics.last_pass.moved, 0U);
       QCOMPARE(bench.position(p, 32), bench.document().mesh()->rest_position(32));
     }
   }

@@ -9,6 +9,7 @@
 #include <QTableWidget>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "document/element_facts.h"
 #include "window.h"
 
@@ -45,7 +46,7 @@ void move(Workbench& bench) {
   QPushButton* button = bench.find<QPushButton>("moveElement");
   QVERIFY(button->isEnabled());
   button->click();
-  QTRY_VERIFY(bench.document().held().empty());
+  QTRY_VERIFY(bench.document().handle().held().empty());
   bench.settle();
 }
 
@@ -60,11 +61,12 @@ class WindowExact : public QObject {
   void hoverShowsTheElementsFigures() {
     Workbench bench;
     QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
-    bench.document().setSoftnessOf({bench.document().mesh()->entry_link[bench.document().mesh()->first_entry[middle]]},
-                                   LinkSoftness{0.5, 1.5, 0.1});
+    edits::setSoftnessOf(bench.document(),
+                         {bench.document().mesh()->entry_link[bench.document().mesh()->first_entry[middle]]},
+                         LinkSoftness{0.5, 1.5, 0.1});
     bench.settle();
     QTest::mouseMove(&bench.view(1), bench.place(1, middle) + QPoint(2, 2));
-    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(middle));
+    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(middle));
     const QString text = readout(bench);
     QVERIFY2(text.contains(QStringLiteral("Element 31")), qPrintable(text));
     QVERIFY2(text.contains(QStringLiteral("x 4, y 3")), qPrintable(text));  // no z, because the scene is in 2D
@@ -81,8 +83,8 @@ class WindowExact : public QObject {
     auto* label = bench.find<QLabel>("readout");
     const auto shown = [&](int width) {
       label->resize(width, label->height());
-      bench.document().setHighlight({});
-      bench.document().setHighlight({middle, false, {}});
+      bench.document().highlight().set({});
+      bench.document().highlight().set({middle, false, {}});
       return readout(bench);
     };
     QVERIFY(shown(2000).contains(QStringLiteral("compression")));
@@ -95,12 +97,12 @@ class WindowExact : public QObject {
 
   void theFiguresFollowADragByAnotherHand() {
     Workbench bench;
-    bench.document().setHighlight({middle, false, {}});
+    bench.document().highlight().set({middle, false, {}});
     const QString before = readout(bench);
-    bench.document().grab(middle);
-    bench.document().drag({4, -5, 0});
+    bench.document().handle().grab(middle);
+    bench.document().handle().drag({4, -5, 0});
     QTRY_VERIFY(readout(bench).contains(QStringLiteral("y -5")));
-    bench.document().release();
+    bench.document().handle().release();
     QVERIFY(readout(bench) != before);
   }
 
@@ -149,7 +151,7 @@ class WindowExact : public QObject {
     Workbench bench;
     QVERIFY(!bench.find<QAction>("viewTop")->isEnabled());
     QVERIFY(bench.find<QAction>("viewTop")->toolTip().contains(QStringLiteral("in 2D")));
-    bench.document().replaceMesh(block(), QStringLiteral("block"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), block(), QStringLiteral("block"), QStringLiteral("build"));
     QVERIFY(bench.find<QAction>("viewTop")->isEnabled());
   }
 
@@ -165,13 +167,13 @@ class WindowExact : public QObject {
         const QPointF off = bench.view(p).viewPosition(element) - middleOfView;
         QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
       }
-      QVERIFY(bench.document().held().empty());
+      QVERIFY(bench.document().handle().held().empty());
       QMouseEvent move(QEvent::MouseMove, middleOfView + QPointF(50, 50),
                        bench.view(0).mapToGlobal(middleOfView + QPointF(50, 50)), Qt::NoButton, Qt::NoButton,
                        Qt::NoModifier);
       QApplication::sendEvent(&bench.view(0), &move);
       bench.settle();
-      QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+      QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     }
   }
 
@@ -196,9 +198,9 @@ class WindowExact : public QObject {
     QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, also in the other panel
 
     bench.trigger("toolDrag");
-    bench.document().setPinned({27}, true);
+    edits::setPinned(bench.document(), {27}, true);
     bench.stroke(0, {bench.place(0, 31), bench.place(0, 31) + QPoint(0, -160)});
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     const double now = (bench.position(1, 31) - bench.position(1, 27)).norm();
     QVERIFY(now > 4.01);
     QTRY_VERIFY2(readout(bench).contains(figure(now)), qPrintable(readout(bench)));
@@ -211,7 +213,7 @@ class WindowExact : public QObject {
   void eachPanelHasItsOwnFigures() {
     Workbench bench;
     bench.choose(1, "Exact ChainMail");
-    bench.document().setPinned({0}, true);
+    edits::setPinned(bench.document(), {0}, true);
     bench.dragFar();
     constexpr ElementId from = 0, to = 22;
     const auto apart = [&](int panel) { return (bench.position(panel, to) - bench.position(panel, from)).norm(); };
@@ -224,7 +226,7 @@ class WindowExact : public QObject {
       QVERIFY2(readout(bench).contains(own), qPrintable(readout(bench)));
     }
 
-    bench.document().select({to});
+    bench.document().selection().set({to});
     bench.find<QDockWidget>("elementDock")->show();
     bench.settleFigures();
     const auto* positions = bench.find<QTableWidget>("elementPositions");
@@ -250,17 +252,17 @@ class WindowExact : public QObject {
     id->selectAll();
     QTest::keyClicks(id, QStringLiteral("31"));
     QTest::keyClick(id, Qt::Key_Return);
-    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{31});
+    QCOMPARE(bench.document().selection().elements(), std::vector<ElementId>{31});
     auto* positions = bench.find<QTableWidget>("elementPositions");
     QCOMPARE(positions->rowCount(), 3);  // at rest, left, right
     QCOMPARE(positions->columnCount(), 3);
     QCOMPARE(positions->item(2, 1)->text(), QStringLiteral("4"));
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 4);
     // A selection from elsewhere is also shown if it is one element.
-    bench.document().select({0});
+    bench.document().selection().set({0});
     QCOMPARE(id->value(), 0);
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 2);
-    bench.document().select({});
+    bench.document().selection().set({});
     QVERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
   }
 
@@ -273,9 +275,9 @@ class WindowExact : public QObject {
     move(bench);
     for (int p = 0; p < 2; ++p) {
       QCOMPARE(bench.position(p, middle), Point(4.25, -2.5, 0));
-      QCOMPARE(bench.document().frame(p)->statistics.passes, 4U);
+      QCOMPARE(bench.document().solvers().frame(p)->statistics.passes, 4U);
     }
-    std::vector<Command> drag = bench.document().moveHistory().commands();  // recorded like a drag with the mouse
+    std::vector<Command> drag = bench.document().moves().history().commands();  // recorded like a drag with the mouse
     QCOMPARE(drag.size(), 6U);
     drag.pop_back();  // the Release command
     QCOMPARE(std::get<commands::Grab>(drag.front()).elements, std::vector<ElementId>{middle});
@@ -302,10 +304,10 @@ class WindowExact : public QObject {
     bench.find<QSpinBox>("moveSteps")->setValue(1000);
     auto* button = bench.find<QPushButton>("moveElement");
     button->click();
-    QTRY_VERIFY(bench.document().frame(0)->statistics.passes > 2);
+    QTRY_VERIFY(bench.document().solvers().frame(0)->statistics.passes > 2);
     QVERIFY(button->text().contains(QStringLiteral("of 1000")));
     button->click();
-    QVERIFY(bench.document().held().empty());
+    QVERIFY(bench.document().handle().held().empty());
     bench.settle();
     QVERIFY(bench.position(0, middle).y() < 40);
   }
@@ -328,11 +330,11 @@ class WindowExact : public QObject {
     QTRY_VERIFY(cut->isEnabled());
 
     bench.find<QPushButton>("pinElement")->click();
-    QVERIFY(bench.document().isPinned(middle));
+    QVERIFY(isPinned(bench.document(), middle));
     QTRY_VERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
     QVERIFY(bench.find<QPushButton>("moveElement")->toolTip().contains(QStringLiteral("pinned")));
     bench.find<QPushButton>("pinElement")->click();
-    QVERIFY(!bench.document().isPinned(middle));
+    QVERIFY(!isPinned(bench.document(), middle));
   }
 };
 

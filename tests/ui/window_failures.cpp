@@ -7,6 +7,7 @@
 #include "core/allocations.h"
 #include "core/failing_method.h"
 #include "core/no_threads.h"
+#include "document/edits.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "session_bench.h"
@@ -126,7 +127,7 @@ class WindowFailures : public QObject {
     Workbench bench;
     bench.window.sessions().protect();
     bench.find<QTimer>("autosaveTimer")->setInterval(never);
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     QVERIFY(autosaved().isEmpty());
     QTimer::singleShot(0, &bench.window, [failure] { test::fail(failure); });
     QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
@@ -161,8 +162,8 @@ class WindowFailures : public QObject {
     Document& document = bench.document();
     QObject context;
     connect(&document, &Document::cutsChanged, &context, [] { throw std::bad_alloc(); });
-    connect(&document, &Document::movesChanged, &context, [] { throw 7; });
-    document.cut({3, 40});
+    connect(&document.moves(), &MovePlayer::changed, &context, [] { throw 7; });
+    edits::cut(document, {3, 40});
     QCOMPARE(document.cuts().count(), 2U);
     QCOMPARE(document.undoStack().count(), 1);
     document.undo();
@@ -180,20 +181,20 @@ class WindowFailures : public QObject {
     const ExtraAlgorithm extra(test::failing_entry(moves));
     Workbench bench;
     Document& document = bench.document();
-    document.setAlgorithm(1, test::failing_algorithm);
-    document.grab(31);
+    edits::setAlgorithm(document, 1, test::failing_algorithm);
+    document.handle().grab(31);
     const Point from = document.mesh()->rest_position(31);
-    document.drag(from + Point(0.5, 0, 0));
+    document.handle().drag(from + Point(0.5, 0, 0));
     bench.settle();
     moves->failure = failure;
-    document.drag(from + Point(1.5, 1, 0));
+    document.handle().drag(from + Point(1.5, 1, 0));
     bench.settle();
     QTRY_VERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("Failing: ") + sentenceOf(failure)));
-    document.drag(from + Point(2, 2, 0));
-    document.release();
+    document.handle().drag(from + Point(2, 2, 0));
+    document.handle().release();
     bench.settle();
     QVERIFY(bench.position(0, 31).isApprox(Point(from + Point(2, 2, 0)), 1e-5));  // the other panel went on
-    QVERIFY(QString::fromStdString(document.statistics(1).remark).startsWith(QStringLiteral("stopped: ")));
+    QVERIFY(QString::fromStdString(document.solvers().statistics(1).remark).startsWith(QStringLiteral("stopped: ")));
     const QString path = folder_.filePath(QStringLiteral("kept.chainmail"));
     bench.window.sessions().savePath(path);
     bench.settle();
@@ -202,7 +203,7 @@ class WindowFailures : public QObject {
     bench.settle();
     QCOMPARE(bench.position(0, 31), from);
     QCOMPARE(bench.position(1, 31), from);
-    document.setAlgorithm(1, Algorithm::natural_queue);
+    edits::setAlgorithm(document, 1, Algorithm::natural_queue);
     bench.settle();
   }
 
@@ -224,10 +225,10 @@ class WindowFailures : public QObject {
     Workbench bench;
     const NoThreads none;
     bench.window.sessions().protect();
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.find<QTimer>("autosaveTimer")->start(0);
     QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
-    bench.document().setPinned({4}, true);
+    edits::setPinned(bench.document(), {4}, true);
     bench.window.close();
     QTRY_COMPARE(pinsOnDisk(), (std::vector<ElementId>{3, 4}));
   }
@@ -237,7 +238,7 @@ class WindowFailures : public QObject {
     Workbench bench;
     bench.window.sessions().protect();
     const NoThreads none;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.find<QTimer>("autosaveTimer")->start(0);
     QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
     QVERIFY(!bench.window.messages().isVisible());
@@ -247,7 +248,7 @@ class WindowFailures : public QObject {
     Workbench bench(generate({MeshKind::grid, {120, 120, 1}, 1, {}}));
     bench.window.sessions().protect();
     auto* timer = bench.find<QTimer>("autosaveTimer");
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     drag(bench.document(), 7000, {40, 30, 0});
     bench.settle();
     {
@@ -277,8 +278,8 @@ class WindowFailures : public QObject {
       QTRY_VERIFY(!bench.window.jobs().running());
       QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("there is not enough memory")));
       drag(document, 7000, {40, 30, 0});
-      document.cut({3, 40});
-      QTRY_VERIFY(document.idle());
+      edits::cut(document, {3, 40});
+      QTRY_VERIFY(document.solvers().idle());
     }
     QVERIFY(document.mesh() == mesh);
     bench.settle();

@@ -8,6 +8,8 @@
 
 #include "docks/preset_store.h"
 #include "docks/replay/replay_dock.h"
+#include "document/edits.h"
+#include "document/element_facts.h"
 #include "faults.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
@@ -50,7 +52,7 @@ QString pinsIn(const QString& path) {
   return QFile::exists(path) ? QString::number(unsaved_work::read(path).pins.size()) : QStringLiteral("none");
 }
 
-void pinOrUnpin(Document& document) { document.setPinned({3}, !document.isPinned(3)); }
+void pinOrUnpin(Document& document) { edits::setPinned(document, {3}, !isPinned(document, 3)); }
 
 /// Collects the sentences of a signal.
 template <class Object, class Signal>

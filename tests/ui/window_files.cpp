@@ -7,6 +7,8 @@
 #include <QMimeData>
 #include <QPushButton>
 
+#include "document/edits.h"
+#include "document/element_facts.h"
 #include "io/file_actions.h"
 #include "io/recovery_bar.h"
 #include "io/sessions.h"
@@ -74,7 +76,7 @@ class WindowFiles : public QObject {
     QFETCH(QString, name);
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    bench.document().cut({0, 5});
+    edits::cut(bench.document(), {0, 5});
     const QString path = folder_.filePath(name);
     files(bench).savePath(path);
     bench.settle();
@@ -107,7 +109,7 @@ class WindowFiles : public QObject {
   void eachPanelsOwnShapeIsSaved() {
     Workbench bench;
     bench.choose(1, "Exact ChainMail");
-    bench.document().setPinned({0}, true);
+    edits::setPinned(bench.document(), {0}, true);
     bench.dragFar();
     constexpr ElementId element = 22;
     const std::array shown{bench.position(0, element), bench.position(1, element)};
@@ -159,7 +161,7 @@ class WindowFiles : public QObject {
     {
       Workbench bench;
       bench.window.sessions().protect();
-      bench.document().setPinned({3}, true);
+      edits::setPinned(bench.document(), {3}, true);
       const QPoint from = bench.place(0, 31);
       bench.stroke(0, {from, from + QPoint(60, 30)});
       moved = bench.position(0, 31);
@@ -174,7 +176,7 @@ class WindowFiles : public QObject {
       again.settle();
       QVERIFY(!again.window.sessions().recoveryBar().isVisible());
       const bool restored = QLatin1String(button) == QLatin1String("restoreWork");
-      QCOMPARE(again.document().isPinned(3), restored);
+      QCOMPARE(isPinned(again.document(), 3), restored);
       QCOMPARE(again.position(0, 31) == moved, restored);
       QVERIFY(again.window.close());  // restored work is still unsaved; discarded work is deleted
     }

@@ -118,7 +118,7 @@ class WindowForeign : public QObject {
     QVERIFY(bench.find<QDockWidget>("frameRateDock")->isFloating());
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(40, 40)});
-    QVERIFY(bench.document().frame(1)->statistics.passes > 0);
+    QVERIFY(bench.document().solvers().frame(1)->statistics.passes > 0);
   }
 
   void aHostileLayoutLeavesAUsableWindow_data() {
@@ -170,7 +170,7 @@ class WindowForeign : public QObject {
     }
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(40, 40)});
-    QVERIFY(bench.document().frame(1)->statistics.passes > 0);
+    QVERIFY(bench.document().solvers().frame(1)->statistics.passes > 0);
   }
 
   void aHostileCameraLooksAtTheObject() {

@@ -34,7 +34,7 @@ class WindowGallery : public QObject {
     bench.settle();
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
     QCOMPARE(bench.document().mesh()->element_count(), sample.elements);  // the number in its tool tip
-    QVERIFY(bench.document().sessionFile().isEmpty());                    // a sample must not be overwritten
+    QVERIFY(bench.document().files().session().isEmpty());                // a sample must not be overwritten
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open ") + QString::fromUtf8(sample.file));
     bench.trigger("undo");
     bench.settle();

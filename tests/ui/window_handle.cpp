@@ -12,6 +12,7 @@
 
 #include "common/colours.h"
 #include "core/families.h"
+#include "document/edits.h"
 #include "io/sessions.h"
 #include "mesh/mesh.h"
 #include "window.h"
@@ -67,7 +68,7 @@ std::vector<Positions> allPositions(Workbench& bench) {
 }
 
 std::vector<ElementId> held(Workbench& bench) {
-  return {bench.document().held().begin(), bench.document().held().end()};
+  return {bench.document().handle().held().begin(), bench.document().handle().held().end()};
 }
 
 QString readout(Workbench& bench) { return bench.find<QLabel>("readout")->text(); }
@@ -114,7 +115,7 @@ void moveTo(Workbench& bench, int panel, QPointF at, Qt::KeyboardModifiers modif
   View& view = bench.view(panel);
   QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
   QApplication::sendEvent(&view, &move);
-  (void)QTest::qWaitFor([&bench] { return bench.document().idle(); }, Workbench::patience);
+  (void)QTest::qWaitFor([&bench] { return bench.document().solvers().idle(); }, Workbench::patience);
 }
 
 /// Moves the cursor on a circle about a place, counterclockwise on the screen; the left button is pressed.
@@ -190,13 +191,13 @@ class WindowHandle : public QObject {
     setRadius(bench, panel, at, 1.15 * link);
     const std::vector<ElementId> cross{22, 30, 31, 32, 40};  // the nearest diagonal is 1.41 links away
     QVERIFY2(readout(bench).contains(QStringLiteral("px · 5 elements")), qPrintable(readout(bench)));
-    QCOMPARE(bench.document().highlight().handle, cross);
+    QCOMPARE(bench.document().highlight().marks().handle, cross);
     QVERIFY(!bench.document().undoStack().canUndo());  // R and the wheel change nothing
 
     bench.stroke(panel, {at, at + QPoint(20, -30)}, false);
     bench.settle();
     QCOMPARE(held(bench), cross);
-    QVERIFY(bench.document().highlight().grabbed);
+    QVERIFY(bench.document().highlight().marks().grabbed);
     compareTurned(bench, before, cross, 0, Point(20 / link, 30 / link, 0), 0.02);
     QTest::mouseRelease(&bench.view(panel), Qt::LeftButton, {}, at + QPoint(20, -30));
     bench.settle();
@@ -238,7 +239,7 @@ class WindowHandle : public QObject {
       QVERIFY(QLineF(inside, view.viewPosition(corner)).length() > 40);
     }
     pointAt(bench, 0, inside);
-    QCOMPARE(bench.document().highlight().element, std::optional<ElementId>(2));
+    QCOMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(2));
     QTest::mousePress(&view, Qt::LeftButton, {}, inside.toPoint());
     QCOMPARE(held(bench), std::vector<ElementId>{2});
     QTest::mouseRelease(&view, Qt::LeftButton, {}, inside.toPoint());
@@ -270,7 +271,7 @@ class WindowHandle : public QObject {
 
   void aPinnedElementStaysOutOfTheHandle() {
     Workbench bench;
-    bench.document().setPinned({22}, true);
+    edits::setPinned(bench.document(), {22}, true);
     bench.settle();
     const auto before = allPositions(bench);
     const QPoint at = bench.place(0, 31);
@@ -288,7 +289,7 @@ class WindowHandle : public QObject {
     bench.settle();
     QVERIFY(!bench.window.messages().isVisible());
     // With all of them pinned, nothing is grabbed, and a message gives the reason.
-    bench.document().setPinned({30, 31, 32, 40}, true);
+    edits::setPinned(bench.document(), {30, 31, 32, 40}, true);
     bench.settle();
     const int steps = bench.document().undoStack().count();
     bench.stroke(0, {at, at + QPoint(10, -10)});
@@ -300,7 +301,7 @@ class WindowHandle : public QObject {
   void theSelectionIsDraggedAsOneBody() {
     Workbench bench;
     const auto before = allPositions(bench);
-    bench.document().select(square);
+    bench.document().selection().set(square);
     const double link = linkPixels(bench, 1);
     const QPoint from = bench.place(1, 31);
     bench.stroke(1, {from, from + QPoint(40, -60)});
@@ -317,7 +318,7 @@ class WindowHandle : public QObject {
   void shiftRotatesAndBothAddUp() {
     Workbench bench;
     const auto before = allPositions(bench);
-    bench.document().select(square);
+    bench.document().selection().set(square);
     bench.settle();
     const double link = linkPixels(bench, 0);
     const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
@@ -375,7 +376,7 @@ class WindowHandle : public QObject {
     const bool flat = mesh->space_dimension == 2;
     const std::vector<ElementId> elements =
         flat ? std::vector<ElementId>{16, 17, 18, 23, 24, 25} : std::vector<ElementId>{0, 1, 2, 3, 4, 5, 6, 7, 20, 22};
-    bench.document().select(elements);
+    bench.document().selection().set(elements);
     bench.settle();
     std::vector<QPointF> places;
     const QPointF pivot = view.viewPosition(meanOf(positions(bench, 0), elements));
@@ -403,7 +404,7 @@ class WindowHandle : public QObject {
   void theRingRotatesTheSelection() {
     Workbench bench;
     const auto before = allPositions(bench);
-    bench.document().select(square);
+    bench.document().selection().set(square);
     bench.settle();
     View& view = bench.view(1);
     const QPointF pivot = view.viewPosition(squareMiddle);
@@ -414,7 +415,7 @@ class WindowHandle : public QObject {
             60);
     pointAt(bench, 1, at.toPoint());
     QTRY_COMPARE(view.cursor().shape(), Qt::OpenHandCursor);
-    QVERIFY(!bench.document().highlight().element);
+    QVERIFY(!bench.document().highlight().marks().element);
     QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
     circle(bench, 1, pivot, at, 200);
     bench.settle();
@@ -444,9 +445,9 @@ class WindowHandle : public QObject {
     QFETCH(MeshPointer, mesh);
     QFETCH(std::vector<ElementId>, pinned);
     Workbench bench(mesh);
-    bench.document().setPinned(pinned, true);
+    edits::setPinned(bench.document(), pinned, true);
     const QImage before = bench.view(0).grabFramebuffer();
-    bench.document().select({3, 4, 5});
+    bench.document().selection().set({3, 4, 5});
     bench.settle();
     View& view = bench.view(0);
     for (double radius = 20; radius < 300; radius += 2) {
@@ -474,7 +475,7 @@ class WindowHandle : public QObject {
   void escapeRestoresWhatWasBeforeTheDrag() {
     Workbench bench;
     const auto before = allPositions(bench);
-    bench.document().select(square);
+    bench.document().selection().set(square);
     bench.settle();
     const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
     const QPoint from = bench.place(0, 22);
@@ -483,7 +484,7 @@ class WindowHandle : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     bench.settle();
     QVERIFY(held(bench).empty());
-    QCOMPARE(bench.document().selection().elements, square);
+    QCOMPARE(bench.document().selection().elements(), square);
     QVERIFY(allPositions(bench) == before);
     circle(bench, 0, pivot, from, 60, Qt::ShiftModifier);  // the button is still pressed
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
@@ -519,7 +520,7 @@ class WindowHandle : public QObject {
     std::size_t moves = 0;
     {
       Workbench bench;
-      bench.document().select(square);
+      bench.document().selection().set(square);
       bench.settle();
       const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
       const QPoint from = bench.place(0, 22);
@@ -529,7 +530,7 @@ class WindowHandle : public QObject {
       QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
       bench.settle();
       after = allPositions(bench);
-      moves = bench.document().moveHistory().length();
+      moves = bench.document().moves().history().length();
       bench.window.sessions().savePath(path);
       bench.settle();
     }
@@ -537,10 +538,10 @@ class WindowHandle : public QObject {
     bench.open(path);
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
     QVERIFY(allPositions(bench) == after);
-    bench.document().goTo(0);
+    bench.document().moves().goTo(0);
     bench.settle();
     QCOMPARE(bench.position(0, 22), bench.document().mesh()->rest_position(22));
-    bench.document().goTo(moves);
+    bench.document().moves().goTo(moves);
     bench.settle();
     QVERIFY(allPositions(bench) == after);
   }
@@ -548,7 +549,7 @@ class WindowHandle : public QObject {
   void numbersMoveAndRotateTheSelection() {
     Workbench bench;
     bench.find<QDockWidget>("elementDock")->show();
-    bench.document().select(square);
+    bench.document().selection().set(square);
     bench.settle();
     const auto before = allPositions(bench);
     QVERIFY(bench.find<QLabel>("elementState")->text().contains(QStringLiteral("9 elements selected")));
@@ -574,8 +575,8 @@ class WindowHandle : public QObject {
     compareTurned(bench, before, square, -75, Point(0.5, -0.25, 0), 1e-5);
     QCOMPARE(bench.document().undoStack().count(), 1);
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("drag of 9 elements"));
-    QCOMPARE(bench.document().frame(0)->statistics.passes, 3U);
-    const std::vector<Command> drag = bench.document().lastDrag();  // the grab, then equal steps
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 3U);
+    const std::vector<Command> drag = bench.document().moves().lastDrag();  // the grab, then equal steps
     QCOMPARE(drag.size(), std::size_t{4});
     for (std::size_t step = 1; step <= 3; ++step) {
       const auto& move = std::get<commands::Drag>(drag[step]);
@@ -586,10 +587,10 @@ class WindowHandle : public QObject {
     bench.settle();
     QVERIFY(allPositions(bench) == before);
 
-    bench.document().setPinned(square, true);
+    edits::setPinned(bench.document(), square, true);
     QTRY_VERIFY(!button->isEnabled());
     QVERIFY(button->toolTip().contains(QStringLiteral("pinned")));
-    bench.document().select({31});
+    bench.document().selection().set({31});
     QVERIFY(!degrees->isVisible());
     QVERIFY(how->isEnabled());
     QCOMPARE(how->currentIndex(), 0);
@@ -600,7 +601,7 @@ class WindowHandle : public QObject {
     Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
     bench.find<QDockWidget>("elementDock")->show();
     const std::vector<ElementId> elements{0, 1, 4, 5};
-    bench.document().select(elements);
+    bench.document().selection().set(elements);
     bench.settle();
     const auto before = allPositions(bench);
     auto* axis = bench.find<QComboBox>("moveAxis");
@@ -622,8 +623,8 @@ class WindowHandle : public QObject {
   void theHeadSaysWhatStopsARotation() {
     Workbench bench;
     bench.choose(1, "Exact ChainMail");
-    bench.document().setPinned({0, 8, 54, 62}, true);
-    bench.document().select(square);
+    edits::setPinned(bench.document(), {0, 8, 54, 62}, true);
+    bench.document().selection().set(square);
     bench.settleFigures();
     const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
     const QPoint from = bench.place(0, 22);

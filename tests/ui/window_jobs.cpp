@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <semaphore>
 
+#include "document/edits.h"
 #include "files/mesh/mesh_file.h"
 #include "io/file_actions.h"
 #include "window.h"
@@ -25,7 +26,8 @@ class Gate {
       while (!open_.try_acquire_for(std::chrono::milliseconds(1))) {
         progress.report(0.4);
       }
-      return [mesh, &document] { document.replaceMesh(mesh, QStringLiteral("new"), QStringLiteral("open new")); };
+      return
+          [mesh, &document] { edits::replaceMesh(document, mesh, QStringLiteral("new"), QStringLiteral("open new")); };
     };
   }
   bool reached() const { return reached_; }
@@ -103,7 +105,7 @@ class WindowJobs : public QObject {
     bench.stroke(0, {from, from + QPoint(60, 60)}, false);
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     QVERIFY(bench.window.jobs().running());
-    QVERIFY(bench.document().highlight().links.empty());
+    QVERIFY(bench.document().highlight().marks().links.empty());
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     QCOMPARE(bench.document().cuts().count(), 0U);
     QTest::keyClick(&bench.window, Qt::Key_Escape);

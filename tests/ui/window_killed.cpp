@@ -8,6 +8,7 @@
 #include <csignal>
 #include <sstream>
 
+#include "document/edits.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "session_bench.h"
@@ -43,13 +44,13 @@ int draggingProgram(int argc, char** argv) {
   QTimer timer;
   QObject::connect(&timer, &QTimer::timeout, [&] {
     if (moves % movesOfAStep == 0) {
-      document.release();
-      document.setPinned({pinned++}, true);
+      document.handle().release();
+      edits::setPinned(document, {pinned++}, true);
       std::printf("%lld\n", static_cast<long long>(QDateTime::currentMSecsSinceEpoch()));
       std::fflush(stdout);
-      document.grab(dragged);
+      document.handle().grab(dragged);
     }
-    document.drag(rest + Point(6 * std::sin(0.3 * moves), 6 * std::cos(0.2 * moves), 0));
+    document.handle().drag(rest + Point(6 * std::sin(0.3 * moves), 6 * std::cos(0.2 * moves), 0));
     ++moves;
   });
   timer.start(stepMilliseconds);

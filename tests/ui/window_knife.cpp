@@ -6,6 +6,7 @@
 
 #include "core/families.h"
 #include "docks/replay/replay_dock.h"
+#include "document/edits.h"
 #include "window.h"
 
 namespace chainmail::window_knife {
@@ -58,7 +59,7 @@ class WindowKnife : public QObject {
   void aStrokeSplitsTheTrianglesOfASheetInAllPanels() {
     Workbench bench(test::jittered_triangles(9, 7, 3));
     const MeshPointer whole = bench.document().mesh();
-    bench.document().setPinned({0}, true);
+    edits::setPinned(bench.document(), {0}, true);
     const QPoint from = bench.place(0, 40);
     bench.stroke(0, {from, from + QPoint(15, 20)});
     const Point moved = bench.position(1, 40);
@@ -107,11 +108,11 @@ class WindowKnife : public QObject {
     const QPoint right = bench.place(0, 44);
     bench.stroke(0, {right, right + QPoint(60, 10)});
     const Point end = bench.position(0, split->element_count() - 1);
-    bench.document().goTo(0);
+    bench.document().moves().goTo(0);
     bench.settle();
     QCOMPARE(bench.document().mesh(), whole);
     QCOMPARE(bench.document().parts(), 1U);
-    bench.document().goTo(bench.document().moveHistory().length());
+    bench.document().moves().goTo(bench.document().moves().history().length());
     bench.settle();
     QCOMPARE(bench.document().mesh(), split);
     QCOMPARE(bench.document().parts(), 2U);
@@ -137,7 +138,7 @@ class WindowKnife : public QObject {
     bench.trigger("showReplay");
     bench.trigger("replayPlay");  // from the end: begins anew
     QCOMPARE(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')), QStringLiteral("Pause"));
-    QTRY_COMPARE(bench.document().moveHistory().position(), bench.document().moveHistory().length());
+    QTRY_COMPARE(bench.document().moves().history().position(), bench.document().moves().history().length());
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')) != QStringLiteral("Pause"));
     QCOMPARE(bench.document().mesh(), split);
   }
@@ -158,8 +159,8 @@ class WindowKnife : public QObject {
     replay.openMoves(path);
     bench.settle();
     QCOMPARE(bench.document().mesh(), whole);
-    QCOMPARE(bench.document().moveHistory().length(), std::size_t{1});
-    bench.document().goTo(1);
+    QCOMPARE(bench.document().moves().history().length(), std::size_t{1});
+    bench.document().moves().goTo(1);
     bench.settle();
     QCOMPARE(bench.document().mesh()->element_count(), split->element_count());
     QCOMPARE(bench.document().parts(), 2U);
@@ -190,7 +191,7 @@ class WindowKnife : public QObject {
     const Mesh& split = *bench.document().mesh();
     QVERIFY(split.element_count() > 6);
     QCOMPARE(bench.document().cuts().links(), std::vector{*find_link(split, 4, 5)});
-    const auto states = bench.document().snapshot(0).get();
+    const auto states = bench.document().solvers().snapshot(0).get();
     QVERIFY(states.is_at_rest());
     bench.trigger("undo");
     bench.settle();
@@ -239,8 +240,8 @@ class WindowKnife : public QObject {
     QVERIFY(cutLinks());
     Workbench later(test::jittered_triangles(9, 7, 3));
     QVERIFY(!later.find<QAction>("cutSplits")->isChecked());
-    later.document().replaceMesh(generate({MeshKind::cloth, {5, 5, 1}, 1, {}}), QStringLiteral("cloth"),
-                                 QStringLiteral("cloth"));
+    edits::replaceMesh(later.document(), generate({MeshKind::cloth, {5, 5, 1}, 1, {}}), QStringLiteral("cloth"),
+                       QStringLiteral("cloth"));
     QVERIFY(!later.find<QAction>("cutSplits")->isEnabled());
   }
 
@@ -289,7 +290,7 @@ class WindowKnife : public QObject {
     QVERIFY(button->toolTip().contains(QStringLiteral("Not available in 2D")));
     bench.trigger("toolDrag");
     QVERIFY(!button->isVisible());
-    bench.document().replaceMesh(test::sphere(8, 4), QStringLiteral("sphere"), QStringLiteral("sphere"));
+    edits::replaceMesh(bench.document(), test::sphere(8, 4), QStringLiteral("sphere"), QStringLiteral("sphere"));
     bench.settle();
     QVERIFY(bench.find<QAction>("cutFrontOnly")->isEnabled());
   }

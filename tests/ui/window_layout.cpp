@@ -166,7 +166,7 @@ class WindowLayout : public QObject {
     bench.settle();
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(40, 40)});
-    QVERIFY(bench.document().frame(1)->statistics.passes > 0);
+    QVERIFY(bench.document().solvers().frame(1)->statistics.passes > 0);
   }
 
   void aViewSurvivesAnotherParent() {
@@ -236,16 +236,16 @@ class WindowLayout : public QObject {
 
   void nothingIsPaintedWhileNothingChanges() {
     Workbench bench;
-    bench.document().grab(10);
-    bench.document().drag(bench.position(0, 10) + Point(0.5, 0, 0));
-    bench.document().release();
+    bench.document().handle().grab(10);
+    bench.document().handle().drag(bench.position(0, 10) + Point(0.5, 0, 0));
+    bench.document().handle().release();
     bench.settle();
     for (const char* rate : {"painted0", "painted1"}) {  // they count the frames of the last second
       QTRY_COMPARE(bench.find<QLabel>(rate)->text(), QStringLiteral("idle"));
     }
     // The last frames have the violation of the whole object.
     for (int panel = 0; panel < 2; ++panel) {
-      QTRY_VERIFY(bench.document().frame(panel)->statistics.violation_of_whole_mesh);
+      QTRY_VERIFY(bench.document().solvers().frame(panel)->statistics.violation_of_whole_mesh);
     }
     bench.settleFigures();
     QTRY_VERIFY(!isTimed(bench));  // no timer is left that could start painting
@@ -262,7 +262,7 @@ class WindowLayout : public QObject {
     QTRY_VERIFY(bench.view(0).drawnStep() > 1);
     const QPoint from = bench.place(0, 131'328);
     bench.stroke(0, {from, from + QPoint(60, 30)});
-    QVERIFY(bench.document().frame(1)->statistics.last_pass.moved > 0);
+    QVERIFY(bench.document().solvers().frame(1)->statistics.last_pass.moved > 0);
   }
 
  private:

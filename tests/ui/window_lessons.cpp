@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "document/lesson_player.h"
 #include "files/session/session.h"
 #include "io/recovery_bar.h"
@@ -38,9 +39,9 @@ struct State {
 
 State stateOf(Workbench& bench) {
   Document& document = bench.document();
-  State state{{}, {}, document.cuts().links(), document.pins(), document.moveHistory().position()};
+  State state{{}, {}, document.cuts().links(), document.pins(), document.moves().history().position()};
   for (int panel = 0; panel < document.panels(); ++panel) {
-    state.panels.push_back(document.snapshot(panel).get());
+    state.panels.push_back(document.solvers().snapshot(panel).get());
     state.algorithms.push_back(document.algorithm(panel));
   }
   return state;
@@ -52,7 +53,7 @@ QString pathOf(const char* file) { return lessonsFolder() + QLatin1Char('/') + Q
 
 void awaitStep(Workbench& bench) {
   // Waits in shorter steps than QTRY_VERIFY.
-  QVERIFY(QTest::qWaitFor([&] { return !player(bench).plays() && bench.document().idle(); }));
+  QVERIFY(QTest::qWaitFor([&] { return !player(bench).plays() && bench.document().solvers().idle(); }));
 }
 
 void open(Workbench& bench, const QString& path) {
@@ -86,17 +87,18 @@ void disturb(Workbench& bench) {
   while (std::ranges::binary_search(pins, element)) {
     ++element;
   }
-  document.grab(element);
-  document.dragBy({0.7, 0.4, 0});
-  document.release();
-  QVERIFY(QTest::qWaitFor([&] { return document.idle(); }));
+  document.handle().grab(element);
+  document.handle().dragBy({0.7, 0.4, 0});
+  document.handle().release();
+  QVERIFY(QTest::qWaitFor([&] { return document.solvers().idle(); }));
 }
 
 /// Returns the share of links that are violated in a panel.
 double violated(Workbench& bench, int panel) {
   bench.settle();
   const Document& document = bench.document();
-  return measure_violation(*document.mesh(), *document.wholeSoftness(), document.cuts(), document.frame(panel)->view())
+  return measure_violation(*document.mesh(), *document.wholeSoftness(), document.cuts(),
+                           document.solvers().frame(panel)->view())
       .fraction;
 }
 
@@ -168,8 +170,8 @@ class WindowLessons : public QObject {
  private:
   /// Returns a window that tests share, with another object and without a lesson. It saves the time to open windows.
   Workbench& shared() {
-    shared_->document().replaceMesh(generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QStringLiteral("sample"),
-                                    QStringLiteral("open"));
+    edits::replaceMesh(shared_->document(), generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QStringLiteral("sample"),
+                       QStringLiteral("open"));
     shared_->document().undoStack().clear();
     return *shared_;
   }
@@ -248,15 +250,15 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
   const std::size_t until = player(bench).lesson().steps[1].until;
   std::vector<std::size_t> seen;
   QObject context;
-  connect(&bench.document(), &Document::movesChanged, &context,
-          [&] { seen.push_back(bench.document().moveHistory().position()); });
+  connect(&bench.document().moves(), &MovePlayer::changed, &context,
+          [&] { seen.push_back(bench.document().moves().history().position()); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);
   QVERIFY(player(bench).plays());
   QVERIFY(std::ranges::is_sorted(seen));
-  QVERIFY(bench.document().moveHistory().position() < until);
+  QVERIFY(bench.document().moves().history().position() < until);
   bench.trigger("lessonNext");
-  QCOMPARE(bench.document().moveHistory().position(), until);
+  QCOMPARE(bench.document().moves().history().position(), until);
   QCOMPARE(player(bench).step(), std::size_t{1});
   awaitStep(bench);
 }
@@ -269,7 +271,7 @@ void WindowLessons::theViewsStayStillWhileAStepPlays() {
   const double before = bench.view(0).camera()->pose().height;
   std::vector<double> seen;
   QObject context;
-  connect(&bench.document(), &Document::movesChanged, &context,
+  connect(&bench.document().moves(), &MovePlayer::changed, &context,
           [&] { seen.push_back(bench.view(0).camera()->pose().height); });
   bench.trigger("lessonNext");
   QTRY_VERIFY(seen.size() > 5);
@@ -420,12 +422,12 @@ void WindowLessons::aDragDuringAStepStopsIt() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   bench.trigger("lessonNext");
-  QTRY_VERIFY(bench.document().moveHistory().position() > 5);
-  bench.document().grab(0);
-  bench.document().dragBy({1, 0, 0});
+  QTRY_VERIFY(bench.document().moves().history().position() > 5);
+  bench.document().handle().grab(0);
+  bench.document().handle().dragBy({1, 0, 0});
   QTRY_VERIFY(!player(bench).plays());
-  QVERIFY(!bench.document().held().empty());
-  bench.document().release();
+  QVERIFY(!bench.document().handle().held().empty());
+  bench.document().handle().release();
   bench.settle();
 }
 
@@ -436,9 +438,9 @@ void WindowLessons::relaxationAndPanelsOfTheUserAreTakenBack() {
   next(bench);
   next(bench);
   const State state = stateOf(bench);
-  bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+  edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::mean});
   QTRY_VERIFY(stateOf(bench).panels != state.panels);
-  bench.document().setRelaxation({false, 1, RelaxationScheme::mean});
+  edits::setRelaxation(bench.document(), {false, 1, RelaxationScheme::mean});
   bench.document().addPanel();
   next(bench);  // to a step without moves of its own
   QVERIFY(stateOf(bench) == state);
@@ -452,14 +454,14 @@ void WindowLessons::theWaitingListIsShownStepByStep() {
   for (int step = 0; step < 3; ++step) {
     next(bench);
     moved.push_back({shownAwayFromRest(bench, 0), shownAwayFromRest(bench, 1)});
-    whole = bench.document().snapshot(0).get();
+    whole = bench.document().solvers().snapshot(0).get();
   }
   // Only the handle; it and the first candidate; all six candidates moved.
   QCOMPARE(moved, (std::vector<std::vector<std::size_t>>{{1, 1}, {2, 2}, {7, 7}}));
   next(bench);
   QVERIFY(player(bench).isLast());
   QVERIFY(shownAwayFromRest(bench, 0) > 7);
-  QVERIFY(bench.document().snapshot(0).get() == whole);  // the solvers have finished the pass in all steps
+  QVERIFY(bench.document().solvers().snapshot(0).get() == whole);  // the solvers have finished the pass in all steps
   back(bench);
   QCOMPARE(shownAwayFromRest(bench, 0), std::size_t{7});
 }
@@ -538,7 +540,7 @@ void WindowLessons::unsavedWorkIsOfferedAgain() {
   QTest::mouseClick(again.find<QPushButton>("restoreWork"), Qt::LeftButton);
   again.settle();
   QCOMPARE(again.document().name(), QStringLiteral("sample"));
-  QVERIFY(!again.document().moveHistory().commands().empty());
+  QVERIFY(!again.document().moves().history().commands().empty());
 }
 
 void WindowLessons::undoAndRedoKeepTheLesson() {
@@ -554,7 +556,7 @@ void WindowLessons::undoAndRedoKeepTheLesson() {
   for (int i = 0; i < steps; ++i) {
     bench.document().redo();
   }
-  QTRY_VERIFY(bench.document().idle());
+  QTRY_VERIFY(bench.document().solvers().idle());
   QVERIFY(player(bench).isOpen());
   QVERIFY(stateOf(bench) == state);
 }
@@ -564,7 +566,7 @@ void WindowLessons::savingKeepsTheCaptions() {
   const QString path = folder.filePath(QStringLiteral("saved.chainmail"));
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
-  QVERIFY(bench.document().sessionFile().isEmpty());  // the bundled file is not overwritten
+  QVERIFY(bench.document().files().session().isEmpty());  // the bundled file is not overwritten
   next(bench);
   const State state = stateOf(bench);
   bench.window.sessions().savePath(path);

@@ -13,6 +13,7 @@
 #include <QThread>
 
 #include "docks/preset_store.h"
+#include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/recovery_bar.h"
 #include "io/reload_bar.h"
@@ -97,25 +98,25 @@ class WindowLost : public QObject {
     QFETCH(std::function<void(Workbench&)>, open);
     const QString session = path("lecture.chainmail");
     Workbench bench(cloth());
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.window.sessions().savePath(session);
     bench.settle();
     open(bench);
     bench.settle();
-    QCOMPARE(bench.document().sessionFile(), QString());  // so that Save asks for a file
+    QCOMPARE(bench.document().files().session(), QString());  // so that Save asks for a file
     QVERIFY(!bench.window.windowTitle().contains(QStringLiteral("lecture")));
     bench.document().undo();
     bench.settle();
-    QCOMPARE(bench.document().sessionFile(), session);
+    QCOMPARE(bench.document().files().session(), session);
     QCOMPARE(bench.document().pins(), std::vector<ElementId>{3});
     bench.document().redo();
     bench.settle();
-    QCOMPARE(bench.document().sessionFile(), QString());
+    QCOMPARE(bench.document().files().session(), QString());
   }
 
   void closingAsksIfWorkCannotBeKept() {
     auto bench = std::make_unique<SafeBench>();
-    bench->document().setPinned({3}, true);
+    edits::setPinned(bench->document(), {3}, true);
     bench->settle();
     FullDisk disk;
     {
@@ -141,7 +142,7 @@ class WindowLost : public QObject {
   void whatCouldNotBeKeptOnceIsKeptLater() {
     {
       SafeBench bench;
-      bench.document().setPinned({3}, true);
+      edits::setPinned(bench.document(), {3}, true);
       bench.settle();
       {
         const FullDisk disk;
@@ -155,7 +156,7 @@ class WindowLost : public QObject {
 
   void savingGoesOnAfterAFailure() {
     SafeBench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     int first = 0;
     {
       const FullDisk disk;
@@ -180,7 +181,7 @@ class WindowLost : public QObject {
     }
     {
       SafeBench bench;
-      bench.document().setPinned({42}, true);
+      edits::setPinned(bench.document(), {42}, true);
       bench.settle();
       QVERIFY(bench.window.close());
     }
@@ -212,7 +213,7 @@ class WindowLost : public QObject {
   void restoredWorkStaysUntilItIsSavedElsewhere() {
     {
       SafeBench bench;
-      bench.document().setPinned({42}, true);
+      edits::setPinned(bench.document(), {42}, true);
       bench.settle();
       QVERIFY(bench.window.close());
     }
@@ -240,7 +241,7 @@ class WindowLost : public QObject {
     Workbench one(cloth());
     one.window.sessions().savePath(file);
     one.settle();
-    one.document().setPinned({3}, true);
+    edits::setPinned(one.document(), {3}, true);
     Session others = sessionOf(one);
     others.pins = {7};
     save_session(file.toStdString(), others);
@@ -257,7 +258,7 @@ class WindowLost : public QObject {
     one.settle();
     QCOMPARE(one.document().pins(), std::vector<ElementId>{7});
     QVERIFY(!bar.isVisible());
-    one.document().setPinned({8}, true);
+    edits::setPinned(one.document(), {8}, true);
     save_session(file.toStdString(), others);
     {
       const Answer overwrite(QStringLiteral("Overwrite"));
@@ -266,7 +267,7 @@ class WindowLost : public QObject {
       QCOMPARE(overwrite.questions, 1);
     }
     QCOMPARE(read_session(file.toStdString()).pins, (std::vector<ElementId>{7, 8}));
-    one.document().setPinned({9}, true);
+    edits::setPinned(one.document(), {9}, true);
     one.trigger("saveSession");  // what this window has written is known to it
     one.settle();
     QCOMPARE(read_session(file.toStdString()).pins, (std::vector<ElementId>{7, 8, 9}));
@@ -315,7 +316,7 @@ class WindowLost : public QObject {
       QCOMPARE(chmod(qPrintable(one), one == file ? 0666 : 0755), 0);
     }
     QCOMPARE(chmod(qPrintable(folder), 01777), 0);
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     QCOMPARE(seteuid(12345), 0);
     {
       const Answer inPlace(QStringLiteral("Write in place"));
@@ -331,7 +332,7 @@ class WindowLost : public QObject {
 
   void aComputationThatEndsIsNamed() {
     Workbench bench(generate({MeshKind::tetra, {8, 8, 8}, 1, {}}));
-    bench.document().setPinned({0, 1, 2, 3, 4, 5, 6, 7}, true);
+    edits::setPinned(bench.document(), {0, 1, 2, 3, 4, 5, 6, 7}, true);
     bench.settle();
     bench.window.jobs().start(Jobs::Kind::compute, QStringLiteral("Calibrating softness"),
                               [](const Progress& progress) -> Jobs::Finish {
@@ -388,7 +389,7 @@ class WindowLost : public QObject {
 
   void unsavedWorkIsPrivate() {
     SafeBench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.save();
     QTRY_COMPARE(kept().size(), 1);
     QCOMPARE(modeOf(unsaved_work::folder()), 0700);
@@ -404,7 +405,7 @@ class WindowLost : public QObject {
   void afterALessonTheSettingsAreTheUsersOwn() {
     Workbench bench;
     bench.trigger("showLinks");
-    bench.document().setSoftness({0.7, 1.3, 0.15}, QStringLiteral("softness"));
+    edits::setSoftness(bench.document(), {0.7, 1.3, 0.15}, QStringLiteral("softness"));
     bench.choose(0, "Spiral");
     const LinkSoftness own = bench.document().softness();
     for (const char* lesson : {"lesson1", "lesson2"}) {
@@ -414,7 +415,7 @@ class WindowLost : public QObject {
       bench.settle();
     }
     bench.trigger("lessonClose");
-    bench.document().replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), cloth(), QStringLiteral("cloth"), QStringLiteral("build"));
     bench.settle();
     QVERIFY(bench.document().softness() == own);
     QVERIFY(bench.document().algorithm(0) == Algorithm::spiral);

@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "common/last_words.h"
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "io/file_actions.h"
 #include "io/sessions.h"
@@ -80,14 +81,14 @@ class Child {
     if (document().mesh()->element_count() < width * width) {
       return;  // the sentence says why
     }
-    step("pin", [this] { document().setPinned({pinned}, true); });
+    step("pin", [this] { edits::setPinned(document(), {pinned}, true); });
     step("drag", [this] { drag({200, -300, 0}); });
     step("cut", [this] { cut(); });
     keep();
     step("panel", [this] { document().addPanel(); });
     step("colours", [this] { window_.findChild<QAction*>(QStringLiteral("colourBy-violation"))->trigger(); });
     step("select", [this] { selectAll(); });
-    step("relax", [this] { document().setRelaxation({true, 1, RelaxationScheme::equilibrium}); });
+    step("relax", [this] { edits::setRelaxation(document(), {true, 1, RelaxationScheme::equilibrium}); });
     step("drag again", [this] { drag({-100, 200, 0}); });
     step("undo", [this] { document().undo(); });
     step("redo", [this] { document().redo(); });
@@ -107,7 +108,8 @@ class Child {
       begun = true;
       act();
     });
-    const bool ended = QTest::qWaitFor([&] { return begun && (isDone ? isDone() : document().idle()); }, patience);
+    const bool ended =
+        QTest::qWaitFor([&] { return begun && (isDone ? isDone() : document().solvers().idle()); }, patience);
     awaitPicture();
     say(ended ? "did" : "waited", QStringLiteral("%1 (%2 MB)").arg(QLatin1String(name)).arg(largestSpace()));
   }
@@ -127,28 +129,29 @@ class Child {
         Jobs::Kind::load, QStringLiteral("Building"), [this](const Progress& progress) -> Jobs::Finish {
           const MeshPointer mesh = generate({MeshKind::grid, {width, width, 1}, 1, {}}, progress.part(0, 0.8));
           prepareLevels(mesh, progress.part(0.8, 1));
-          return [this, mesh] { document().replaceMesh(mesh, QStringLiteral("large"), QStringLiteral("build")); };
+          return
+              [this, mesh] { edits::replaceMesh(document(), mesh, QStringLiteral("large"), QStringLiteral("build")); };
         });
   }
 
   void drag(const Point& by) {
-    document().grab(grabbed);
+    document().handle().grab(grabbed);
     for (int i = 1; i <= 5; ++i) {
-      document().drag(document().mesh()->rest_position(grabbed) + by * i / 5);
+      document().handle().drag(document().mesh()->rest_position(grabbed) + by * i / 5);
     }
-    document().release();
+    document().handle().release();
   }
 
   void cut() {
     std::vector<LinkId> links(cuts);
     std::iota(links.begin(), links.end(), firstCut);
-    document().cut(links);
+    edits::cut(document(), links);
   }
 
   void selectAll() {
     std::vector<ElementId> all(document().mesh()->element_count());
     std::iota(all.begin(), all.end(), ElementId{0});
-    document().select(std::move(all));
+    document().selection().set(std::move(all));
   }
 
   /// Waits until the parent has seen that the work was saved automatically, or has given up.

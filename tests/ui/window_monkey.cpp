@@ -36,7 +36,7 @@ struct State {
         document.mesh(), document.name(), document.cuts().links(), document.pins(), *document.wholeSoftness(), {}, {}};
     for (int panel = 0; panel < Document::minPanels; ++panel) {
       state.algorithms[std::size_t(panel)] = document.algorithm(panel);
-      state.positions[std::size_t(panel)] = document.frame(panel)->positions;
+      state.positions[std::size_t(panel)] = document.solvers().frame(panel)->positions;
     }
     return state;
   }
@@ -136,16 +136,16 @@ class WindowMonkey : public QObject {
 
   static void checkWindow(Workbench& bench) {
     const Document& document = bench.document();
-    QTRY_VERIFY(document.settled());
+    QTRY_VERIFY(document.solvers().settled());
     QCOMPARE(bench.window.findChildren<View*>().size(), document.panels());
     for (int panel = 0; panel < document.panels(); ++panel) {
-      const Frame* frame = document.frame(panel);
+      const Frame* frame = document.solvers().frame(panel);
       QVERIFY(frame != nullptr);
       QCOMPARE(frame->positions.size(), frame->mesh->rest.size());
       QVERIFY(std::all_of(frame->positions.begin(), frame->positions.end(), [](float x) { return std::isfinite(x); }));
       QCOMPARE(bench.window.panel(panel).selector().currentText(), text(info(document.algorithm(panel)).label));
     }
-    const QString file = QFileInfo(document.sessionFile()).fileName();
+    const QString file = QFileInfo(document.files().session()).fileName();
     QVERIFY(bench.window.windowTitle().startsWith(file.isEmpty() ? document.name() : file));
     QCOMPARE(bench.window.isWindowModified(), document.isModified());
   }

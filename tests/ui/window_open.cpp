@@ -14,6 +14,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "document/edits.h"
 #include "folders.h"
 #include "io/file_actions.h"
 #include "io/volume_bar.h"
@@ -180,11 +181,11 @@ class WindowOpen : public QObject {
     Workbench bench;
     bench.open(brokenCube());
     const LinkId link = *find_link(*bench.document().mesh(), 0, 1);
-    bench.document().setSoftnessOf({link}, LinkSoftness{1, 1, 0});
+    edits::setSoftnessOf(bench.document(), {link}, LinkSoftness{1, 1, 0});
     bench.find<QPushButton>("repairLoose")->click();
     bench.settle();
     QVERIFY(bench.document().wholeSoftness()->links.contains(link));
-    QCOMPARE(*bench.document().moveHistory().object().softness,
+    QCOMPARE(*bench.document().moves().history().object().softness,
              *bench.document().wholeSoftness());  // what the solvers got
   }
 
@@ -194,7 +195,7 @@ class WindowOpen : public QObject {
     bench.find<QPushButton>("repairHoles")->click();
     QVERIFY(bench.window.jobs().running());
     const auto other = generate({MeshKind::cloth, {4, 4, 1}, 1, {}});
-    bench.document().replaceMesh(other, QStringLiteral("other"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), other, QStringLiteral("other"), QStringLiteral("build"));
     bench.settle();
     QCOMPARE(bench.document().mesh(), other);
     QCOMPARE(messages(bench).sentence(),
@@ -211,7 +212,7 @@ class WindowOpen : public QObject {
           std::pair(Ids{4, 5, 6, 7}, "hole 1 of 1, 4 edges"), std::pair(Ids{1, 2}, "non-manifold edges"),
           std::pair(Ids{8}, "duplicate vertices")}) {
       show->click();
-      QCOMPARE(bench.document().selection().elements, ids);
+      QCOMPARE(bench.document().selection().elements(), ids);
       QCOMPARE(bench.find<QLabel>("repairShown")->text(), QStringLiteral("Selected: %1").arg(QLatin1String(name)));
     }
     bench.find<QToolButton>("repairClose")->click();
@@ -239,7 +240,7 @@ class WindowOpen : public QObject {
       QVERIFY(!bench.find<QPushButton>(name)->isVisible());
     }
     const MeshPointer cloth = generate({MeshKind::cloth, {20, 20, 1}, 1, {}});
-    bench.document().replaceMesh(cloth, QStringLiteral("cloth"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
     QVERIFY(!bar->isVisible());
     bench.trigger("repairMesh");
     bench.settle();
@@ -249,7 +250,7 @@ class WindowOpen : public QObject {
   void verticesWithinADistanceAreWelded() {
     Workbench bench;
     const MeshPointer cloth = generate({MeshKind::cloth, {4, 1, 1}, 1, {}});
-    bench.document().replaceMesh(cloth, QStringLiteral("cloth"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
     bench.trigger("repairMesh");
     bench.settle();
     auto* weld = bench.find<QPushButton>("repairWeld");

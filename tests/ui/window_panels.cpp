@@ -2,6 +2,7 @@
 
 #include <QToolButton>
 
+#include "document/edits.h"
 #include "document/session_draft.h"
 #include "mesh/progress.h"
 #include "panels/legend.h"
@@ -29,7 +30,7 @@ class WindowPanels : public QObject {
     QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
     const QPoint from = bench.place(1, 31);  // a drag works where the panel is shown
     bench.stroke(1, {from, from + QPoint(40, 40)});
-    QVERIFY(bench.position(0, 40) != before || bench.document().frame(0)->statistics.last_pass.moved > 0);
+    QVERIFY(bench.position(0, 40) != before || bench.document().solvers().frame(0)->statistics.last_pass.moved > 0);
     bench.trigger("swapPanels");
     bench.settle();
     QVERIFY(bench.window.panel(0).mapToGlobal(QPoint()).x() < bench.window.panel(1).mapToGlobal(QPoint()).x());
@@ -38,8 +39,8 @@ class WindowPanels : public QObject {
   void panelsAreAddedAsTheObjectStands() {
     Workbench bench;
     Document& document = bench.document();
-    document.cut({0, 5});
-    document.setPinned({8}, true);
+    edits::cut(document, {0, 5});
+    edits::setPinned(document, {8}, true);
     bench.dragFar();
     bench.trigger("addPanel");
     bench.settle();
@@ -62,7 +63,7 @@ class WindowPanels : public QObject {
     const QPoint from = bench.place(3, 12);
     bench.stroke(3, {from, from + QPoint(40, 30)});
     for (int p = 0; p < 4; ++p) {
-      QVERIFY(document.frame(p)->statistics.passes > 0);
+      QVERIFY(document.solvers().frame(p)->statistics.passes > 0);
     }
     while (document.undoStack().canUndo()) {
       document.undoStack().undo();
@@ -112,7 +113,7 @@ class WindowPanels : public QObject {
     QVERIFY(!bench.find<QAction>("removePanel")->isEnabled());
     const QPoint from = bench.place(1, 12);
     bench.stroke(1, {from, from + QPoint(40, 30)});
-    QVERIFY(bench.document().frame(0)->statistics.last_pass.moved > 0);
+    QVERIFY(bench.document().solvers().frame(0)->statistics.last_pass.moved > 0);
   }
 
   void theDistanceOfTheReferenceIsThatOfTheFurthest() {
@@ -147,7 +148,7 @@ class WindowPanels : public QObject {
     QVERIFY(bench.find<QAction>("showAloneB")->isChecked());
     const QPoint from = bench.place(1, 31);
     bench.stroke(1, {from, from + QPoint(60, 40)});
-    QVERIFY(bench.document().frame(0)->statistics.passes > 0);  // the hidden panel has also computed the drag
+    QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);  // the hidden panel has also computed the drag
     QTest::mouseClick(bench.find<QToolButton>("aloneButton1"), Qt::LeftButton);
     bench.settle();
     QVERIFY(a.isVisible() && b.isVisible());
@@ -162,7 +163,7 @@ class WindowPanels : public QObject {
   /// An undo step of a removed panel has no effect, and undo of the steps before it still works.
   void stepsOfAPanelThatIsGoneAreUndone() {
     Workbench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.trigger("addPanel");
     bench.settle();
     bench.choose(2, "Spiral");
@@ -187,8 +188,8 @@ class WindowPanels : public QObject {
     Workbench bench;
     bench.trigger("addPanel");
     // The draft shares the solvers, and the panel is removed before its solver has reported its positions.
-    bench.document().replaceMesh(generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
+                       QStringLiteral("build"));
     const SessionDraft draft(bench.document(), {});
     bench.document().removePanel();
     JobState job;

@@ -9,6 +9,7 @@
 #include <QSpinBox>
 #include <QStandardItemModel>
 
+#include "document/edits.h"
 #include "panels/legend.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -51,8 +52,8 @@ class WindowPhysics : public QObject {
     QVERIFY(item(bench, 0, "Linear FEM").isEnabled());
     QVERIFY(!item(bench, 0, "BEM").isEnabled());
     QVERIFY(item(bench, 0, "BEM").toolTip().contains(QStringLiteral("closed surfaces")));
-    bench.document().replaceMesh(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}), QStringLiteral("cloth"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::cloth, {5, 5, 1}, 1, 3}), QStringLiteral("cloth"),
+                       QStringLiteral("build"));
     QVERIFY(!item(bench, 0, "Neo-Hookean FEM").isEnabled());
     QVERIFY(item(bench, 0, "Neo-Hookean FEM").toolTip().contains(QStringLiteral("not a solid")));
     QVERIFY(item(bench, 0, "Exact ChainMail").isEnabled());
@@ -113,7 +114,7 @@ class WindowPhysics : public QObject {
     bench.choose(1, "Neo-Hookean FEM");
     dragOne(bench);
     QTRY_VERIFY(bar->isVisible());
-    bench.document().resetObject();
+    edits::resetObject(bench.document());
     bench.find<QPushButton>("pinsAgree")->click();
     QCOMPARE(bench.document().pins().size(), std::size_t{9});
     QVERIFY(!bar->isVisible());
@@ -141,19 +142,19 @@ class WindowPhysics : public QObject {
     Workbench bench(generate({MeshKind::tetra, {5, 3, 3}, 1, {}}));
     bench.choose(0, "Neo-Hookean FEM");
     bench.trigger("pinLeft");
-    bench.document().grab(22);
-    bench.document().drag(Point(-6, 1, 1));  // through the pinned wall
+    bench.document().handle().grab(22);
+    bench.document().handle().drag(Point(-6, 1, 1));  // through the pinned wall
     // Newton's method tries many load steps, which takes seconds with a sanitizer.
-    QTRY_VERIFY_WITH_TIMEOUT(bench.document().idle(), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().solvers().idle(), 60'000);
     bench.settle();
     auto* figures = bench.find<QLabel>("statistics0");
     QTRY_VERIFY(figures->toolTip().contains(QStringLiteral("last converged state")));
     QVERIFY(!figures->text().contains(QStringLiteral("violation")));
-    bench.document().drag(Point(2.1, 1, 1));
-    QTRY_VERIFY_WITH_TIMEOUT(bench.document().idle(), 60'000);
+    bench.document().handle().drag(Point(2.1, 1, 1));
+    QTRY_VERIFY_WITH_TIMEOUT(bench.document().solvers().idle(), 60'000);
     bench.settle();
     QTRY_VERIFY(figures->text().contains(QStringLiteral("violation")));
-    bench.document().release();
+    bench.document().handle().release();
   }
 
   void pinningByHandTakesUpTheTool() {
@@ -169,40 +170,40 @@ class WindowPhysics : public QObject {
   void aControlPointIsDraggedAndUndone() {
     Workbench bench(gridInAPlane());
     bench.choose(1, "Free-form deformation");
-    const Frame& frame = *bench.document().frame(1);
+    const Frame& frame = *bench.document().solvers().frame(1);
     QCOMPARE(frame.control_points.size(), std::size_t{2 * 4 * 4});
-    QVERIFY(bench.document().frame(0)->control_points.empty());
+    QVERIFY(bench.document().solvers().frame(0)->control_points.empty());
     const Mesh& mesh = *bench.document().mesh();
     // Control point 0 and element 0 are at the same position; the control point has priority.
     const QPoint from = bench.place(1, 0);
     QTest::mouseMove(&bench.view(1), from + QPoint(30, 30));
     QTest::mouseMove(&bench.view(1), from);
     bench.settle();
-    QVERIFY(!bench.document().highlight().element);
+    QVERIFY(!bench.document().highlight().marks().element);
     bench.stroke(1, {from, from + QPoint(-50, 30)});
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("move of control point 0"));
     QVERIFY((bench.position(1, 0) - mesh.rest_position(0)).norm() > 0.1);  // the corner moves with its control point
     QVERIFY(bench.position(1, 62) == mesh.rest_position(62));  // the opposite corner belongs to other points
     QVERIFY(bench.position(0, 0) == mesh.rest_position(0));    // other panels have no control points
-    const float moved = bench.document().frame(1)->control_points[0];
+    const float moved = bench.document().solvers().frame(1)->control_points[0];
     QVERIFY(moved < 0);
     bench.document().undo();
     bench.settle();
     QVERIFY(bench.position(1, 0) == mesh.rest_position(0));
-    QVERIFY(std::abs(bench.document().frame(1)->control_points[0]) < 1e-5F);
+    QVERIFY(std::abs(bench.document().solvers().frame(1)->control_points[0]) < 1e-5F);
     bench.document().redo();
     bench.settle();
     // Fitted to the positions of the elements.
-    QVERIFY(std::abs(bench.document().frame(1)->control_points[0] - moved) < 1e-3F);
+    QVERIFY(std::abs(bench.document().solvers().frame(1)->control_points[0] - moved) < 1e-3F);
   }
 
   void theLatticeIsAsItWasChosen() {
     Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
     bench.choose(0, "Free-form deformation");
-    QCOMPARE(bench.document().frame(0)->control_points.size(), std::size_t{3 * 64});
+    QCOMPARE(bench.document().solvers().frame(0)->control_points.size(), std::size_t{3 * 64});
     bench.find<QSpinBox>("latticeZ")->setValue(2);
     bench.settle();
-    QTRY_COMPARE(bench.document().frame(0)->control_points.size(), std::size_t{3 * 32});
+    QTRY_COMPARE(bench.document().solvers().frame(0)->control_points.size(), std::size_t{3 * 32});
     bench.view(0).grabFramebuffer();  // drawn without a warning
   }
 
@@ -236,11 +237,11 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(highest(0) < 1e-4);  // the reference solution, up to the tolerance of Newton's method and of floats
     QVERIFY(highest(1) > 0.05 && highest(1) < 2);
     QCOMPARE(bench.window.panel(1).legend().lowest(), QStringLiteral("0"));
-    bench.document().setPinned({62}, true);  // another reference solution: the old colours are invalid
+    edits::setPinned(bench.document(), {62}, true);  // another reference solution: the old colours are invalid
     QVERIFY(!bench.window.colouring().title(0).contains(QStringLiteral("displacement")));
     QVERIFY(bench.window.colouring().follow(0) == nullptr);
     QTRY_VERIFY(title(0).contains(QStringLiteral("displacement")));
-    bench.document().resetObject();
+    edits::resetObject(bench.document());
     QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
   }
 
@@ -251,21 +252,21 @@ class WindowPhysics : public QObject {
     bench.trigger("colourBy-truth");
     bench.trigger("pinBottom");
     const auto title = [&bench](int panel) { return bench.window.panel(panel).legend().title(); };
-    bench.document().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
-    bench.document().dragBy(Point(0.4, 0.3, 0), {Point::UnitZ(), 12});
-    bench.document().release();
+    bench.document().handle().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
+    bench.document().handle().dragBy(Point(0.4, 0.3, 0), {Point::UnitZ(), 12});
+    bench.document().handle().release();
     bench.settle();
     QTRY_VERIFY_WITH_TIMEOUT(title(0).contains(QStringLiteral("relative error ")), 30'000);
     const QString after = title(0).section(QStringLiteral("relative error "), 1);
     const double error = QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;() ]")), 0, 0));
     QVERIFY2(error < 1e-4, qPrintable(title(0)));
     QVERIFY(error > 0);
-    bench.document().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
-    bench.document().dragBy(Point(-0.4, -0.3, 0), {Point::UnitZ(), -12});
-    bench.document().release();
+    bench.document().handle().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
+    bench.document().handle().dragBy(Point(-0.4, -0.3, 0), {Point::UnitZ(), -12});
+    bench.document().handle().release();
     bench.settle();
     QTRY_VERIFY2(title(0).contains(QStringLiteral("back at rest")), qPrintable(title(0)));
-    bench.document().setPinned({50}, true);
+    edits::setPinned(bench.document(), {50}, true);
     QTRY_VERIFY2(title(0).contains(QStringLiteral("is pinned")), qPrintable(title(0)));
   }
 
@@ -305,7 +306,7 @@ class WindowPhysics : public QObject {
 
   void withoutATruthTheLegendSaysWhy() {
     Workbench bench(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}));
-    bench.document().setPinned({0}, true);
+    edits::setPinned(bench.document(), {0}, true);
     const QPoint from = bench.place(0, 12);
     bench.stroke(0, {from, from + QPoint(20, -20)});
     bench.trigger("colourBy-truth");

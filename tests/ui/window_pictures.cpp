@@ -5,6 +5,7 @@
 #include <QSvgRenderer>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "io/picture_actions.h"
 #include "io/pictures.h"
 #include "window.h"
@@ -160,9 +161,9 @@ class WindowPictures : public QObject {
     QFETCH(int, kind);
     Workbench bench(generate({MeshKind(kind), {5, 4, MeshKind(kind) == MeshKind::tetra ? 3U : 1U}, 1, {}}));
     applyGround(colours::Ground::light);
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.settle();
-    bench.document().cut({0});
+    edits::cut(bench.document(), {0});
     bench.settle();
     const QString path = folder_.filePath(QStringLiteral("object.svg"));
     bench.trigger("pictureOfObjectA");
@@ -213,7 +214,7 @@ class WindowPictures : public QObject {
     Workbench bench;
     bench.trigger("colourBy-violation");
     bench.trigger("showFigures");
-    bench.document().setPinned({40}, true);
+    edits::setPinned(bench.document(), {40}, true);
     bench.dragFar();
     bench.settleFigures();
     bench.trigger("pictureOfPanels");

@@ -3,6 +3,7 @@
 #include <QLabel>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -56,11 +57,11 @@ class WindowPin : public QObject {
     bench.trigger("toolPin");
     QTest::mouseMove(&bench.view(0), bench.place(0, 12));
     QTest::mouseMove(&bench.view(0), bench.place(0, pinned));
-    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
     bench.click(0, pinned);
-    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
     bench.trigger("undo");
-    QTRY_COMPARE(bench.document().highlight().element, std::optional<ElementId>(pinned));
+    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
   }
 
   void aSecondClickUnpins() {
@@ -79,7 +80,7 @@ class WindowPin : public QObject {
     Workbench bench;
     auto* unpin = bench.find<QAction>("unpinAll");
     QVERIFY(!unpin->isEnabled());
-    bench.document().setPinned({3, 5, 7}, true);
+    edits::setPinned(bench.document(), {3, 5, 7}, true);
     QVERIFY(unpin->isEnabled());
     unpin->trigger();
     QVERIFY(bench.document().pins().empty());
@@ -94,7 +95,7 @@ class WindowPin : public QObject {
     for (int p = 0; p < 2; ++p) {
       QVERIFY(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned) > 40);
     }
-    bench.document().setPinned({pinned}, true);
+    edits::setPinned(bench.document(), {pinned}, true);
     bench.settle();
     for (int p = 0; p < 2; ++p) {
       QCOMPARE(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned), 0);
@@ -103,24 +104,24 @@ class WindowPin : public QObject {
 
   void aPinnedElementIsNotGrabbed() {
     Workbench bench;
-    bench.document().setPinned({pinned}, true);
+    edits::setPinned(bench.document(), {pinned}, true);
     const QPoint from = bench.place(0, pinned);
     bench.stroke(0, {from, from + QPoint(80, -80)}, false);
-    QVERIFY(!bench.document().highlight().grabbed);
+    QVERIFY(!bench.document().highlight().marks().grabbed);
     QTRY_VERIFY(bench.window.messages().isVisible());
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("it is pinned and may not move")));
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(80, -80));
     bench.settle();
-    QCOMPARE(bench.document().frame(0)->statistics.passes, 0U);
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     dragFar(bench);  // the next drag works normally
-    QVERIFY(bench.document().frame(0)->statistics.passes > 0);
+    QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);
   }
 
   void pinsGoWithTheMeshAndComeBack() {
     Workbench bench;
-    bench.document().setPinned({pinned}, true);
-    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
-                                 QStringLiteral("build small"));
+    edits::setPinned(bench.document(), {pinned}, true);
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
+                       QStringLiteral("build small"));
     bench.settle();
     QVERIFY(bench.document().pins().empty());
     QVERIFY(!bench.find<QAction>("unpinAll")->isEnabled());

@@ -9,6 +9,7 @@
 #include <QTreeView>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "window.h"
@@ -28,18 +29,18 @@ QSlider& slider(Workbench& bench, int panel) {
 void openAndDrag(Workbench& bench, const Point& by = Point(4, 3, 0)) {
   QTest::keyClick(&bench.window, Qt::Key_O);
   QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
-  bench.document().grab(middle);
-  bench.document().drag(bench.document().mesh()->rest_position(middle) + by);
-  bench.document().release();
+  bench.document().handle().grab(middle);
+  bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + by);
+  bench.document().handle().release();
   bench.settle();
   QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
 }
 
 /// Makes another far drag, the other way.
 void openAnotherPass(Workbench& bench) {
-  bench.document().grab(middle);
-  bench.document().drag(bench.document().mesh()->rest_position(middle) - Point(4, 3, 0));
-  bench.document().release();
+  bench.document().handle().grab(middle);
+  bench.document().handle().drag(bench.document().mesh()->rest_position(middle) - Point(4, 3, 0));
+  bench.document().handle().release();
   bench.settle();
   QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
 }
@@ -72,7 +73,7 @@ class WindowPropagation : public QObject {
     openAndDrag(bench);
     const auto after = positions(bench, 1);
     const int steps = slider(bench, 1).maximum();
-    QCOMPARE(quint64(steps), bench.document().frame(1)->statistics.last_pass.checked);
+    QCOMPARE(quint64(steps), bench.document().solvers().frame(1)->statistics.last_pass.checked);
     QCOMPARE(slider(bench, 1).value(), steps);
     bench.trigger("passFirst");  // no element has followed the handle yet
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
@@ -130,9 +131,9 @@ class WindowPropagation : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_O);
     QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
     const std::vector<ElementId> handle{30, 31, 32};
-    bench.document().grab(handle);
-    bench.document().dragBy(Point(0, 3, 0));
-    bench.document().release();
+    bench.document().handle().grab(handle);
+    bench.document().handle().dragBy(Point(0, 3, 0));
+    bench.document().handle().release();
     bench.settle();
     QTRY_VERIFY(bench.find<QAction>("passBack")->isEnabled());
     const auto after = positions(bench, 1);
@@ -187,9 +188,9 @@ class WindowPropagation : public QObject {
     QVERIFY(drops);
     auto* view = bench.find<QTreeView>("waitingList1");
     view->setCurrentIndex(list(bench, 1).index(3, 0));
-    QCOMPARE(QString::number(*bench.document().highlight().element), cell(bench, 1, 3, 0));
+    QCOMPARE(QString::number(*bench.document().highlight().marks().element), cell(bench, 1, 3, 0));
     bench.choose(1, "Exact ChainMail");
-    bench.document().resetObject();
+    edits::resetObject(bench.document());
     bench.trigger("showPropagation");
     openAndDrag(bench);
     bench.trigger("passFirst");
@@ -201,9 +202,9 @@ class WindowPropagation : public QObject {
     Workbench bench;
     openAndDrag(bench);
     bench.choose(1, "Exact ChainMail");
-    bench.document().grab(middle);
-    bench.document().drag(bench.document().mesh()->rest_position(middle) + Point(3, 2, 0));
-    bench.document().release();
+    bench.document().handle().grab(middle);
+    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(3, 2, 0));
+    bench.document().handle().release();
     bench.trigger("passFirst");  // panel B has no pass yet
     QVERIFY(!slider(bench, 1).isEnabled());
     QTRY_VERIFY(slider(bench, 1).isEnabled());
@@ -216,16 +217,16 @@ class WindowPropagation : public QObject {
     QTRY_VERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("Order of update")));
     bench.trigger("passFirst");
     bench.trigger("passForward");
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     const int most = std::max(slider(bench, 0).maximum(), slider(bench, 1).maximum());
     QTRY_COMPARE(bench.window.panel(1).legend().highest(), QLocale().toString(double(most), 'g', 3));
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colour_map::at(0)) < alike);
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 4), colour_map::at(0)) > alike);
     bench.trigger("showPropagation");  // closing the dock restores the normal views
-    bench.document().resetObject();
+    edits::resetObject(bench.document());
     bench.settle();
     QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(panelColour(bench.document(), 1))) <
             alike);
   }
@@ -292,17 +293,17 @@ class WindowPropagation : public QObject {
     bench.trigger("passFirst");
     QVERIFY(!bench.find<QAction>("passFollow")->isChecked());
     QVERIFY(positions(bench, 0) != live);
-    bench.document().setHighlight({middle, true, {}});
+    bench.document().highlight().set({middle, true, {}});
     QVERIFY(positions(bench, 0) == live);
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     bench.trigger("passFirst");
     bench.trigger("resetObject");
     bench.settle();
     QVERIFY(bench.find<QAction>("passFollow")->isChecked());
     QVERIFY(bench.position(0, middle) == bench.document().mesh()->rest_position(middle));
     bench.trigger("passFirst");
-    bench.document().replaceMesh(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}), QStringLiteral("other"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::tetra, {5, 5, 5}, 1, {}}), QStringLiteral("other"),
+                       QStringLiteral("build"));
     bench.settle();
     QVERIFY(!bench.find<QAction>("passFirst")->isEnabled());
     QVERIFY(bench.find<QAction>("passFirst")->toolTip().contains(QStringLiteral("drag an element")));
@@ -311,7 +312,7 @@ class WindowPropagation : public QObject {
   void everyAlgorithmCanBeSteppedInSpace() {
     Workbench bench(generate({MeshKind::block, {5, 5, 5}, 1, {}}));
     for (const auto& one : algorithms()) {
-      bench.document().resetObject();
+      edits::resetObject(bench.document());
       bench.choose(0, std::string(one.label).c_str());
       if (!bench.find<QDockWidget>("propagationDock")->isHidden()) {
         bench.trigger("showPropagation");

@@ -235,11 +235,11 @@ class WindowRate : public QObject {
     const QString path = folder.filePath(QStringLiteral("rates.csv"));
     RateBench bench;
     bench.shake();
-    const double ms = bench.document().frame(0)->statistics.last_pass_ms;
+    const double ms = bench.document().solvers().frame(0)->statistics.last_pass_ms;
     bench.rest();
     QCOMPARE(bench.points(0).last().y(), ms);
     checkThatTheCursorReads(bench, ms);
-    QVERIFY(std::uint64_t(bench.points(0).size()) <= bench.document().frame(0)->statistics.passes);
+    QVERIFY(std::uint64_t(bench.points(0).size()) <= bench.document().solvers().frame(0)->statistics.passes);
     bench.dock().saveTablePath(path);
     const QList<QByteArray> rows = bytesOf(path).trimmed().split('\n');
     QVERIFY(rows[0].startsWith("time_s,panel,algorithm,painted_per_s,passes_per_s,pass_ms,"));

@@ -15,6 +15,7 @@
 #include <future>
 #include <sstream>
 
+#include "document/edits.h"
 #include "io/autosave.h"
 #include "io/recovery_bar.h"
 #include "io/sessions.h"
@@ -87,7 +88,7 @@ struct SafeBench : Workbench {
   void save() {
     for (int panel = 0; panel < document().panels(); ++panel) {
       // No frame follows this one for some time.
-      QTRY_VERIFY(document().frame(panel)->statistics.violation_of_whole_mesh);
+      QTRY_VERIFY(document().solvers().frame(panel)->statistics.violation_of_whole_mesh);
     }
     do {
       settle();
@@ -110,7 +111,7 @@ int crashingProgram(int argc, char** argv) {
   styleApplication();
   Workbench bench(cloth());
   bench.window.sessions().protect();
-  bench.document().setSessionFile(QStringLiteral("/somewhere/mine.chainmail"));
+  bench.document().files().setSession(QStringLiteral("/somewhere/mine.chainmail"));
   changeEverything(bench);
   save_session(argv[2], sessionOf(bench));
   std::puts("worked");
@@ -153,7 +154,7 @@ class WindowRecovery : public QObject {
     bench.find<QPushButton>("restoreWork")->click();
     bench.settle();
     compare(sessionOf(bench), read_session(expected.toStdString()));
-    QCOMPARE(bench.document().sessionFile(), QStringLiteral("/somewhere/mine.chainmail"));
+    QCOMPARE(bench.document().files().session(), QStringLiteral("/somewhere/mine.chainmail"));
     QVERIFY(bench.window.isWindowModified());
     QVERIFY(!bench.window.sessions().recoveryBar().isVisible());
     QVERIFY(autosaved().contains(left));  // until the user has saved it, or the window keeps it
@@ -172,7 +173,7 @@ class WindowRecovery : public QObject {
     for (const ElementId pinned : {3U, 4U}) {
       Workbench bench;
       bench.window.sessions().protect();
-      bench.document().setPinned({pinned}, true);
+      edits::setPinned(bench.document(), {pinned}, true);
       bench.settle();
       QVERIFY(bench.window.close());
     }
@@ -214,7 +215,7 @@ class WindowRecovery : public QObject {
     bench.timer->start(0);
     QTRY_VERIFY(!bench.timer->isActive());
     QCOMPARE(autosaved().size(), 0);  // because nothing was changed
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     QVERIFY(bench.timer->isActive());
     bench.save();
     QVERIFY(!bench.timer->isActive());  // nothing runs while nothing changes
@@ -229,40 +230,40 @@ class WindowRecovery : public QObject {
   void everyKindOfEditIsOnTheDiskWithinFiveSeconds() {
     SafeBench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
     Document& document = bench.document();
-    document.setPinned({0}, true);
+    edits::setPinned(document, {0}, true);
     bench.save();
     const std::vector<std::pair<const char*, std::function<void()>>> edits{
         {"a pin",
          [&] {
-           document.setPinned({5, 6}, true);
+           edits::setPinned(document, {5, 6}, true);
          }},
-        {"no pin", [&] { document.setPinned({5}, false); }},
-        {"a cut", [&] { document.cut({3}); }},
+        {"no pin", [&] { edits::setPinned(document, {5}, false); }},
+        {"a cut", [&] { edits::cut(document, {3}); }},
         {"undo", [&] { bench.trigger("undo"); }},
         {"redo", [&] { bench.trigger("redo"); }},
         {"softness",
          [&] {
-           document.setSoftness({0.9, 1.2, 0.1}, QStringLiteral("softness"), 7);
+           edits::setSoftness(document, {0.9, 1.2, 0.1}, QStringLiteral("softness"), 7);
          }},
         {"more of a slider's gesture",
          [&] {
-           document.setSoftness({0.9, 1.3, 0.1}, QStringLiteral("softness"), 7);
+           edits::setSoftness(document, {0.9, 1.3, 0.1}, QStringLiteral("softness"), 7);
          }},
         {"softness of links",
          [&] {
-           document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
+           edits::setSoftnessOf(document, {2, 7}, LinkSoftness{0.5, 2, 1});
          }},
         {"relaxation",
          [&] {
-           document.setRelaxation({false, 0.5, RelaxationScheme::link});
+           edits::setRelaxation(document, {false, 0.5, RelaxationScheme::link});
          }},
         {"material",
          [&] {
-           document.setElastic({{2, 0.4}, {4, 4, 4}}, QStringLiteral("material"));
+           edits::setElastic(document, {{2, 0.4}, {4, 4, 4}}, QStringLiteral("material"));
          }},
         {"lattice",
          [&] {
-           document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("lattice"));
+           edits::setElastic(document, {{2, 0.4}, {3, 4, 5}}, QStringLiteral("lattice"));
          }},
         {"an algorithm", [&] { bench.choose(1, "Spiral"); }},
         {"a drag",
@@ -270,11 +271,11 @@ class WindowRecovery : public QObject {
            drag(document, 20, {0.4, -0.3, 0.2});
          }},
         {"a drag to where the element is", [&] { drag(document, 1, Point::Zero()); }},
-        {"back in what was done", [&] { document.goTo(document.moveHistory().length() - 3); }},
+        {"back in what was done", [&] { document.moves().goTo(document.moves().history().length() - 3); }},
         {"other moves",
          [&] {
            const std::vector<Command> moves{commands::Pin{{1}}};
-           document.loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
+           document.moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open moves"));
          }},
         {"reset", [&] { bench.trigger("resetObject"); }},
         {"one panel more", [&] { bench.trigger("addPanel"); }},
@@ -289,7 +290,8 @@ class WindowRecovery : public QObject {
         {"links shown", [&] { bench.trigger("showLinks"); }},
         {"a section", [&] { bench.trigger("section"); }},
         {"a dock closed", [&] { bench.find<QDockWidget>("relaxationDock")->close(); }},
-        {"another object", [&] { document.replaceMesh(cloth(), QStringLiteral("cloth"), QStringLiteral("build")); }},
+        {"another object",
+         [&] { edits::replaceMesh(document, cloth(), QStringLiteral("cloth"), QStringLiteral("build")); }},
     };
     for (const auto& [name, edit] : edits) {
       QTRY_VERIFY2(!bench.timer->isActive(), name);
@@ -307,15 +309,15 @@ class WindowRecovery : public QObject {
 
   void theObjectIsWrittenOnlyWhenItChanges() {
     SafeBench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.save();
     const auto first = objects();
     QCOMPARE(first.size(), std::size_t{1});
-    bench.document().setPinned({4}, true);
+    edits::setPinned(bench.document(), {4}, true);
     bench.save();
     QCOMPARE(objects(), first);
-    bench.document().replaceMesh(generate({MeshKind::grid, {5, 5, 1}, 1, {}}), QStringLiteral("grid"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {5, 5, 1}, 1, {}}), QStringLiteral("grid"),
+                       QStringLiteral("build"));
     bench.settle();
     bench.save();
     QCOMPARE(objects().size(), std::size_t{1});
@@ -339,10 +341,10 @@ class WindowRecovery : public QObject {
 
   void theWaitForMoreIsShortEnoughForWhatIsPromised() {
     SafeBench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     QVERIFY(bench.timer->remainingTime() <= 4500);
     bench.save();
-    bench.document().setPinned({4}, true);
+    edits::setPinned(bench.document(), {4}, true);
     QVERIFY(bench.timer->remainingTime() <= 4500);
   }
 
@@ -350,10 +352,10 @@ class WindowRecovery : public QObject {
   /// a camera makes no frame.
   void whatIsDoneWhileItIsWrittenIsWrittenToo() {
     SafeBench bench;
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     bench.save();
     std::promise<void> gate;
-    bench.document().ask(0, [opened = gate.get_future().share()](const Simulation&) { opened.wait(); });
+    bench.document().solvers().ask(0, [opened = gate.get_future().share()](const Simulation&) { opened.wait(); });
     bench.trigger("linkCameras");
     bench.timer->start(0);
     const auto* autosave = bench.window.findChild<Autosave*>();
@@ -374,7 +376,7 @@ class WindowRecovery : public QObject {
     }
     {
       SafeBench bench;
-      bench.document().setPinned({42}, true);
+      edits::setPinned(bench.document(), {42}, true);
       bench.settle();
       QVERIFY(bench.window.close());
     }
@@ -398,7 +400,7 @@ class WindowRecovery : public QObject {
     QVERIFY(!anotherIsOfferedSomething());
     QVERIFY(QFile::exists(inFolder(".chainmail-1.tmp")));
     QVERIFY(!QFile::exists(inFolder(".chainmail-2.tmp")));
-    living.document().setPinned({3}, true);
+    edits::setPinned(living.document(), {3}, true);
     living.save();
     QVERIFY(!anotherIsOfferedSomething());
     QVERIFY(living.isSafe());

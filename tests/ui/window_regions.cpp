@@ -4,6 +4,7 @@
 #include <QLabel>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "measure/neighbour_regions.h"
 #include "window.h"
 
@@ -28,14 +29,14 @@ class WindowRegions : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_V);
     QVERIFY(bench.find<QAction>("showValidRegions")->isChecked());
     QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("point at an element")));
-    bench.document().setHighlight({middle, false, {}});
+    bench.document().highlight().set({middle, false, {}});
     for (int p = 0; p < bench.document().panels(); ++p) {
       for (const auto& region : regionsAbout(bench, p, middle)) {
         QVERIFY(region.inside);
         QVERIFY(bench.distanceFromColour(p, corner(bench, p, region), colours::inside) < alike);
       }
     }
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     QTest::keyClick(&bench.window, Qt::Key_V);
     QTRY_VERIFY(!bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("regions")));
     QCOMPARE(bench.view(0).grabFramebuffer(), without);
@@ -43,13 +44,13 @@ class WindowRegions : public QObject {
 
   void whatLiesOutsideIsMarkedSo() {
     Workbench bench;
-    bench.document().setPinned({middle + 1}, true);
-    bench.document().grab(middle);
-    bench.document().drag(bench.document().mesh()->rest_position(middle) + Point(-1.5, 0, 0));
-    bench.document().release();
+    edits::setPinned(bench.document(), {middle + 1}, true);
+    bench.document().handle().grab(middle);
+    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(-1.5, 0, 0));
+    bench.document().handle().release();
     bench.settle();
     bench.trigger("showValidRegions");
-    bench.document().setHighlight({middle, false, {}});
+    bench.document().highlight().set({middle, false, {}});
     for (int p = 0; p < bench.document().panels(); ++p) {
       const auto regions = regionsAbout(bench, p, middle);
       const auto pinned =
@@ -67,13 +68,13 @@ class WindowRegions : public QObject {
       Workbench bench(mesh);
       const QImage without = bench.view(1).grabFramebuffer();
       bench.trigger("showValidRegions");
-      bench.document().select({1, 2});
+      bench.document().selection().set({1, 2});
       for (const auto& region : regionsAbout(bench, 1, 1)) {
         const QPointF at =
             mesh->space_dimension == 1 ? bench.view(1).viewPosition(region.low) : corner(bench, 1, region);
         QVERIFY(bench.distanceFromColour(1, at, colours::inside) < alike);
       }
-      bench.document().select({});
+      bench.document().selection().set({});
       QCOMPARE(bench.view(1).grabFramebuffer(), without);
     }
   }
@@ -81,25 +82,25 @@ class WindowRegions : public QObject {
   void aLensMagnifiesSmallRegionsInAPlane() {
     Workbench bench(generate({MeshKind::grid, {61, 61, 1}, 1, {}}));
     bench.trigger("showValidRegions");
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     const QImage without = bench.view(0).grabFramebuffer();
-    bench.document().setHighlight({30 * 61 + 30, false, {}});
+    bench.document().highlight().set({30 * 61 + 30, false, {}});
     QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() > 150);  // more than the regions themselves
-    bench.document().setHighlight({});
-    bench.document().select({30 * 61 + 30});
+    bench.document().highlight().set({});
+    bench.document().selection().set({30 * 61 + 30});
     QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() < 100);  // a lens belongs to the cursor
   }
 
   void regionsFollowTheSoftnessOfTheirLink() {
     Workbench bench;
     bench.trigger("showValidRegions");
-    bench.document().setHighlight({middle, false, {}});
+    bench.document().highlight().set({middle, false, {}});
     const Point edge = Point(5.2, 2.9, 0);  // a corner of the region for the global softness
     QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) < alike);
-    bench.document().setSoftnessOf({*find_link(*bench.document().mesh(), middle, middle + 1)},
-                                   LinkSoftness{1, 1.5, 0.3});
+    edits::setSoftnessOf(bench.document(), {*find_link(*bench.document().mesh(), middle, middle + 1)},
+                         LinkSoftness{1, 1.5, 0.3});
     bench.settle();
-    bench.document().setHighlight({middle, false, {}});  // again, because the cursor may be over the window
+    bench.document().highlight().set({middle, false, {}});  // again, because the cursor may be over the window
     QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) > alike);
     QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(Point(5.5, 2.7, 0)), colours::inside) < alike);
   }
@@ -108,7 +109,7 @@ class WindowRegions : public QObject {
   static std::vector<NeighbourRegion> regionsAbout(Workbench& bench, int panel, ElementId element) {
     const Document& document = bench.document();
     return neighbour_regions(*document.mesh(), *document.wholeSoftness(), document.cuts(),
-                             document.frame(panel)->view(), element, 100);
+                             document.solvers().frame(panel)->view(), element, 100);
   }
   /// Returns the rectangle that encloses all differences of two pictures, in pixels.
   static QRect differenceOf(const QImage& one, const QImage& other) {

@@ -13,6 +13,7 @@
 #include <QToolButton>
 
 #include "docks/replay/replay_dock.h"
+#include "document/edits.h"
 #include "files/session/moves.h"
 #include "io/pictures.h"
 #include "panels/panel_area.h"
@@ -26,15 +27,17 @@ namespace {
 
 using Shapes = std::vector<std::vector<float>>;
 
-Shapes shapes(Workbench& bench) { return {bench.document().frame(0)->positions, bench.document().frame(1)->positions}; }
+Shapes shapes(Workbench& bench) {
+  return {bench.document().solvers().frame(0)->positions, bench.document().solvers().frame(1)->positions};
+}
 
 /// Makes two drags with a cut and pins in between.
 void work(Workbench& bench) {
   const QPoint from = bench.place(0, 31);
   bench.stroke(0, {from, from + QPoint(110, -140)});
-  bench.document().cut({3, 4, 40});
-  bench.document().setPinned({0}, true);
-  bench.document().setSoftness({0.9, 1.1, 0.05}, QStringLiteral("stiffer"));
+  edits::cut(bench.document(), {3, 4, 40});
+  edits::setPinned(bench.document(), {0}, true);
+  edits::setSoftness(bench.document(), {0.9, 1.1, 0.05}, QStringLiteral("stiffer"));
   const QPoint corner = bench.place(1, 62);
   bench.stroke(1, {corner, corner + QPoint(60, -90)});
 }
@@ -43,7 +46,7 @@ void work(Workbench& bench) {
 void go(Workbench& bench, const char* action) {
   bench.trigger(action);
   const bool first = QLatin1String(action) == QLatin1String("replayFirst");
-  QTRY_COMPARE(bench.document().moveHistory().position(), first ? 0 : bench.document().moveHistory().length());
+  QTRY_COMPARE(bench.document().moves().history().position(), first ? 0 : bench.document().moves().history().length());
   bench.settle();
 }
 
@@ -51,15 +54,15 @@ void go(Workbench& bench, const char* action) {
 void workInFewMoves(Workbench& bench) {
   Document& document = bench.document();
   const auto drag = [&](ElementId element, std::initializer_list<Point> ways) {
-    document.grab(element);
+    document.handle().grab(element);
     for (const Point& way : ways) {
-      document.drag(document.mesh()->rest_position(element) + way);
+      document.handle().drag(document.mesh()->rest_position(element) + way);
       bench.settle();  // so that each is a separate move
     }
-    document.release();
+    document.handle().release();
   };
   drag(31, {{1, 1, 0}, {3, 2, 0}, {4, -2, 0}});
-  document.cut({3, 4, 40});
+  edits::cut(document, {3, 4, 40});
   drag(62, {{-2, 1, 0}, {1, 3, 0}});
   bench.settle();
 }
@@ -102,11 +105,11 @@ struct Scene {
 /// Returns the content of the panels before the first move, after each move, and at the end.
 std::vector<QImage> shownAfterEachMove(Workbench& bench) {
   const Scene scene(bench);
-  const MoveHistory& history = bench.document().moveHistory();
+  const MoveHistory& history = bench.document().moves().history();
   const std::size_t last = history.length();
   std::vector<QImage> pictures;
   const auto showAt = [&](std::size_t position) {
-    bench.document().goTo(position);
+    bench.document().moves().goTo(position);
     bench.settle();
     pictures.push_back(scene.now());
   };
@@ -217,15 +220,15 @@ class WindowReplay : public QObject {
     Workbench bench;
     work(bench);
     const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().moveHistory().length();
-    QCOMPARE(bench.document().moveHistory().position(), length);
+    const std::size_t length = bench.document().moves().history().length();
+    QCOMPARE(bench.document().moves().history().position(), length);
     go(bench, "replayFirst");
     const std::vector<float> rest(bench.document().mesh()->rest.begin(), bench.document().mesh()->rest.end());
     QVERIFY(shapes(bench) == (Shapes{rest, rest}));
     QCOMPARE(bench.document().cuts().count(), 0U);
     QVERIFY(bench.document().pins().empty());
     QCOMPARE(bench.document().softness(), LinkSoftness());
-    QCOMPARE(bench.document().moveHistory().length(), length);
+    QCOMPARE(bench.document().moves().history().length(), length);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
     QCOMPARE(bench.document().cuts().count(), 3U);
@@ -237,13 +240,13 @@ class WindowReplay : public QObject {
   void aSliderGoesThereAndBack() {
     Workbench bench;
     // A busy machine samples a stroke less often.
-    for (int i = 0; i < 12 || bench.document().moveHistory().length() <= 64; ++i) {
+    for (int i = 0; i < 12 || bench.document().moves().history().length() <= 64; ++i) {
       const QPoint from = bench.place(0, ElementId(5 * i % 60));
       bench.stroke(0, {from, from + QPoint(60 - 20 * (i % 12), 50)});
     }
     const Shapes live = shapes(bench);
     const int steps = bench.document().undoStack().count();
-    const auto length = bench.document().moveHistory().length();
+    const auto length = bench.document().moves().history().length();
     QVERIFY(length > 64);  // snapshots are saved on the way
     auto* slider = bench.find<QSlider>("replaySlider");
     QTRY_COMPARE(slider->maximum(), int(length));
@@ -251,7 +254,7 @@ class WindowReplay : public QObject {
     for (const std::size_t place :
          {length, length / 2, length / 3, length - 3, length / 3, length / 2, std::size_t{1}}) {
       slider->setValue(int(place));
-      QTRY_COMPARE(bench.document().moveHistory().position(), place);
+      QTRY_COMPARE(bench.document().moves().history().position(), place);
       bench.settle();
       const auto [first, isNew] = seen.emplace(place, shapes(bench));
       QVERIFY(isNew || first->second == shapes(bench));
@@ -274,15 +277,15 @@ class WindowReplay : public QObject {
       }
       moves.emplace_back(commands::Release{});
     }
-    bench.document().loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
+    bench.document().moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
     bench.settle();
     for (const std::size_t place : {moves.size(), std::size_t{70}, std::size_t{150}, std::size_t{36}, std::size_t{103},
                                     std::size_t{101}, std::size_t{180}, std::size_t{140}}) {
-      bench.document().goTo(place);
+      bench.document().moves().goTo(place);
       bench.settle();
       const std::vector<Command> done(moves.begin(), moves.begin() + std::ptrdiff_t(place));
       for (int panel = 0; panel < 2; ++panel) {
-        QVERIFY2(bench.document().frame(panel)->positions ==
+        QVERIFY2(bench.document().solvers().frame(panel)->positions ==
                      run(done, bench.document().mesh(), bench.document().algorithm(panel)),
                  qPrintable(QStringLiteral("after %1 commands").arg(place)));
       }
@@ -305,20 +308,20 @@ class WindowReplay : public QObject {
     Workbench bench;
     Document& document = bench.document();
     const std::vector<Command> moves = dragRelaxAndDrag(*document.mesh());
-    document.loadMoves(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
+    document.moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
     bench.settle();
     std::promise<void> gate;
     const auto opened = gate.get_future().share();
     for (int panel = 0; panel < document.panels(); ++panel) {
-      document.ask(panel, [opened](const Simulation&) { opened.wait(); });
+      document.solvers().ask(panel, [opened](const Simulation&) { opened.wait(); });
     }
-    document.goTo(std::size_t(first));
-    document.goTo(std::size_t(then));
+    document.moves().goTo(std::size_t(first));
+    document.moves().goTo(std::size_t(then));
     gate.set_value();
     bench.settle();
     const std::vector<Command> done(moves.begin(), moves.begin() + then);
     for (int panel = 0; panel < document.panels(); ++panel) {
-      QVERIFY(document.frame(panel)->positions == run(done, document.mesh(), document.algorithm(panel)));
+      QVERIFY(document.solvers().frame(panel)->positions == run(done, document.mesh(), document.algorithm(panel)));
     }
   }
 
@@ -327,13 +330,13 @@ class WindowReplay : public QObject {
     work(bench);
     go(bench, "replayFirst");
     bench.trigger("replayForward");
-    QTRY_VERIFY(bench.document().moveHistory().position() > 0);
+    QTRY_VERIFY(bench.document().moves().history().position() > 0);
     bench.settle();
-    const auto place = bench.document().moveHistory().position();
-    QVERIFY(place > 0 && place < bench.document().moveHistory().length());
+    const auto place = bench.document().moves().history().position();
+    QVERIFY(place > 0 && place < bench.document().moves().history().length());
     const QPoint from = bench.place(0, 5);
     bench.stroke(0, {from, from + QPoint(-50, 70)});
-    QCOMPARE(bench.document().moveHistory().position(), bench.document().moveHistory().length());
+    QCOMPARE(bench.document().moves().history().position(), bench.document().moves().history().length());
     const Shapes live = shapes(bench);
     go(bench, "replayFirst");
     go(bench, "replayLast");
@@ -344,7 +347,7 @@ class WindowReplay : public QObject {
   void stepsGoFromMoveToMoveBothWays() {
     Workbench bench;
     workInFewMoves(bench);
-    const MoveHistory& history = bench.document().moveHistory();
+    const MoveHistory& history = bench.document().moves().history();
     const std::size_t length = history.length();
     const auto go = [&](const char* action) {
       const std::size_t before = history.position();
@@ -386,13 +389,13 @@ class WindowReplay : public QObject {
     const auto moves = read_moves(path.toStdString(), bench.document().mesh());
     for (int panel = 0; panel < 2; ++panel) {
       QVERIFY(run(moves, bench.document().mesh(), bench.document().algorithm(panel)) ==
-              bench.document().frame(panel)->positions);
+              bench.document().solvers().frame(panel)->positions);
     }
     const Shapes live = shapes(bench);
-    bench.document().resetObject();
+    edits::resetObject(bench.document());
     dock(bench)->openMoves(path);
     bench.settle();
-    QCOMPARE(bench.document().moveHistory().position(), std::size_t{0});
+    QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
     QCOMPARE(bench.document().cuts().count(), 0U);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
@@ -419,19 +422,19 @@ class WindowReplay : public QObject {
     QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("large.json"));
     writeDrags(path, 200'000);
-    QSignalSpy frames(&bench.document(), &Document::frameReady);
+    QSignalSpy frames(&bench.document().solvers(), &PanelSolvers::frameReady);
     dock(bench)->openMoves(path);
     QVERIFY(bench.window.jobs().running());
     // Meanwhile the user drags, and the panels follow.
-    bench.document().grab(31);
-    bench.document().drag(Point(4, 9, 0));
+    bench.document().handle().grab(31);
+    bench.document().handle().drag(Point(4, 9, 0));
     QVERIFY(frames.wait());
     QVERIFY(bench.window.jobs().running());
-    bench.document().release();
+    bench.document().handle().release();
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
     bench.settle();
-    QCOMPARE(bench.document().moveHistory().length(), std::size_t{200'001});
-    QCOMPARE(bench.document().moveHistory().position(), std::size_t{0});
+    QCOMPARE(bench.document().moves().history().length(), std::size_t{200'001});
+    QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
     QCOMPARE(bench.document().undoStack().count(), 2);
   }
 
@@ -439,7 +442,7 @@ class WindowReplay : public QObject {
     Workbench bench;
     work(bench);
     const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().moveHistory().length();
+    const std::size_t length = bench.document().moves().history().length();
     QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("large.json"));
     writeDrags(path, 200'000);
@@ -449,7 +452,7 @@ class WindowReplay : public QObject {
     QVERIFY(!bench.window.jobs().running());
     bench.settle();
     QVERIFY(shapes(bench) == live);
-    QCOMPARE(bench.document().moveHistory().length(), length);
+    QCOMPARE(bench.document().moves().history().length(), length);
     QVERIFY(!bench.window.messages().isVisible());
   }
 
@@ -460,11 +463,11 @@ class WindowReplay : public QObject {
     const QString path = folder.filePath(QStringLiteral("large.json"));
     writeDrags(path, 200'000);
     dock(bench)->openMoves(path);
-    bench.document().replaceMesh(generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
-                                 QStringLiteral("build line"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("build line"));
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
     bench.settle();
-    QCOMPARE(bench.document().moveHistory().length(), std::size_t{0});
+    QCOMPARE(bench.document().moves().history().length(), std::size_t{0});
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("the object was replaced")));
   }
 
@@ -474,8 +477,8 @@ class WindowReplay : public QObject {
     const Shapes live = shapes(bench);
     go(bench, "replayFirst");
     bench.trigger("replayPlay");
-    QTRY_COMPARE_WITH_TIMEOUT(bench.document().moveHistory().position(), bench.document().moveHistory().length(),
-                              10'000);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.document().moves().history().position(),
+                              bench.document().moves().history().length(), 10'000);
     bench.settle();
     QVERIFY(shapes(bench) == live);
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
@@ -483,9 +486,9 @@ class WindowReplay : public QObject {
 
   void relaxationIsRepeatedTheSameEachTime() {
     Workbench bench;
-    bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+    edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::mean});
     work(bench);
-    QTRY_VERIFY_WITH_TIMEOUT(!bench.document().frame(0)->statistics.relaxing, 15'000);
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.document().solvers().frame(0)->statistics.relaxing, 15'000);
     go(bench, "replayFirst");
     QVERIFY(!bench.document().relaxation().on);  // the effects of relaxation are in the recorded commands
     go(bench, "replayLast");
@@ -513,8 +516,8 @@ class WindowReplay : public QObject {
     dock(bench)->saveFilm(folder.path());
     QVERIFY(saved.wait(30'000));
     int moves = 0;
-    for (std::size_t i = 0; i < bench.document().moveHistory().length(); ++i) {
-      moves += std::holds_alternative<commands::Drag>(bench.document().moveHistory().at(i)) ? 1 : 0;
+    for (std::size_t i = 0; i < bench.document().moves().history().length(); ++i) {
+      moves += std::holds_alternative<commands::Drag>(bench.document().moves().history().at(i)) ? 1 : 0;
     }
     const QStringList pictures = QDir(folder.path()).entryList({QStringLiteral("*.png")}, QDir::Files, QDir::Name);
     // One picture before the first move, one after each move, and one after the last release.
@@ -538,7 +541,7 @@ class WindowReplay : public QObject {
     for (const QString& name : others) {
       QVERIFY(QFile::copy(folder.filePath(QStringLiteral("move-000001.png")), folder.filePath(name)));
     }
-    bench.document().loadMoves(
+    bench.document().moves().load(
         std::make_shared<const std::vector<Command>>(std::vector<Command>{
             commands::Grab{31}, commands::Drag{bench.document().mesh()->rest_position(31) + Point(1, 1, 0)}}),
         QStringLiteral("open"));

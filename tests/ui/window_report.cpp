@@ -7,6 +7,7 @@
 #include <QJsonObject>
 #include <set>
 
+#include "document/edits.h"
 #include "report_bench.h"
 
 namespace chainmail::window_report {
@@ -116,7 +117,7 @@ class WindowReport : public QObject {
     ReportBench bench;
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(70, -60)});
-    bench.document().setPinned({31}, true);
+    edits::setPinned(bench.document(), {31}, true);
     bench.choose("reportDrags", 1);
     bench.run();
     auto* refusals = bench.find<QLabel>("reportRefusals");
@@ -132,7 +133,7 @@ class WindowReport : public QObject {
     auto* list = bench.find<QListWidget>("reportAlgorithms");
     QListWidgetItem* original = list->findItems(QStringLiteral("3D ChainMail"), Qt::MatchExactly).value(0);
     QVERIFY((original->flags() & Qt::ItemIsEnabled) != 0);
-    bench.document().replaceMesh(generate({MeshKind::cloth, {5, 4, 1}, 1, {}}), QStringLiteral("cloth"), {});
+    edits::replaceMesh(bench.document(), generate({MeshKind::cloth, {5, 4, 1}, 1, {}}), QStringLiteral("cloth"), {});
     bench.settle();
     QVERIFY((original->flags() & Qt::ItemIsEnabled) == 0);
     QVERIFY(original->toolTip().contains(QStringLiteral("grid")));

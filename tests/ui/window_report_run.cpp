@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "document/edits.h"
 #include "fair_timer.h"
 #include "report/page/format.h"
 #include "report_bench.h"
@@ -66,7 +67,7 @@ class WindowReportRun : public QObject {
     bench.runForLong();
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(40, -60)});
-    QVERIFY(bench.document().frame(0)->statistics.passes > 0);
+    QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);
     QVERIFY(bench.thread().running());
   }
 
@@ -81,7 +82,7 @@ class WindowReportRun : public QObject {
     QVERIFY(!enabled());  // a press without a move is not a drag
     bench.stroke(0, {from, to});
     QVERIFY(enabled());
-    const std::vector<Command> commands = bench.document().lastDrag();
+    const std::vector<Command> commands = bench.document().moves().lastDrag();
     QCOMPARE(std::get<commands::Grab>(commands.front()).elements, std::vector<ElementId>{31});
     // The panels store floats.
     QVERIFY((std::get<commands::Drag>(commands.back()).target - bench.position(1, 31)).norm() < 1e-5);
@@ -106,16 +107,16 @@ class WindowReportRun : public QObject {
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(70, -60)});
     bench.choose("reportDrags", 1);
-    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("other"), {});
-    QVERIFY(bench.document().lastDrag().empty());
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("other"), {});
+    QVERIFY(bench.document().moves().lastDrag().empty());
     QCOMPARE(bench.find<QComboBox>("reportDrags")->currentIndex(), 0);
   }
 
   void theObjectIsComparedAsItIs() {
     ReportBench bench;
-    bench.document().cut({0, 5, 9});
-    bench.document().setPinned({0, 62}, true);
-    bench.document().setSoftnessOf({20}, LinkSoftness{0.5, 2, 0.3});
+    edits::cut(bench.document(), {0, 5, 9});
+    edits::setPinned(bench.document(), {0, 62}, true);
+    edits::setSoftnessOf(bench.document(), {20}, LinkSoftness{0.5, 2, 0.3});
     const auto order = bench.window.findChild<ReportChoices*>()->order();
     QCOMPARE(order.object.cuts, (std::vector<LinkId>{0, 5, 9}));
     QCOMPARE(order.object.pins, (std::vector<ElementId>{0, 62}));
@@ -128,7 +129,7 @@ class WindowReportRun : public QObject {
     ReportBench bench;
     bench.effort(1);
     bench.click("reportRun");
-    bench.document().replaceMesh(generate({MeshKind::tetra, {4, 4, 4}, 1, {}}), QStringLiteral("other"), {});
+    edits::replaceMesh(bench.document(), generate({MeshKind::tetra, {4, 4, 4}, 1, {}}), QStringLiteral("other"), {});
     bench.settle();
     bench.document().undoStack().undo();
     bench.document().undoStack().redo();

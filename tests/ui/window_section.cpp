@@ -6,6 +6,7 @@
 #include <QSlider>
 
 #include "docks/section_dock.h"
+#include "document/edits.h"
 #include "io/sessions.h"
 #include "window.h"
 
@@ -32,7 +33,7 @@ struct SectionBench : Workbench {
 
   QImage picture() {
     settle();
-    document().setHighlight({});
+    document().highlight().set({});
     return view(0).grabFramebuffer();
   }
   QColor colourAt(QPointF place) { return picture().pixelColor(place.toPoint()); }
@@ -236,15 +237,15 @@ class WindowSection : public QObject {
     const QColor face = bench.colourAt(bench.place(0, inLayer(2)));
     const Mesh& mesh = *bench.document().mesh();
     const auto* row = mesh.entry_link.data();
-    bench.document().cut({row + mesh.first_entry[inLayer(2)], row + mesh.first_entry[inLayer(2) + 1]});
+    edits::cut(bench.document(), {row + mesh.first_entry[inLayer(2)], row + mesh.first_entry[inLayer(2) + 1]});
     QVERIFY(apart(bench.colourAt(bench.place(0, inLayer(2))), face) > 10);
     bench.document().undoStack().undo();
     QCOMPARE(bench.colourAt(bench.place(0, inLayer(2))), face);
     // Far to the side, where nothing was before, and still open.
-    bench.document().setSoftness({1, 1, 0}, QStringLiteral("rigid"));
-    bench.document().grab(inLayer(2));
-    bench.document().drag(mesh.rest_position(inLayer(2)) + Point(0, 3, 0));
-    bench.document().release();
+    edits::setSoftness(bench.document(), {1, 1, 0}, QStringLiteral("rigid"));
+    bench.document().handle().grab(inLayer(2));
+    bench.document().handle().drag(mesh.rest_position(inLayer(2)) + Point(0, 3, 0));
+    bench.document().handle().release();
     QVERIFY(apart(bench.colourAt(bench.view(0).viewPosition(inLayer(2, 7 + width * 8)) + QPointF(3, 8)), face) <= 2);
   }
 
@@ -272,8 +273,8 @@ class WindowSection : public QObject {
     QCOMPARE(bench.find<SectionDock>("sectionDock")->plane(), std::optional(SectionPlane{2, 3, false}));
     bench.find<QComboBox>("sectionAxis")->setCurrentIndex(0);
     QCOMPARE(spin->value(), 10.5);
-    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("flat"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("flat"),
+                       QStringLiteral("build"));
     QVERIFY(!bench.find<QAction>("section")->isEnabled());
     QVERIFY(slider->toolTip().contains(QStringLiteral("in 2D")));
     QVERIFY(!bench.find<SectionDock>("sectionDock")->plane());
@@ -315,16 +316,16 @@ class WindowSection : public QObject {
     };
     const auto picture = [&](int panel) {
       bench.settle();
-      bench.document().setHighlight({});
+      bench.document().highlight().set({});
       return bench.view(panel).grabFramebuffer();
     };
     for (int panel = 0; panel < 2; ++panel) {
       QVERIFY(holds(picture(panel)));
     }
     const QPoint before = bench.place(0, 7 + 9 * 7);
-    bench.document().grab(8 + 9 * 8);
-    bench.document().drag(Point(11, 11, 0));
-    bench.document().release();
+    bench.document().handle().grab(8 + 9 * 8);
+    bench.document().handle().drag(Point(11, 11, 0));
+    bench.document().handle().release();
     QVERIFY(holds(picture(0)));
     QVERIFY(bench.place(0, 7 + 9 * 7) != before);
     QVERIFY(holds(inLines(bench.view(0))));
@@ -342,7 +343,7 @@ class WindowSection : public QObject {
   void everyTexelOfAPictureIsSeenWhereItLies() {
     Workbench bench(picturedSheet(colouredSquares()));
     bench.settle();
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     const QImage screen = bench.view(0).grabFramebuffer(), print = inLines(bench.view(0));
     const auto seen = [&](const QImage& image, double x, double y) {
       return image.pixelColor(bench.view(0).viewPosition(Point(x, y, 0)).toPoint());

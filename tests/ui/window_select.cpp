@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "mesh/parameters.h"
 #include "window.h"
 
@@ -46,10 +47,10 @@ class WindowSelect : public QObject {
     QTest::keyClick(&bench.window, Qt::Key_S);
     QVERIFY(bench.find<QAction>("toolSelect")->isChecked());
     selectBetween(bench, 10, 30);
-    QCOMPARE(bench.document().selection().elements, square);
-    QCOMPARE(bench.document().selection().links.size(), squareLinks);
+    QCOMPARE(bench.document().selection().elements(), square);
+    QCOMPARE(bench.document().selection().links().size(), squareLinks);
     selectBetween(bench, 62, 52);  // from the other corner; replaces the first selection
-    QCOMPARE(bench.document().selection().elements, (std::vector<ElementId>{52, 53, 61, 62}));
+    QCOMPARE(bench.document().selection().elements(), (std::vector<ElementId>{52, 53, 61, 62}));
     QVERIFY(!bench.document().undoStack().canUndo());
   }
 
@@ -58,12 +59,12 @@ class WindowSelect : public QObject {
     bench.trigger("toolSelect");
     selectBetween(bench, 10, 12);
     selectBetween(bench, 19, 30, Qt::ShiftModifier);
-    QCOMPARE(bench.document().selection().elements, square);
+    QCOMPARE(bench.document().selection().elements(), square);
     for (const auto modifier : {Qt::ControlModifier, Qt::AltModifier}) {
       selectBetween(bench, 20, 20, modifier);
-      QVERIFY(!std::binary_search(bench.document().selection().elements.begin(),
-                                  bench.document().selection().elements.end(), ElementId{20}));
-      QCOMPARE(bench.document().selection().elements.size(), square.size() - 1);
+      QVERIFY(!std::binary_search(bench.document().selection().elements().begin(),
+                                  bench.document().selection().elements().end(), ElementId{20}));
+      QCOMPARE(bench.document().selection().elements().size(), square.size() - 1);
       selectBetween(bench, 20, 20, Qt::ShiftModifier);
     }
     QTest::keyClick(&bench.window, Qt::Key_Escape);
@@ -73,12 +74,12 @@ class WindowSelect : public QObject {
   void escapeInAFieldKeepsTheSelection() {
     Workbench bench;
     bench.trigger("toolSelect");
-    bench.document().select(square);
+    bench.document().selection().set(square);
     auto& selector = bench.window.panel(0).selector();
     selector.setFocus();
     QTRY_COMPARE(QApplication::focusWidget(), &selector);
     QTest::keyClick(&selector, Qt::Key_Escape);
-    QCOMPARE(bench.document().selection().elements, square);
+    QCOMPARE(bench.document().selection().elements(), square);
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     QVERIFY(bench.document().selection().empty());
   }
@@ -87,7 +88,7 @@ class WindowSelect : public QObject {
     Workbench bench;
     bench.trigger("toolSelect");
     bench.click(1, 31);
-    QCOMPARE(bench.document().selection().elements, std::vector<ElementId>{31});
+    QCOMPARE(bench.document().selection().elements(), std::vector<ElementId>{31});
     QTest::mouseClick(&bench.view(1), Qt::LeftButton, {}, QPoint(4, 4));
     QVERIFY(bench.document().selection().empty());
   }
@@ -100,14 +101,14 @@ class WindowSelect : public QObject {
     bench.find<QSpinBox>("brushRadius")->setValue(10);
     bench.stroke(0, {bench.place(0, 9), bench.place(0, 17)}, false);
     const std::vector<ElementId> row{9, 10, 11, 12, 13, 14, 15, 16, 17};
-    QCOMPARE(bench.document().selection().elements, row);  // also during the stroke
+    QCOMPARE(bench.document().selection().elements(), row);  // also during the stroke
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 17));
-    QCOMPARE(bench.document().selection().elements, row);
+    QCOMPARE(bench.document().selection().elements(), row);
     // A brush that reaches the neighbouring rows.
     const int link = bench.place(0, 10).x() - bench.place(0, 9).x();
     bench.find<QSpinBox>("brushRadius")->setValue(link * 11 / 10);
     bench.stroke(0, {bench.place(0, 9), bench.place(0, 17)});
-    QCOMPARE(bench.document().selection().elements.size(), 27U);
+    QCOMPARE(bench.document().selection().elements().size(), 27U);
   }
 
   void escapeGivesABrushStrokeUp() {
@@ -116,17 +117,17 @@ class WindowSelect : public QObject {
     selectBetween(bench, 10, 30);
     bench.find<QToolButton>("selectBrush")->click();
     bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
-    QVERIFY(bench.document().selection().elements != square);
+    QVERIFY(bench.document().selection().elements() != square);
     QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QCOMPARE(bench.document().selection().elements, square);
+    QCOMPARE(bench.document().selection().elements(), square);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 53));
-    QCOMPARE(bench.document().selection().elements, square);
+    QCOMPARE(bench.document().selection().elements(), square);
   }
 
   void anotherMeshInMidStrokeIsSafe() {
     Workbench bench;
-    bench.document().replaceMesh(generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
-                                 QStringLiteral("build large"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
+                       QStringLiteral("build large"));
     bench.settle();
     bench.trigger("toolSelect");
     selectBetween(bench, 1000, 1199);
@@ -143,13 +144,13 @@ class WindowSelect : public QObject {
   void theSelectionIsMarkedInBothPanels() {
     Workbench bench;
     const QImage before[]{bench.view(0).grabFramebuffer(), bench.view(1).grabFramebuffer()};
-    bench.document().select({31});
+    bench.document().selection().set({31});
     bench.settle();
     for (int p = 0; p < 2; ++p) {
       const QPointF ring = QPointF(bench.place(p, 31)) + QPointF(4, 4);  // next to the lines of the grid
       QVERIFY(bench.distanceFromColour(p, ring, colours::selected) < 40);
     }
-    bench.document().select({});
+    bench.document().selection().set({});
     bench.settle();
     for (int p = 0; p < 2; ++p) {
       QCOMPARE(bench.view(p).grabFramebuffer(), before[p]);
@@ -169,7 +170,7 @@ class WindowSelect : public QObject {
     setSquare(bench, 0.3);
     const auto own = [&bench] { return bench.document().wholeSoftness()->links; };
     QCOMPARE(own().size(), squareLinks);
-    for (const LinkId link : bench.document().selection().links) {
+    for (const LinkId link : bench.document().selection().links()) {
       QCOMPARE(*bench.document().wholeSoftness()->links.find(link), (LinkSoftness{0.3, 1.2, 0.1}));
     }
     QCOMPARE(bench.document().softness(), LinkSoftness());
@@ -179,7 +180,7 @@ class WindowSelect : public QObject {
     bench.document().undoStack().redo();
     QCOMPARE(own().size(), squareLinks);
 
-    bench.document().select({10, 11});
+    bench.document().selection().set({10, 11});
     bench.find<QPushButton>("selectedToGlobal")->click();
     QCOMPARE(own().size(), squareLinks - 1);
     QVERIFY(!bench.find<QPushButton>("selectedToGlobal")->isEnabled());
@@ -191,24 +192,24 @@ class WindowSelect : public QObject {
     Workbench bench;
     setSquare(bench, 0.3);
     auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
-    bench.document().select({0, 1});
+    bench.document().selection().set({0, 1});
     QCOMPARE(spin->value(), 0.8);
-    bench.document().select({10, 11, 12});
+    bench.document().selection().set({10, 11, 12});
     QCOMPARE(spin->value(), 0.3);
-    bench.document().select({9, 10, 11});  // links with and without their own softness
+    bench.document().selection().set({9, 10, 11});  // links with and without their own softness
     QCOMPARE(spin->value(), 0.8);
     QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
   }
 
   void theRowsFollowWhatIsSetAndUndone() {
     Workbench bench;
-    bench.document().select({10, 11, 12});
+    bench.document().selection().set({10, 11, 12});
     auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
-    bench.document().setSoftness({0.4, 1.2, 0.1}, QStringLiteral("compression"));
+    edits::setSoftness(bench.document(), {0.4, 1.2, 0.1}, QStringLiteral("compression"));
     QCOMPARE(spin->value(), 0.4);  // these links have no softness of their own
     bench.document().undo();
     QCOMPARE(spin->value(), 0.8);
-    bench.document().setSoftnessOf(bench.document().selection().links, LinkSoftness{0.6, 1.2, 0.1});
+    edits::setSoftnessOf(bench.document(), bench.document().selection().links(), LinkSoftness{0.6, 1.2, 0.1});
     QCOMPARE(spin->value(), 0.6);
     QVERIFY(bench.find<QPushButton>("selectedToGlobal")->isEnabled());
     bench.document().undo();
@@ -255,7 +256,7 @@ class WindowSelect : public QObject {
 
   void aStiffLinkDoesNotGive() {
     Workbench bench(generate({MeshKind::line, {6, 1, 1}, 1, {}}));
-    bench.document().select({0, 1});
+    bench.document().selection().set({0, 1});
     bench.find<QDoubleSpinBox>("selected-stretchSpin")->setValue(1);
     bench.find<QPushButton>("setSelected")->click();
     const QPoint from = bench.place(0, 0);
@@ -270,8 +271,8 @@ class WindowSelect : public QObject {
   void ownSoftnessGoesWithTheMeshAndComesBack() {
     Workbench bench;
     setSquare(bench, 0.3);
-    bench.document().replaceMesh(generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
-                                 QStringLiteral("build small"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
+                       QStringLiteral("build small"));
     QVERIFY(bench.document().selection().empty());
     QVERIFY(bench.document().wholeSoftness()->links.empty());
     bench.document().undoStack().undo();

@@ -4,6 +4,7 @@
 #include <QFile>
 #include <QMimeData>
 
+#include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/sessions.h"
 #include "session_bench.h"
@@ -36,7 +37,7 @@ class WindowSession : public QObject {
     bench.open(path);
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
     compare(sessionOf(bench), before);
-    QCOMPARE(bench.document().sessionFile(), path);
+    QCOMPARE(bench.document().files().session(), path);
     QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
     QCOMPARE(bench.view(0).camera()->pose().height, pose.height);
     QCOMPARE(bench.view(0).camera()->pose().centre, pose.centre);
@@ -52,8 +53,8 @@ class WindowSession : public QObject {
     const SolverSettings saved{{true, 0.5, RelaxationScheme::link}, {{2, 0.4}, {3, 4, 5}}};
     const SolverSettings other{{false, 0.75, RelaxationScheme::equilibrium}, {{3, 0.2}, {2, 2, 2}}};
     const auto set = [](Workbench& bench, const SolverSettings& settings) {
-      bench.document().setRelaxation(settings.relaxation);
-      bench.document().setElastic(settings.elastic, QStringLiteral("material"));
+      edits::setRelaxation(bench.document(), settings.relaxation);
+      edits::setElastic(bench.document(), settings.elastic, QStringLiteral("material"));
     };
     {
       Workbench bench(cloth());
@@ -151,16 +152,16 @@ class WindowSession : public QObject {
     Workbench again;
     again.open(path);
     Document& document = again.document();
-    QCOMPARE(document.moveHistory().position(), saved.moves_done);
-    document.goTo(0);
+    QCOMPARE(document.moves().history().position(), saved.moves_done);
+    document.moves().goTo(0);
     again.settle();
     // The positions are floats of a few units.
     QVERIFY((again.position(0, 50) - document.mesh()->rest_position(50)).norm() < 1e-6);
     QVERIFY(document.cuts().links().empty() && document.pins().empty());
-    document.goTo(saved.moves_done);
+    document.moves().goTo(saved.moves_done);
     again.settle();
     compare(sessionOf(again), saved);
-    document.goTo(saved.moves.size());
+    document.moves().goTo(saved.moves.size());
     again.settle();
     compare(sessionOf(again), ahead);
   }
@@ -172,10 +173,10 @@ class WindowSession : public QObject {
     bench.window.sessions().savePath(path);
     bench.settle();
     const Session saved = sessionOf(bench);
-    bench.document().replaceMesh(generate({MeshKind::grid, {5, 4, 1}, 1, {}}), QStringLiteral("grid"),
-                                 QStringLiteral("build"));
-    bench.document().setAlgorithm(0, Algorithm::chainmail_3d);
-    bench.document().setSessionFile({});
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {5, 4, 1}, 1, {}}), QStringLiteral("grid"),
+                       QStringLiteral("build"));
+    edits::setAlgorithm(bench.document(), 0, Algorithm::chainmail_3d);
+    bench.document().files().setSession({});
     drag(bench.document(), 7, {1, 1, 0});
     bench.settle();
     const Session other = sessionOf(bench);
@@ -185,11 +186,11 @@ class WindowSession : public QObject {
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open b.chainmail"));
     for (int i = 0; i < 2; ++i) {
       compare(sessionOf(bench), saved);
-      QCOMPARE(bench.document().sessionFile(), path);
+      QCOMPARE(bench.document().files().session(), path);
       bench.document().undo();
       bench.settle();
       compare(sessionOf(bench), other);
-      QCOMPARE(bench.document().sessionFile(), QString());
+      QCOMPARE(bench.document().files().session(), QString());
       bench.document().redo();
       bench.settle();
     }
@@ -200,7 +201,7 @@ class WindowSession : public QObject {
     const QString path = folder_.filePath(QStringLiteral("c.chainmail"));
     Workbench bench;
     QVERIFY(!bench.window.isWindowModified());
-    bench.document().setPinned({3}, true);
+    edits::setPinned(bench.document(), {3}, true);
     QVERIFY(bench.window.isWindowModified());
     bench.window.sessions().savePath(path);
     bench.settle();
@@ -224,8 +225,8 @@ class WindowSession : public QObject {
     Workbench bench(cloth());
     bench.window.sessions().savePath(path);
     bench.settle();
-    bench.document().replaceMesh(generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("line"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("build"));
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(path)});
     QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 
+#include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/sessions.h"
 #include "io/sheet_bar.h"
@@ -67,7 +68,7 @@ class WindowSheet : public QObject {
     QVERIFY(image.save(path));
     Workbench bench;
     openSheet(bench, path, 9);
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     const QImage seen = bench.view(0).grabFramebuffer();
     for (int y = 0; y < 3; ++y) {
       for (int x = 0; x < 4; ++x) {
@@ -210,7 +211,7 @@ class WindowSheet : public QObject {
         border.push_back(e);
       }
     }
-    bench.document().setPinned(border, true);
+    edits::setPinned(bench.document(), border, true);
     const QPoint from = bench.place(0, 13 * 4 + 6);
     bench.stroke(0, {from, from + QPoint(60, 30)});
     QVERIFY(bench.position(1, 13 * 4 + 6) != bench.document().mesh()->rest_position(13 * 4 + 6));
@@ -227,17 +228,17 @@ class WindowSheet : public QObject {
     Workbench bench;
     openSheet(bench, picture("a.png"), 13);
     bench.choose(1, "Exact ChainMail");
-    bench.document().setPinned({0, 12, 13 * 8, 13 * 9 - 1}, true);
+    edits::setPinned(bench.document(), {0, 12, 13 * 8, 13 * 9 - 1}, true);
     const QPoint from = bench.place(0, 13 * 4 + 6);
     bench.stroke(0, {from, from + QPoint(60, 30)});
-    QVERIFY(bench.document().frame(0)->positions != bench.document().frame(1)->positions);
+    QVERIFY(bench.document().solvers().frame(0)->positions != bench.document().solvers().frame(1)->positions);
     bench.trigger("warpOwnFrame");
     const QImage first = warped(bench, 0, "first.png"), second = warped(bench, 1, "second.png");
     QVERIFY(first != second);
     bench.choose(0, "Exact ChainMail");
-    bench.document().goTo(0);
+    bench.document().moves().goTo(0);
     bench.settle();
-    bench.document().goTo(bench.document().moveHistory().length());
+    bench.document().moves().goTo(bench.document().moves().history().length());
     bench.settle();
     QCOMPARE(warped(bench, 0, "again.png"), second);  // the same algorithm gives the same picture
   }
@@ -246,10 +247,10 @@ class WindowSheet : public QObject {
     Workbench bench;
     openSheet(bench, picture("a.png"), 13);
     const Mesh& mesh = *bench.document().mesh();
-    bench.document().cut({*find_link(mesh, 0, 14)});  // the diagonal of the lowest square on the left
-    bench.document().grab(13 * 9 - 1);
-    bench.document().drag(Point(180, 80, 0));
-    bench.document().release();
+    edits::cut(bench.document(), {*find_link(mesh, 0, 14)});  // the diagonal of the lowest square on the left
+    bench.document().handle().grab(13 * 9 - 1);
+    bench.document().handle().drag(Point(180, 80, 0));
+    bench.document().handle().release();
     bench.settle();
     QCOMPARE(warped(bench, 0, "all.png").width(), 180);
     bench.trigger("warpOwnFrame");

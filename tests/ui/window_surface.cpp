@@ -1,6 +1,7 @@
 // Tests the display of volumes in a real window: outer surface, links, and what a cut uncovers.
 
 #include "common/colours.h"
+#include "document/edits.h"
 #include "io/sessions.h"
 #include "window.h"
 
@@ -42,7 +43,7 @@ QImage picture(Workbench& bench) {
 void cutOut(Workbench& bench, ElementId element) {
   const Mesh& mesh = *bench.document().mesh();
   const auto* row = mesh.entry_link.data();
-  bench.document().cut({row + mesh.first_entry[element], row + mesh.first_entry[element + 1]});
+  edits::cut(bench.document(), {row + mesh.first_entry[element], row + mesh.first_entry[element + 1]});
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ class WindowSurface : public QObject {
     bench.document().undoStack().redo();
     QCOMPARE(picture(bench), open);
     // The same picture if the object is drawn again after the cut.
-    bench.document().replaceMesh(tetraBlock(), QStringLiteral("other"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), tetraBlock(), QStringLiteral("other"), QStringLiteral("build"));
     bench.settle();
     bench.document().undoStack().undo();
     bench.settle();
@@ -118,8 +119,8 @@ class WindowSurface : public QObject {
     // cuts.
     cutOut(bench, front);
     const QImage open = picture(bench);
-    bench.document().replaceMesh(generate({MeshKind::tetra, {50, 30, 14}, 1, {}}), QStringLiteral("other"),
-                                 QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::tetra, {50, 30, 14}, 1, {}}), QStringLiteral("other"),
+                       QStringLiteral("build"));
     bench.document().undoStack().undo();
     bench.settle();
     bench.trigger("viewFront");
@@ -135,7 +136,7 @@ class WindowSurface : public QObject {
     const QImage coloured = picture(bench);
     bench.trigger("showSurfaceAndLinks");
     QVERIFY(coloured != plain);
-    bench.document().setHighlight({});
+    bench.document().highlight().set({});
     QVERIFY(picture(bench) != plain);
   }
 
@@ -159,7 +160,7 @@ class WindowSurface : public QObject {
       QVERIFY(!bench.find<QAction>(name)->isEnabled());
       QVERIFY(bench.find<QAction>(name)->toolTip().contains(QStringLiteral("no faces")));
     }
-    bench.document().replaceMesh(tetraBlock(), QStringLiteral("tetra"), QStringLiteral("build"));
+    edits::replaceMesh(bench.document(), tetraBlock(), QStringLiteral("tetra"), QStringLiteral("build"));
     QVERIFY(bench.find<QAction>("showSurface")->isEnabled());
     QVERIFY(bench.find<QAction>("showSurfaceAndLinks")->isChecked());
   }
@@ -190,7 +191,8 @@ class WindowSurface : public QObject {
     texture->texels.resize(texture->byte_count());
     texture->box = {Point(0, 0, 0), Point(1, 1, 0)};
     parts.texture = texture;
-    again.document().replaceMesh(build_mesh(std::move(parts)), QStringLiteral("picture"), QStringLiteral("build"));
+    edits::replaceMesh(again.document(), build_mesh(std::move(parts)), QStringLiteral("picture"),
+                       QStringLiteral("build"));
     QVERIFY(again.find<QAction>("showSurface")->isChecked());
     again.document().undoStack().undo();
     QVERIFY(again.find<QAction>("showLinks")->isChecked());

@@ -5,6 +5,7 @@
 #include <QUndoView>
 
 #include "common/parameter_row.h"
+#include "document/edits.h"
 #include "window.h"
 
 namespace chainmail::window_undo {
@@ -16,7 +17,7 @@ struct Picture {
   explicit Picture(Workbench& bench) : softness(*bench.document().wholeSoftness()) {
     Document& document = bench.document();
     for (int panel = 0; panel < 2; ++panel) {
-      positions.push_back(document.frame(panel)->positions);
+      positions.push_back(document.solvers().frame(panel)->positions);
       algorithms.push_back(document.algorithm(panel));
       settings.push_back(bench.settings(panel));
     }
@@ -55,33 +56,33 @@ class WindowUndo : public QObject {
     const std::vector<std::function<void()>> steps{
         [&] { drag(bench, 31, QPoint(120, -150)); },
         [&] {
-          document.cut({3, 4, 40});
+          edits::cut(document, {3, 4, 40});
         },
         [&] { drag(bench, 0, QPoint(-60, 60)); },
         [&] {
-          document.setPinned({8, 9}, true);
+          edits::setPinned(document, {8, 9}, true);
         },
         [&] {
-          document.setSoftness({0.9, 1.05, 0}, QStringLiteral("stretch"));
+          edits::setSoftness(document, {0.9, 1.05, 0}, QStringLiteral("stretch"));
         },
         [&] { bench.choose(0, "Exact ChainMail"); },
         [&] { drag(bench, 62, QPoint(90, 90)); },
         [&] {
-          document.setRelaxation({true, 1, RelaxationScheme::mean});
+          edits::setRelaxation(document, {true, 1, RelaxationScheme::mean});
         },
         [&] {
-          document.setRelaxation({false, 0.5, RelaxationScheme::link});
+          edits::setRelaxation(document, {false, 0.5, RelaxationScheme::link});
         },
         [&] {
-          document.setElastic({{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
+          edits::setElastic(document, {{2, 0.4}, {3, 4, 5}}, QStringLiteral("material"));
         },
         [&] {
-          document.setSoftnessOf({2, 7}, LinkSoftness{0.5, 2, 1});
+          edits::setSoftnessOf(document, {2, 7}, LinkSoftness{0.5, 2, 1});
         },
         [&] { bench.trigger("resetObject"); },
         [&] {
-          document.replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
-                               QStringLiteral("open block"));
+          edits::replaceMesh(document, generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
+                             QStringLiteral("open block"));
         },
         [&] { drag(bench, 26, QPoint(40, -40)); }};
     std::vector<Picture> pictures{Picture(bench)};
@@ -128,8 +129,8 @@ class WindowUndo : public QObject {
       QVERIFY(document.relaxation() == settings.relaxation && document.elastic() == settings.elastic);
     };
     everywhere(before);
-    document.setRelaxation(after.relaxation);
-    document.setElastic(after.elastic, QStringLiteral("material"));
+    edits::setRelaxation(document, after.relaxation);
+    edits::setElastic(document, after.elastic, QStringLiteral("material"));
     for (int i = 0; i < 2; ++i) {
       everywhere(after);
       document.undo();
@@ -140,17 +141,17 @@ class WindowUndo : public QObject {
 
   void relaxationThatWasUndoneMovesNothingAnyMore() {
     Workbench bench, never;
-    bench.document().setRelaxation({true, 1, RelaxationScheme::mean});
+    edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::mean});
     bench.document().undo();
     for (Workbench* one : {&bench, &never}) {
-      one->document().grab(31);
-      one->document().drag(Point(9, 9, 0));
-      one->document().release();
+      one->document().handle().grab(31);
+      one->document().handle().drag(Point(9, 9, 0));
+      one->document().handle().release();
       one->settle();
     }
     for (int panel = 0; panel < 2; ++panel) {
-      QVERIFY(!bench.document().frame(panel)->statistics.relaxing);
-      QVERIFY(bench.document().frame(panel)->positions == never.document().frame(panel)->positions);
+      QVERIFY(!bench.document().solvers().frame(panel)->statistics.relaxing);
+      QVERIFY(bench.document().solvers().frame(panel)->positions == never.document().solvers().frame(panel)->positions);
     }
   }
 
@@ -166,16 +167,18 @@ class WindowUndo : public QObject {
     Workbench bench;
     Document& document = bench.document();
     drag(bench, 10, QPoint(-60, 60));
-    const auto positions = [&] { return std::pair(document.snapshot(0).get(), document.snapshot(1).get()); };
+    const auto positions = [&] {
+      return std::pair(document.solvers().snapshot(0).get(), document.solvers().snapshot(1).get());
+    };
     const auto before = positions();
     for (const bool released : {true, false}) {  // undo also ends an unfinished drag
-      document.grab(31);
+      document.handle().grab(31);
       for (int i = 1; i <= 12; ++i) {
-        document.drag(document.mesh()->rest_position(31) + Point(0.3 * i, 0.4 * i, 0));
-        QTRY_VERIFY(i % every != 0 || document.idle());
+        document.handle().drag(document.mesh()->rest_position(31) + Point(0.3 * i, 0.4 * i, 0));
+        QTRY_VERIFY(i % every != 0 || document.solvers().idle());
       }
       if (released) {
-        document.release();
+        document.handle().release();
       }
       const auto after = positions();
       QVERIFY(after != before);
@@ -201,24 +204,24 @@ class WindowUndo : public QObject {
     const MeshPointer mesh = generate({rectangular ? MeshKind::grid : MeshKind::cloth, {9, 7, 1}, 1, {}});
     Workbench bench(mesh), fresh(mesh);
     for (Workbench* one : {&bench, &fresh}) {
-      one->document().setAlgorithm(0, algorithm);
-      one->document().setPinned({0, 1, 2}, true);
+      edits::setAlgorithm(one->document(), 0, algorithm);
+      edits::setPinned(one->document(), {0, 1, 2}, true);
       one->settle();
     }
     const auto pull = [](Workbench& one, ElementId element, const Point& by) {
-      one.document().grab(element);
-      one.document().drag(one.document().mesh()->rest_position(element) + by);
-      one.document().release();
+      one.document().handle().grab(element);
+      one.document().handle().drag(one.document().mesh()->rest_position(element) + by);
+      one.document().handle().release();
       one.settle();
     };
     pull(bench, 40, Point(0.4, 0.7, 0));
-    const std::vector<float> first = bench.document().frame(0)->positions;
+    const std::vector<float> first = bench.document().solvers().frame(0)->positions;
     bench.document().undo();
     pull(bench, 60, Point(-0.2, 0.5, 0));
     pull(fresh, 60, Point(-0.2, 0.5, 0));
-    QVERIFY(first != bench.document().frame(0)->positions);
-    QVERIFY(bench.document().frame(0)->positions == fresh.document().frame(0)->positions);
-    QVERIFY(bench.document().frame(0)->control_points == fresh.document().frame(0)->control_points);
+    QVERIFY(first != bench.document().solvers().frame(0)->positions);
+    QVERIFY(bench.document().solvers().frame(0)->positions == fresh.document().solvers().frame(0)->positions);
+    QVERIFY(bench.document().solvers().frame(0)->control_points == fresh.document().solvers().frame(0)->control_points);
   }
 
   void undoInTheMiddleOfADragTakesTheDragBack() {
@@ -231,7 +234,7 @@ class WindowUndo : public QObject {
     bench.trigger("undo");
     bench.settle();
     QVERIFY(Picture(bench) == before);
-    QVERIFY(!bench.document().highlight().grabbed);
+    QVERIFY(!bench.document().highlight().marks().grabbed);
     bench.trigger("redo");
     bench.settle();
     QVERIFY(Picture(bench) == held);
@@ -267,11 +270,11 @@ class WindowUndo : public QObject {
     const Picture before(bench);
     Document& document = bench.document();
     for (const double stretch : {1.15, 1.1, 1.05, 1.0}) {
-      document.setSoftness({0.8, stretch, 0.1}, QStringLiteral("stretch"), 7);
+      edits::setSoftness(document, {0.8, stretch, 0.1}, QStringLiteral("stretch"), 7);
       bench.settle();  // so that each value is computed
     }
     for (const double step : {0.9, 0.7, 0.5}) {
-      document.setRelaxation({false, step, RelaxationScheme::mean}, 8);
+      edits::setRelaxation(document, {false, step, RelaxationScheme::mean}, 8);
     }
     bench.settle();
     QCOMPARE(document.undoStack().count(), 3);
@@ -291,14 +294,14 @@ class WindowUndo : public QObject {
     Workbench bench;
     bench.choose(0, "3D ChainMail");
     QCOMPARE(bench.document().algorithm(0), Algorithm::chainmail_3d);
-    bench.document().replaceMesh(generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
-                                 QStringLiteral("open block"));
+    edits::replaceMesh(bench.document(), generate({MeshKind::tetra, {3, 3, 3}, 1, {}}), QStringLiteral("block"),
+                       QStringLiteral("open block"));
     bench.settle();
     QCOMPARE(bench.document().algorithm(0), Algorithm::natural_queue);
     bench.trigger("undo");
     bench.settle();
     QCOMPARE(bench.document().algorithm(0), Algorithm::chainmail_3d);
-    QCOMPARE(bench.document().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
+    QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
   }
 
   void whatIsMeasuredGoesWithItsMesh() {
@@ -306,10 +309,10 @@ class WindowUndo : public QObject {
     bench.trigger("toolMeasure");
     bench.click(0, 60);
     bench.click(0, 62);
-    bench.document().setHighlight({62, false, {}});
-    bench.document().replaceMesh(generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
-                                 QStringLiteral("build line"));
-    QVERIFY(!bench.document().highlight().element);
+    bench.document().highlight().set({62, false, {}});
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("build line"));
+    QVERIFY(!bench.document().highlight().marks().element);
     QVERIFY(!bench.find<QLabel>("readout")->text().contains(QStringLiteral("62")));
     bench.trigger("undo");
     bench.settle();
@@ -325,31 +328,31 @@ class WindowUndo : public QObject {
         {QStringLiteral("drag of element 31"), [&] { drag(bench, 31, QPoint(100, -100)); }},
         {QStringLiteral("pin 2 elements"),
          [&] {
-           document.setPinned({3, 4}, true);
+           edits::setPinned(document, {3, 4}, true);
          }},
-        {QStringLiteral("unpin 1 element"), [&] { document.setPinned({3}, false); }},
-        {QStringLiteral("cut 1 link"), [&] { document.cut({5}); }},
+        {QStringLiteral("unpin 1 element"), [&] { edits::setPinned(document, {3}, false); }},
+        {QStringLiteral("cut 1 link"), [&] { edits::cut(document, {5}); }},
         {QStringLiteral("cut 3 links"),
          [&] {
-           document.cut({7, 8, 40});
+           edits::cut(document, {7, 8, 40});
          }},
         {QStringLiteral("stretch"), [&] { spin("stretchSpin", 1.5); }},
         {QStringLiteral("softness of 2 links"),
          [&] {
-           document.setSoftnessOf({2, 9}, LinkSoftness{0.5, 2, 1});
+           edits::setSoftnessOf(document, {2, 9}, LinkSoftness{0.5, 2, 1});
          }},
-        {QStringLiteral("reset softness"), [&] { document.resetSoftness(); }},
+        {QStringLiteral("reset softness"), [&] { edits::resetSoftness(document); }},
         {QStringLiteral("relaxation settings"),
          [&] {
-           document.setRelaxation({document.relaxation().on, 0.5, RelaxationScheme::link});
+           edits::setRelaxation(document, {document.relaxation().on, 0.5, RelaxationScheme::link});
          }},
         {QStringLiteral("Spiral"), [&] { bench.choose(1, "Spiral"); }},
         {QStringLiteral("reset object"), [&] { bench.trigger("resetObject"); }},
-        {QStringLiteral("replay"), [&] { document.goTo(2); }},
+        {QStringLiteral("replay"), [&] { document.moves().goTo(2); }},
         {QStringLiteral("build line"),
          [&] {
-           document.replaceMesh(generate({MeshKind::line, {9, 1, 1}, 1, {}}), QStringLiteral("line"),
-                                QStringLiteral("build line"));
+           edits::replaceMesh(document, generate({MeshKind::line, {9, 1, 1}, 1, {}}), QStringLiteral("line"),
+                              QStringLiteral("build line"));
          }},
     };
     const auto words = [&](const char* action) { return bench.find<QAction>(action)->text().remove(QLatin1Char('&')); };
@@ -382,7 +385,7 @@ class WindowUndo : public QObject {
     Workbench bench;
     const Picture rest(bench);
     drag(bench, 31, QPoint(100, -100));
-    bench.document().cut({5});
+    edits::cut(bench.document(), {5});
     auto* list = bench.find<QUndoView>("undoList");
     QCOMPARE(list->model()->rowCount(), 3);
     QCOMPARE(list->model()->index(1, 0).data().toString(), QStringLiteral("drag of element 31"));

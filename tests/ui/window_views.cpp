@@ -3,6 +3,7 @@
 #include <QDir>
 #include <QFileInfo>
 
+#include "document/edits.h"
 #include "folders.h"
 #include "io/pictures.h"
 #include "window.h"
@@ -73,7 +74,7 @@ QString differs(Workbench& bench, int panel, const QString& name) {
   bench.trigger("fitView");
   bench.view(panel).zoom(0.6);  // space for the deformed object; only the rest shape fits
   bench.settleFigures();
-  bench.document().setHighlight({});
+  bench.document().highlight().set({});
   return differs(pictureOf(bench.view(panel)), name);
 }
 
@@ -141,10 +142,10 @@ class WindowViews : public QObject {
     QFETCH(QStringList, actions);
     QFETCH(int, panel);
     Workbench bench(make(object));
-    bench.document().setPinned({8}, true);
-    bench.document().cut(object == volume ? cleft(*bench.document().mesh()) : std::vector<LinkId>{20});
+    edits::setPinned(bench.document(), {8}, true);
+    edits::cut(bench.document(), object == volume ? cleft(*bench.document().mesh()) : std::vector<LinkId>{20});
     bench.settle();
-    bench.document().select({31});
+    bench.document().selection().set({31});
     for (const QString& action : actions) {
       bench.trigger(action.toUtf8().constData());
     }
@@ -152,12 +153,12 @@ class WindowViews : public QObject {
     // Drags with coordinates instead of the mouse, so that the size of the view has no influence.
     const ElementId grabbed = object == volume || object == whole ? 40 : 31;
     const Point from = bench.document().mesh()->rest_position(grabbed);
-    bench.document().grab(grabbed);
+    bench.document().handle().grab(grabbed);
     for (const double share : {0.5, 1.0}) {
-      bench.document().drag(from + share * Point(1.3, 1.6, object == plane ? 0 : 0.8));
+      bench.document().handle().drag(from + share * Point(1.3, 1.6, object == plane ? 0 : 0.8));
       bench.settle();
     }
-    bench.document().release();
+    bench.document().handle().release();
     bench.settle();
     const QString wrong = differs(bench, panel, QString::fromLatin1(QTest::currentDataTag()));
     bench.trigger("themeDark");

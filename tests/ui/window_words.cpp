@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "document/edits.h"
 #include "panels/algorithm_delegate.h"
 #include "panels/colour_selector.h"
 #include "panels/legend.h"
@@ -145,15 +146,15 @@ class WindowWords : public QObject {
   /// The element of a link that has almost no length is pinned, and the other one is far away.
   void figuresThatAreNotFiniteAreNoWordsOfTheLibrary() {
     Workbench bench(almostNoLength());
-    bench.document().setPinned({0}, true);
-    bench.document().grab(1);
-    bench.document().drag({100, 0, 0});
-    bench.document().release();
+    edits::setPinned(bench.document(), {0}, true);
+    bench.document().handle().grab(1);
+    bench.document().handle().drag({100, 0, 0});
+    bench.document().handle().release();
     QTest::keyClick(&bench.view(0), Qt::Key_I);  // shows the figures
     bench.trigger("colourBy-violation");
     bench.settleFigures();
-    QVERIFY(!std::isfinite(bench.document().frame(0)->statistics.violation.max));
-    bench.document().select({1});
+    QVERIFY(!std::isfinite(bench.document().solvers().frame(0)->statistics.violation.max));
+    bench.document().selection().set({1});
     bench.settleFigures();
     static const QRegularExpression raw(QStringLiteral("\\b(inf|nan)\\b"), QRegularExpression::CaseInsensitiveOption);
     for (const QString& text : textsOf(bench)) {
@@ -175,7 +176,7 @@ class WindowWords : public QObject {
     QCOMPARE(line->sentence(), QStringLiteral("Nothing has moved yet"));
     bench.dragFar();
     bench.settleFigures();
-    const Violation& violation = bench.document().frame(0)->statistics.violation;
+    const Violation& violation = bench.document().solvers().frame(0)->statistics.violation;
     QVERIFY(violation.fraction > 0);
     QVERIFY(line->sentence().contains(QStringLiteral("links violated, worst ")));
     QCOMPARE(line->share(), violation.fraction);

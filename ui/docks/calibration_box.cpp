@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "common/text.h"
+#include "document/edits.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -122,8 +123,8 @@ void CalibrationBox::start() {
 
 void CalibrationBox::take(const CalibrationResult& result, const CalibrationOptions& options) {
   const bool atEquilibrium = !info(options.scheme).sweeps;
-  document_.setSoftnessAndRelaxation(result.softness, {atEquilibrium || result.sweeps > 0, 1, options.scheme},
-                                     QStringLiteral("calibrated softness"));
+  edits::setSoftnessAndRelaxation(document_, result.softness, {atEquilibrium || result.sweeps > 0, 1, options.scheme},
+                                  QStringLiteral("calibrated softness"));
   const QString sweeps = atEquilibrium        ? QStringLiteral("at equilibrium")
                          : result.sweeps == 0 ? QStringLiteral("without relaxation")
                                               : QStringLiteral("with %1 of relaxation after each move")

@@ -14,6 +14,7 @@
 #include "common/parameter_row.h"
 #include "common/shown_number.h"
 #include "common/text.h"
+#include "document/edits.h"
 #include "document/element_facts.h"
 
 namespace chainmail {
@@ -131,8 +132,8 @@ void ElementDock::listen() {
     }
   });
   connect(pin_, &QPushButton::clicked, this,
-          [this] { document_.setPinned({*element_}, !document_.isPinned(*element_)); });
-  connect(cut_, &QPushButton::clicked, this, [this] { document_.cut({*chosenLink()}); });
+          [this] { edits::setPinned(document_, {*element_}, !isPinned(document_, *element_)); });
+  connect(cut_, &QPushButton::clicked, this, [this] { edits::cut(document_, {*chosenLink()}); });
   connect(neighbours_, &QTableWidget::itemSelectionChanged, this, &ElementDock::adaptButtons);
   connect(neighbours_, &QTableWidget::cellActivated, this,
           [this](int row) { id_->setValue(neighbours_->item(row, 0)->data(Qt::UserRole).toInt()); });
@@ -147,9 +148,9 @@ void ElementDock::listen() {
     connect(&document_, signal, this, later);
   }
   connect(&document_, &Document::cutsChanged, this, later);
-  connect(&document_, &Document::frameReady, this, later);
+  connect(&document_.solvers(), &PanelSolvers::frameReady, this, later);
   connect(&document_, &Document::meshChanged, this, &ElementDock::adaptToMesh);
-  connect(&document_, &Document::selectionChanged, this, &ElementDock::followSelection);
+  connect(&document_.selection(), &Selection::changed, this, &ElementDock::followSelection);
 }
 
 void ElementDock::adaptToMesh() {
@@ -169,7 +170,7 @@ void ElementDock::adaptToMesh() {
 }
 
 void ElementDock::followSelection() {
-  const auto& selected = document_.selection().elements;
+  const auto& selected = document_.selection().elements();
   element_.reset();
   missing_.reset();
   if (selected.size() == 1) {
@@ -184,7 +185,7 @@ void ElementDock::pick() {
   const auto count = document_.mesh()->element_count();
   if (std::size_t(id_->value()) < count) {
     if (element_ != ElementId(id_->value())) {
-      document_.select({ElementId(id_->value())});
+      document_.selection().set({ElementId(id_->value())});
     }
     return;
   }
@@ -205,11 +206,11 @@ QString ElementDock::stateText() const {
   }
   if (element_) {
     return counted(document_.mesh()->neighbours_of(*element_).size(), QStringLiteral("neighbour")) +
-           (document_.isPinned(*element_) ? QStringLiteral(" · pinned") : QString());
+           (isPinned(document_, *element_) ? QStringLiteral(" · pinned") : QString());
   }
-  const auto& elements = document_.selection().elements;
+  const auto& elements = document_.selection().elements();
   const std::size_t selected = elements.size();
-  const auto pinned = std::ranges::count_if(elements, [this](ElementId one) { return document_.isPinned(one); });
+  const auto pinned = std::ranges::count_if(elements, [this](ElementId one) { return isPinned(document_, one); });
   return selected == 0 ? QStringLiteral("Type an id and press Enter, or select one element in a view.")
                        : QStringLiteral("%L1 elements selected%2: move them below, or type an id to select one.")
                              .arg(selected)
@@ -218,7 +219,7 @@ QString ElementDock::stateText() const {
 
 void ElementDock::showElement() {
   state_->setText(stateText());
-  move_->setElements(document_.selection().elements);
+  move_->setElements(document_.selection().elements());
   showPositions();
   showNeighbours();
   adaptButtons();
@@ -287,7 +288,7 @@ std::optional<LinkId> ElementDock::chosenLink() const {
 }
 
 void ElementDock::adaptButtons() {
-  const bool pinned = element_ && document_.isPinned(*element_);
+  const bool pinned = element_ && isPinned(document_, *element_);
   pin_->setText(pinned ? QStringLiteral("Un&pin") : QStringLiteral("&Pin"));
   pin_->setEnabled(element_.has_value());
   pin_->setToolTip(!element_ ? QStringLiteral("Select a single element first")

@@ -180,7 +180,8 @@ void ElementMove::adaptButton() {
 
 /// Returns a sentence that says why the elements cannot move now; empty if they can.
 QString ElementMove::whyNot() const {
-  const bool pinned = std::ranges::all_of(elements_, [this](ElementId element) { return document_.isPinned(element); });
+  const bool pinned =
+      std::ranges::all_of(elements_, [this](ElementId element) { return isPinned(document_, element); });
   return elements_.empty()  ? QStringLiteral("Select an element first")
          : pinned           ? hasMany() ? QStringLiteral("All selected elements are pinned: unpin some first")
                                         : QStringLiteral("This element is pinned: unpin it first")

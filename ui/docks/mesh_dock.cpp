@@ -10,6 +10,7 @@
 #include "common/icons.h"
 #include "common/text.h"
 #include "docks/gallery.h"
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "io/samples.h"
 
@@ -149,7 +150,9 @@ void MeshDock::build() {
               [this, name, recipe = recipe()](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer mesh = generate(recipe, progress.part(0, 0.8));
                 prepareLevels(mesh, progress.part(0.8, 1));
-                return [this, name, mesh] { document_.replaceMesh(mesh, name, QStringLiteral("build %1").arg(name)); };
+                return [this, name, mesh] {
+                  edits::replaceMesh(document_, mesh, name, QStringLiteral("build %1").arg(name));
+                };
               });
 }
 

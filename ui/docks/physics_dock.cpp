@@ -10,6 +10,7 @@
 #include "common/icons.h"
 #include "common/text.h"
 #include "docks/calibration_box.h"
+#include "document/edits.h"
 
 namespace chainmail {
 PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
@@ -40,7 +41,7 @@ void PhysicsDock::addRow(ParameterRow* row, double Material::*member) {
   connect(row, &ParameterRow::changed, this, [this, row, member](double value, int gesture) {
     ElasticOptions options = document_.elastic();
     options.material.*member = value;
-    document_.setElastic(options, row->label(), gesture);
+    edits::setElastic(document_, options, row->label(), gesture);
   });
 }
 
@@ -49,7 +50,7 @@ void PhysicsDock::addIterations() {
   connect(iterations_, &ParameterRow::changed, this, [this](double value, int gesture) {
     ElasticOptions options = document_.elastic();
     options.iterations = std::uint32_t(std::lround(value));
-    document_.setElastic(options, iterations_->label(), gesture);
+    edits::setElastic(document_, options, iterations_->label(), gesture);
   });
 }
 
@@ -100,7 +101,7 @@ void PhysicsDock::setLattice() {
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     options.lattice[k] = std::uint32_t(lattice_[k]->value());
   }
-  document_.setElastic(options, QStringLiteral("control points"));
+  edits::setElastic(document_, options, QStringLiteral("control points"));
 }
 
 void PhysicsDock::showElastic() {

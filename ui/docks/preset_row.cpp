@@ -10,6 +10,7 @@
 #include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/text.h"
+#include "document/edits.h"
 #include "files/text/limits.h"
 #include "mesh/error.h"
 
@@ -174,7 +175,7 @@ const SoftnessPreset* PresetRow::chosenOwn() const {
 void PresetRow::choose(int index) {
   const SoftnessPreset preset = all_[std::size_t(field_->itemData(index).toInt())];
   last_ = preset.name;
-  document_.setSoftness(preset.softness, QStringLiteral("preset %1").arg(QString::fromStdString(preset.name)));
+  edits::setSoftness(document_, preset.softness, QStringLiteral("preset %1").arg(QString::fromStdString(preset.name)));
   showChosen();
 }
 

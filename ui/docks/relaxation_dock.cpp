@@ -7,6 +7,7 @@
 #include "common/panel_names.h"
 #include "common/shown_number.h"
 #include "common/text.h"
+#include "document/edits.h"
 #include "report/page/format.h"
 
 namespace chainmail {
@@ -44,10 +45,10 @@ RelaxationDock::RelaxationDock(Document& document)
   refresh_.setInterval(residualMilliseconds);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // leaves the height to other docks
   setWidget(content);
-  connect(on_, &QCheckBox::toggled, this, [this] { document_.setRelaxation(chosen()); });
-  connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { document_.setRelaxation(chosen()); });
+  connect(on_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
+  connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { edits::setRelaxation(document_, chosen()); });
   connect(step_, &ParameterRow::changed, this,
-          [this](double /*value*/, int gesture) { document_.setRelaxation(chosen(), gesture); });
+          [this](double /*value*/, int gesture) { edits::setRelaxation(document_, chosen(), gesture); });
   connect(&document, &Document::relaxationChanged, this, &RelaxationDock::showRelaxation);
   connect(&refresh_, &QTimer::timeout, this, &RelaxationDock::showResidual);
   const auto refreshSoon = [this] {
@@ -55,7 +56,7 @@ RelaxationDock::RelaxationDock(Document& document)
       refresh_.start();
     }
   };
-  connect(&document, &Document::frameReady, this, refreshSoon);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, refreshSoon);
   connect(&document, &Document::panelsChanged, this, refreshSoon);
   showRelaxation();
 }
@@ -91,7 +92,7 @@ void RelaxationDock::showRelaxation() {
 void RelaxationDock::showResidual() {
   QStringList residuals;
   for (int panel = 0; panel < document_.panels(); ++panel) {
-    const Frame* frame = document_.frame(panel);
+    const Frame* frame = document_.solvers().frame(panel);
     const auto residual = frame != nullptr ? frame->statistics.residual : std::nullopt;
     const QString figure = !residual                  ? QStringLiteral("–")
                            : std::isfinite(*residual) ? QString::fromStdString(report::figure(*residual))

@@ -3,6 +3,8 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "document/edits.h"
+
 namespace chainmail {
 namespace {
 
@@ -24,11 +26,11 @@ SelectedLinks::SelectedLinks(Document& document)
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       softness.*softness_numbers[i].value = numbers_[i]->value();
     }
-    document_.setSoftnessOf(document_.selection().links, softness);
+    edits::setSoftnessOf(document_, document_.selection().links(), softness);
   });
   connect(back_, &QPushButton::clicked, this,
-          [this] { document_.setSoftnessOf(document_.selection().links, std::nullopt); });
-  connect(&document, &Document::selectionChanged, this, &SelectedLinks::refresh);
+          [this] { edits::setSoftnessOf(document_, document_.selection().links(), std::nullopt); });
+  connect(&document.selection(), &Selection::changed, this, &SelectedLinks::refresh);
   connect(&document, &Document::softnessChanged, this, &SelectedLinks::refresh);
   refresh();
 }
@@ -62,7 +64,7 @@ void SelectedLinks::arrange() {
 void SelectedLinks::refresh() {
   const Common all = common();
   const LinkSoftness& global = document_.softness();
-  const bool some = !document_.selection().links.empty();
+  const bool some = !document_.selection().links().empty();
   description_->setText(describe(all));
   rows_->setVisible(some);  // otherwise other widgets use the space
   rows_->setEnabled(some);
@@ -78,7 +80,7 @@ void SelectedLinks::refresh() {
 
 SelectedLinks::Common SelectedLinks::common() const {
   const Softness& softness = *document_.wholeSoftness();
-  const auto& links = document_.selection().links;
+  const auto& links = document_.selection().links();
   Common result{softness.global};
   for (std::size_t i = 0; i < links.size(); ++i) {
     const LinkSoftness& here = softness.of(links[i]);
@@ -104,8 +106,8 @@ QString SelectedLinks::describe(const Common& all) const {
         .arg(QLatin1String(one), count == 1 ? QString() : QStringLiteral("s"));
   };
   QString description =
-      some(selection.elements.size(), "element") + QStringLiteral(", ") + some(selection.links.size(), "link");
-  if (selection.links.empty()) {
+      some(selection.elements().size(), "element") + QStringLiteral(", ") + some(selection.links().size(), "link");
+  if (selection.links().empty()) {
     description += QStringLiteral("<br>No link: select both ends of a link.");
   } else if (!all.all()) {
     description += QStringLiteral("<br>Their softness differs.");

@@ -6,6 +6,7 @@
 #include "common/dock_scroll.h"
 #include "common/text.h"
 #include "docks/selected_links.h"
+#include "document/edits.h"
 
 namespace chainmail {
 
@@ -38,7 +39,7 @@ void StiffnessDock::addRow(const SoftnessNumber& number) {
   connect(row, &ParameterRow::changed, this, [this, row, member = number.value](double value, int gesture) {
     LinkSoftness softness = document_.softness();
     softness.*member = value;
-    document_.setSoftness(softness, row->label().toLower(), gesture);
+    edits::setSoftness(document_, softness, row->label().toLower(), gesture);
   });
 }
 
@@ -66,7 +67,8 @@ void StiffnessDock::addFrame() {
       QStringLiteral("The object extends equally in several directions, so not all of its axes exist. Those nearest to "
                      "the world's axes are used."));
   column_->addWidget(frameNote_);
-  connect(frame_, &QComboBox::activated, this, [this] { document_.setFrame(AxesKind(frame_->currentData().toInt())); });
+  connect(frame_, &QComboBox::activated, this,
+          [this] { edits::setRegionAxes(document_, AxesKind(frame_->currentData().toInt())); });
 }
 
 void StiffnessDock::showFrame() {
@@ -108,7 +110,7 @@ void StiffnessDock::addEnergy() {
   row->addWidget(energy_, 1);
   column_->addLayout(row);
   connect(energy_, &QComboBox::activated, this,
-          [this] { document_.setEnergy(EnergyKind(energy_->currentData().toInt())); });
+          [this] { edits::setEnergy(document_, EnergyKind(energy_->currentData().toInt())); });
 }
 
 void StiffnessDock::showSoftness() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "document/element_facts.h"
 #include "measure/physical_error.h"
 #include "mesh/error.h"
 
@@ -64,7 +65,7 @@ BackgroundReference::BackgroundReference(const Document& document) : document_(d
   connect(&progress_, &QTimer::timeout, this, &BackgroundReference::changed);
   connect(&jobs_, &Jobs::changed, this, [this] { jobs_.running() ? progress_.start() : progress_.stop(); });
   connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) { setState(sentence.toStdString()); });
-  connect(&document, &Document::movesChanged, this, &BackgroundReference::followHandle);
+  connect(&document.moves(), &MovePlayer::changed, this, &BackgroundReference::followHandle);
   for (const auto& signal : {&Document::pinsChanged, &Document::meshChanged, &Document::elasticChanged}) {
     connect(&document, signal, this, &BackgroundReference::outdate);
   }
@@ -85,7 +86,7 @@ void BackgroundReference::setWanted(bool wanted) {
 
 /// Returns the last target of a drag, unless the object was reset after it.
 std::optional<BackgroundReference::Handle> BackgroundReference::lastHandle() const {
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   const commands::Drag* last = nullptr;
   for (std::size_t i = history.position(); i > 0; --i) {
     const Command& command = history.at(i - 1);
@@ -129,7 +130,7 @@ QString BackgroundReference::state() const {
 void BackgroundReference::compute() {
   if (const std::string why = whyNot(); !why.empty()) {
     setState(why);
-  } else if (auto asked = task(); asked && document_.idle()) {
+  } else if (auto asked = task(); asked && document_.solvers().idle()) {
     start(std::move(*asked));
   } else {
     delay_.start();  // the solvers are still busy
@@ -143,7 +144,7 @@ bool BackgroundReference::isAtRest() const {
   if (hasOneTarget(*handle_)) {
     return handle_->target == document_.mesh()->rest_position(handle_->elements.front());
   }
-  const Frame* frame = document_.frame(0);
+  const Frame* frame = document_.solvers().frame(0);
   return frame != nullptr && std::ranges::all_of(displacementsOf(*frame, handle_->elements),
                                                  [](double displacement) { return displacement == 0; });
 }
@@ -157,7 +158,7 @@ std::string BackgroundReference::whyNot() const {
   }
   const auto& elements = handle_->elements;
   const bool one = elements.size() == 1;
-  if (std::ranges::any_of(elements, [this](ElementId element) { return document_.isPinned(element); })) {
+  if (std::ranges::any_of(elements, [this](ElementId element) { return isPinned(document_, element); })) {
     return one ? "the element that was dragged last is pinned" : "an element that was dragged last is pinned";
   }
   if (isAtRest()) {
@@ -177,7 +178,7 @@ std::string BackgroundReference::whyNot() const {
 /// come from the first panel: the panels differ in the offsets of its elements, because they grab it in different
 /// shapes.
 std::optional<BackgroundReference::Task> BackgroundReference::task() const {
-  const Frame* frame = document_.frame(0);
+  const Frame* frame = document_.solvers().frame(0);
   if (frame == nullptr) {
     return std::nullopt;
   }

@@ -39,10 +39,14 @@ struct DocumentObject {
   std::shared_ptr<const SettingsBefore> before = {};  // of a lesson
 };
 
+/// Returns an object with another mesh, before or after splits; otherwise the same.
+std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
+                                         const std::vector<LinkId>& cuts, std::vector<ElementId> pins);
+
 /// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not
 /// elements or links.
 struct Contents {
-  static constexpr int maxPanels = 4;
+  static constexpr int minPanels = 2, maxPanels = 4;
 
   std::shared_ptr<DocumentObject> object;
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
@@ -63,9 +67,10 @@ struct Change {
   std::vector<LinkId> cut;             // links that the change cuts
   std::vector<ElementId> pin, unpin;   // elements that the change pins and unpins, ascending
   std::optional<QString> sessionFile;  // new session file; undo and redo exchange it with the current one
+  bool resets = false;                 // moves all elements to rest
   std::function<void()> carryOut;      // sends commands that do not follow from the values; called once
   SplitPointer split;                  // leads to the object and the softness after the change
-  bool followsTape = false;            // cuts, pins and softness are taken from the recorded commands
+  bool followsMoves = false;           // cuts, pins and softness are taken from the recorded commands
 };
 
 }  // namespace chainmail

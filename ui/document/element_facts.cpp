@@ -39,8 +39,17 @@ SoftnessRange softnessOf(const Document& document, ElementId element) {
   return result;
 }
 
+bool isPinned(const Document& document, ElementId element) {
+  return std::ranges::binary_search(document.pins(), element);
+}
+
+/// Free-form deformation is the only elastic method that needs no pins.
+bool lacksPins(const Document& document, int panel) {
+  return document.pins().empty() && info(document.algorithm(panel)).needs_pins;
+}
+
 Point positionIn(const Document& document, int panel, ElementId element) {
-  const Frame* frame = document.frame(panel);
+  const Frame* frame = document.solvers().frame(panel);
   return frame == nullptr ? document.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
 }
 
@@ -53,7 +62,7 @@ Point middleIn(const Document& document, int panel, std::span<const ElementId> e
 }
 
 double violationOfLink(const Document& document, int panel, LinkId link) {
-  const Frame* frame = document.frame(panel);
+  const Frame* frame = document.solvers().frame(panel);
   return frame == nullptr ? 0 : link_violation(*frame->mesh, *document.wholeSoftness(), frame->view(), link);
 }
 

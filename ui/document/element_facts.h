@@ -18,6 +18,10 @@ struct SoftnessRange {
 };
 SoftnessRange softnessOf(const Document& document, ElementId element);
 
+bool isPinned(const Document& document, ElementId element);
+/// True if a panel's method has no solution because no element is pinned.
+bool lacksPins(const Document& document, int panel);
+
 /// Returns the position of an element in a panel (mesh units); its rest position while the panel shows nothing.
 Point positionIn(const Document& document, int panel, ElementId element);
 /// Returns the mean position of elements in a panel (mesh units): the pivot of a handle that holds them.

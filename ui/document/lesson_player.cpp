@@ -43,7 +43,7 @@ void LessonPlayer::adopt() {
   }
   clock_.stop();
   session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
-  step_ = session_ ? stepAt(document_.moveHistory().position()) : 0;
+  step_ = session_ ? stepAt(document_.moves().history().position()) : 0;
   dragged_.clear();
   emit openChanged();
 }
@@ -102,7 +102,7 @@ void LessonPlayer::show(std::size_t step, bool animated) {
   setPanels(algorithms(step).size());
   emit stepChanged();
   const bool samePass = steps[step].candidate && animated && steps[step].until == before;
-  if (samePass && !propagation_.follows() && document_.isInLesson(position_, algorithms(step))) {
+  if (samePass && !propagation_.follows() && document_.moves().isInLesson(position_, algorithms(step))) {
     candidate_ = steps[step - 1].candidate.value_or(0);
   } else {
     propagation_.setFollows(true);
@@ -126,7 +126,7 @@ void LessonPlayer::goTo(std::size_t position, bool withPass) {
 
 void LessonPlayer::travel(std::size_t position) {
   const QScopedValueRollback guard(travels_, true);
-  document_.goToInLesson(position, algorithms(step_));
+  document_.moves().goToInLesson(position, algorithms(step_));
 }
 
 /// Returns the position at which the moves of the present step begin. A step without moves has those of the step
@@ -150,12 +150,12 @@ void LessonPlayer::noteDragged() {
 }
 
 std::span<const ElementId> LessonPlayer::dragged() const {
-  const bool isShown = isOpen() && !dragged_.empty() && document_.isInLesson(position_, algorithms(step_));
+  const bool isShown = isOpen() && !dragged_.empty() && document_.moves().isInLesson(position_, algorithms(step_));
   return isShown ? std::span<const ElementId>(dragged_) : std::span<const ElementId>();
 }
 
 std::vector<Point> LessonPlayer::reach() const {
-  const Frame* frame = document_.frame(0);
+  const Frame* frame = document_.solvers().frame(0);
   return isOpen() && frame != nullptr
              ? cornersOf(dragsAmong(session_->moves, position_, lesson().steps[step_].until), *frame)
              : std::vector<Point>();
@@ -188,9 +188,9 @@ std::vector<Algorithm> LessonPlayer::algorithms(std::size_t step) const {
 
 void LessonPlayer::tick() {
   const LessonStep& step = lesson().steps[step_];
-  const bool userTookOver = !document_.isInLesson(position_, algorithms(step_));
+  const bool userTookOver = !document_.moves().isInLesson(position_, algorithms(step_));
   const bool begins = animated_ && !begun_;
-  if (!userTookOver && (begins || position_ == step.until) && !document_.settled()) {
+  if (!userTookOver && (begins || position_ == step.until) && !document_.solvers().settled()) {
     return;
   }
   if (!userTookOver && begins) {
@@ -207,7 +207,7 @@ void LessonPlayer::tick() {
 }
 
 void LessonPlayer::playMoves() {
-  if (animated_ && !document_.idle()) {
+  if (animated_ && !document_.solvers().idle()) {
     return;
   }
   position_ = animated_ ? nextMove() : lesson().steps[step_].until;
@@ -227,7 +227,7 @@ std::size_t LessonPlayer::nextMove() const {
 
 /// Shows the last pass, candidate by candidate, as soon as it has been recorded.
 void LessonPlayer::playCandidates() {
-  if (!document_.idle()) {
+  if (!document_.solvers().idle()) {
     return;
   }
   if (!passesAreComplete() && ++waited_ < maxTicksForPasses) {
@@ -247,7 +247,7 @@ bool LessonPlayer::passesAreComplete() const {
   for (int panel = 0; panel < document_.panels(); ++panel) {
     const PassPlayer* player = propagation_.player(panel);
     if (info(document_.algorithm(panel)).has_steps() &&
-        (player == nullptr || document_.lastPass(panel, player->pass().number) != nullptr)) {
+        (player == nullptr || document_.solvers().lastPass(panel, player->pass().number) != nullptr)) {
       return false;
     }
   }

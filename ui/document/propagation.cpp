@@ -18,9 +18,9 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
   connect(&fetch_, &QTimer::timeout, this, &Propagation::takePasses);
   clock_.setInterval(tickMilliseconds);
   connect(&clock_, &QTimer::timeout, this, &Propagation::playOn);
-  connect(&document, &Document::frameReady, this, &Propagation::awaitPass);
-  connect(&document, &Document::highlightChanged, this, [this] {
-    if (document_.highlight().grabbed) {
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, &Propagation::awaitPass);
+  connect(&document.highlight(), &Highlight::changed, this, [this] {
+    if (document_.highlight().marks().grabbed) {
       setFollows(true);
     }
     awaitPass();
@@ -45,7 +45,7 @@ Propagation::~Propagation() {
 void Propagation::setOpen(bool open) {
   if (open != open_ && !held_) {
     open_ = open;
-    document_.recordPasses(open);
+    document_.solvers().recordPasses(open);
     forget();
   }
 }
@@ -98,7 +98,7 @@ void Propagation::letGo() {
     if (auto& player = players_[std::size_t(panel)]) {
       player->setStep(player->stepCount());
     }
-    document_.showInstead(panel, nullptr);
+    document_.solvers().showInstead(panel, nullptr);
   }
 }
 
@@ -110,8 +110,8 @@ void Propagation::awaitPass() {
 
 /// True while a drag makes passes so large that fetching them would slow the drag down.
 bool Propagation::tooLargeNow() const {
-  for (int panel = 0; panel < document_.panels() && document_.highlight().grabbed; ++panel) {
-    const Frame* frame = document_.frame(panel);
+  for (int panel = 0; panel < document_.panels() && document_.highlight().marks().grabbed; ++panel) {
+    const Frame* frame = document_.solvers().frame(panel);
     if (frame != nullptr && frame->statistics.last_pass.checked > largestWhileDragged) {
       return true;
     }
@@ -132,8 +132,8 @@ void Propagation::takePasses() {
     if (player && !follows_) {
       continue;
     }
-    const Frame* frame = document_.frame(panel);
-    auto pass = document_.lastPass(panel, player ? player->pass().number : 0);
+    const Frame* frame = document_.solvers().frame(panel);
+    auto pass = document_.solvers().lastPass(panel, player ? player->pass().number : 0);
     // Elastic methods solve for all elements at once: they have no steps.
     const bool stepped = pass && info(pass->algorithm).has_steps();
     if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
@@ -202,7 +202,7 @@ void Propagation::setStep(int panel, std::size_t step) {
 
 void Propagation::show(int panel) {
   const auto& player = players_[std::size_t(panel)];
-  document_.showInstead(panel, player && isShown() ? &player->frame() : nullptr);
+  document_.solvers().showInstead(panel, player && isShown() ? &player->frame() : nullptr);
 }
 
 /// Returns the step from which the buttons continue.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
+
+#include "common/application.h"
 
 namespace chainmail {
 
@@ -36,6 +39,21 @@ std::vector<LinkId> linksAmong(const Mesh& mesh, const Cuts& cuts, const std::ve
   }
   std::sort(links.begin(), links.end());
   return links;
+}
+
+void Selection::set(std::vector<ElementId> elements) {
+  if (elements != elements_) {
+    links_ = linksAmong(*contents_.object->mesh, contents_.object->cuts, elements);
+    elements_ = std::move(elements);
+    Application::guarded([this] { emit changed(); });
+  }
+}
+
+void Selection::followCuts() {
+  if (!empty()) {
+    links_ = linksAmong(*contents_.object->mesh, contents_.object->cuts, elements_);
+    Application::guarded([this] { emit changed(); });
+  }
 }
 
 }  // namespace chainmail

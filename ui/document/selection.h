@@ -1,18 +1,12 @@
 #pragma once
 
+#include <QObject>
 #include <vector>
 
+#include "document/change.h"
 #include "mesh/cuts.h"
 
 namespace chainmail {
-
-/// The selected elements, ascending, and the uncut links between them.
-struct Selection {
-  std::vector<ElementId> elements;
-  std::vector<LinkId> links;
-
-  bool empty() const { return elements.empty(); }
-};
 
 /// How a stroke changes the previous selection.
 enum class SelectionMode { replace, add, remove };
@@ -23,5 +17,32 @@ std::vector<ElementId> combined(const std::vector<ElementId>& before, const std:
 
 /// Returns the uncut links between these elements; both ascending.
 std::vector<LinkId> linksAmong(const Mesh& mesh, const Cuts& cuts, const std::vector<ElementId>& elements);
+
+/// The selected elements of a document, and the links between them. They do not change the object and are not undo
+/// steps.
+class Selection : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Selection(const Contents& contents) : contents_(contents) {}
+
+  /// The selected elements, ascending.
+  const std::vector<ElementId>& elements() const { return elements_; }
+  /// The uncut links between them, ascending.
+  const std::vector<LinkId>& links() const { return links_; }
+  bool empty() const { return elements_.empty(); }
+  /// Selects these elements, which must be ascending.
+  void set(std::vector<ElementId> elements);
+  /// Finds the links again, after links were cut or restored.
+  void followCuts();
+
+ signals:
+  void changed();
+
+ private:
+  const Contents& contents_;
+  std::vector<ElementId> elements_;
+  std::vector<LinkId> links_;
+};
 
 }  // namespace chainmail

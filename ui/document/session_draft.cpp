@@ -12,13 +12,13 @@ SessionDraft::SessionDraft(Document& document, std::string layout) {
   session_.softness = document.wholeSoftness();
   session_.relaxation = document.relaxation();
   session_.elastic = document.elastic();
-  session_.moves = document.moveHistory().commands();
-  session_.moves_done = document.moveHistory().position();
+  session_.moves = document.moves().history().commands();
+  session_.moves_done = document.moves().history().position();
   takeLesson(document);
   session_.ui = std::move(layout);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
-    snapshots_.push_back(document.snapshot(panel).share());
+    snapshots_.push_back(document.solvers().snapshot(panel).share());
   }
 }
 
@@ -29,7 +29,7 @@ void SessionDraft::takeLesson(const Document& document) {
   if (!lesson) {
     return;
   }
-  if (!document.recordsLesson()) {
+  if (!document.moves().recordsLesson()) {
     const std::size_t done = std::min(session_.moves_done, lesson->moves.size());
     if (last_mesh(first_mesh(*lesson), std::span(lesson->moves).first(done)) != session_.mesh) {
       return;

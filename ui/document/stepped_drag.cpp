@@ -6,8 +6,8 @@
 namespace chainmail {
 
 SteppedDrag::SteppedDrag(Document& document) : document_(document) {
-  connect(&document, &Document::becameIdle, this, &SteppedDrag::step);
-  connect(&document, &Document::frameReady, this, [this](int panel) {
+  connect(&document.solvers(), &PanelSolvers::becameIdle, this, &SteppedDrag::step);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, [this](int panel) {
     shown_ = shown_ || panel == 0;
     step();
   });
@@ -33,20 +33,21 @@ void SteppedDrag::begin(const std::vector<ElementId>& elements, int steps) {
   steps_ = steps;
   done_ = 0;
   shown_ = false;
-  document_.grab(elements);  // first, because it may end another drag, and the new undo step would stop this one
-  held_.assign(document_.held().begin(), document_.held().end());
+  document_.handle().grab(
+      elements);  // first, because it may end another drag, and the new undo step would stop this one
+  held_.assign(document_.handle().held().begin(), document_.handle().held().end());
   running_ = true;
   emit changed();
 }
 
-bool SteppedDrag::holds() const { return !held_.empty() && std::ranges::equal(document_.held(), held_); }
+bool SteppedDrag::holds() const { return !held_.empty() && std::ranges::equal(document_.handle().held(), held_); }
 
 void SteppedDrag::stop() {
   if (!std::exchange(running_, false)) {
     return;
   }
   if (holds()) {
-    document_.release();
+    document_.handle().release();
   }
   emit changed();
 }
@@ -59,7 +60,7 @@ void SteppedDrag::step() {
   }
   if (!holds()) {
     stop();  // something else was grabbed
-  } else if (shown_ && document_.idle()) {
+  } else if (shown_ && document_.solvers().idle()) {
     if (done_ == steps_) {
       stop();
       return;
@@ -75,10 +76,10 @@ void SteppedDrag::drag() {
   const bool last = done_ == steps_;
   if (relative_) {
     const double share = double(done_) / steps_;
-    document_.dragBy(last ? by_ : Point(by_ * share),
-                     last ? rotation_ : Rotation{rotation_.axis, rotation_.degrees * share});
+    document_.handle().dragBy(last ? by_ : Point(by_ * share),
+                              last ? rotation_ : Rotation{rotation_.axis, rotation_.degrees * share});
   } else {
-    document_.drag(last ? target_ : Point(from_ + (target_ - from_) * done_ / steps_));
+    document_.handle().drag(last ? target_ : Point(from_ + (target_ - from_) * done_ / steps_));
   }
 }
 

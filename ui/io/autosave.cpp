@@ -194,7 +194,7 @@ void Autosave::listen() {
     noticeChange();
   });
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this, &Autosave::noticeChange);
-  connect(&document_, &Document::frameReady, this, &Autosave::noticeChange);
+  connect(&document_.solvers(), &PanelSolvers::frameReady, this, &Autosave::noticeChange);
   layout_.follow(*this, [this] { noticeChange(); });
   connect(&document_, &Document::meshChanged, this, &Autosave::holdMemory);
   connect(&document_, &Document::panelsChanged, this, &Autosave::holdMemory);
@@ -266,7 +266,7 @@ void Autosave::noticeChange() {
 Autosave::Mark Autosave::mark() const {
   Mark mark{steps_, {}, layout_.read()};
   for (int panel = 0; panel < document_.panels(); ++panel) {
-    const Frame* frame = document_.frame(panel);
+    const Frame* frame = document_.solvers().frame(panel);
     mark.changed.push_back(frame == nullptr || frame->changed.empty() ? 0 : *std::ranges::max_element(frame->changed));
   }
   return mark;

@@ -13,6 +13,7 @@
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "common/up_axis.h"
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
@@ -168,7 +169,7 @@ void FileActions::addSaveActions(QMenu& menu) {
 }
 
 void FileActions::saveSession() {
-  const QString path = document_.sessionFile();
+  const QString path = document_.files().session();
   OverwriteAnswer answer = path.isEmpty() ? OverwriteAnswer::saveAs : OverwriteAnswer::overwrite;
   if (!path.isEmpty() && sessions_.isChangedOutside(path)) {
     answer = askBeforeOverwriting(window_, path);
@@ -181,9 +182,10 @@ void FileActions::saveSession() {
 }
 
 bool FileActions::saveSessionAs() {
-  const QString path = askWhere(
-      window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
-      asFileName(document_.sessionFile().isEmpty() ? document_.name() : QFileInfo(document_.sessionFile()).fileName()));
+  const QString path =
+      askWhere(window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
+               asFileName(document_.files().session().isEmpty() ? document_.name()
+                                                                : QFileInfo(document_.files().session()).fileName()));
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
@@ -256,7 +258,7 @@ void FileActions::read(const QString& path, bool first, bool ask) {
                   show(opened, defects, path, first);
                   if (!isSample(path)) {
                     sessions_.know(path, state);
-                    document_.setMeshFile(QFileInfo(path).absoluteFilePath());
+                    document_.files().setMesh(QFileInfo(path).absoluteFilePath());
                   }
                 };
               });
@@ -265,7 +267,7 @@ void FileActions::read(const QString& path, bool first, bool ask) {
 void FileActions::show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first) {
   const QString name = QFileInfo(path).fileName();
   repair_->remember(opened.mesh, defects);
-  document_.replaceMesh(opened.mesh, name, QStringLiteral("open %1").arg(name));
+  edits::replaceMesh(document_, opened.mesh, name, QStringLiteral("open %1").arg(name));
   if (first) {
     document_.undoStack().clear();
   }
@@ -293,7 +295,7 @@ void FileActions::saveShapePath(int panel, const QString& path) {
     emit failed(QString::fromUtf8(error.what()));
     return;
   }
-  if (const Frame* frame = document_.frame(panel)) {
+  if (const Frame* frame = document_.solvers().frame(panel)) {
     write(path, std::make_shared<const Frame>(*frame));
   }
 }

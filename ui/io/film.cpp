@@ -66,7 +66,7 @@ std::size_t Film::picturesIn(const QString& folder) {
 }
 
 void Film::begin(const QString& path) {
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   path_ = path;
   video_ = !QFileInfo(path).isDir();
   earlier_ = video_ ? 0 : picturesIn(path);
@@ -91,14 +91,14 @@ void Film::begin(const QString& path) {
   before_ = history.position();
   running_ = true;
   emit changed();
-  document_.goTo(positions_.front());
+  document_.moves().goTo(positions_.front());
   wait_.start();
 }
 
 /// Takes a picture when the panels show the move, then starts the next move.
 void Film::takeNext() {
   const bool behind = video_ ? ffmpeg_.bytesToWrite() > maxUnsent : waiting_ >= maxWaiting;
-  if (!document_.settled() || behind) {
+  if (!document_.solvers().settled() || behind) {
     return;
   }
   take();
@@ -107,7 +107,7 @@ void Film::takeNext() {
   }
   emit progressed(int(next_), int(positions_.size()));
   if (next_ < positions_.size()) {
-    document_.goTo(positions_[next_]);
+    document_.moves().goTo(positions_[next_]);
   } else {
     wait_.stop();
     finish();
@@ -258,7 +258,7 @@ void Film::end() {
   wait_.stop();
   stopWriters();
   folder_.reset();
-  document_.goTo(before_);
+  document_.moves().goTo(before_);
   emit changed();
 }
 

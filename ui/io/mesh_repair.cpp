@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/text.h"
+#include "document/edits.h"
 #include "io/repair_bar.h"
 #include "mesh/error.h"
 
@@ -118,7 +119,7 @@ void MeshRepair::showNext() {
   if (const Checked* known = ofTheObject()) {
     const std::vector<DefectGroup> all = groupsOf(*known->defects);
     const DefectGroup& one = all[next_++ % all.size()];
-    document_.select(one.elements);
+    document_.selection().set(one.elements);
     bar_->showShown(QStringLiteral("Selected: %1").arg(one.name));
   }
 }
@@ -141,7 +142,7 @@ void MeshRepair::start(const QString& doing, const Named& step, const Repair& re
               return;
             }
             remember(repaired.mesh, defects);
-            document_.reworkMesh(repaired.mesh, name, step(repaired), own);
+            edits::reworkMesh(document_, repaired.mesh, name, step(repaired), own);
           };
         } catch (const Error& error) {
           throw error.at(name.toStdString());

@@ -27,8 +27,8 @@ SessionWatch::SessionWatch(Document& document, QObject* parent) : QObject(parent
   connect(&calm_, &QTimer::timeout, this, &SessionWatch::look);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { calm_.start(); });
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] { calm_.start(); });
-  connect(&document_, &Document::sessionFileChanged, this, &SessionWatch::follow);
-  connect(&document_, &Document::meshFileChanged, this, &SessionWatch::follow);
+  connect(&document_.files(), &DocumentFiles::sessionChanged, this, &SessionWatch::follow);
+  connect(&document_.files(), &DocumentFiles::meshChanged, this, &SessionWatch::follow);
   connect(&document_, &Document::meshChanged, this, [this] {
     if (followed_ != this->path()) {
       follow();
@@ -52,7 +52,7 @@ bool SessionWatch::isChanged(const QString& path) const {
 
 /// Returns the watched file; empty if there is none.
 const QString& SessionWatch::path() const {
-  return document_.sessionFile().isEmpty() ? document_.meshFile() : document_.sessionFile();
+  return document_.files().session().isEmpty() ? document_.files().mesh() : document_.files().session();
 }
 
 /// Watches the file, and its folder, because most programs replace a file.

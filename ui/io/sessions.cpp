@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/as_path.h"
+#include "document/edits.h"
 #include "document/session_draft.h"
 #include "drawing/prepared_levels.h"
 #include "io/mesh_source.h"
@@ -81,7 +82,7 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
   const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
   const bool isAside = !session->lesson.steps.empty() && autosave_ && autosave_->setAside();
   showPanels(document_, *session);
-  document_.restore(session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
+  edits::restore(document_, session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
   if (first) {
     document_.undoStack().clear();
   }
@@ -108,7 +109,7 @@ void Sessions::savePath(const QString& path, bool inPlace) {
                   if (autosave_) {
                     autosave_->discardAdopted(mesh);
                   }
-                  document_.setSessionFile(QFileInfo(path).absoluteFilePath());
+                  document_.files().setSession(QFileInfo(path).absoluteFilePath());
                   // Changes during saving are not in the file.
                   if (steps_ == steps) {
                     document_.undoStack().setClean();
@@ -150,7 +151,7 @@ void Sessions::restore(const QString& path) {
                 prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path] {
                   showPanels(document_, *session);
-                  document_.restore(session, ownFile(*session), QStringLiteral("restore unsaved work"));
+                  edits::restore(document_, session, ownFile(*session), QStringLiteral("restore unsaved work"));
                   layout_.set(session->ui);
                   auto lock = recovery_->take();
                   if (autosave_) {

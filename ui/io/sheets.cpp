@@ -6,6 +6,7 @@
 
 #include "common/ask_where.h"
 #include "common/panel_names.h"
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "files/mesh/warp.h"
 #include "io/picture_file.h"
@@ -76,7 +77,7 @@ void Sheets::open(const QString& path, int across, bool first) {
                                                      std::uint32_t(across), progress.part(0.7, 0.9));
                 prepareLevels(sheet, progress.part(0.9, 1));
                 return [this, path, name, first, sheet] {
-                  document_.replaceMesh(sheet, name, QStringLiteral("open %1").arg(name));
+                  edits::replaceMesh(document_, sheet, name, QStringLiteral("open %1").arg(name));
                   if (first) {
                     document_.undoStack().clear();
                   }
@@ -96,7 +97,7 @@ void Sheets::save(int panel) {
 
 /// Saves the sheet in its current state, even if it changes before the picture is written.
 void Sheets::saveWarpedPath(int panel, const QString& path) {
-  const Frame* frame = document_.frame(panel);
+  const Frame* frame = document_.solvers().frame(panel);
   if (frame == nullptr || !is_sheet(*frame->mesh)) {
     emit failed(path + QStringLiteral(": the object has no picture; open a PNG or JPEG first"));
     return;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/as_path.h"
+#include "document/edits.h"
 #include "files/mesh/open_mesh.h"
 #include "files/text/text.h"
 #include "io/volume_bar.h"
@@ -43,7 +44,7 @@ Jobs::Finish Volumes::readAsOffered(const QString& path, const Progress& progres
 
 void Volumes::show(VoxelBlock& block, const QString& path, bool first) {
   const QString name = QFileInfo(path).fileName();
-  document_.replaceMesh(block.mesh, name, QStringLiteral("open %1").arg(name), std::move(block.softness));
+  edits::replaceMesh(document_, block.mesh, name, QStringLiteral("open %1").arg(name), std::move(block.softness));
   if (first) {
     document_.undoStack().clear();
   }

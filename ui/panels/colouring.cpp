@@ -55,7 +55,7 @@ bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mo
 Colouring::Colouring(const Document& document) : document_(document), solution_(document), timer_(this) {
   timer_.setInterval(sliceIntervalMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &Colouring::advanceAll);
-  connect(&document, &Document::frameReady, this, &Colouring::receiveFrame);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, &Colouring::receiveFrame);
   const auto outdate = [this] {
     for (Work& work : works_) {
       work.outdated = true;
@@ -162,7 +162,7 @@ bool Colouring::start(int panel) {
   work.others = comparedWith(panel);
   std::vector<int> all = work.others;
   all.push_back(panel);
-  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.frame(one) == nullptr; }) ||
+  if (std::any_of(all.begin(), all.end(), [this](int one) { return document_.solvers().frame(one) == nullptr; }) ||
       (mode_ == ColourMode::physicsError && !solution_.answer())) {
     return false;
   }
@@ -178,7 +178,7 @@ bool Colouring::start(int panel) {
   work.solution = solution_.answer();
   for (const int one : all) {
     if (!isOfSoftness(mode_)) {
-      work.copies[one].follow(*document_.frame(one));
+      work.copies[one].follow(*document_.solvers().frame(one));
     }
   }
   work.outdated = false;

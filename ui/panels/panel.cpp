@@ -12,6 +12,7 @@
 #include "common/panel_names.h"
 #include "common/shown_number.h"
 #include "common/text.h"
+#include "document/element_facts.h"
 #include "document/panel_colour.h"
 
 namespace chainmail {
@@ -75,7 +76,7 @@ void Panel::listen() {
   refresh_.setSingleShot(true);
   refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
-  connect(&document_, &Document::frameReady, this, [this](int ready) {
+  connect(&document_.solvers(), &PanelSolvers::frameReady, this, [this](int ready) {
     if (ready == panel_ && !refresh_.isActive()) {
       refresh_.start();
     }
@@ -106,8 +107,8 @@ void Panel::showStatistics() {
   } else {
     legend_->follow(colouring_, panel_);
   }
-  if (document_.frame(panel_) != nullptr) {
-    const Statistics& statistics = document_.statistics(panel_);
+  if (document_.solvers().frame(panel_) != nullptr) {
+    const Statistics& statistics = document_.solvers().statistics(panel_);
     update(statistics);
     head_->showState(states(statistics).join(QStringLiteral(" · ")));
   }
@@ -129,7 +130,7 @@ void Panel::enlargeTexts(double factor) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  const MoveHistory& history = document_.moveHistory();  // a session brings moves that this solver has not made
+  const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
   const bool hasMoved = statistics.passes > 0 || document_.cuts().count() > 0 || history.passes(history.position()) > 0;
   violation_->show(statistics, hasMoved, view_->isInMidPass());
   const QString help = QStringLiteral(
@@ -188,7 +189,7 @@ QString Panel::describeRemark(const Statistics& statistics) const {
 
 QStringList Panel::states(const Statistics& statistics) const {
   QStringList states;
-  if (document_.lacksPins(panel_)) {
+  if (lacksPins(document_, panel_)) {
     states << QStringLiteral("nothing pinned: no solution");
   }
   if (statistics.last_pass.stopped) {

@@ -253,7 +253,7 @@ void PanelArea::frame(bool atRest) {
 /// Fits the views again after a resize or from another side, unless the user has panned or zoomed since. Does nothing
 /// during a drag, because the object must stay under the cursor.
 void PanelArea::fitAgain() {
-  if (!document_.highlight().grabbed && fits()) {
+  if (!document_.highlight().marks().grabbed && fits()) {
     frame(fitsRest_);
   }
 }

@@ -9,6 +9,8 @@
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "document/edits.h"
+#include "document/element_facts.h"
 #include "document/panel_colour.h"
 #include "mesh/error.h"
 #include "panels/algorithm_delegate.h"
@@ -52,7 +54,7 @@ void PanelHead::followPins() {
       QStringLiteral("Without pins, this algorithm has no solution. Pins the bottom layer at its present "
                      "positions, as one undo step"));
   connect(pin_, &QToolButton::clicked, this, &PanelHead::pinWanted);
-  const auto adapt = [this] { pin_->setVisible(panel_ < document_.panels() && document_.lacksPins(panel_)); };
+  const auto adapt = [this] { pin_->setVisible(panel_ < document_.panels() && lacksPins(document_, panel_)); };
   connect(&document_, &Document::pinsChanged, pin_, adapt);
   connect(&document_, &Document::meshChanged, pin_, adapt);
   connect(&document_, &Document::algorithmChanged, pin_, adapt);
@@ -74,7 +76,7 @@ void PanelHead::fillSelector() {
   selector_->setMaxVisibleItems(selector_->count());
   selector_->setItemDelegate(new AlgorithmDelegate(selector_));
   connect(selector_, &QComboBox::activated, this,
-          [this] { document_.setAlgorithm(panel_, Algorithm(selector_->currentData().toInt())); });
+          [this] { edits::setAlgorithm(document_, panel_, Algorithm(selector_->currentData().toInt())); });
   connect(&document_, &Document::algorithmChanged, this, [this](int panel) {
     if (panel == panel_) {
       showAlgorithm();

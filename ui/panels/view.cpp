@@ -91,15 +91,15 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
 }
 
 void View::listen() {
-  connect(&document_, &Document::frameReady, this, [this](int ready) {
+  connect(&document_.solvers(), &PanelSolvers::frameReady, this, [this](int ready) {
     if (ready == panel_ || ready == ghost_.of) {
       update();  // the paint takes the newest frame
     }
   });
-  connect(&document_, &Document::highlightChanged, this, qOverload<>(&View::update));
+  connect(&document_.highlight(), &Highlight::changed, this, qOverload<>(&View::update));
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::algorithmChanged, this, qOverload<>(&View::update));  // changes colours of panels
-  connect(&document_, &Document::selectionChanged, this, [this] {
+  connect(&document_.selection(), &Selection::changed, this, [this] {
     selectionOutdated_ = true;
     selectedHere_ = links_.pointed() == panel_;
     update();
@@ -208,7 +208,7 @@ void View::fitRest() {
 
 std::vector<QVector3D> View::outline(bool atRest) const {
   const Mesh& mesh = *document_.mesh();
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (atRest || frame == nullptr) {
     return restOutline(mesh);
   }
@@ -298,7 +298,7 @@ const ClusterBoxes& View::boxes(const Frame& frame) const {
 /// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the
 /// window stays responsive.
 void View::searchUnderCursor() {
-  if (const Frame* frame = document_.frame(panel_);
+  if (const Frame* frame = document_.solvers().frame(panel_);
       frame != nullptr && !boxes_.prepare(levels_->at(frame->mesh, 1), *frame, boxMilliseconds)) {
     hover_.start(0);
   } else if (tool_ != nullptr) {
@@ -323,7 +323,7 @@ bool View::showsSolid() const {
 }
 
 std::optional<ElementId> View::elementAt(QPointF position) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (frame == nullptr) {
     return std::nullopt;
   }
@@ -343,7 +343,7 @@ std::optional<ElementId> View::elementAt(QPointF position) const {
 }
 
 std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (frame == nullptr) {
     return {};
   }
@@ -359,7 +359,7 @@ std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
 
 std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
   std::vector<LinkId> crossed = linksCrossing(stroke);
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (crossed.empty() || !camera_->spatial()) {
     return crossed;
   }
@@ -386,7 +386,7 @@ std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
 bool View::splitsFaces() const { return drawOptions_.faces && can_split(*document_.mesh()); }
 
 SplitPointer View::splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (frame == nullptr || (!reached.empty() && reached.back() >= frame->mesh->link_count())) {
     return nullptr;
   }
@@ -407,13 +407,13 @@ SplitPointer View::splitAlong(std::span<const QPointF> stroke, std::span<const L
 }
 
 std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   return frame == nullptr ? std::vector<ElementId>()
                           : chainmail::elementsWhere(*frame, boxes(*frame), projection(), bounds, inside, shown());
 }
 
 Point View::position(ElementId element) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   return frame == nullptr ? document_.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
 }
 
@@ -422,7 +422,7 @@ QVector3D View::pointAt(QPointF position, const Point& through) const {
 }
 
 QPointF View::viewPosition(ElementId element) const {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (frame == nullptr) {
     return {};
   }
@@ -513,8 +513,8 @@ void View::leaveEvent(QEvent* event) {
   if (tool_ != nullptr) {
     tool_->leave(*this);
   }
-  if (!document_.highlight().grabbed && document_.highlight().links.empty()) {
-    document_.setHighlight({});
+  if (!document_.highlight().marks().grabbed && document_.highlight().marks().links.empty()) {
+    document_.highlight().set({});
   }
 }
 
@@ -607,7 +607,7 @@ void View::paint() {
   paintClock_.start();
   detail_ = chooseDetail();
   paintOn(colours::background, devicePixelRatioF(), detail_);
-  if (document_.frame(panel_) != nullptr) {
+  if (document_.solvers().frame(panel_) != nullptr) {
     drawFocus();
     drawCube();
     drawRing();
@@ -626,7 +626,7 @@ void View::paint() {
 /// Returns the detail of the next picture. While the object or the camera moves, pictures that would take too long are
 /// quick.
 DetailBudget::Detail View::chooseDetail() {
-  const Frame* frame = document_.frame(panel_);
+  const Frame* frame = document_.solvers().frame(panel_);
   if (frame == nullptr) {
     return DetailBudget::Detail::complete;
   }
@@ -657,11 +657,11 @@ void View::paintOn(const QColor& ground, double pixelRatio, DetailBudget::Detail
   gl->glClearColor(opacity * ground.redF(), opacity * ground.greenF(), opacity * ground.blueF(), opacity);
   gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl->glDisable(GL_DEPTH_TEST);
-  if (!painterReady_ || document_.frame(panel_) == nullptr) {
+  if (!painterReady_ || document_.solvers().frame(panel_) == nullptr) {
     return;
   }
   if (selectionOutdated_) {
-    painter_.setSelection(document_.selection().elements);
+    painter_.setSelection(document_.selection().elements());
     selectionOutdated_ = false;
   }
   draw({painter_, ghostFrame() != nullptr ? &ghostPainter() : nullptr, scene(pixelRatio, ground, detail)});
@@ -688,7 +688,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, Detail
 void View::draw(const PaintTarget& on) {
   takeFrames(on);
   drawObjects(on);
-  const Frame& frame = *document_.frame(panel_);
+  const Frame& frame = *document_.solvers().frame(panel_);
   for (Overlay* overlay : overlays_) {
     overlay->draw({*this, on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
   }
@@ -699,12 +699,12 @@ void View::draw(const PaintTarget& on) {
   }
 }
 
-const Frame* View::ghostFrame() const { return ghost_.of ? document_.frame(*ghost_.of) : nullptr; }
+const Frame* View::ghostFrame() const { return ghost_.of ? document_.solvers().frame(*ghost_.of) : nullptr; }
 
 /// Passes the newest frames to the painters. A painter sends only the changes since its last frame to the graphics
 /// card.
 void View::takeFrames(const PaintTarget& on) {
-  on.own.setFrame(*document_.frame(panel_), document_.cuts());
+  on.own.setFrame(*document_.solvers().frame(panel_), document_.cuts());
   if (on.ghost != nullptr) {
     on.ghost->setFrame(*ghostFrame(), document_.cuts());
   }
@@ -764,7 +764,7 @@ void View::drawMarks(const PaintTarget& on) {
 
 void View::drawHighlight(const PaintTarget& on) {
   const auto& in = on.scene;
-  const Highlight& highlight = document_.highlight();
+  const Marks& highlight = document_.highlight().marks();
   // All panels show the handle, and the links that would be cut.
   const bool inAllPanels = links_.marks() || highlight.grabbed || !highlight.links.empty();
   if (!inAllPanels && links_.pointed() != panel_) {
@@ -806,7 +806,7 @@ void View::drawAnnotations(const PaintTarget& on) {
 
 /// Returns where in the view (logical pixels) the object is that is out of view; none if a part of it is in view.
 std::optional<QPointF> View::wayToObject() const {
-  const ClusterBoxes& all = boxes(*document_.frame(panel_));
+  const ClusterBoxes& all = boxes(*document_.solvers().frame(panel_));
   const Projection seen = projection();
   ViewBounds bounds;
   for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
@@ -910,11 +910,11 @@ QImage View::picture(double pixelRatio, bool transparent) {
 
 void View::drawIn(QPainter& painter, const QColor& ground) {
   painter.fillRect(QRectF(rect()), ground);
-  if (document_.frame(panel_) == nullptr) {
+  if (document_.solvers().frame(panel_) == nullptr) {
     return;
   }
   VectorPainter own(painter, levels_);
-  own.setSelection(document_.selection().elements);
+  own.setSelection(document_.selection().elements());
   std::optional<VectorPainter> ghost;
   if (ghostFrame() != nullptr) {
     ghost.emplace(painter, levels_);

@@ -62,7 +62,7 @@ void drawSquares(const Overlay::Canvas& canvas, const std::vector<QVector3D>& po
 }  // namespace
 
 const Frame* ControlPoints::frame(int panel) const {
-  const Frame* frame = document_.frame(panel);
+  const Frame* frame = document_.solvers().frame(panel);
   const bool has = frame != nullptr && info(document_.algorithm(panel)).has_control_points;
   return has && !frame->control_points.empty() ? frame : nullptr;
 }

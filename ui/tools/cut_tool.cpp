@@ -3,6 +3,7 @@
 #include <QLineF>
 #include <new>
 
+#include "document/edits.h"
 #include "mesh/error.h"
 #include "panels/view.h"
 
@@ -17,13 +18,13 @@ QString CutTool::hint() const {
   return QStringLiteral("Left: draw a stroke, release to cut along it in all panels  ·  Esc: cancel  ·  Ctrl+Z: undo");
 }
 
-void CutTool::hover(View& /*view*/, QPointF /*position*/) { document_.setHighlight({}); }
+void CutTool::hover(View& /*view*/, QPointF /*position*/) { document_.highlight().set({}); }
 
 void CutTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
   at_ = &view;
   stroke_ = {position};
   crossed_.clear();
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
@@ -37,7 +38,7 @@ void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifie
   stroke_.push_back(position);
   auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
   std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
-  document_.addToHighlight(crossed);
+  document_.highlight().add(crossed);
   view.update();
 }
 
@@ -55,15 +56,15 @@ void CutTool::release(View& view, QPointF position) {
 
 void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
   if (!splits_ || !view.splitsFaces()) {
-    document_.cut(links);
+    edits::cut(document_, links);
     return;
   }
   try {
     const auto loose = links_without_faces(*document_.mesh(), links);
     if (const SplitPointer split = view.splitAlong(stroke, links)) {
-      document_.split(split, loose);
+      edits::split(document_, split, loose);
     } else if (!loose.empty() || links.empty()) {
-      document_.cut(loose);
+      edits::cut(document_, loose);
     } else {
       emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face"));
     }
@@ -78,7 +79,7 @@ void CutTool::cancel() {
   at_ = nullptr;
   stroke_.clear();
   crossed_.clear();
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 std::span<const QPointF> CutTool::stroke(const View& view) const {

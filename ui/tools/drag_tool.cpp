@@ -61,24 +61,24 @@ void DragTool::hover(View& view, QPointF position) {
     prepare(std::nullopt);
   } else {
     const auto element = point || onRing ? std::nullopt : view.elementAt(position);
-    document_.setHighlight({element, false, {}});
+    document_.highlight().set({element, false, {}});
     prepare(element);
   }
 }
 
 /// Prepares the drag that a press would begin, if it would grab one element: a selection is grabbed as a whole.
 void DragTool::prepare(std::optional<ElementId> element) {
-  const auto& selected = document_.selection().elements;
+  const auto& selected = document_.selection().elements();
   const bool ofSelection = element && selected.size() > 1 && std::ranges::binary_search(selected, *element);
-  document_.prepareDrag(ofSelection ? std::nullopt : element);
+  document_.solvers().prepare(ofSelection ? std::nullopt : element);
 }
 
 void DragTool::hoverBrush(View& view, QPointF position) {
   outline(view, position);
-  Highlight highlight;
+  Marks highlight;
   std::ranges::set_difference(withinBrush(view, position), document_.pins(), std::back_inserter(highlight.handle));
   brush_.setReached(highlight.handle.size());
-  document_.setHighlight(highlight);
+  document_.highlight().set(highlight);
 }
 
 /// Draws the brush around a position.
@@ -109,7 +109,7 @@ void DragTool::leave(View& view) {
   }
   controlPoints_.mark({});
   setRingHovered(nullptr);
-  document_.prepareDrag({});
+  document_.solvers().prepare({});
   if (!outline_.empty()) {
     outline_.clear();
     view.update();
@@ -141,7 +141,7 @@ bool DragTool::pressOnPoint(View& view, QPointF position) {
     start_ = controlPoints_.position(*point_);
     gripAt_ = view.pointAt(position, start_);
     controlPoints_.mark(point_, true);
-    document_.grabControlPoint(point_->point);
+    document_.handle().grabControlPoint(point_->point);
   }
   return point_.has_value();
 }
@@ -171,14 +171,14 @@ std::vector<ElementId> DragTool::elementsToGrab(View& view, QPointF position) co
   if (!element) {
     return {};
   }
-  const auto& selected = document_.selection().elements;
+  const auto& selected = document_.selection().elements();
   const bool ofSelection = selected.size() > 1 && std::ranges::binary_search(selected, *element);
   return ofSelection ? selected : std::vector{*element};
 }
 
 void DragTool::grab(View& view, QPointF position, const std::vector<ElementId>& elements, Grip grip) {
-  document_.grab(elements);
-  const std::vector<ElementId> held(document_.held().begin(), document_.held().end());
+  document_.handle().grab(elements);
+  const std::vector<ElementId> held(document_.handle().held().begin(), document_.handle().held().end());
   if (held.empty()) {
     return;  // all are pinned: the document refuses them, and a message gives the reason
   }
@@ -192,9 +192,9 @@ void DragTool::grab(View& view, QPointF position, const std::vector<ElementId>& 
   if (grip_ == Grip::element) {
     start_ = view.position(held.front());
     gripAt_ = view.pointAt(position, start_);
-    document_.setHighlight({held.front(), true, {}});
+    document_.highlight().set({held.front(), true, {}});
   } else {
-    document_.setHighlight({std::nullopt, true, {}, held});
+    document_.highlight().set({std::nullopt, true, {}, held});
   }
   if (grip_ == Grip::ring) {
     setRingHovered(&view);
@@ -214,7 +214,7 @@ void DragTool::move(View& view, QPointF position, Qt::KeyboardModifiers modifier
     return;
   }
   const Point target = start_ + pointOf(view.pointAt(position, start_) - gripAt_);
-  grip_ == Grip::element ? document_.drag(target) : document_.dragControlPoint(target);
+  grip_ == Grip::element ? document_.handle().drag(target) : document_.handle().dragControlPoint(target);
 }
 
 void DragTool::moveHandle(View& view, QPointF position, bool turns) {
@@ -224,7 +224,7 @@ void DragTool::moveHandle(View& view, QPointF position, bool turns) {
   if (turns) {
     outline_.clear();
     turn(view, position);
-    ring_.showRotation({document_.held().begin(), document_.held().end()}, view.panel(), position,
+    ring_.showRotation({document_.handle().held().begin(), document_.handle().held().end()}, view.panel(), position,
                        motion_.rotation.degrees);
   } else {
     motion_.by = motion_.byBefore + pointOf(view.pointAt(position, start_) - gripAt_);
@@ -234,7 +234,7 @@ void DragTool::moveHandle(View& view, QPointF position, bool turns) {
     }
   }
   motion_.cursor = position;
-  document_.dragBy(motion_.by, motion_.rotation);
+  document_.handle().dragBy(motion_.by, motion_.rotation);
 }
 
 /// Changes between translation and rotation at the last position of the cursor, so that the handle does not jump.
@@ -278,13 +278,13 @@ void DragTool::cancel() {
   if (busy()) {
     grip_ = Grip::nothing;
     point_.reset();
-    document_.release();
+    document_.handle().release();
   }
   controlPoints_.mark({});
   ring_.hideRotation();
   setRingHovered(nullptr);
   outline_.clear();
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 /// Cancels the drag and restores the object. Without a drag, makes the brush grab one element again; without a brush,
@@ -293,11 +293,11 @@ void DragTool::escape() {
   if (busy()) {
     grip_ = Grip::nothing;
     point_.reset();
-    document_.cancelDrag();
+    document_.handle().cancel();
   } else if (brush_.radius() > 0) {
     brush_.setNotches(0);
-  } else if (document_.selection().elements.size() > 1) {
-    document_.select({});
+  } else if (document_.selection().elements().size() > 1) {
+    document_.selection().set({});
   }
   cancel();
 }

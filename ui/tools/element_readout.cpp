@@ -30,14 +30,14 @@ ElementReadout::ElementReadout(const Document& document, const Measurement& meas
   refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ElementReadout::updateText);
   const auto later = [this] {
-    if (!refresh_.isActive() && (document_.highlight().element || holdsMany() || measurement_.from())) {
+    if (!refresh_.isActive() && (document_.highlight().marks().element || holdsMany() || measurement_.from())) {
       refresh_.start();
     }
   };
-  connect(&document, &Document::frameReady, this, later);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, later);
   connect(&document, &Document::softnessChanged, this, later);
   connect(&document, &Document::cutsChanged, this, later);
-  connect(&document, &Document::highlightChanged, this, &ElementReadout::updateText);
+  connect(&document.highlight(), &Highlight::changed, this, &ElementReadout::updateText);
   connect(&measurement, &Measurement::changed, this, &ElementReadout::updateText);
 }
 
@@ -47,7 +47,7 @@ void ElementReadout::setHint(const QString& hint) {
 }
 
 void ElementReadout::updateText() {
-  const auto& element = document_.highlight().element;
+  const auto& element = document_.highlight().marks().element;
   // At an end of the measured distance, the distance is more useful.
   const bool measured = element && (element == measurement_.from() || element == measurement_.to());
   setText(element && !measured  ? describe(*element)
@@ -57,7 +57,7 @@ void ElementReadout::updateText() {
 }
 
 bool ElementReadout::holdsMany() const {
-  return document_.highlight().grabbed && !document_.highlight().handle.empty();
+  return document_.highlight().marks().grabbed && !document_.highlight().marks().handle.empty();
 }
 
 /// Returns the panels; the panel under the cursor comes first.
@@ -74,11 +74,11 @@ std::vector<int> ElementReadout::panelsInOrder() const {
 /// Describes a handle of many elements in all panels by the position of its middle.
 QString ElementReadout::describeHandle() const {
   QString text = QStringLiteral("<b>Handle of %1</b>")
-                     .arg(counted(document_.highlight().handle.size(), QStringLiteral("element")));
+                     .arg(counted(document_.highlight().marks().handle.size(), QStringLiteral("element")));
   for (const int panel : panelsInOrder()) {
     text += QStringLiteral("  ·  %1: middle %2")
                 .arg(panelName(panel),
-                     coordinates(*document_.mesh(), middleIn(document_, panel, document_.highlight().handle)));
+                     coordinates(*document_.mesh(), middleIn(document_, panel, document_.highlight().marks().handle)));
   }
   return text;
 }
@@ -100,7 +100,7 @@ QString ElementReadout::describe(ElementId element) const {
                                             : QStringLiteral("  ·  ") + counted(softness.links, QStringLiteral("link"));
   const QString head = QStringLiteral("<b>Element %L1</b>%2")
                            .arg(element)
-                           .arg(document_.isPinned(element) ? QStringLiteral(", pinned") : QString());
+                           .arg(isPinned(document_, element) ? QStringLiteral(", pinned") : QString());
   for (const QString& text :
        {head + place + others + links + softnessInWords(softness), head + place + others + links}) {
     if (hasRoomFor(text)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "document/edits.h"
 #include "drawing/prepared_levels.h"
 #include "elastic/limits.h"
 #include "files/mesh/fill.h"
@@ -143,7 +144,7 @@ void Filling::start() {
         const MeshPointer filled = chainmail::fill(*surface, size, progress.part(0, 0.9));
         prepareLevels(filled, progress.part(0.9, 1));
         return [this, name, filled] {
-          document_.reworkMesh(filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
+          edits::reworkMesh(document_, filled, name + QStringLiteral(", filled"), QStringLiteral("fill %1").arg(name));
         };
       });
 }

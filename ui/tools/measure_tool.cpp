@@ -11,7 +11,7 @@ QString MeasureTool::hint() const {
 
 void MeasureTool::hover(View& view, QPointF position) {
   const auto element = view.elementAt(position);
-  document_.setHighlight({element, false, {}});
+  document_.highlight().set({element, false, {}});
   if (busy()) {
     measurement_.lead(element);
   }
@@ -33,12 +33,12 @@ void MeasureTool::cancel() {
   if (busy()) {
     measurement_.clear();
   }
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 void MeasureTool::escape() {
   measurement_.clear();
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 }  // namespace chainmail

@@ -3,6 +3,7 @@
 #include <QPushButton>
 
 #include "common/text.h"
+#include "document/element_facts.h"
 
 namespace chainmail {
 
@@ -51,7 +52,7 @@ void PinBar::await(int panel) {
 }
 
 void PinBar::offer() {
-  if (!awaits_ || !document_.held().empty() || panel_ >= document_.panels() || !document_.lacksPins(panel_)) {
+  if (!awaits_ || !document_.handle().held().empty() || panel_ >= document_.panels() || !lacksPins(document_, panel_)) {
     return;
   }
   awaits_ = false;

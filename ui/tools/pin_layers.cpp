@@ -5,6 +5,7 @@
 
 #include "common/icons.h"
 #include "common/text.h"
+#include "document/edits.h"
 
 namespace chainmail {
 namespace {
@@ -61,7 +62,7 @@ std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
   return free;
 }
 
-void PinLayers::pin(const std::vector<ElementId>& elements) { document_.setPinned(elements, true); }
+void PinLayers::pin(const std::vector<ElementId>& elements) { edits::setPinned(document_, elements, true); }
 
 /// Hides the sides along axes that the scene does not have.
 void PinLayers::adapt() {

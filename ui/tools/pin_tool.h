@@ -20,7 +20,7 @@ class PinTool : public Tool {
   void release(View& view, QPointF position) override { hover(view, position); }
   bool clicks() const override { return true; }
   bool busy() const override { return false; }
-  void cancel() override { document_.setHighlight({}); }
+  void cancel() override { document_.highlight().set({}); }
   std::span<const QPointF> stroke(const View&) const override { return {}; }
 
  private:

@@ -26,7 +26,8 @@ constexpr double measuredPixels = 100;
 }  // namespace
 
 RotationRing::RotationRing(const Document& document) : document_(document) {
-  for (const auto signal : {&Document::selectionChanged, &Document::pinsChanged, &Document::meshChanged}) {
+  connect(&document.selection(), &Selection::changed, this, &RotationRing::followSelection);
+  for (const auto signal : {&Document::pinsChanged, &Document::meshChanged}) {
     connect(&document, signal, this, &RotationRing::followSelection);
   }
   connect(&document, &Document::meshChanged, this, &RotationRing::hideRotation);
@@ -36,7 +37,7 @@ void RotationRing::followSelection() {
   elements_.clear();
   extents_.fill({});
   if (active_ && canRotate(*document_.mesh())) {
-    std::ranges::set_difference(document_.selection().elements, document_.pins(), std::back_inserter(elements_));
+    std::ranges::set_difference(document_.selection().elements(), document_.pins(), std::back_inserter(elements_));
   }
   if (elements_.size() < 2) {
     elements_.clear();
@@ -75,7 +76,7 @@ void RotationRing::hideRotation() {
 /// Returns the extent of the elements, which may be many: it is computed once per frame.
 const RotationExtent& RotationRing::extent(const View& view) const {
   auto& kept = extents_[std::size_t(view.panel())];
-  const Frame* frame = document_.frame(view.panel());
+  const Frame* frame = document_.solvers().frame(view.panel());
   const std::uint64_t number = frame == nullptr ? 0 : frame->number, series = frame == nullptr ? 0 : frame->series;
   if (!kept || kept->frame != number || kept->series != series) {
     kept.emplace();

@@ -36,7 +36,7 @@ void SelectTool::hover(View& view, QPointF position) {
   if (pressed_) {
     cancel();  // no button is pressed: another widget received the release
   }
-  document_.setHighlight({});
+  document_.highlight().set({});
   at_ = &view;
   const bool shown = !outline_.empty();
   outline_.clear();
@@ -54,7 +54,7 @@ void SelectTool::press(View& view, QPointF position, Qt::KeyboardModifiers modif
   mode_ = modeOf(modifiers);
   start_ = last_ = position;
   mesh_ = document_.mesh();
-  before_ = document_.selection().elements;
+  before_ = document_.selection().elements();
   hit_.clear();
   if (shape_ == Shape::brush) {
     brush(view, QLineF(position, position));
@@ -85,7 +85,7 @@ void SelectTool::release(View& view, QPointF position) {
     } else if (const auto element = view.elementAt(position)) {
       hit_ = {*element};
     }
-    document_.select(combined(before_, hit_, mode_));
+    document_.selection().set(combined(before_, hit_, mode_));
   }
   pressed_ = false;
   hover(view, position);
@@ -97,7 +97,7 @@ void SelectTool::brush(View& view, QLineF along) {
   const auto reached =
       view.elementsWhere(bounds, [this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
   hit_ = combined(hit_, reached, SelectionMode::add);
-  document_.select(combined(before_, hit_, mode_));
+  document_.selection().set(combined(before_, hit_, mode_));
 }
 
 void SelectTool::outline(QPointF position) {
@@ -114,17 +114,17 @@ void SelectTool::outline(QPointF position) {
 
 void SelectTool::cancel() {
   if (pressed_ && shape_ == Shape::brush && document_.mesh() == mesh_) {
-    document_.select(before_);
+    document_.selection().set(before_);
   }
   pressed_ = false;
   at_ = nullptr;
   outline_.clear();
-  document_.setHighlight({});
+  document_.highlight().set({});
 }
 
 void SelectTool::escape() {
   if (!pressed_) {
-    document_.select({});
+    document_.selection().set({});
   }
   cancel();
 }

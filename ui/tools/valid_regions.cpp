@@ -33,8 +33,8 @@ ValidRegions::ValidRegions(const Document& document)
       emit changed();
     }
   };
-  connect(&document, &Document::highlightChanged, this, follow);
-  connect(&document, &Document::selectionChanged, this, follow);
+  connect(&document.highlight(), &Highlight::changed, this, follow);
+  connect(&document.selection(), &Selection::changed, this, follow);
   connect(&document, &Document::softnessChanged, this, follow);
 }
 
@@ -47,10 +47,10 @@ std::vector<ElementId> ValidRegions::elements() const {
   if (!shown_->isChecked()) {
     return {};
   }
-  if (const auto& element = document_.highlight().element) {
+  if (const auto& element = document_.highlight().marks().element) {
     return {*element};
   }
-  const auto& selected = document_.selection().elements;
+  const auto& selected = document_.selection().elements();
   return selected.size() <= elementsShown ? selected : std::vector<ElementId>();
 }
 
@@ -60,7 +60,7 @@ QString ValidRegions::note(int /*panel*/) const {
   }
   const auto all = elements();
   if (all.empty()) {
-    return document_.selection().elements.size() > elementsShown
+    return document_.selection().elements().size() > elementsShown
                ? QStringLiteral("valid regions: shown for up to %1 selected elements").arg(elementsShown)
                : QStringLiteral("valid regions: point at an element");
   }
@@ -81,7 +81,7 @@ void ValidRegions::draw(const Canvas& canvas) {
       draw(canvas, region);
     }
     const RegionLens lens(canvas, element, regions);
-    if (document_.highlight().element && lens.isUseful()) {
+    if (document_.highlight().marks().element && lens.isUseful()) {
       lens.draw();
       for (const auto& region : regions) {
         draw(canvas, lens.magnified(region));

@@ -43,7 +43,7 @@ ExampleDrag::ExampleDrag(Document& document, QObject* parent) : QObject(parent),
 ExampleDrag::~ExampleDrag() { QCoreApplication::instance()->removeEventFilter(this); }
 
 void ExampleDrag::start() {
-  if (running() || document_.undoStack().count() != 0 || document_.highlight().grabbed) {
+  if (running() || document_.undoStack().count() != 0 || document_.highlight().marks().grabbed) {
     return;
   }
   const Mesh& mesh = *document_.mesh();
@@ -51,7 +51,7 @@ void ExampleDrag::start() {
   from_ = mesh.rest_position(element_);
   reach_ = reachInLinks * mesh.mean_link_length;
   QCoreApplication::instance()->installEventFilter(this);
-  document_.grab(element_);
+  document_.handle().grab(element_);
   since_.start();
   clock_.start();
 }
@@ -63,9 +63,9 @@ void ExampleDrag::move() {
     return;
   }
   const double share = reach_ * std::min(1.0, seconds / beginning);
-  document_.setHighlight({element_, true, {}});
-  document_.drag(from_ + Point(share * std::sin(2 * M_PI * seconds / swing),
-                               share * 0.6 * std::sin(2 * M_PI * seconds / rise), 0));
+  document_.highlight().set({element_, true, {}});
+  document_.handle().drag(from_ + Point(share * std::sin(2 * M_PI * seconds / swing),
+                                        share * 0.6 * std::sin(2 * M_PI * seconds / rise), 0));
 }
 
 void ExampleDrag::stop() {
@@ -74,11 +74,11 @@ void ExampleDrag::stop() {
   }
   clock_.stop();
   QCoreApplication::instance()->removeEventFilter(this);
-  document_.release();
+  document_.handle().release();
   document_.undo();
   document_.undoStack().clear();
-  document_.forgetMoves();
-  document_.setHighlight({});
+  document_.moves().forget();
+  document_.highlight().set({});
   // The press that ends the example must find the object at rest.
   QElapsedTimer waited;
   waited.start();
@@ -90,7 +90,7 @@ void ExampleDrag::stop() {
 
 bool ExampleDrag::showsRest() const {
   for (int panel = 0; panel < document_.panels(); ++panel) {
-    const Frame* frame = document_.frame(panel);
+    const Frame* frame = document_.solvers().frame(panel);
     if (frame == nullptr || (point_of(*frame->mesh, frame->view(), element_) - from_).norm() > asGood * reach_) {
       return false;
     }

@@ -19,6 +19,7 @@
 
 #include "common/application.h"
 #include "common/icons.h"
+#include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/mesh_repair.h"
 #include "io/picture_actions.h"
@@ -175,7 +176,7 @@ void MainWindow::listen() {
   connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setDrawOptions(showMenu_->drawOptions()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
-  connect(&document_, &Document::sessionFileChanged, this, &MainWindow::showTitle);
+  connect(&document_.files(), &DocumentFiles::sessionChanged, this, &MainWindow::showTitle);
   connect(&document_.undoStack(), &QUndoStack::cleanChanged, this,
           [this] { setWindowModified(document_.isModified()); });
   // After an edit, undo or redo, an unfinished stroke of the tool may not fit the object.
@@ -327,17 +328,17 @@ void MainWindow::fillEditMenu(QMenu& menu) {
 }
 
 void MainWindow::fillObjectMenu(QMenu& menu) {
-  resetObject_ = menu.addAction(QStringLiteral("Reset &object"), this, [this] { document_.resetObject(); });
+  resetObject_ = menu.addAction(QStringLiteral("Reset &object"), this, [this] { edits::resetObject(document_); });
   resetObject_->setObjectName(QStringLiteral("resetObject"));
   resetObject_->setShortcut(Qt::CTRL | Qt::Key_Backspace);  // R alone belongs to the brush of the Drag tool
   resetObject_->setStatusTip(
       QStringLiteral("Moves all elements to their rest positions; cuts, pins and softness stay"));
-  auto* softness = menu.addAction(QStringLiteral("Reset &softness"), this, [this] { document_.resetSoftness(); });
+  auto* softness = menu.addAction(QStringLiteral("Reset &softness"), this, [this] { edits::resetSoftness(document_); });
   softness->setObjectName(QStringLiteral("resetStiffness"));
   softness->setStatusTip(QStringLiteral(
       "Sets compression, stretch and shear of all links to their defaults, including links with values of their own"));
-  unpinAll_ =
-      menu.addAction(QStringLiteral("&Unpin all"), this, [this] { document_.setPinned(document_.pins(), false); });
+  unpinAll_ = menu.addAction(QStringLiteral("&Unpin all"), this,
+                             [this] { edits::setPinned(document_, document_.pins(), false); });
   unpinAll_->setObjectName(QStringLiteral("unpinAll"));
   unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
   menu.addMenu(&pinLayers_->menu());
@@ -476,13 +477,14 @@ void MainWindow::welcome() {
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 
 void MainWindow::showTitle() {
-  const QString file = QFileInfo(document_.sessionFile()).fileName();
+  const QString file = QFileInfo(document_.files().session()).fileName();
   setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
 }
 
 /// Keeps unsaved work for the next start. Returns false if that fails and the user wants the window to stay open.
 bool MainWindow::keepsWork() {
-  Application::guarded([this] { document_.abandonMoves(lastMovePatience); });  // then the work is kept in any case
+  Application::guarded(
+      [this] { document_.solvers().abandonMoves(lastMovePatience); });  // then the work is kept in any case
   const QString why = sessions_->keep();
   if (why.isEmpty()) {
     return true;
@@ -491,7 +493,7 @@ bool MainWindow::keepsWork() {
   if (answer == ClosingAnswer::discard) {
     return true;
   }
-  document_.goOn();
+  document_.solvers().goOn();
   if (answer == ClosingAnswer::saveAs) {
     closesWhenSaved_ = files_->saveSessionAs();
   }

@@ -54,15 +54,15 @@ void fitWhenShown(MainWindow& window) {
   auto* wait = new QObject(&window);
   Document& document = window.document();
   const auto fit = [&window, wait] {
-    if (window.document().settled()) {
+    if (window.document().solvers().settled()) {
       if (window.area().fits()) {
         window.area().fit();
       }
       wait->deleteLater();
     }
   };
-  QObject::connect(&document, &Document::frameReady, wait, fit);
-  QObject::connect(&document, &Document::becameIdle, wait, fit);
+  QObject::connect(&document.solvers(), &PanelSolvers::frameReady, wait, fit);
+  QObject::connect(&document.solvers(), &PanelSolvers::becameIdle, wait, fit);
   QObject::connect(&document.undoStack(), &QUndoStack::indexChanged, wait, &QObject::deleteLater);
 }
 
@@ -105,7 +105,7 @@ std::string layoutOf(MainWindow& window) {
                            {QStringLiteral("show"), window.showMenu().chosen()},
                            {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
                            {QStringLiteral("docks"), window.dockPlaces()},
-                           {QStringLiteral("file"), window.document().sessionFile()}};
+                           {QStringLiteral("file"), window.document().files().session()}};
   return QJsonDocument(layout).toJson(QJsonDocument::Compact).toStdString();
 }
 

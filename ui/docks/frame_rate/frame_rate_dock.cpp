@@ -66,7 +66,7 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
   clock_.start();
   timer_.setInterval(refreshMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);
-  connect(&document, &Document::frameReady, this, &FrameRateDock::receive);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, &FrameRateDock::receive);
   connect(&document, &Document::panelLeaves, this, [this](int panel) {
     histories_[std::size_t(panel)] = {};
     passesSeen_[std::size_t(panel)] = 0;
@@ -144,7 +144,7 @@ void FrameRateDock::receive(int panel) {
   if (std::size_t(panel) >= panels_.size()) {
     return;
   }
-  const Frame* frame = document_.frame(panel);
+  const Frame* frame = document_.solvers().frame(panel);
   if (frame != nullptr && !pause_->isChecked()) {
     RateSample sample = read(panel);
     if (std::exchange(passesSeen_[std::size_t(panel)], frame->statistics.passes) == frame->statistics.passes) {
@@ -163,7 +163,7 @@ RateSample FrameRateDock::read(int panel) {
   sample.time = now();
   sample.painted = panels_[std::size_t(panel)]->view().meter().framesPerSecond();
   sample.algorithm = document_.algorithm(panel);
-  if (const Frame* frame = document_.frame(panel)) {
+  if (const Frame* frame = document_.solvers().frame(panel)) {
     const Statistics& statistics = frame->statistics;
     sample.violationMax = statistics.violation.max;
     sample.violationRms = statistics.violation.rms;

@@ -69,7 +69,7 @@ void PropagationColumn::makeList() {
   list_->header()->setMinimumSectionSize(30);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& current) {
     if (const auto element = model_.elementAt(current.row())) {
-      document_.setHighlight({*element, false, {}});
+      document_.highlight().set({*element, false, {}});
     }
   });
 }

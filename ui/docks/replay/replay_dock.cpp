@@ -47,7 +47,7 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   refresh_.setSingleShot(true);
   refresh_.setInterval(tapeRefreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showMoves);
-  connect(&document, &Document::movesChanged, this, &ReplayDock::scheduleShow);
+  connect(&document.moves(), &MovePlayer::changed, this, &ReplayDock::scheduleShow);
   connect(&document, &Document::meshChanged, this, [this] {
     if (std::exchange(played_, document_.unsplitMesh()) != document_.unsplitMesh()) {
       setPlaying(false);
@@ -93,7 +93,7 @@ void ReplayDock::makeActions() {
                  [=, this] { stopAndGo(nextMove()); });
   last_ = add("replayLast", QStringLiteral("Go to &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
               QStringLiteral("Shows the object after the last move"),
-              [=, this] { stopAndGo(document_.moveHistory().length()); });
+              [=, this] { stopAndGo(document_.moves().history().length()); });
   menu_->addSeparator();
   add("openMoves", QStringLiteral("Open &moves…"), "open", {},
       QStringLiteral("Opens recorded moves of this mesh; the object returns to rest, ready to play them"),
@@ -121,7 +121,7 @@ void ReplayDock::scheduleShow() {
 }
 
 QString ReplayDock::describe() const {
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   if (history.length() == 0) {
     return QStringLiteral("No moves yet: everything you do to the object is recorded here");
   }
@@ -134,7 +134,7 @@ void ReplayDock::showMoves() {
   if (wanted_) {
     goTo(*wanted_);
   }
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   const QSignalBlocker block(slider_);
   slider_->setRange(0, int(history.length()));
   slider_->setValue(int(wanted_.value_or(history.position())));
@@ -156,7 +156,7 @@ void ReplayDock::showMoves() {
 }
 
 std::size_t ReplayDock::nextMove() const {
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   for (std::size_t i = history.position(); i < history.length(); ++i) {
     if (isMove(history.at(i))) {
       return i + 1;
@@ -166,7 +166,7 @@ std::size_t ReplayDock::nextMove() const {
 }
 
 std::size_t ReplayDock::previousMove() const {
-  const MoveHistory& history = document_.moveHistory();
+  const MoveHistory& history = document_.moves().history();
   for (std::size_t i = history.position(); i > 1; --i) {
     if (isMove(history.at(i - 2))) {
       return i - 1;
@@ -177,9 +177,9 @@ std::size_t ReplayDock::previousMove() const {
 
 /// Goes to a position in the recorded commands. While the solvers are busy, stores it as the next position.
 void ReplayDock::goTo(std::size_t position) {
-  if (document_.idle()) {
+  if (document_.solvers().idle()) {
     wanted_.reset();
-    document_.goTo(position);
+    document_.moves().goTo(position);
   } else {
     wanted_ = position;
     scheduleShow();
@@ -193,20 +193,20 @@ void ReplayDock::setPlaying(bool on) {
     playing_.stop();
     return;
   }
-  if (document_.moveHistory().position() == document_.moveHistory().length()) {
+  if (document_.moves().history().position() == document_.moves().history().length()) {
     goTo(0);
   }
   playing_.start(1000 / speed_->currentData().toInt());
 }
 
 void ReplayDock::playOn() {
-  if (!document_.idle()) {
+  if (!document_.solvers().idle()) {
     return;
   }
-  if (document_.moveHistory().position() == document_.moveHistory().length()) {
+  if (document_.moves().history().position() == document_.moves().history().length()) {
     setPlaying(false);
   } else {
-    document_.goTo(nextMove());
+    document_.moves().goTo(nextMove());
   }
 }
 
@@ -336,7 +336,7 @@ void ReplayDock::openMoves(const QString& path) {
           setPlaying(false);
           film_.cancel();
           if (mesh == document_.unsplitMesh()) {
-            document_.loadMoves(moves, QStringLiteral("open %1").arg(name));
+            document_.moves().load(moves, QStringLiteral("open %1").arg(name));
           } else {
             emit failed(QStringLiteral("%1: the object was replaced while the moves were read. Open the moves again")
                             .arg(name));
@@ -346,10 +346,10 @@ void ReplayDock::openMoves(const QString& path) {
 }
 
 void ReplayDock::saveMoves(const QString& path) {
-  document_.noteRelaxation();
+  document_.moves().noteRelaxation();
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
               [this, path, mesh = document_.unsplitMesh(),
-               moves = document_.moveHistory().commands()](const Progress& progress) -> Jobs::Finish {
+               moves = document_.moves().history().commands()](const Progress& progress) -> Jobs::Finish {
                 write_file(asPath(path), [&](std::ostream& out) { write_moves(out, moves, *mesh, progress); });
                 return [this, path] { emit saved(path); };
               });

@@ -53,7 +53,7 @@ ReportChoices::ReportChoices(Document& document)
   column->addLayout(form);
   connect(algorithms_, &QListWidget::itemChanged, this, &ReportChoices::changed);
   connect(&document, &Document::meshChanged, this, &ReportChoices::adaptToMesh);
-  connect(&document, &Document::lastDragChanged, this, &ReportChoices::adaptToLastDrag);
+  connect(&document.moves(), &MovePlayer::lastDragChanged, this, &ReportChoices::adaptToLastDrag);
   adaptToMesh();
   adaptToLastDrag();
 }
@@ -128,7 +128,7 @@ void ReportChoices::adaptToMesh() {
 }
 
 void ReportChoices::adaptToLastDrag() {
-  const bool there = !document_.lastDrag().empty();
+  const bool there = !document_.moves().lastDrag().empty();
   enable(drags_, lastDrag, there);
   if (!there) {
     drags_->setCurrentIndex(generatedDrags);
@@ -157,14 +157,16 @@ ReportThread::Order ReportChoices::order() const {
                   {}};
   order.generateDrags = drags_->currentIndex() == generatedDrags;
   if (!order.generateDrags) {
-    order.object.drags.push_back({"my last drag", "the last drag in the window", document_.lastDrag()});
+    order.object.drags.push_back({"my last drag", "the last drag in the window", document_.moves().lastDrag()});
   }
   order.options.algorithms = chosen();
   order.options.sweeps = sweeps_->currentIndex() == 0   ? std::vector{0}
                          : sweeps_->currentIndex() == 1 ? std::vector{sweepsPerMove}
                                                         : std::vector{0, sweepsPerMove};
   order.options.equilibrium = sweeps_->currentIndex() == withEquilibrium;
-  order.options.scheme = document_.sweepScheme();
+  if (const RelaxationScheme scheme = document_.relaxation().scheme; info(scheme).sweeps) {
+    order.options.scheme = scheme;
+  }
   order.options.relax_step = document_.relaxation().step;
   order.options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;
   order.options.seconds = seconds_->value();

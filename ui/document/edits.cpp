@@ -1,0 +1,252 @@
+#include "document/edits.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "body/split_state.h"
+#include "common/held_memory.h"
+#include "common/text.h"
+#include "document/document.h"
+#include "files/session/session.h"
+#include "mesh/error.h"
+
+namespace chainmail::edits {
+namespace {
+
+/// Throws Error if there is too little memory to work with a mesh, which exists already: to show it, to move it, to
+/// undo and to save it automatically. Without this check, the graphics driver would crash before the first work is
+/// saved. The figures are measured ones, with a margin: 220 bytes for an element of a grid with two panels.
+void requireMemoryFor(const Mesh& mesh) {
+  constexpr std::size_t forDrawing = 64 * 1024 * 1024, perElement = 200, perLink = 40;
+  HeldMemory trial;
+  if (!trial.hold(forDrawing + perElement * mesh.element_count() + perLink * mesh.links.size())) {
+    throw Error("memory", "there is not enough to work with this object", "close other programs or use a smaller mesh");
+  }
+}
+
+/// Returns the user's settings: during a lesson, those from before it.
+std::shared_ptr<const SettingsBefore> ownSettings(const Contents& contents) {
+  if (contents.object->before) {
+    return contents.object->before;
+  }
+  const auto& algorithms = contents.algorithms;
+  return std::make_shared<const SettingsBefore>(
+      SettingsBefore{contents.softness, contents.relaxation, contents.elastic,
+                     std::vector(algorithms.begin(), algorithms.begin() + contents.panels)});
+}
+
+/// The object after a lesson gets the user's settings, not those of the lesson.
+void takeOwnSettings(Contents& after) {
+  const auto own = ownSettings(after);
+  after.softness = own->softness;
+  after.relaxation = own->relaxation;
+  after.elastic = own->elastic;
+  for (std::size_t panel = 0; panel < std::min(own->algorithms.size(), std::size_t(after.panels)); ++panel) {
+    after.algorithms[panel] = own->algorithms[panel];
+  }
+}
+
+Change meshChange(const Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
+                  OwnSoftness own) {
+  requireMemoryFor(*mesh);
+  Change edit = document.change(text);
+  takeOwnSettings(edit.after);
+  edit.after.object = std::make_shared<DocumentObject>(mesh, name);
+  Softness carried = kept_for(*mesh, *edit.after.softness);
+  carried.links = std::move(own);
+  if (carried != *edit.after.softness) {
+    edit.after.softness = std::make_shared<const Softness>(std::move(carried));
+  }
+  return edit;
+}
+
+/// Loads the moves and the positions of a session. The solvers already have its object. The positions are posted last:
+/// relaxation sleeps after them, so that no element moves.
+void placeSession(Document& document, const std::shared_ptr<const Session>& session) {
+  document.moves().open(*session);
+  for (int panel = 0; panel < document.panels(); ++panel) {
+    const auto& saved = session->panels;
+    const auto& from = std::size_t(panel) < saved.size() ? saved[std::size_t(panel)] : saved.front();
+    // The pointer shares the session instead of copying its numbers.
+    document.solvers().post(panel, commands::SetPositions{std::shared_ptr<const Snapshot>(session, &from.positions)});
+  }
+}
+
+}  // namespace
+
+void setSoftness(Document& document, const LinkSoftness& global, const QString& text, int gesture) {
+  if (global != document.softness()) {
+    Change edit = document.change(text, gesture);
+    edit.after.softness = std::make_shared<const Softness>(Softness{
+        global, document.wholeSoftness()->links, document.wholeSoftness()->energy, document.wholeSoftness()->axes});
+    document.apply(std::move(edit));
+  }
+}
+
+void setRegionAxes(Document& document, AxesKind kind) {
+  const RegionAxes axes = kind == AxesKind::object ? principal_axes(*document.mesh()).axes : RegionAxes();
+  if (kind != AxesKind::given && axes != document.wholeSoftness()->axes) {
+    Softness softness = *document.wholeSoftness();
+    softness.axes = axes;
+    Change edit = document.change(kind == AxesKind::object ? QStringLiteral("regions along the object's axes")
+                                                           : QStringLiteral("regions along the axes"));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
+    document.apply(std::move(edit));
+  }
+}
+
+void setEnergy(Document& document, EnergyKind kind) {
+  if (kind != document.wholeSoftness()->energy) {
+    Softness softness = *document.wholeSoftness();
+    set_energy(softness, kind);
+    Change edit = document.change(QString::fromStdString(std::string(info(kind).name)) + QStringLiteral(" energy"));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
+    document.apply(std::move(edit));
+  }
+}
+
+void setSoftnessOf(Document& document, const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own) {
+  Softness softness = *document.wholeSoftness();
+  own ? softness.links.set(links, *own) : softness.links.erase(links);
+  if (softness.links != document.wholeSoftness()->links) {
+    Change edit = document.change(counted(QStringLiteral("softness of"), links.size(), QStringLiteral("link")));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
+    document.apply(std::move(edit));
+  }
+}
+
+void resetSoftness(Document& document) {
+  if (*document.wholeSoftness() != Softness()) {
+    Change edit = document.change(QStringLiteral("reset softness"));
+    edit.after.softness = std::make_shared<const Softness>();
+    document.apply(std::move(edit));
+  }
+}
+
+void setRelaxation(Document& document, const commands::SetRelaxation& relaxation, int gesture) {
+  const commands::SetRelaxation& present = document.relaxation();
+  if (relaxation != present) {
+    Change edit = document.change(relaxation.on == present.on ? QStringLiteral("relaxation settings")
+                                  : relaxation.on             ? QStringLiteral("relaxation on")
+                                                              : QStringLiteral("relaxation off"),
+                                  gesture);
+    edit.after.relaxation = relaxation;
+    document.apply(std::move(edit));
+  }
+}
+
+void setSoftnessAndRelaxation(Document& document, const LinkSoftness& global, const commands::SetRelaxation& relaxation,
+                              const QString& text) {
+  if (global != document.softness() || relaxation != document.relaxation()) {
+    Change edit = document.change(text);
+    if (global != document.softness()) {
+      edit.after.softness = std::make_shared<const Softness>(Softness{
+          global, document.wholeSoftness()->links, document.wholeSoftness()->energy, document.wholeSoftness()->axes});
+    }
+    edit.after.relaxation = relaxation;
+    document.apply(std::move(edit));
+  }
+}
+
+void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture) {
+  if (options != document.elastic()) {
+    Change edit = document.change(text, gesture);
+    edit.after.elastic = options;
+    document.apply(std::move(edit));
+  }
+}
+
+void setAlgorithm(Document& document, int panel, Algorithm algorithm) {
+  try {
+    check(algorithm, *document.mesh());
+  } catch (const Error& error) {
+    emit document.refused(QString::fromStdString(error.what()));
+    emit document.algorithmChanged(panel);  // so that selectors show the running algorithm again
+    return;
+  }
+  if (document.algorithm(panel) != algorithm) {
+    Change edit = document.change(chainmail::text(info(algorithm).label));
+    edit.after.algorithms[std::size_t(panel)] = algorithm;
+    document.apply(std::move(edit));
+  }
+}
+
+void setPinned(Document& document, const std::vector<ElementId>& elements, bool pinned) {
+  if (!elements.empty()) {
+    Change edit = document.change(
+        counted(pinned ? QStringLiteral("pin") : QStringLiteral("unpin"), elements.size(), QStringLiteral("element")));
+    (pinned ? edit.pin : edit.unpin) = elements;
+    document.apply(std::move(edit));
+  }
+}
+
+void cut(Document& document, const std::vector<LinkId>& links) {
+  if (!links.empty()) {
+    Change edit = document.change(counted(QStringLiteral("cut"), links.size(), QStringLiteral("link")));
+    edit.cut = links;
+    document.apply(std::move(edit));
+  }
+}
+
+void split(Document& document, const SplitPointer& split, const std::vector<LinkId>& cut) {
+  Change edit = document.change(QStringLiteral("cut along a stroke"));
+  std::vector<LinkId> all = cuts_after(*split, document.cuts().links());
+  std::ranges::set_difference(cuts_after(*split, cut), all, std::back_inserter(edit.cut));
+  const auto old = all.insert(all.end(), edit.cut.begin(), edit.cut.end());
+  std::inplace_merge(all.begin(), old, all.end());
+  edit.after.object = withMesh(*edit.after.object, split->after, all, pins_after(*split, document.pins()));
+  edit.after.softness = softness_after(*split, document.wholeSoftness());
+  edit.split = split;
+  document.apply(std::move(edit));
+}
+
+void resetObject(Document& document) {
+  document.moves().endSweeps();
+  Change edit = document.change(QStringLiteral("reset object"));
+  edit.resets = true;
+  document.apply(std::move(edit));
+}
+
+void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
+                 OwnSoftness own) {
+  Change edit = meshChange(document, mesh, name, text, std::move(own));
+  edit.sessionFile = QString();
+  document.apply(std::move(edit));
+}
+
+void reworkMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
+                OwnSoftness own) {
+  Change edit = meshChange(document, mesh, name, text, std::move(own));
+  edit.after.object->file = document.files().mesh();
+  document.apply(std::move(edit));
+}
+
+void restore(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
+             const QString& text) {
+  requireMemoryFor(*session->mesh);
+  Change edit = document.change(text);
+  auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
+  object->parts.cut(object->cuts, session->cuts);
+  object->pins = session->pins;
+  if (!session->lesson.steps.empty()) {
+    object->lesson = session;
+    object->before = ownSettings(edit.after);
+  }
+  object->unsplit = first_mesh(*session);
+  edit.after.object = std::move(object);
+  edit.after.softness = session->softness;
+  edit.after.relaxation = session->relaxation;
+  edit.after.elastic = session->elastic;
+  for (std::size_t panel = 0; panel < std::size_t(document.panels()); ++panel) {
+    Algorithm& algorithm = edit.after.algorithms[panel];
+    algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
+                : fits(algorithm, *session->mesh) ? algorithm
+                                                  : Algorithm::natural_queue;
+  }
+  edit.sessionFile = file;
+  edit.carryOut = [&document, session] { placeSession(document, session); };
+  document.apply(std::move(edit));
+}
+
+}  // namespace chainmail::edits

@@ -1,0 +1,239 @@
+#include "document/move_player.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "common/application.h"
+#include "document/document.h"
+#include "files/session/session.h"
+
+namespace chainmail {
+namespace {
+
+constexpr int travelGesture = std::numeric_limits<int>::max();
+constexpr int lessonGesture = travelGesture - 1;
+// Waypoints: largest number of saved states, and smallest number of commands between two of them.
+constexpr std::size_t maxWaypoints = 16;
+constexpr std::size_t leastApart = 32;
+constexpr std::uint64_t maxSweepsNoted = 1'000'000;
+
+/// True if the object of a session is as recorded moves expect it at their beginning.
+bool startsFromRest(const Session& session) {
+  return session.moves_done == 0 && session.cuts.empty() && session.pins.empty() && *session.softness == Softness() &&
+         !session.relaxation.on &&
+         std::ranges::all_of(session.panels, [](const auto& panel) { return panel.positions.is_at_rest(); });
+}
+
+}  // namespace
+
+const MoveHistory& MovePlayer::history() const { return std::as_const(document_).solvers().log().history(); }
+
+/// A session without moves gets recorded commands that start with the object at rest.
+void MovePlayer::open(const Session& session) {
+  const std::vector<Command> object{commands::SetSoftness{session.softness}, commands::Cut{session.cuts},
+                                    commands::Pin{session.pins}};
+  const bool hasMoves = !session.moves.empty();
+  CommandLog& log = document_.solvers().log();
+  log.flush();  // to the history that is replaced below
+  log.history().load(hasMoves ? session.moves : object);
+  log.history().go_to(hasMoves ? session.moves_done : object.size());
+  lessonTimeline_ = history().timeline();
+  replayed_ = hasMoves && startsFromRest(session);
+}
+
+void MovePlayer::noteSent(const Command& command) {
+  replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
+                            std::holds_alternative<commands::DropState>(command));
+  Application::guarded([this] { emit changed(); });
+}
+
+void MovePlayer::noteDeparture() {
+  dropWaypoints();
+  replayed_ = false;
+}
+
+void MovePlayer::forget() {
+  document_.solvers().log().history().load({});
+  emit changed();
+  emit lastDragChanged();
+}
+
+void MovePlayer::noteRelaxation() {
+  const Frame* now = document_.solvers().frame(0);
+  if (!document_.relaxation().on || now == nullptr || now->statistics.sweeps == 0 ||
+      now->statistics.passes == relaxationNoted_) {
+    return;
+  }
+  relaxationNoted_ = now->statistics.passes;
+  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, maxSweepsNoted);
+  document_.solvers().log().history().note(
+      commands::Relax{static_cast<std::uint32_t>(sweeps), document_.relaxation().step, document_.relaxation().scheme});
+  emit changed();
+}
+
+/// The waypoints lack the skipped sweeps.
+void MovePlayer::endSweeps() {
+  if (!document_.solvers().idle()) {
+    document_.solvers().cutSweeps();
+    noteDeparture();
+  }
+}
+
+void MovePlayer::goTo(std::size_t position) {
+  noteRelaxation();
+  position = std::min(position, history().length());
+  if (position == history().position()) {
+    return;
+  }
+  endSweeps();
+  Change edit = document_.change(QStringLiteral("replay"), travelGesture);
+  edit.after.relaxation.on = false;
+  const MeshPointer first = history().first_mesh();
+  if (first) {
+    replaceSplit(edit, history().object(position), first);
+  }
+  edit.carryOut = [this, position, first] { travel(position, first); };
+  edit.followsMoves = true;
+  document_.apply(std::move(edit));
+  emit changed();
+}
+
+/// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
+/// recorded commands begin; null if that is the present one.
+void MovePlayer::replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const {
+  if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != document_.mesh()) {
+    edit.after.object = withMesh(*edit.after.object, other, then.cuts, then.pins);
+    edit.after.softness = then.softness;
+  }
+}
+
+void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text) {
+  endSweeps();
+  Change edit = document_.change(text);
+  edit.after.relaxation.on = false;
+  const MeshPointer first = document_.unsplitMesh();
+  replaceSplit(edit, {}, first);
+  edit.carryOut = [this, moves, first] {
+    goToBeginning(first);
+    document_.solvers().log().history().load(*moves);
+    replayed_ = true;
+  };
+  edit.followsMoves = true;
+  document_.apply(std::move(edit));
+  emit changed();
+}
+
+bool MovePlayer::recordsLesson() const {
+  return document_.lesson() && history().timeline() == lessonTimeline_ &&
+         history().length() >= document_.lesson()->moves.size();
+}
+
+/// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
+bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
+  return recordsLesson() && replayed_ && !document_.handle().isActive() && !document_.relaxation().on &&
+         document_.elastic() == document_.lesson()->elastic &&
+         std::ranges::equal(algorithms, document_.runningAlgorithms());
+}
+
+bool MovePlayer::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
+  return followsLesson(algorithms) && history().position() == position;
+}
+
+bool MovePlayer::onlyLessonMoved() const {
+  const int clean = document_.undoStack().cleanIndex();
+  return clean >= 0 && clean == document_.undoStack().index() - 1 &&
+         document_.undoStack().command(clean)->id() == lessonGesture;
+}
+
+void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) {
+  if (!document_.lesson() || isInLesson(position, algorithms)) {
+    return;
+  }
+  endSweeps();
+  const bool goesOn = followsLesson(algorithms);
+  Change edit = document_.change(QStringLiteral("lesson"), lessonGesture);
+  edit.after.relaxation.on = false;
+  edit.after.elastic = document_.lesson()->elastic;
+  std::ranges::copy(algorithms, edit.after.algorithms.begin());
+  const MeshPointer first = first_mesh(*document_.lesson());
+  if (first_mesh(document_.lesson()->moves) || first != document_.mesh()) {
+    MoveHistory moves;
+    moves.load(document_.lesson()->moves);
+    replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
+  }
+  edit.carryOut = [this, position, goesOn, first, session = document_.lesson()] {
+    if (!goesOn) {
+      noteDeparture();
+    }
+    if (!recordsLesson()) {
+      document_.solvers().log().flush();
+      document_.solvers().log().history().load(session->moves);
+      lessonTimeline_ = history().timeline();
+    }
+    travel(std::min(position, history().length()), first);
+  };
+  edit.followsMoves = true;
+  document_.apply(std::move(edit));
+  emit changed();
+}
+
+/// Replays the commands from the nearest known state up to `position`. Another algorithm, or relaxation in idle time,
+/// may make the result of a replay differ from that of the live moves. So the current state counts as known only after
+/// a replay. `first` is the mesh with which the commands begin; null if that is the present one.
+void MovePlayer::travel(std::size_t position, const MeshPointer& first) {
+  MoveHistory& history = document_.solvers().log().history();
+  if (waypointTimeline_ != history.timeline()) {
+    dropWaypoints();
+    waypointTimeline_ = history.timeline();
+  }
+  std::size_t at = history.position();
+  if (!replayed_ || position < at) {
+    const auto after = waypoints_.upper_bound(position);
+    at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
+    after == waypoints_.begin() ? goToBeginning(first)
+                                : document_.solvers().log().replay(commands::RestoreState{std::prev(after)->second});
+  }
+  for (; at < position; ++at) {
+    keepWaypoint(at);
+    document_.solvers().log().replay(history.at(at));
+  }
+  history.go_to(position);
+  replayed_ = true;
+}
+
+/// Resets the object: at rest, uncut, unpinned, with the default softness. Recorded commands always start from this
+/// state. `first` is the mesh before it was split; null if that is the present one.
+void MovePlayer::goToBeginning(const MeshPointer& first) {
+  document_.solvers().log().replay(commands::Release{});
+  if (first && first != document_.mesh()) {
+    document_.solvers().log().replay(commands::ReplaceMesh{first});
+    document_.solvers().log().replay(commands::SetSoftness{});
+    return;
+  }
+  document_.solvers().log().replay(commands::Uncut{document_.cuts().links()});
+  document_.solvers().log().replay(commands::Unpin{document_.pins()});
+  document_.solvers().log().replay(commands::SetSoftness{});
+  document_.solvers().log().replay(commands::Reset{});
+}
+
+/// Saves a waypoint if the previous one is far enough away. It does so only between two drags, because a state does not
+/// include the handle.
+void MovePlayer::keepWaypoint(std::size_t position) {
+  const std::size_t apart = std::max(leastApart, history().length() / maxWaypoints);
+  const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
+  if (position >= last + apart && std::holds_alternative<commands::Grab>(history().at(position))) {
+    waypoints_[position] = document_.newState();
+    document_.solvers().log().replay(commands::KeepState{waypoints_[position]});
+  }
+}
+
+void MovePlayer::dropWaypoints() {
+  for (const auto& [position, state] : waypoints_) {
+    document_.solvers().log().replay(commands::DropState{state});
+  }
+  waypoints_.clear();
+}
+
+}  // namespace chainmail

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <QObject>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "document/change.h"
+#include "simulate/move_history.h"
+
+namespace chainmail {
+
+class Document;
+
+/// The recorded commands of a document, and what brings the object to any position in them.
+class MovePlayer : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit MovePlayer(Document& document) : document_(document) {}
+
+  /// The commands carried out since the object was at rest, and the current position in them.
+  const MoveHistory& history() const;
+  /// The commands of the last drag of this mesh, without the release; empty if there was none.
+  std::vector<Command> lastDrag() const { return history().last_drag(); }
+  /// Clears the move history; positions stay.
+  void forget();
+  /// Adds the relaxation since the last pass to the recorded commands. Call it before they are saved.
+  void noteRelaxation();
+  /// Brings the object in all panels to its state after the first `position` recorded commands. Each panel uses its own
+  /// algorithm. Turns relaxation off, because its steps are recorded. Several calls in a row become one undo step.
+  void goTo(std::size_t position);
+  /// Replaces the recorded commands with moves of this mesh, and resets the object: at rest, uncut and unpinned. One
+  /// undo step.
+  void load(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
+
+  /// Brings the object to its state after the first `position` moves of its lesson, from rest, with these algorithms
+  /// (one per panel) and the lesson's options. Several calls in a row become one undo step.
+  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms);
+  /// True if the object is in the state to which goToInLesson() leads with these arguments.
+  bool isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const;
+  /// True if the recorded commands begin with the lesson's moves.
+  bool recordsLesson() const;
+  /// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.
+  bool onlyLessonMoved() const;
+
+  // For the document.
+
+  /// Replaces the recorded commands by those of a session, whose object the solvers have.
+  void open(const Session& session);
+  /// A command was sent to the solvers.
+  void noteSent(const Command& command);
+  /// The solvers do something that is not a replay: the way there may differ.
+  void noteDeparture();
+  /// Stops sweeps of relaxation, which may run for hours. Call it before the object changes.
+  void endSweeps();
+
+ signals:
+  /// The recorded commands, or the current position in them, have changed.
+  void changed();
+  void lastDragChanged();
+
+ private:
+  void travel(std::size_t position, const MeshPointer& first);
+  void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
+  void goToBeginning(const MeshPointer& first);
+  bool followsLesson(const std::vector<Algorithm>& algorithms) const;
+  void keepWaypoint(std::size_t position);
+  void dropWaypoints();
+
+  Document& document_;
+  // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
+  std::map<std::size_t, commands::StateId> waypoints_;
+  std::uint64_t waypointTimeline_ = 0;  // MoveHistory::timeline() of the waypoints
+  bool replayed_ = false;               // true if the solvers have done nothing since the last replay
+  std::uint64_t lessonTimeline_ = 0;    // MoveHistory::timeline() of the lesson's moves
+  std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
+};
+
+}  // namespace chainmail
