@@ -111,8 +111,8 @@ class WindowCut : public QObject {
     const QImage before = picture();
     dragBy(4);
     const QPointF at = view.viewPosition(32'500);
-    edits::cut(bench.document(), view.linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
-    edits::cut(bench.document(), view.linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
+    edits::cut(bench.document(), view.search().linksCrossing(QLineF(at - QPointF(80, 60), at + QPointF(70, 60))));
+    edits::cut(bench.document(), view.search().linksCrossing(QLineF(at - QPointF(80, -60), at + QPointF(70, -60))));
     bench.document().undoStack().undo();
     QVERIFY(bench.document().cuts().count() > 0);
     dragBy(3);

@@ -142,9 +142,9 @@ class WindowExact : public QObject {
     bench.trigger("parallelRays");
     bench.trigger("viewFront");
     const QPointF at = bench.view(0).viewPosition(5);  // 21, 37 and 53 are at the same position, nearer to the viewer
-    QCOMPARE(bench.view(0).elementAt(at), std::optional<ElementId>(53));
+    QCOMPARE(bench.view(0).search().elementAt(at), std::optional<ElementId>(53));
     bench.trigger("viewBack");
-    QCOMPARE(bench.view(0).elementAt(bench.view(0).viewPosition(5)), std::optional<ElementId>(5));
+    QCOMPARE(bench.view(0).search().elementAt(bench.view(0).viewPosition(5)), std::optional<ElementId>(5));
   }
 
   void aPlaneObjectHasNoOtherSides() {
@@ -159,7 +159,7 @@ class WindowExact : public QObject {
     for (const auto& mesh : {generate({MeshKind::grid, {9, 7, 1}, 1, {}}), block()}) {
       Workbench bench(mesh);
       const ElementId element = mesh->space_dimension == 3 ? 53 : 5;  // 53 is visible on the front of the block
-      QCOMPARE(bench.view(0).elementAt(bench.place(0, element)), std::optional(element));
+      QCOMPARE(bench.view(0).search().elementAt(bench.place(0, element)), std::optional(element));
       doubleClick(bench.view(0), bench.place(0, element));
       const QPointF middleOfView(bench.view(0).width() / 2.0, bench.view(0).height() / 2.0);
       for (int p = 0; p < 2; ++p) {

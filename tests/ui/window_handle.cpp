@@ -452,7 +452,7 @@ class WindowHandle : public QObject {
     View& view = bench.view(0);
     for (double radius = 20; radius < 300; radius += 2) {
       const QPointF at = view.viewPosition(ElementId(pinned.empty() ? 4 : 3)) + QPointF(0, radius);
-      if (view.rect().contains(at.toPoint()) && !view.elementAt(at)) {
+      if (view.rect().contains(at.toPoint()) && !view.search().elementAt(at)) {
         QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
         QVERIFY(held(bench).empty());
         QTest::mouseRelease(&view, Qt::LeftButton, {}, at.toPoint());

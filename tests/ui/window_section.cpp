@@ -206,13 +206,14 @@ class WindowSection : public QObject {
     bench.trigger("viewRight");  // along x: every layer is visible
     bench.settle();
     const QPointF front = bench.view(0).viewPosition(inLayer(4, width - 1 + width * 4));
-    QCOMPARE(bench.view(0).elementAt(front), std::optional(inLayer(4, width - 1 + width * 4)));
+    QCOMPARE(bench.view(0).search().elementAt(front), std::optional(inLayer(4, width - 1 + width * 4)));
     bench.trigger("section");
     bench.settle();
     const QPointF now = bench.view(0).viewPosition(inLayer(4, width - 1 + width * 4));
-    const auto found = bench.view(0).elementAt(now);
+    const auto found = bench.view(0).search().elementAt(now);
     QVERIFY(!found || bench.document().mesh()->rest_position(*found).z() <= 2);
-    for (const ElementId e : bench.view(0).elementsWhere(QRectF(bench.view(0).rect()), [](QPointF) { return true; })) {
+    for (const ElementId e :
+         bench.view(0).search().elementsWhere(QRectF(bench.view(0).rect()), [](QPointF) { return true; })) {
       QVERIFY(bench.document().mesh()->rest_position(e).z() <= 2);
     }
   }
@@ -222,7 +223,7 @@ class WindowSection : public QObject {
     bench.trigger("section");
     bench.settle();
     const QPointF at = bench.view(0).viewPosition(inLayer(2));
-    const auto crossed = bench.view(0).linksCrossing(QLineF(at - QPointF(40, 33), at + QPointF(40, 35)));
+    const auto crossed = bench.view(0).search().linksCrossing(QLineF(at - QPointF(40, 33), at + QPointF(40, 35)));
     QVERIFY(!crossed.empty());
     const Mesh& mesh = *bench.document().mesh();
     for (const LinkId link : crossed) {

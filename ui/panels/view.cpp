@@ -16,18 +16,15 @@
 
 #include "common/application.h"
 #include "document/panel_colour.h"
-#include "drawing/front_links.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
-#include "mesh/split_along.h"
 #include "mesh/surface.h"
 #include "panels/orientation_cube.h"
 
 namespace chainmail {
 namespace {
 
-constexpr double elementReach = 14;  // pixels, largest distance from the cursor at which an element is found
 constexpr int hoverMilliseconds = 16;
 constexpr std::chrono::milliseconds boxMilliseconds(4);
 constexpr int stillMilliseconds = 50;
@@ -76,6 +73,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
       panel_(panel),
       camera_(std::move(camera)),
       levels_(std::move(levels)),
+      search_(*this, document_, panel, camera_, levels_, drawOptions_),
       painter_(levels_),
       still_(this),
       hover_(this) {
@@ -225,7 +223,7 @@ std::vector<QVector3D> View::outline(bool atRest) const {
     }
     return points;
   }
-  const ClusterBoxes& all = boxes(*frame);
+  const ClusterBoxes& all = search_.boxes(*frame);
   for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
     for (unsigned corner = 0; corner < 8; ++corner) {
       const ClusterBoxes::Box& box = all[cluster];
@@ -288,128 +286,17 @@ void View::zoom(double factor, QPointF about) {
   announceCamera();
 }
 
-// Search: elements and links at a position in the view, and positions of elements in the view
-
-const ClusterBoxes& View::boxes(const Frame& frame) const {
-  boxes_.follow(levels_->at(frame.mesh, 1), frame);
-  return boxes_;
-}
+// Search, see view_search.h, and positions of elements in the view
 
 /// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the
 /// window stays responsive.
 void View::searchUnderCursor() {
   if (const Frame* frame = document_.solvers().frame(panel_);
-      frame != nullptr && !boxes_.prepare(levels_->at(frame->mesh, 1), *frame, boxMilliseconds)) {
+      frame != nullptr && !search_.prepare(*frame, boxMilliseconds)) {
     hover_.start(0);
   } else if (tool_ != nullptr) {
     tool_->hover(*this, cursor_);
   }
-}
-
-Projection View::projection() const { return {*document_.mesh(), camera_->toView(), camera_->toClip(size()), size()}; }
-
-std::function<bool(ElementId)> View::shown() const {
-  if (!drawOptions_.section) {
-    return {};
-  }
-  return [mesh = document_.mesh(), plane = *drawOptions_.section](ElementId element) {
-    return !(plane.before(mesh->rest_position(element)) > 0);
-  };
-}
-
-bool View::showsSolid() const {
-  const MeshPointer& mesh = document_.mesh();
-  return ObjectDrawing::isSolid(*mesh, drawOptions_) && (!mesh->has_cells() || levels_->hasSurface(mesh));
-}
-
-std::optional<ElementId> View::elementAt(QPointF position) const {
-  const Frame* frame = document_.solvers().frame(panel_);
-  if (frame == nullptr) {
-    return std::nullopt;
-  }
-  const auto nearest = [&](const std::function<bool(ElementId)>& counts) {
-    return nearestElement(*frame, boxes(*frame), projection(), position, elementReach, counts);
-  };
-  if (!showsSolid()) {
-    return nearest(shown());
-  }
-  const QPointF reach(elementReach, elementReach);
-  const QRectF part(position - reach, position + reach);
-  const FrontFaces front(*frame, projection(), frontFaces(*frame, part), part);
-  const auto isShown = shown();
-  const auto near = nearest([&](ElementId element) { return (!isShown || isShown(element)) && !front.hides(element); });
-  // The cap of a section is none of these faces, so the face that is found there may be hidden.
-  return near || drawOptions_.section ? near : front.cornerAt(position, isShown);
-}
-
-std::vector<LinkId> View::linksCrossing(QLineF stroke) const {
-  const Frame* frame = document_.solvers().frame(panel_);
-  if (frame == nullptr) {
-    return {};
-  }
-  auto crossed = crossedLinks(*frame, boxes(*frame), document_.cuts(), projection(), stroke);
-  if (const auto isShown = shown()) {
-    std::erase_if(crossed, [&](LinkId link) {
-      const auto& [a, b] = frame->mesh->links[link];
-      return !isShown(a) && !isShown(b);
-    });
-  }
-  return crossed;
-}
-
-std::vector<LinkId> View::frontLinksCrossing(QLineF stroke) const {
-  std::vector<LinkId> crossed = linksCrossing(stroke);
-  const Frame* frame = document_.solvers().frame(panel_);
-  if (crossed.empty() || !camera_->spatial()) {
-    return crossed;
-  }
-  const Surface* surface = levels_->surfaceIfAny(frame->mesh, document_.cuts());
-  if (frame->mesh->triangles.empty() && (surface == nullptr || surface->table().empty())) {
-    return nearestLinks(*frame, boxes(*frame), projection(), stroke, crossed);
-  }
-  const auto faces = frontFaces(*frame, QRectF(stroke.p1(), stroke.p2()).normalized());
-  return unhiddenLinks(*frame, projection(), stroke, crossed, faces);
-}
-
-/// Returns the faces that may hide links in a part of the view.
-std::vector<Face> View::frontFaces(const Frame& frame, QRectF part) const {
-  auto faces = wholeFaces(frame, boxes(frame), document_.cuts(), projection(), part);
-  if (const Surface* surface = levels_->surfaceIfAny(frame.mesh, document_.cuts())) {
-    appendFaces(*surface, faces);
-  }
-  if (const auto isShown = shown()) {
-    std::erase_if(faces, [&](const Face& face) { return std::ranges::none_of(face, isShown); });
-  }
-  return faces;
-}
-
-bool View::splitsFaces() const { return drawOptions_.faces && can_split(*document_.mesh()); }
-
-SplitPointer View::splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const {
-  const Frame* frame = document_.solvers().frame(panel_);
-  if (frame == nullptr || (!reached.empty() && reached.back() >= frame->mesh->link_count())) {
-    return nullptr;
-  }
-  const Mesh& mesh = *frame->mesh;
-  const Projection project = projection();
-  std::vector<ViewPlace> places;
-  places.reserve(mesh.element_count());
-  for (std::size_t first = 0; first < frame->positions.size(); first += std::size_t(mesh.space_dimension)) {
-    const auto at = project(frame->positions.data() + first);
-    places.push_back({{at.x, at.y}, at.distance});
-  }
-  std::vector<Eigen::Vector2d> points;
-  for (const QPointF& point : stroke) {
-    points.emplace_back(point.x(), point.y());
-  }
-  SplitEdit edit = split_along(mesh, places, points, reached);
-  return edit.empty() ? nullptr : make_split(frame->mesh, std::move(edit));
-}
-
-std::vector<ElementId> View::elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const {
-  const Frame* frame = document_.solvers().frame(panel_);
-  return frame == nullptr ? std::vector<ElementId>()
-                          : chainmail::elementsWhere(*frame, boxes(*frame), projection(), bounds, inside, shown());
 }
 
 Point View::position(ElementId element) const {
@@ -426,7 +313,7 @@ QPointF View::viewPosition(ElementId element) const {
   if (frame == nullptr) {
     return {};
   }
-  const auto at = projection()(frame->positions.data() + std::size_t{element} * frame->mesh->space_dimension);
+  const auto at = search_.projection()(frame->positions.data() + std::size_t{element} * frame->mesh->space_dimension);
   return {at.x, at.y};
 }
 
@@ -488,7 +375,7 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
     return;
   }
   cursor_ = event->position();
-  if (const auto element = elementAt(cursor_)) {
+  if (const auto element = search_.elementAt(cursor_)) {
     camera_->centreOn(asVector(position(*element)));
     announceCamera();
   }
@@ -633,7 +520,7 @@ DetailBudget::Detail View::chooseDetail() {
   const Mesh& mesh = *frame->mesh;
   const LastPicture now{&mesh, frame->number, frame->series, camera_->toView(), camera_->toClip(size())};
   const LastPicture before = std::exchange(lastPicture_, now);
-  const bool slow = showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::minShapes;
+  const bool slow = search_.showsSolid() || mesh.links.size() + mesh.triangles.size() > DetailBudget::minShapes;
   if (!slow || budget_.affordsComplete()) {
     return DetailBudget::Detail::complete;
   }
@@ -676,7 +563,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, Detail
   scene.pixelRatio = float(pixelRatio);
   scene.detail = detail;
   scene.maxShapes = detail == DetailBudget::Detail::quick ? budget_.maxShapes() : DetailBudget::maxAtRest;
-  scene.hidesMarks = showsSolid() && ghostFrame() == nullptr;
+  scene.hidesMarks = search_.showsSolid() && ghostFrame() == nullptr;
   if (camera_->spatial()) {
     const auto [near, far] = camera_->depthRange();
     scene.fog = QVector2D(float(near), float(far));
@@ -764,22 +651,22 @@ void View::drawMarks(const PaintTarget& on) {
 
 void View::drawHighlight(const PaintTarget& on) {
   const auto& in = on.scene;
-  const Marks& highlight = document_.highlight().marks();
+  const Marks& marks = document_.highlight().marks();
   // All panels show the handle, and the links that would be cut.
-  const bool inAllPanels = links_.marks() || highlight.grabbed || !highlight.links.empty();
+  const bool inAllPanels = links_.marks() || marks.grabbed || !marks.links.empty();
   if (!inAllPanels && links_.pointed() != panel_) {
     return;
   }
-  on.own.drawLinks(in, highlight.links, colours::lit);
-  const QColor colour = highlight.grabbed ? colours::lit : colours::marked;
-  if (!highlight.handle.empty()) {
+  on.own.drawLinks(in, marks.links, colours::lit);
+  const QColor colour = marks.grabbed ? colours::lit : colours::marked;
+  if (!marks.handle.empty()) {
     const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
     const double share = camera_->spatial() ? spatialMarkShare : handleMarkShare;
     const auto diameter = float(std::clamp(share * pixelsPerLink, smallestSelected, largestHandleMark));
-    on.own.drawElements(in, highlight.handle, colour, diameter);
+    on.own.drawElements(in, marks.handle, colour, diameter);
   }
-  if (highlight.element) {
-    const ElementId element = *highlight.element;
+  if (marks.element) {
+    const ElementId element = *marks.element;
     on.own.drawElements(in, std::span(&element, 1), in.background, cursorMarkSize + markEdge);
     on.own.drawElements(in, std::span(&element, 1), colour, cursorMarkSize);
   }
@@ -806,8 +693,8 @@ void View::drawAnnotations(const PaintTarget& on) {
 
 /// Returns where in the view (logical pixels) the object is that is out of view; none if a part of it is in view.
 std::optional<QPointF> View::wayToObject() const {
-  const ClusterBoxes& all = boxes(*document_.solvers().frame(panel_));
-  const Projection seen = projection();
+  const ClusterBoxes& all = search_.boxes(*document_.solvers().frame(panel_));
+  const Projection seen = search_.projection();
   ViewBounds bounds;
   for (std::size_t cluster = 0; cluster < all.level().clusterCount(); ++cluster) {
     bounds.unite(seen.bounds(all[cluster]));

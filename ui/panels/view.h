@@ -17,6 +17,7 @@
 #include "panels/overlay.h"
 #include "panels/panel_links.h"
 #include "panels/tool.h"
+#include "panels/view_search.h"
 
 namespace chainmail {
 
@@ -86,22 +87,10 @@ class View : public QOpenGLWidget {
   void setParallel(bool parallel);
 
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
-  /// Returns the element at a position in the view, if there is one: the nearest that can be seen, otherwise the
-  /// nearest corner of the face that is seen there.
-  std::optional<ElementId> elementAt(QPointF position) const;
+  /// Finds elements, links and faces.
+  const ViewSearch& search() const { return search_; }
   /// Lets the tool hover at the cursor, when there is time: after a large move, the search may take some.
   void hoverSoon() { hover_.start(0); }
-  std::vector<LinkId> linksCrossing(QLineF stroke) const;
-  /// Returns the crossed links of the front layer; in a plane, all crossed links.
-  std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
-  /// True if a stroke may split the faces that it crosses: faces are drawn and can be split.
-  bool splitsFaces() const;
-  /// Returns the split of the faces along a stroke, between crossings of the reached links, which are ascending; null
-  /// if nothing comes apart.
-  SplitPointer splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const;
-  /// Returns the elements for whose position in the view `inside` returns true. `bounds` must contain all these
-  /// positions.
-  std::vector<ElementId> elementsWhere(QRectF bounds, const std::function<bool(QPointF)>& inside) const;
   /// Returns the position of an element in the newest frame (mesh units).
   Point position(ElementId element) const;
   /// Returns the point in space under a position in the view. It lies in the plane that contains `through` and is
@@ -160,12 +149,6 @@ class View : public QOpenGLWidget {
 
   DetailBudget::Detail chooseDetail();
   void measurePaint();
-  bool showsSolid() const;
-  /// Returns a filter for the elements that the section does not hide; empty without a section.
-  std::function<bool(ElementId)> shown() const;
-  const ClusterBoxes& boxes(const Frame& frame) const;
-  Projection projection() const;
-  std::vector<MeshLevel::Face> frontFaces(const Frame& frame, QRectF part) const;
   std::optional<QPointF> wayToObject() const;
 
   void moveCamera(QPointF travel, Qt::MouseButtons buttons);
@@ -198,9 +181,9 @@ class View : public QOpenGLWidget {
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   std::shared_ptr<MeshLevels> levels_;
-  mutable ClusterBoxes boxes_;  // of the newest frame that was searched
-  ObjectPainter painter_;
   DrawOptions drawOptions_;
+  ViewSearch search_;
+  ObjectPainter painter_;
   Ghost ghost_;
   std::unique_ptr<ObjectPainter> ghostPainter_;  // exists while there is a ghost
   FrameMeter meter_;

@@ -36,7 +36,7 @@ void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifie
     return;
   }
   stroke_.push_back(position);
-  auto crossed = frontOnly_ ? view.frontLinksCrossing(segment) : view.linksCrossing(segment);
+  auto crossed = frontOnly_ ? view.search().frontLinksCrossing(segment) : view.search().linksCrossing(segment);
   std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
   document_.highlight().add(crossed);
   view.update();
@@ -55,13 +55,13 @@ void CutTool::release(View& view, QPointF position) {
 }
 
 void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
-  if (!splits_ || !view.splitsFaces()) {
+  if (!splits_ || !view.search().splitsFaces()) {
     edits::cut(document_, links);
     return;
   }
   try {
     const auto loose = links_without_faces(*document_.mesh(), links);
-    if (const SplitPointer split = view.splitAlong(stroke, links)) {
+    if (const SplitPointer split = view.search().splitAlong(stroke, links)) {
       edits::split(document_, split, loose);
     } else if (!loose.empty() || links.empty()) {
       edits::cut(document_, loose);

@@ -60,7 +60,7 @@ void DragTool::hover(View& view, QPointF position) {
     hoverBrush(view, position);
     prepare(std::nullopt);
   } else {
-    const auto element = point || onRing ? std::nullopt : view.elementAt(position);
+    const auto element = point || onRing ? std::nullopt : view.search().elementAt(position);
     document_.highlight().set({element, false, {}});
     prepare(element);
   }
@@ -75,10 +75,10 @@ void DragTool::prepare(std::optional<ElementId> element) {
 
 void DragTool::hoverBrush(View& view, QPointF position) {
   outline(view, position);
-  Marks highlight;
-  std::ranges::set_difference(withinBrush(view, position), document_.pins(), std::back_inserter(highlight.handle));
-  brush_.setReached(highlight.handle.size());
-  document_.highlight().set(highlight);
+  Marks marks;
+  std::ranges::set_difference(withinBrush(view, position), document_.pins(), std::back_inserter(marks.handle));
+  brush_.setReached(marks.handle.size());
+  document_.highlight().set(marks);
 }
 
 /// Draws the brush around a position.
@@ -160,14 +160,14 @@ void DragTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modif
 std::vector<ElementId> DragTool::withinBrush(const View& view, QPointF position) const {
   const double radius = brush_.radius();
   const QRectF bounds(position.x() - radius, position.y() - radius, 2 * radius, 2 * radius);
-  return view.elementsWhere(bounds, [=](QPointF at) { return QLineF(position, at).length() <= radius; });
+  return view.search().elementsWhere(bounds, [=](QPointF at) { return QLineF(position, at).length() <= radius; });
 }
 
 std::vector<ElementId> DragTool::elementsToGrab(View& view, QPointF position) const {
   if (brush_.radius() > 0) {
     return withinBrush(view, position);
   }
-  const auto element = view.elementAt(position);
+  const auto element = view.search().elementAt(position);
   if (!element) {
     return {};
   }
@@ -182,7 +182,7 @@ void DragTool::grab(View& view, QPointF position, const std::vector<ElementId>& 
   if (held.empty()) {
     return;  // all are pinned: the document refuses them, and a message gives the reason
   }
-  const auto under = view.elementAt(position);
+  const auto under = view.search().elementAt(position);
   motion_ = {};
   motion_.pivot = middleIn(document_, view.panel(), held);
   motion_.cursor = position;

@@ -10,7 +10,7 @@ QString MeasureTool::hint() const {
 }
 
 void MeasureTool::hover(View& view, QPointF position) {
-  const auto element = view.elementAt(position);
+  const auto element = view.search().elementAt(position);
   document_.highlight().set({element, false, {}});
   if (busy()) {
     measurement_.lead(element);
@@ -18,7 +18,7 @@ void MeasureTool::hover(View& view, QPointF position) {
 }
 
 void MeasureTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
-  const auto element = view.elementAt(position);
+  const auto element = view.search().elementAt(position);
   if (!element) {
     measurement_.clear();
   } else if (!busy()) {

@@ -10,10 +10,12 @@ QString PinTool::hint() const {
   return QStringLiteral("Left: pin or unpin an element  ·  Object > Unpin all  ·  Ctrl+Z: undo");
 }
 
-void PinTool::hover(View& view, QPointF position) { document_.highlight().set({view.elementAt(position), false, {}}); }
+void PinTool::hover(View& view, QPointF position) {
+  document_.highlight().set({view.search().elementAt(position), false, {}});
+}
 
 void PinTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
-  if (const auto element = view.elementAt(position)) {
+  if (const auto element = view.search().elementAt(position)) {
     edits::setPinned(document_, {*element}, !isPinned(document_, *element));
   }
 }

@@ -81,8 +81,8 @@ void SelectTool::release(View& view, QPointF position) {
   if (shape_ == Shape::rectangle) {
     const QRectF rectangle = QRectF(start_, position).normalized();
     if (std::max(rectangle.width(), rectangle.height()) >= smallestRectangle) {
-      hit_ = view.elementsWhere(rectangle, [&rectangle](QPointF at) { return rectangle.contains(at); });
-    } else if (const auto element = view.elementAt(position)) {
+      hit_ = view.search().elementsWhere(rectangle, [&rectangle](QPointF at) { return rectangle.contains(at); });
+    } else if (const auto element = view.search().elementAt(position)) {
       hit_ = {*element};
     }
     document_.selection().set(combined(before_, hit_, mode_));
@@ -95,7 +95,7 @@ void SelectTool::release(View& view, QPointF position) {
 void SelectTool::brush(View& view, QLineF along) {
   const QRectF bounds = QRectF(along.p1(), along.p2()).normalized().adjusted(-radius_, -radius_, radius_, radius_);
   const auto reached =
-      view.elementsWhere(bounds, [this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
+      view.search().elementsWhere(bounds, [this, along](QPointF at) { return distanceFrom(along, at) <= radius_; });
   hit_ = combined(hit_, reached, SelectionMode::add);
   document_.selection().set(combined(before_, hit_, mode_));
 }
