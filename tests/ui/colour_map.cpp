@@ -47,15 +47,6 @@ class ColourMap : public QObject {
     }
   }
 
-  void valuesUpToTheThresholdAreNeutral() {
-    ColourScale scale;
-    scale.threshold = 0.5F;
-    scale.highest = 2;
-    QCOMPARE(colour_map::of(0.5F, scale), QColor(neutral));
-    QCOMPARE(colour_map::of(-0.5F, scale), QColor(neutral));
-    QVERIFY(colour_map::of(0.6F, scale) != QColor(neutral));
-  }
-
   void itsLightnessLeavesTheGroundsAllTheWay() {
     for (const Ground ground : {Ground::dark, Ground::light}) {
       const double away = ground == Ground::dark ? 1 : -1;

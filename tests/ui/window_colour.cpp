@@ -34,6 +34,15 @@ class WindowColour : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
+  void valuesUpToTheThresholdAreNeutral() {
+    ColourScale scale;
+    scale.threshold = 0.5F;
+    scale.highest = 2;
+    QCOMPARE(colour_map::of(0.5F, scale), QColor(colour_map::neutral));
+    QCOMPARE(colour_map::of(-0.5F, scale), QColor(colour_map::neutral));
+    QVERIFY(colour_map::of(0.6F, scale) != QColor(colour_map::neutral));
+  }
+
   void plainIsAsBeforeAndHasNoLegend() {
     Workbench bench;
     const QImage before = bench.view(0).grabFramebuffer();

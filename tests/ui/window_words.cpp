@@ -111,6 +111,33 @@ class WindowWords : public QObject {
     QVERIFY(line.share() < 0);
   }
 
+  void inTheMiddleOfAPassTheSentenceIsAboutItsEnd() {
+    ViolationLine line;
+    line.show(statisticsOf(0, 0, true), true, true);
+    QCOMPARE(line.sentence(), QStringLiteral("After the pass: no link is violated"));
+    line.show(statisticsOf(0.304, 2.84, true), true, true);
+    QCOMPARE(line.sentence(), QStringLiteral("After the pass: 30 % of links violated, worst 2.8 × rest length"));
+  }
+
+  void theSidesOfTheCameraAreNamedAfterTheUpAxis() {
+    Workbench bench;
+    const auto names = [&] {
+      QStringList sides;
+      for (const QAction* action : bench.window.findChildren<QAction*>()) {
+        if (action->text().startsWith(QStringLiteral("From ")) && action->text().endsWith(QLatin1Char(')'))) {
+          sides << action->text().mid(5);
+        }
+      }
+      sides.sort();
+      return sides.join(QStringLiteral(", "));
+    };
+    bench.find<QAction>("upZ")->setChecked(false);
+    QCOMPARE(names(), QStringLiteral("+x (right), +y (top), +z (front), −x (left), −y (bottom), −z (back)"));
+    bench.find<QAction>("upZ")->setChecked(true);
+    QCOMPARE(names(), QStringLiteral("+x (right), +y (back), +z (top), −x (left), −y (front), −z (bottom)"));
+    bench.find<QAction>("upZ")->setChecked(false);
+  }
+
   void aNarrowLineSaysItShorterAndAWideOneAllAgain() {
     ViolationLine line;
     line.resize(wide, line.sizeHint().height());
