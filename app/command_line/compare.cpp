@@ -62,7 +62,7 @@ std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
   }
   if (options.meshes->count() == 0) {
     refuse_pins(options);
-    return with_frames(report::default_cases(softness), options);
+    return with_axes(report::default_cases(softness), options);
   }
   std::vector<report::Case> cases;
   for (const std::string& name : options.meshes->results()) {

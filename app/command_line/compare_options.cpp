@@ -132,13 +132,13 @@ report::Case case_of(const std::string& file, const CompareArguments& arguments)
   const Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
   OpenedMesh opened = chainmail::open_mesh(path);
-  const RegionAxes frame = frame_of(arguments.softness, *opened.mesh);
+  const RegionAxes axes = axes_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()),
           "mesh from a file",
           opened.mesh,
           {},
           {},
-          {softness.global, std::move(opened.softness), softness.energy, frame},
+          {softness.global, std::move(opened.softness), softness.energy, axes},
           {}};
 }
 
@@ -148,9 +148,9 @@ void refuse_pins(const CompareArguments& arguments) {
   }
 }
 
-std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments) {
+std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments) {
   for (report::Case& one : cases) {
-    one.softness.axes = frame_of(arguments.softness, *one.mesh);
+    one.softness.axes = axes_of(arguments.softness, *one.mesh);
   }
   return cases;
 }

@@ -34,7 +34,7 @@ report::Case case_of(const std::string& file, const CompareArguments& arguments)
 /// Throws Error if there are pins: built-in objects have their own, or none.
 void refuse_pins(const CompareArguments& arguments);
 /// Gives built-in objects the frame of the option.
-std::vector<report::Case> with_frames(std::vector<report::Case> cases, const CompareArguments& arguments);
+std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments);
 
 /// Returns true if contestants are calibrated.
 bool is_calibrated(const CompareArguments& arguments);

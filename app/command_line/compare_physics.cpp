@@ -48,7 +48,7 @@ std::vector<report::Case> physics_cases(const CompareArguments& arguments) {
   }
   if (arguments.meshes->count() == 0) {
     refuse_pins(arguments);
-    return with_frames(report::physics_cases(softness, elastic), arguments);
+    return with_axes(report::physics_cases(softness, elastic), arguments);
   }
   std::vector<report::Case> cases;
   for (const std::string& file : arguments.meshes->results()) {

@@ -235,7 +235,7 @@ void deform(const DeformArguments& options) {
   OpenedMesh opened = open_mesh(options.mesh);
   const MeshPointer mesh = opened.mesh;
   softness.links = std::move(opened.softness);
-  softness.axes = frame_of(options.global, *mesh);
+  softness.axes = axes_of(options.global, *mesh);
   check_algorithm(options, algorithm, *mesh);
   if (const auto file = value_of(options.softness)) {
     for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {

@@ -42,7 +42,7 @@ EnergyKind energy_of(const CLI::Option* option) {
   return energy_kind_of(*name);
 }
 
-RegionAxes frame_of(const SoftnessArguments& arguments, const Mesh& mesh) {
+RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh) {
   const auto text = value_of(arguments.axes);
   if (!text || *text == "axes") {
     return {};

@@ -24,6 +24,6 @@ Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usu
 
 /// Returns the axes of the option for this mesh; those of the world without the option. Throws Error, with the option,
 /// if the value is not one or does not fit the mesh. Warns, on standard error, if principal axes do not exist.
-RegionAxes frame_of(const SoftnessArguments& arguments, const Mesh& mesh);
+RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh);
 
 }  // namespace chainmail::command_line

@@ -48,13 +48,13 @@ void add_calibrate(py::module_& module) {
   module.def(
       "calibrate",
       [](Object& body, const std::string& method, std::uint64_t seed, int drags, int held_out, int evaluations,
-         int max_sweeps, const std::string& scheme, const std::optional<api::Job>& job, const py::object& progress) {
-        return calibrate(body, {method, seed, drags, held_out, evaluations, max_sweeps, scheme_of(scheme)},
+         int most_sweeps, const std::string& scheme, const std::optional<api::Job>& job, const py::object& progress) {
+        return calibrate(body, {method, seed, drags, held_out, evaluations, most_sweeps, scheme_of(scheme)},
                          job.value_or(api::Job()), progress);
       },
       py::arg("body"), py::kw_only(), py::arg("method") = defaults.method, py::arg("seed") = defaults.seed,
       py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
-      py::arg("evaluations") = defaults.evaluations, py::arg("max_sweeps") = defaults.max_sweeps,
+      py::arg("evaluations") = defaults.evaluations, py::arg("most_sweeps") = defaults.most_sweeps,
       py::arg("scheme") = "mean", py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error\n"
       "against neo-Hookean finite elements on the same cells.\n\n"

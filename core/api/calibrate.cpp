@@ -25,8 +25,8 @@ CalibrationOptions calibration_of(const inner::Body& body, const CalibrateOption
   check_at_least_one("drags", options.drags);
   check_at_least_one("held_out", options.held_out);
   check_at_least_one("evaluations", options.evaluations);
-  if (options.max_sweeps < 0) {
-    throw Error("max_sweeps", "it is below 0", "use 0 or more");
+  if (options.most_sweeps < 0) {
+    throw Error("most_sweeps", "it is below 0", "use 0 or more");
   }
   CalibrationOptions how;
   how.elastic = body.elastic();
@@ -36,7 +36,7 @@ CalibrationOptions calibration_of(const inner::Body& body, const CalibrateOption
   how.drags = options.drags;
   how.held_out = options.held_out;
   how.evaluations = options.evaluations;
-  how.max_sweeps = options.max_sweeps;
+  how.max_sweeps = options.most_sweeps;
   how.scheme = scheme_of(options.scheme);
   how.energy = body.softness().energy;
   return how;

@@ -2,7 +2,7 @@
 
 namespace chainmail {
 
-/// Names an algorithm in code. Each one has exactly one entry in the table of algorithms.cpp.
+/// Names an algorithm in code. Each one has exactly one entry in the table of solver/algorithms.cpp.
 enum class Algorithm {
   generalized,
   spiral,

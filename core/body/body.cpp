@@ -39,7 +39,7 @@ double shift_of(const View& body, bool from_rest, ElementId element, int k) {
   return from_rest == body.from_rest ? -0.0 : from_rest ? rest : -rest;
 }
 
-/// Returns the coordinates of a block, which are along other axes, along the axes of a body.
+/// Converts the coordinates of a block from one set of axes to another.
 std::vector<double> turned(const Mesh& mesh, std::vector<double> held, const RegionAxes& from, const RegionAxes& to) {
   for (std::size_t at = 0; at < held.size(); at += std::size_t(mesh.space_dimension)) {
     turn_into_world(mesh, from, held.data() + at);

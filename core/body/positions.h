@@ -69,7 +69,7 @@ struct AxisTurn {
 class PositionView {
  public:
   /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh. If `turn` is given,
-  /// what they hold is along turned axes.
+  /// their coordinates are along turned axes.
   PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr,
                const AxisTurn* turn = nullptr)
       : first_(static_cast<const std::byte*>(first)),

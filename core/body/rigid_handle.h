@@ -12,8 +12,8 @@ namespace chainmail {
 /// of its pivot, plus an offset of its own. A translation keeps the offsets; a rotation changes them.
 ///
 /// It begins with the positions that the elements have at that time. They differ from those of the pose if something
-/// else than this handle has moved them: a restored valid state, relaxation or another handle. Then the pivot is their
-/// mean.
+/// else than this handle has moved them: the restoration of validity, relaxation or another handle. Then the pivot is
+/// their mean.
 template <class Scalar, int Dimension>
 class RigidHandle {
  public:

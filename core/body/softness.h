@@ -50,7 +50,7 @@ inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
 }};
 /// Those that decide on the valid region come first. The others decide on the energy.
 inline constexpr std::size_t region_numbers = 3;
-/// Returns the names of the numbers from `first` on, to `end`, with a text between them.
+/// Returns the names of the numbers from index `first` to before `end`, separated by `between`.
 std::string softness_names(std::string_view between, std::size_t first = 0, std::size_t end = softness_numbers.size());
 
 /// Throws Error, with the name of the parameter, if a number is out of range.

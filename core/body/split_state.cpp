@@ -48,7 +48,7 @@ class CarriedPositions {
   Snapshot::Block block(std::size_t number) const;
 
   const Split& split_;
-  MeshPointer after_mesh_;  // in the axes of the positions
+  MeshPointer after_mesh_;  // along the axes of the positions
   const Mesh& after_;
   ElementId old_;
   std::size_t dimension_;

@@ -190,11 +190,11 @@ class Bench {
 };
 
 /// Searches from `start` with this number of sweeps, and updates the best result so far.
-void look(Search search, const Variables& variables, Bench& bench, const Trial& start, int evaluations, Trial& best) {
+void search(Search kind, const Variables& variables, Bench& bench, const Trial& start, int evaluations, Trial& best) {
   if (evaluations < 1) {
     return;
   }
-  find_optimum(search, variables.low(), variables.high(), variables.point_of(start.softness), evaluations,
+  find_optimum(kind, variables.low(), variables.high(), variables.point_of(start.softness), evaluations,
                [&](const std::vector<double>& x) {
                  Trial trial = bench.evaluate(variables.softness_at(x, start.softness), start.sweeps);
                  const double relative = trial.relative();
@@ -211,10 +211,10 @@ void search_with_sweeps(Bench& bench, const CalibrationOptions& options, Trial& 
   const std::span tried(every_sweeps.begin(), end);
   const int each = static_cast<int>(share_everywhere * options.evaluations) / std::max(1, int(tried.size()));
   for (const int sweeps : tried) {
-    look(Search::everywhere, of_regions, bench, {best.softness, sweeps, {}},
-         std::min(each, options.evaluations - bench.evaluations()), best);
+    search(Search::everywhere, of_regions, bench, {best.softness, sweeps, {}},
+           std::min(each, options.evaluations - bench.evaluations()), best);
   }
-  look(Search::about_a_point, of_regions, bench, Trial(best), options.evaluations - bench.evaluations(), best);
+  search(Search::about_a_point, of_regions, bench, Trial(best), options.evaluations - bench.evaluations(), best);
 }
 
 /// Searches for the energy alone, with open regions, from two starts: an energy that resists rotation less or more.
@@ -230,11 +230,11 @@ void search_at_equilibrium(Bench& bench, const CalibrationOptions& options, Tria
     open.shear = 2;
     open.lateral = info(options.energy).lateral * stiffer;
     open.exponent = -2;
-    look(Search::about_a_point, has_energy ? of_energy : of_regions, bench, {open, 0, {}},
-         std::min(each, options.evaluations - bench.evaluations()), best);
+    search(Search::about_a_point, has_energy ? of_energy : of_regions, bench, {open, 0, {}},
+           std::min(each, options.evaluations - bench.evaluations()), best);
   }
-  look(Search::about_a_point, has_energy ? of_both : of_regions, bench, Trial(best),
-       options.evaluations - bench.evaluations(), best);
+  search(Search::about_a_point, has_energy ? of_both : of_regions, bench, Trial(best),
+         options.evaluations - bench.evaluations(), best);
 }
 
 CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) {

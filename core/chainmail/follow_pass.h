@@ -83,7 +83,7 @@ struct RecordedBody {
     return candidate_violation(*mesh, element, &positions[std::size_t{element} * Dimension], sponsor,
                                &positions[std::size_t{sponsor} * Dimension], region);
   }
-  /// Returns the position of an element along the axes in which the pass computed in.
+  /// Returns the position of an element along the axes that the pass computed in.
   std::array<float, Dimension> in_axes(ElementId element) const {
     std::array<double, Dimension> own;
     std::copy_n(positions.begin() + std::ptrdiff_t(std::size_t{element} * Dimension), Dimension, own.begin());

@@ -21,7 +21,8 @@ struct Candidate {
 enum class TakingOrder { first_in, last_in, by_key };
 
 /// The candidates of a pass that wait: what the loop of a pass (propagate.h) asks of a list. The list defines the
-/// algorithm. To add one that differs from others in its list only, add a list here and an entry in algorithms.cpp.
+/// algorithm. To add one that differs from others in its list only, add a list here, a constant to body/algorithm.h
+/// and an entry to solver/algorithms.cpp.
 template <class List>
 concept WaitingList = requires(List list, const List constant, const Mesh& mesh, Candidate candidate,
                                double violation) {

@@ -7,7 +7,7 @@ namespace chainmail {
 namespace {
 
 // Sets of at most this many elements are not split further: their factor is dense anyway.
-constexpr std::size_t fewest = 24;
+constexpr std::size_t min_elements = 24;
 
 class Dissection {
  public:
@@ -68,7 +68,7 @@ class Dissection {
 
   /// Orders elements: one half, the other half, then the elements between them.
   void sort(std::span<ElementId> elements) {
-    if (elements.size() <= fewest) {
+    if (elements.size() <= min_elements) {
       return;
     }
     const int axis = longest_axis(elements);

@@ -96,9 +96,9 @@ class ActiveSet {
 /// the system is singular, such as in a straight chain without lateral stiffness, the element stays in the directions
 /// that have no energy.
 ///
-/// `link` corrects each link once: the link's two ends go half the displacement each. With the deflection Δ of
-/// the link, its direction r̂ and the share s = lateral/(axial + lateral) of its weights, the displacement is (1 −
-/// s)(r̂·Δ) r̂ + s Δ: along the link all of Δ, across it the share b/(1 + b). For isotropic energy s is 1, so the
+/// `link` corrects each link once: each end of the link moves by half the displacement. With the deflection Δ of the
+/// link, its direction r̂ and the fraction s = lateral/(axial + lateral) of its weights, the displacement is (1 −
+/// s)(r̂·Δ) r̂ + s Δ: along the link all of Δ, across it the fraction b/(1 + b). For isotropic energy s is 1, so the
 /// displacement is Δ.
 ///
 /// With corotated energy, an element is visited together with its rotation: first its neighbourhood is turned, then it

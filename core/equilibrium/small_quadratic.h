@@ -8,8 +8,8 @@
 
 namespace chainmail {
 
-/// A convex quadratic function of a few numbers: the energy of the links of one element, over the displacement d (mesh
-/// units) that the element goes, ½ dᵀ A d − fᵀ d.
+/// A convex quadratic function of a few numbers: the energy of the links of one element, over the displacement d of
+/// that element (mesh units), ½ dᵀ A d − fᵀ d.
 template <int Dimension>
 class SmallQuadratic {
  public:

@@ -88,13 +88,13 @@ class ExactMethod final : public Method {
     furthest = std::max(furthest, size);
   }
 
-  /// The changes that may make valid links invalid. To cut links or to pin elements does not.
+  /// The changes that may make valid links invalid. Cutting links and pinning elements cannot.
   static Revisions revisions_of(const Body& body) {
     return body.revisions().only({&Revisions::restored, &Revisions::softness, &Revisions::positions});
   }
 
-  /// Counts the restoring and the pass after it as one pass. An element has moved if its position changed in total.
-  /// Elements that the pass did not reach moved without a sponsor.
+  /// Counts the restoration of validity and the pass after it as one pass. An element has moved if its position changed
+  /// in total. Elements that the pass did not reach moved without a sponsor.
   void add_restored(const State& body, const std::vector<Position<Scalar, Dimension>>& before, const Handle& handle,
                     std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
     const auto has_moved = [&](ElementId e) {

@@ -219,13 +219,13 @@ bool ConvergingReference::is_last(ConvergedReference& result, double expected) c
   return !result.end.empty();
 }
 
-ConvergedReference ConvergingReference::at(const Patch& patch, const Point& way, const Progress& progress) {
+ConvergedReference ConvergingReference::at(const Patch& patch, const Point& displacement, const Progress& progress) {
   const Level& own = *levels_.front();
   const std::vector<ElementId> grabbed = elements_in(*own.refinement.mesh, patch, own.problem.pins);
   if (grabbed.empty()) {
     throw Error("handle", "no free element is within its radius", "use a larger radius, or another element");
   }
-  return at(grabbed, {Eigen::Matrix3d::Zero(), way}, progress);
+  return at(grabbed, {Eigen::Matrix3d::Zero(), displacement}, progress);
 }
 
 ConvergedReference ConvergingReference::at(const std::vector<ElementId>& grabbed, const RigidMotion& motion,

@@ -66,9 +66,9 @@ class ConvergingReference {
   explicit ConvergingReference(const ElasticProblem& problem, const ConvergingOptions& options = {},
                                const Progress& progress = {});
 
-  /// Returns the solution with the elements of the patch displaced by `way` (mesh units), as far as the time and the
-  /// limit of the method allow. Throws Error if the object's own cells have no answer, and Cancelled.
-  ConvergedReference at(const Patch& patch, const Point& way, const Progress& progress = {});
+  /// Returns the solution with the elements of the patch displaced by `displacement` (mesh units), as far as the time
+  /// and the limit of the method allow. Throws Error if the object's own cells have no answer, and Cancelled.
+  ConvergedReference at(const Patch& patch, const Point& displacement, const Progress& progress = {});
   /// The same for these elements of the object (ascending, none pinned), which move as one rigid body about the mean of
   /// their rest positions.
   ConvergedReference at(const std::vector<ElementId>& handle, const RigidMotion& motion, const Progress& progress = {});

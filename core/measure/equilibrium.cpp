@@ -194,22 +194,22 @@ class System {
       x.setZero();
       return true;
     }
-    const Eigen::Index most = 2 * right.rows();
-    Eigen::VectorXd rest = right - matrix * x;
-    Eigen::VectorXd gradient = preconditioner.solve(rest), way = gradient;
-    double slope = rest.dot(gradient);
-    for (Eigen::Index i = 0; rest.norm() > enough; ++i) {
-      if (i == most || !(slope > 0)) {
+    const Eigen::Index max_iterations = 2 * right.rows();
+    Eigen::VectorXd residual = right - matrix * x;
+    Eigen::VectorXd gradient = preconditioner.solve(residual), direction = gradient;
+    double slope = residual.dot(gradient);
+    for (Eigen::Index i = 0; residual.norm() > enough; ++i) {
+      if (i == max_iterations || !(slope > 0)) {
         return false;
       }
-      progress.report(double(i) / double(most));
-      const Eigen::VectorXd pull = matrix * way;
-      const double step = slope / way.dot(pull);
-      x += step * way;
-      rest -= step * pull;
-      gradient = preconditioner.solve(rest);
-      const double before = std::exchange(slope, rest.dot(gradient));
-      way = gradient + slope / before * way;
+      progress.report(double(i) / double(max_iterations));
+      const Eigen::VectorXd product = matrix * direction;
+      const double step = slope / direction.dot(product);
+      x += step * direction;
+      residual -= step * product;
+      gradient = preconditioner.solve(residual);
+      const double before = std::exchange(slope, residual.dot(gradient));
+      direction = gradient + slope / before * direction;
     }
     return true;
   }

@@ -11,8 +11,8 @@ namespace chainmail {
 /// A position or displacement in mesh units, on the axes x, y and z.
 using Point = Eigen::Vector3d;
 
-/// Look of an object at rest: a picture on a sheet, or the densities of a volume. It moves with the material: a point
-/// of the object shows the texel at its rest position.
+/// Appearance of an object at rest: a picture on a sheet, or the densities of a volume. It moves with the material: a
+/// point of the object shows the texel at its rest position.
 struct Texture {
   /// Texels along x, y and z; a picture has depth 1. The first texel has the lowest x, y and z, so the rows of a
   /// picture run upward.

@@ -369,12 +369,12 @@ void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
     const RegionAxes before = body().region_axes();
     solver_->body().set_softness(softness);
-    note_frame(before);
+    note_axes(before);
   }
 }
 
 /// Another frame rounds all positions, also those at rest.
-void Simulation::note_frame(const RegionAxes& before) {
+void Simulation::note_axes(const RegionAxes& before) {
   if (body().region_axes().rotation() != before.rotation()) {
     note_rounding();
   }
@@ -454,9 +454,9 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 }
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
-  const RegionAxes frame = body().region_axes();
+  const RegionAxes axes = body().region_axes();
   solver_->set_algorithm(command.algorithm);
-  note_frame(frame);
+  note_axes(axes);
   const Algorithm before = std::exchange(algorithm_, command.algorithm);
   if (before == algorithm_) {
     return;

@@ -134,7 +134,7 @@ class Simulation {
   void answer();
   void forget_passes();
   void set_softness(const std::shared_ptr<const Softness>& softness);
-  void note_frame(const RegionAxes& before);
+  void note_axes(const RegionAxes& before);
   void note_rounding();
   static std::span<const ElementId> elements_of(const std::shared_ptr<Handle>& handle) {
     return handle ? handle->elements() : std::span<const ElementId>();

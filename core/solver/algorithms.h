@@ -78,7 +78,8 @@ const AlgorithmInfo& info(Algorithm algorithm);
 /// Returns the algorithm with this name or alias, if any.
 std::optional<Algorithm> find_algorithm(std::string_view name);
 
-/// Returns the waiting list at each step of a recorded pass. It is unknown if the algorithm has no list.
+/// Returns the waiting list at each step of a recorded pass. The history is unknown (see WaitingHistory::known) if the
+/// algorithm has no list.
 WaitingHistory waiting_history(const RecordedPass& pass);
 
 /// True if the algorithm works on the mesh.

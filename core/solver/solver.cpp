@@ -82,7 +82,7 @@ void Solver::take_over(const SolverMemory& memory) {
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
   check_free(body_, handle.elements());
   if (body_.region_axes().is_turned()) {
-    return move_in_frame(handle, target, trace);
+    return move_along_axes(handle, target, trace);
   }
   HandleMove move{handle, target};
   const PassCount count = run([&](Method& method) {
@@ -93,7 +93,7 @@ PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
 }
 
 /// The same in the coordinates of the body's axes. A target that is reached, and a pose that is kept, are not rounded.
-PassCount Solver::move_in_frame(Handle& handle, const Pose& target, Trace* trace) {
+PassCount Solver::move_along_axes(Handle& handle, const Pose& target, Trace* trace) {
   const RegionAxes& axes = body_.region_axes();
   const Handle turned = handle.in_axes(axes);
   const ElementId first = handle.elements()[0];

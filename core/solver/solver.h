@@ -104,7 +104,7 @@ class Solver {
   template <class Pass>
   PassCount run(Pass pass);
   void store_for(const AlgorithmInfo& algorithm);
-  PassCount move_in_frame(Handle& handle, const Pose& target, Trace* trace);
+  PassCount move_along_axes(Handle& handle, const Pose& target, Trace* trace);
   template <class Solve>
   RelaxationResult equilibrate(Solve solve);
 

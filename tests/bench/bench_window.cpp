@@ -65,8 +65,8 @@ FrameMilliseconds guiMilliseconds(MainWindow& window) {
   View& view = window.panel(0).view();
   const auto side = ElementId(std::lround(std::sqrt(window.document().mesh()->element_count())));
   const ElementId middle = (side / 2) * side + side / 2;
-  const QPointF centre = view.placeOf(middle);
-  const double spacing = QLineF(centre, view.placeOf(middle + 100)).length() / 100;
+  const QPointF centre = view.viewPosition(middle);
+  const double spacing = QLineF(centre, view.viewPosition(middle + 100)).length() / 100;
   send(view, QEvent::MouseButtonPress, centre);
   int step = 0;
   QTimer mouse;
@@ -101,8 +101,8 @@ double latencyMilliseconds(MainWindow& window) {
   View& view = window.panel(0).view();
   const auto side = ElementId(std::lround(std::sqrt(window.document().mesh()->element_count())));
   const ElementId middle = (side / 2) * side + side / 2;
-  const QPointF centre = view.placeOf(middle);
-  const double radius = 2.5 * QLineF(centre, view.placeOf(middle + 100)).length() / 100;
+  const QPointF centre = view.viewPosition(middle);
+  const double radius = 2.5 * QLineF(centre, view.viewPosition(middle + 100)).length() / 100;
   const auto place = [&](int step) {
     const double angle = 2 * std::numbers::pi * step / places;
     return centre + radius * QPointF(std::cos(angle), std::sin(angle));
@@ -112,7 +112,7 @@ double latencyMilliseconds(MainWindow& window) {
   std::vector<double> sent, latencies;
   int shown = -1;
   const auto look = [&] {
-    const QPointF at = view.placeOf(middle);
+    const QPointF at = view.viewPosition(middle);
     for (int step = int(sent.size()) - 1; step > shown && step > int(sent.size()) - places; --step) {
       if (QLineF(place(step), at).length() < 0.25 * radius * std::numbers::pi / places) {
         shown = step;

@@ -3,7 +3,7 @@
 #   cmake -DSOURCE=… -DBUILD=… -DCONFIG=… -DVERSION=… -DFLAGS=… -DCOMPILER=… -DGENERATOR=… -P install.cmake
 set(prefix ${BUILD}/tests/install/prefix)
 set(work ${BUILD}/tests/install/consumer)
-set(most_headers 15)
+set(max_headers 15)
 file(REMOVE_RECURSE ${prefix} ${work})
 
 function(run)
@@ -26,8 +26,8 @@ endforeach()
 # Only the public headers are installed. They include the standard library and each other.
 file(GLOB_RECURSE headers RELATIVE ${prefix} ${prefix}/*.h ${prefix}/*.hpp)
 list(LENGTH headers count)
-if(count GREATER most_headers OR count EQUAL 0)
-  message(FATAL_ERROR "${count} headers are installed, and at most ${most_headers} should be: ${headers}")
+if(count GREATER max_headers OR count EQUAL 0)
+  message(FATAL_ERROR "${count} headers are installed, and at most ${max_headers} should be: ${headers}")
 endif()
 foreach(header IN LISTS headers)
   if(NOT header MATCHES "^include/chainmail/[a-z_]+[.]h$")

@@ -54,6 +54,6 @@ inline MeshParts together(MeshParts one, const MeshParts& other, const Point& by
   return one;
 }
 
-inline MeshPointer sphere(int n, double radius = 1) { return build_mesh(sphere_parts(n, radius)); }
+inline MeshPointer octahedral_sphere(int n, double radius = 1) { return build_mesh(sphere_parts(n, radius)); }
 
 }  // namespace chainmail::test

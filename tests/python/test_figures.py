@@ -124,7 +124,7 @@ def test_bad_paths(path):
 
 
 def test_calibrate_is_a_dictionary_with_a_table():
-    options = dict(drags=1, held_out=1, evaluations=5, max_sweeps=3)
+    options = dict(drags=1, held_out=1, evaluations=5, most_sweeps=3)
     found = chainmail.calibrate(beam(), **options)
     assert list(found) == ["softness", "sweeps", "evaluations", "errors", "json"]
     assert isinstance(found["softness"], chainmail.LinkSoftness) and found["evaluations"] >= 1
@@ -136,7 +136,7 @@ def test_calibrate_is_a_dictionary_with_a_table():
 
 
 @pytest.mark.parametrize(
-    "bad", [dict(drags=0), dict(held_out=0), dict(evaluations=0), dict(max_sweeps=-1), dict(method="fem")]
+    "bad", [dict(drags=0), dict(held_out=0), dict(evaluations=0), dict(most_sweeps=-1), dict(method="fem")]
 )
 def test_bad_calibrations(bad):
     with pytest.raises(chainmail.Error):

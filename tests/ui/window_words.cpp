@@ -4,6 +4,7 @@
 #include <QAbstractItemView>
 #include <QDockWidget>
 #include <QLabel>
+#include <QMenu>
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolBar>
@@ -122,10 +123,14 @@ class WindowWords : public QObject {
   void theSidesOfTheCameraAreNamedAfterTheUpAxis() {
     Workbench bench;
     const auto names = [&] {
+      for (QMenu* menu : bench.window.findChildren<QMenu*>()) {
+        emit menu->aboutToShow();  // the names are brought up to date then
+      }
       QStringList sides;
       for (const QAction* action : bench.window.findChildren<QAction*>()) {
-        if (action->text().startsWith(QStringLiteral("From ")) && action->text().endsWith(QLatin1Char(')'))) {
-          sides << action->text().mid(5);
+        const QString text = action->text().remove(QLatin1Char('&'));
+        if (text.startsWith(QStringLiteral("From ")) && text.endsWith(QLatin1Char(')'))) {
+          sides << text.mid(5);
         }
       }
       sides.sort();

@@ -72,16 +72,16 @@ void StiffnessDock::addFrame() {
 }
 
 void StiffnessDock::showFrame() {
-  const RegionAxes& frame = document_.wholeSoftness()->axes;
+  const RegionAxes& axes = document_.wholeSoftness()->axes;
   const int given = frame_->findData(int(AxesKind::given));
-  if (frame.kind() == AxesKind::given && given < 0) {
+  if (axes.kind() == AxesKind::given && given < 0) {
     frame_->addItem(QStringLiteral("Given axes"), int(AxesKind::given));
-  } else if (frame.kind() != AxesKind::given && given >= 0) {
+  } else if (axes.kind() != AxesKind::given && given >= 0) {
     frame_->removeItem(given);
   }
-  frame_->setCurrentIndex(frame_->findData(int(frame.kind())));
+  frame_->setCurrentIndex(frame_->findData(int(axes.kind())));
   frame_->setEnabled(document_.mesh()->space_dimension > 1);
-  if (frame.kind() != AxesKind::object) {
+  if (axes.kind() != AxesKind::object) {
     frameNote_->hide();
     notedMesh_.reset();
   } else if (notedMesh_ != document_.mesh()) {  // takes time in proportion to the object

@@ -39,7 +39,7 @@ struct DocumentObject {
   std::shared_ptr<const SettingsBefore> before = {};  // of a lesson
 };
 
-/// Returns an object with another mesh, before or after splits; otherwise the same.
+/// Returns a copy of an object with another mesh, from before or after splits, and with these cuts and pins.
 std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
                                          const std::vector<LinkId>& cuts, std::vector<ElementId> pins);
 

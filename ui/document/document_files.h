@@ -19,7 +19,7 @@ class DocumentFiles : public QObject {
   /// Returns the mesh file that the object was opened from; empty if there is none.
   const QString& mesh() const { return contents_.object->file; }
   void setSession(const QString& file);
-  /// Undo and redo exchange the file of the session with that of a step.
+  /// Exchanges the file of the session with `file`, which an undo step keeps.
   void exchangeSession(QString& file);
   /// The object was opened from this mesh file.
   void setMesh(const QString& file);

@@ -12,8 +12,8 @@ namespace chainmail {
 class Document;
 }
 
-/// Edits of a document. Each is one undo step; one that changes nothing is none. Steps with the same `gesture` (not 0)
-/// and text become one.
+/// Edits of a document. Each is one undo step; a value that stays the same adds none. Steps with the same `gesture`
+/// (not 0) and text become one.
 namespace chainmail::edits {
 
 void setSoftness(Document& document, const LinkSoftness& global, const QString& text, int gesture = 0);

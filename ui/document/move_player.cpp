@@ -16,7 +16,7 @@ constexpr int travelGesture = std::numeric_limits<int>::max();
 constexpr int lessonGesture = travelGesture - 1;
 // Waypoints: largest number of saved states, and smallest number of commands between two of them.
 constexpr std::size_t maxWaypoints = 16;
-constexpr std::size_t leastApart = 32;
+constexpr std::size_t minApart = 32;
 constexpr std::uint64_t maxSweepsNoted = 1'000'000;
 
 /// True if the object of a session is as recorded moves expect it at their beginning.
@@ -73,7 +73,6 @@ void MovePlayer::noteRelaxation() {
   emit changed();
 }
 
-/// The waypoints lack the skipped sweeps.
 void MovePlayer::endSweeps() {
   if (!document_.solvers().idle()) {
     document_.solvers().cutSweeps();
@@ -221,7 +220,7 @@ void MovePlayer::goToBeginning(const MeshPointer& first) {
 /// Saves a waypoint if the previous one is far enough away. It does so only between two drags, because a state does not
 /// include the handle.
 void MovePlayer::keepWaypoint(std::size_t position) {
-  const std::size_t apart = std::max(leastApart, history().length() / maxWaypoints);
+  const std::size_t apart = std::max(minApart, history().length() / maxWaypoints);
   const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
   if (position >= last + apart && std::holds_alternative<commands::Grab>(history().at(position))) {
     waypoints_[position] = document_.newState();

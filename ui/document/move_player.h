@@ -12,7 +12,7 @@ namespace chainmail {
 
 class Document;
 
-/// The recorded commands of a document, and what brings the object to any position in them.
+/// Records the commands of a document, and brings the object to any position in them.
 class MovePlayer : public QObject {
   Q_OBJECT
 
@@ -46,13 +46,14 @@ class MovePlayer : public QObject {
 
   // For the document.
 
-  /// Replaces the recorded commands by those of a session, whose object the solvers have.
+  /// Replaces the recorded commands with those of a session, whose object the solvers have.
   void open(const Session& session);
-  /// A command was sent to the solvers.
+  /// Call this after a command was sent to the solvers.
   void noteSent(const Command& command);
-  /// The solvers do something that is not a replay: the way there may differ.
+  /// Drops the waypoints. Call this when the solvers do something other than a replay: its result may differ.
   void noteDeparture();
-  /// Stops sweeps of relaxation, which may run for hours. Call it before the object changes.
+  /// Stops sweeps of relaxation, which may run for hours. Drops the waypoints, because they lack the skipped sweeps.
+  /// Call it before the object changes.
   void endSweeps();
 
  signals:

@@ -24,7 +24,7 @@ class PanelSolvers : public QObject {
 
   /// Number of solvers.
   int count() const { return int(solvers_.size()); }
-  /// Adds a solver that runs `algorithm`: of the object at rest if it is the first ones', else a copy of the first
+  /// Adds a solver that runs `algorithm`. The first ones begin with the object at rest; a later one copies the first
   /// solver, with its states for undo. Throws if there is no memory or no thread; nothing has changed then.
   void add(Algorithm algorithm);
   void removeLast();

@@ -33,8 +33,8 @@ void SteppedDrag::begin(const std::vector<ElementId>& elements, int steps) {
   steps_ = steps;
   done_ = 0;
   shown_ = false;
-  document_.handle().grab(
-      elements);  // first, because it may end another drag, and the new undo step would stop this one
+  // First, because it may end another drag, and the new undo step would stop this one.
+  document_.handle().grab(elements);
   held_.assign(document_.handle().held().begin(), document_.handle().held().end());
   running_ = true;
   emit changed();

@@ -19,13 +19,13 @@ class DetailBudget {
   void tookQuick(std::size_t shapes, double milliseconds) {
     if (shapes > minShapes / 2) {
       const double affordable = double(shapes) * longestFrame / std::max(milliseconds, 0.1);
-      const double weight = affordable < max_shapes_ ? 0.7 : 0.3;
-      max_shapes_ = std::clamp(max_shapes_ + weight * (affordable - max_shapes_), double(minShapes), double(maxAtRest));
+      const double weight = affordable < maxShapes_ ? 0.7 : 0.3;
+      maxShapes_ = std::clamp(maxShapes_ + weight * (affordable - maxShapes_), double(minShapes), double(maxAtRest));
     }
   }
 
   /// Number of links and faces that may be drawn while the object moves.
-  std::size_t maxShapes() const { return std::size_t(max_shapes_); }
+  std::size_t maxShapes() const { return std::size_t(maxShapes_); }
   /// True if complete pictures are fast enough to follow the mouse.
   bool affordsComplete() const { return complete_ && *complete_ < shortFrame; }
 
@@ -36,7 +36,7 @@ class DetailBudget {
   static constexpr double longestFrame = 33, shortFrame = 12;  // ms
 
   std::optional<double> complete_;  // duration of the last complete picture (ms)
-  double max_shapes_ = 300'000;
+  double maxShapes_ = 300'000;
 };
 
 }  // namespace chainmail

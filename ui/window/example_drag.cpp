@@ -84,7 +84,7 @@ void ExampleDrag::stop() {
   waited.start();
   while (!showsRest() && waited.elapsed() < restPatience) {
     QThread::msleep(1);
-    QCoreApplication::sendPostedEvents(&document_, QEvent::MetaCall);  // delivers frames, but no user input
+    QCoreApplication::sendPostedEvents(&document_.solvers(), QEvent::MetaCall);  // delivers frames, but no user input
   }
 }
 

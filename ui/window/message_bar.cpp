@@ -14,16 +14,16 @@ namespace {
 constexpr std::size_t maxMessages = 50;  // older ones are removed
 constexpr int signSize = 18;             // pixels
 
-struct SeverityLook {
+struct SeverityStyle {
   const char* icon;
   const char* name;
   colours::Colour ground, sign;
 };
 
-const SeverityLook& lookOf(Severity severity) {
-  static constexpr std::array looks{SeverityLook{"info", "Note", colours::infoGround, colours::infoSign},
-                                    SeverityLook{"warning", "Warning", colours::warningGround, colours::warningSign},
-                                    SeverityLook{"error", "Error", colours::errorGround, colours::errorSign}};
+const SeverityStyle& styleOf(Severity severity) {
+  static constexpr std::array looks{SeverityStyle{"info", "Note", colours::infoGround, colours::infoSign},
+                                    SeverityStyle{"warning", "Warning", colours::warningGround, colours::warningSign},
+                                    SeverityStyle{"error", "Error", colours::errorGround, colours::errorSign}};
   return looks[std::size_t(severity)];
 }
 
@@ -102,7 +102,7 @@ void MessageBar::hideEvent(QHideEvent* event) {
 
 void MessageBar::refresh() {
   text_->setText(sentence());
-  setAccessibleName(QStringLiteral("%1: %2").arg(QLatin1String(lookOf(severity()).name), sentence()));
+  setAccessibleName(QStringLiteral("%1: %2").arg(QLatin1String(styleOf(severity()).name), sentence()));
   const bool several = messages_.size() > 1;
   waiting_->setText(QStringLiteral("1 of %1").arg(count()));
   waiting_->setVisible(several);
@@ -111,12 +111,12 @@ void MessageBar::refresh() {
 }
 
 void MessageBar::paintGround() {
-  const SeverityLook& look = lookOf(severity());
+  const SeverityStyle& style = styleOf(severity());
   QPalette own;
-  own.setColor(QPalette::Window, look.ground);
+  own.setColor(QPalette::Window, style.ground);
   setPalette(own);
-  sign_->setPixmap(icon(look.icon, look.sign).pixmap({signSize, signSize}, devicePixelRatioF()));
-  sign_->setToolTip(QLatin1String(look.name));
+  sign_->setPixmap(icon(style.icon, style.sign).pixmap({signSize, signSize}, devicePixelRatioF()));
+  sign_->setToolTip(QLatin1String(style.name));
 }
 
 }  // namespace chainmail

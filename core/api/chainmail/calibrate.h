@@ -19,7 +19,7 @@ struct CalibrateOptions {
   int drags = 4;                         ///< Number of drags that the search uses, at least 1.
   int held_out = 4;                      ///< Number of drags that only test the result, at least 1.
   int evaluations = 200;                 ///< Largest number of evaluations, at least 1; each runs all drags.
-  int max_sweeps = 100;                  ///< Largest number of sweeps that is tried, of 0, 1, 3, 10, 30 and 100.
+  int most_sweeps = 100;                 ///< Largest number of sweeps that is tried, of 0, 1, 3, 10, 30 and 100.
   RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme; `equilibrium` needs no sweeps.
 };
 

@@ -15,7 +15,7 @@ int main() {
   options.drags = 2;
   options.held_out = 2;
   options.evaluations = 30;  // few, so that this takes a second
-  options.max_sweeps = 10;
+  options.most_sweeps = 10;
   const cm::Calibration found = cm::calibrate(body, options);
   std::cout << "compression " << found.softness.compression << ", stretch " << found.softness.stretch << ", shear "
             << found.softness.shear << ", " << found.sweeps << " sweeps per move\n"

@@ -13,7 +13,7 @@ double percentile(std::vector<double> values, double share) {
 }
 
 std::optional<Growth> growth_of(std::span<const SizedTime> times, double from) {
-  constexpr int fewest = 3;
+  constexpr int min_sizes = 3;
   std::vector<SizedTime> logarithms;
   Growth growth;
   SizedTime mean;
@@ -27,7 +27,7 @@ std::optional<Growth> growth_of(std::span<const SizedTime> times, double from) {
     }
   }
   growth.sizes = static_cast<int>(logarithms.size());
-  if (growth.sizes < fewest) {
+  if (growth.sizes < min_sizes) {
     return std::nullopt;
   }
   mean.elements /= growth.sizes;

@@ -264,7 +264,7 @@ void ApiMeasuresTest::softness_is_calibrated() {
   cm::Body body(cm::make_cloth(5, 5));
   body.pin(body.mesh().side("top"));
   body.set_elasticity({.poisson = 0.4});
-  const cm::CalibrateOptions options{.seed = 3, .drags = 2, .held_out = 1, .evaluations = 20, .max_sweeps = 3};
+  const cm::CalibrateOptions options{.seed = 3, .drags = 2, .held_out = 1, .evaluations = 20, .most_sweeps = 3};
   const State before(body);
   const cm::Calibration found = cm::calibrate(body, options);
   QVERIFY(State(body) == before);
@@ -281,7 +281,7 @@ void ApiMeasuresTest::softness_is_calibrated() {
   const chainmail::CalibrationOptions usual;
   const cm::CalibrateOptions ours;
   QVERIFY(ours.seed == usual.seed && ours.drags == usual.drags && ours.held_out == usual.held_out &&
-          ours.evaluations == usual.evaluations && ours.max_sweeps == usual.max_sweeps &&
+          ours.evaluations == usual.evaluations && ours.most_sweeps == usual.max_sweeps &&
           ours.method == cm::methods()[std::size_t(usual.algorithm)].name);
   QCOMPARE(found.softness.compression, expected.softness.compression);
   QCOMPARE(found.softness.stretch, expected.softness.stretch);
@@ -310,7 +310,7 @@ void ApiMeasuresTest::bad_calibrations_are_refused() {
   QVERIFY(has(refusal_of([&] { cm::calibrate(body, {.drags = 0}); }), "drags"));
   QVERIFY(has(refusal_of([&] { cm::calibrate(body, {.held_out = 0}); }), "held_out"));
   QVERIFY(has(refusal_of([&] { cm::calibrate(body, {.evaluations = 0}); }), "evaluations"));
-  QVERIFY(has(refusal_of([&] { cm::calibrate(body, {.max_sweeps = -1}); }), "max_sweeps"));
+  QVERIFY(has(refusal_of([&] { cm::calibrate(body, {.most_sweeps = -1}); }), "most_sweeps"));
   const QTemporaryDir folder;
   const std::filesystem::path path = folder.filePath("preset.json").toStdString();
   QVERIFY(!refusal_of([&] { cm::write_preset(path, "", {}); }).empty());

@@ -80,7 +80,7 @@ void BoundaryElementsTest::a_cavity_belongs_to_the_innermost_solid() {
 }
 
 void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
-  const auto mesh = sphere(4);
+  const auto mesh = octahedral_sphere(4);
   const auto pins = layer(*mesh, *find_side("bottom"));
   const auto solver = make_elastic(
       ElasticMethod::boundary, pinned(
@@ -147,7 +147,7 @@ void BoundaryElementsTest::corners_average_their_triangles_by_area() {
 
 /// Single pins hold the triangles around them, although the other corners of these are free.
 void BoundaryElementsTest::pins_that_move_alike_take_the_solid_along() {
-  const auto mesh = sphere(4);
+  const auto mesh = octahedral_sphere(4);
   const Point by(0.3, -0.2, 0.1);
   std::vector<ElementId> pins;  // the six corners of the octahedron, far from each other
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -203,7 +203,7 @@ void BoundaryElementsTest::a_corner_of_two_solids_is_halfway_between_them() {
 
 /// Prescribing the facets of the handle by pins is another system of equations with the same answer.
 void BoundaryElementsTest::the_hand_does_what_pins_would() {
-  const auto mesh = sphere(4);
+  const auto mesh = octahedral_sphere(4);
   const auto bottom = layer(*mesh, *find_side("bottom"));
   const ElementId top = layer(*mesh, *find_side("top")).front();
   const auto held = make_elastic(ElasticMethod::boundary, pinned(mesh, bottom));
@@ -227,7 +227,7 @@ void BoundaryElementsTest::the_hand_does_what_pins_would() {
 
 /// Single pins hold all triangles around them. Here these are all triangles that the handle holds.
 void BoundaryElementsTest::the_hand_wins_over_pins() {
-  const auto octahedron = sphere(1);
+  const auto octahedron = octahedral_sphere(1);
   const ElementId top = layer(*octahedron, *find_side("top")).front(),
                   bottom = layer(*octahedron, *find_side("bottom")).front();
   std::vector<ElementId> equator;
@@ -247,7 +247,7 @@ void BoundaryElementsTest::the_hand_wins_over_pins() {
 void BoundaryElementsTest::parts_move_by_themselves() {
   MeshParts parts = together(sphere_parts(2), sphere_parts(2), Point(3, 0, 0));
   parts.rest.emplace_back(0, 0, 0);  // not the corner of a triangle
-  const auto two = build_mesh(std::move(parts)), one = sphere(2);
+  const auto two = build_mesh(std::move(parts)), one = octahedral_sphere(2);
   const auto count = one->element_count();
   auto pins = layer(*one, *find_side("bottom"));
   for (ElementId e = 0; pins.size() < 3; ++e) {
@@ -306,12 +306,12 @@ void BoundaryElementsTest::it_agrees_with_finite_elements() {
 void BoundaryElementsTest::it_can_be_cancelled() {
   JobState job;
   job.cancelled = true;
-  QVERIFY_EXCEPTION_THROWN(make_elastic(ElasticMethod::boundary, pinned(sphere(4), {0, 1, 2, 3}), Progress(job)),
-                           Cancelled);
+  QVERIFY_EXCEPTION_THROWN(
+      make_elastic(ElasticMethod::boundary, pinned(octahedral_sphere(4), {0, 1, 2, 3}), Progress(job)), Cancelled);
 }
 
 void BoundaryElementsTest::wrong_surfaces_are_refused() {
-  const auto ball = sphere(3);
+  const auto ball = octahedral_sphere(3);
   const std::vector<ElementId> pins{0, 1, 2, 3};
   QCOMPARE(refused(ball, pins), QString());
   MeshParts open = sphere_parts(3), three = sphere_parts(3), flat = sphere_parts(3);
@@ -339,11 +339,12 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   QVERIFY(refused(build_mesh(one_sided), pins).contains("has only one side"));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::cloth, {4, 4, 1})));
   QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::tetra, {40, 40, 40})));
-  QVERIFY(refused(sphere(30), pins).contains("triangles on the surface, and this object has 7200; use a coarser mesh"));
+  QVERIFY(refused(octahedral_sphere(30), pins)
+              .contains("triangles on the surface, and this object has 7200; use a coarser mesh"));
 }
 
 void BoundaryElementsTest::loose_parts_are_refused() {
-  const auto ball = sphere(3);
+  const auto ball = octahedral_sphere(3);
   QCOMPARE(refused(ball, {}),
            QString("object: nothing pins it, so there is no solution; pin its bottom layer, or single elements"));
   QVERIFY(refused(ball, {0, 1}).startsWith("the part of element 0: fewer than three pins"));

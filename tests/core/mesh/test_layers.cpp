@@ -126,7 +126,7 @@ void LayersTest::a_grid_and_a_chain_end_at_their_rim() {
   QCOMPARE(boundary(*make_mesh(MeshKind::line, {6, 1, 1})), (Elements{0, 5}));
 }
 
-void LayersTest::a_closed_surface_ends_nowhere() { QVERIFY(boundary(*sphere(3)).empty()); }
+void LayersTest::a_closed_surface_ends_nowhere() { QVERIFY(boundary(*octahedral_sphere(3)).empty()); }
 
 CHAINMAIL_TEST(LayersTest)
 
