@@ -42,18 +42,7 @@ namespace {
 constexpr auto dummy = Algorithm(1000);
 
 /// A waiting list like the one of Spiral.
-class DummyList : public PlainList {
- public:
-  static constexpr bool admits_updated = true;
-  static constexpr TakingOrder order = TakingOrder::first_in;
-
-  bool empty() const { return candidates_.empty(); }
-  void admit(Candidate candidate, double /*violation*/) { candidates_.admit(candidate); }
-  Candidate take() { return candidates_.take(); }
-
- private:
-  BackList candidates_;
-};
+struct DummyList : SpiralList {};
 
 AlgorithmInfo dummy_entry() {
   return {.algorithm = dummy,

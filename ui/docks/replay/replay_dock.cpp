@@ -21,7 +21,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int tapeRefreshMilliseconds = 50;
+constexpr int movesRefreshMilliseconds = 50;
 constexpr int standardSpeed = 60;  // moves per second, the rate at which drags are sampled
 
 QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
@@ -45,7 +45,7 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
   playing_.setTimerType(Qt::PreciseTimer);
   connect(&playing_, &QTimer::timeout, this, &ReplayDock::playOn);
   refresh_.setSingleShot(true);
-  refresh_.setInterval(tapeRefreshMilliseconds);
+  refresh_.setInterval(movesRefreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &ReplayDock::showMoves);
   connect(&document.moves(), &MovePlayer::changed, this, &ReplayDock::scheduleShow);
   connect(&document, &Document::meshChanged, this, [this] {
