@@ -10,7 +10,7 @@ make_bare() {
   local folder=$1 site suite
   read -r site suite < <(apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages')
   debootstrap --variant=minbase "${2:-$suite}" "$folder" "$site" || return
-  mount -t proc proc "$folder/proc" && mount --bind /dev "$folder/dev" || return
+  mount -t proc proc "$folder/proc" && mount --bind /dev "$folder/dev" && mount --bind /dev/pts "$folder/dev/pts" || return
   if [[ ${2:-$suite} == "$suite" ]]; then
     cp -r /etc/apt/sources.list /etc/apt/sources.list.d "$folder/etc/apt/" 2>/dev/null || true
     cp -r /usr/share/keyrings/. "$folder/usr/share/keyrings/"

@@ -4,6 +4,7 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPainter>
 #include <QProcess>
 #include <QProgressBar>
@@ -183,8 +184,8 @@ class ChooseFolder : public QObject {
     connect(&timer_, &QTimer::timeout, this, [this, folder] {
       if (auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) {
         timer_.stop();
-        dialog->setDirectory(folder);
-        dialog->selectFile(folder);
+        // As a person types it: what a selection means depends on what the dialog has listed by now.
+        dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(folder);
         QMetaObject::invokeMethod(dialog, "accept");
       }
     });
