@@ -22,7 +22,7 @@ python_test_packages=(python3-pytest python3-distributed mypy python3-sphinx)
 # The technical report as HTML and PDF.
 report_packages=(pandoc texlive-latex-recommended lmodern librsvg2-bin)
 # For packages: made by tests/package/check, and checked.
-package_packages=(help2man dpkg-dev debhelper dh-python lintian desktop-file-utils appstream libxml2-utils debootstrap)
+package_packages=(build-essential help2man dpkg-dev debhelper dh-python lintian desktop-file-utils appstream libxml2-utils debootstrap)
 mutant_packages=(python3)
 bench_packages=(libbenchmark-dev)
 fuzz_packages=(clang libclang-rt-dev)
