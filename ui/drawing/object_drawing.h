@@ -45,8 +45,8 @@ class ObjectDrawing {
     ColourScale scale;
     DrawOptions options = {};
   };
-  /// Marks differ in shape, not only in colour. The numbers are the shader's SHADING.
-  enum class Mark { disc = 2, diamond = 3, ring = 4 };
+  /// Marks differ in shape, not only in colour.
+  enum class Mark { disc, diamond, ring };
   enum class Shape { segments, triangles, discs, rings };
 
   ObjectDrawing() = default;

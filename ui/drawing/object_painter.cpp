@@ -46,11 +46,6 @@ void uploadPart(QOpenGLBuffer& buffer, const std::vector<Datum>& data, std::size
   buffer.write(int(first * sizeof(Datum)), data.data() + first, int((end - first) * sizeof(Datum)));
 }
 
-QByteArray definitions(const std::array<int, 2>& variant) {
-  return "#define SHADING " + QByteArray::number(variant[0]) + "\n#define COLOURED_BY " +
-         QByteArray::number(variant[1]) + "\n";
-}
-
 QVector4D rgbaOf(QColor colour) { return {colour.redF(), colour.greenF(), colour.blueF(), colour.alphaF()}; }
 
 /// Returns the unit of scaled rest positions: the longest side of the mesh's box (mesh units).
@@ -193,13 +188,22 @@ void ObjectPainter::uploadPositions(const Frame& frame) {
 
 // Shader state
 
+QByteArray ObjectPainter::definitions(const Variant& variant) {
+  return "#define SHADING " + QByteArray::number(int(variant.shading)) + "\n#define COLOURED_BY " +
+         QByteArray::number(int(variant.colouring)) + "\n";
+}
+
+ObjectPainter::Shading ObjectPainter::shadingOf(Mark mark) {
+  return mark == Mark::disc ? Shading::disc : mark == Mark::diamond ? Shading::diamond : Shading::ring;
+}
+
 /// Prepares the next draw call, which takes its positions from the bound buffer.
-void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy) {
+void ObjectPainter::use(const Scene& scene, QColor colour, Shading shading, int dimension, Colouring colouring) {
   glEnable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_BLEND);
   // The picture stays opaque: blending does not lower its alpha.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const std::array variant{shading, colouredBy};
+  const Variant variant{shading, colouring};
   program_ = &programs_[std::size_t(std::find(variants.begin(), variants.end(), variant) - variants.begin())];
   program_->bind();
   program_->setUniformValue("to_view", scene.toView * meshToWorld(*mesh_));
@@ -220,10 +224,10 @@ void ObjectPainter::use(const Scene& scene, QColor colour, int shading, int dime
 }
 
 /// Same as use(), for the object coloured by its values: elements read them as an attribute, links from a texture.
-void ObjectPainter::useValues(const Scene& scene, const Paint& paint, int shading) {
+void ObjectPainter::useValues(const Scene& scene, const Paint& paint, Shading shading) {
   const bool ofLinks = paint.values->ofLinks;
   positions_.bind();
-  use(scene, paint.colour, shading, mesh_->space_dimension, ofLinks ? 2 : 1);
+  use(scene, paint.colour, shading, mesh_->space_dimension, ofLinks ? Colouring::links : Colouring::elements);
   if (paint.values->number != valuesNumber_) {
     uploadValues(*paint.values);
   }
@@ -399,11 +403,12 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   }
   positions_.bind();
   const bool pictured = showsPicture(*mesh_);
-  const int shading = !spatial ? 5 : pictured ? 0 : 1;
+  const Shading shading = !spatial ? Shading::plane : pictured ? Shading::plain : Shading::lit;
   if (facesByValues(mesh_.get(), paint)) {
     useValues(scene, paint, shading);
   } else {
-    use(scene, faceColour(*mesh_, paint), shading, mesh_->space_dimension, pictured ? 3 : 0);
+    use(scene, faceColour(*mesh_, paint), shading, mesh_->space_dimension,
+        pictured ? Colouring::picture : Colouring::one);
   }
   if (pictured) {
     useTexture();
@@ -431,7 +436,7 @@ void ObjectPainter::drawFresh(const Scene& scene, const Paint& paint) {
   }
   if (!facesByValues(mesh_.get(), paint)) {
     positions_.bind();
-    use(scene, colours::inner, 1, 3);
+    use(scene, colours::inner, Shading::lit, 3);
     useNormals();
     useRest(paint.options);
   }
@@ -467,7 +472,7 @@ void ObjectPainter::drawCap(const Scene& scene) {
   }
   const bool sliced = showsSlices(*mesh_);
   capPositions_.bind();
-  use(scene, colours::inner, sliced ? 0 : 1, 3, sliced ? 4 : 0);
+  use(scene, colours::inner, sliced ? Shading::plain : Shading::lit, 3, sliced ? Colouring::volume : Colouring::one);
   if (sliced) {
     useTexture();
     capRest_.bind();
@@ -486,9 +491,9 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pix
   positions_.bind();
   const bool byValues = linksByValues(mesh_.get(), paint);
   if (byValues) {
-    useValues(scene, paint, 0);
+    useValues(scene, paint, Shading::plain);
   } else {
-    use(scene, linkColour(*mesh_, paint, pixelsPerUnit), 0, mesh_->space_dimension);
+    use(scene, linkColour(*mesh_, paint, pixelsPerUnit), Shading::plain, mesh_->space_dimension);
   }
   useRest(paint.options);
   links_.bind();
@@ -505,9 +510,10 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(paint);
   positions_.bind();
   if (byValues && !paint.values->ofLinks) {
-    useValues(scene, paint, 2);
+    useValues(scene, paint, Shading::disc);
   } else {
-    use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), 2, mesh_->space_dimension);
+    use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), Shading::disc,
+        mesh_->space_dimension);
   }
   useRest(paint.options);
   program_->setUniformValue("point_size", elementSize * scene.pixelRatio);
@@ -542,7 +548,7 @@ void ObjectPainter::drawElements(const Scene& scene, std::span<const ElementId> 
     const float* at = frame_->positions.data() + std::size_t{e} * mesh_->space_dimension;
     positions.insert(positions.end(), at, at + mesh_->space_dimension);
   }
-  drawOwn(scene, positions, GL_POINTS, colour, int(mark), diameter);
+  drawOwn(scene, positions, GL_POINTS, colour, shadingOf(mark), diameter);
 }
 
 void ObjectPainter::setSelection(const std::vector<ElementId>& elements) {
@@ -556,7 +562,7 @@ void ObjectPainter::drawSelection(const Scene& scene, QColor colour, float diame
   const bool small = diameter < smallestRing;
   drawMarked(scene, colour, [&](QColor shade) {
     positions_.bind();
-    use(overObject(scene), shade, int(small ? Mark::disc : Mark::ring), mesh_->space_dimension);
+    use(overObject(scene), shade, small ? Shading::disc : Shading::ring, mesh_->space_dimension);
     program_->setUniformValue("point_size", diameter * scene.pixelRatio);
     selected_.bind();
     glDrawElements(GL_POINTS, selectedIndices_, GL_UNSIGNED_INT, nullptr);
@@ -572,13 +578,13 @@ void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links,
     }
   }
   glLineWidth(litWidth * scene.pixelRatio);
-  drawOwn(scene, positions, GL_LINES, colour, 0, 1);
+  drawOwn(scene, positions, GL_LINES, colour, Shading::plain, 1);
   glLineWidth(1);
 }
 
 /// Draws marks at positions that are not in the object's buffer.
 void ObjectPainter::drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
-                            int shading, float diameter) {
+                            Shading shading, float diameter) {
   if (positions.empty()) {
     return;
   }
@@ -604,7 +610,7 @@ void ObjectPainter::drawStroke(const Scene& scene, std::span<const QPointF> posi
   glDisable(GL_DEPTH_TEST);
   scratch_.bind();
   scratch_.allocate(device.data(), int(device.size() * sizeof(float)));
-  use(scene, colour, 0, 2);
+  use(scene, colour, Shading::plain, 2);
   program_->setUniformValue("to_view", QMatrix4x4());
   program_->setUniformValue("to_clip", QMatrix4x4());
   glLineWidth(scene.pixelRatio);
@@ -632,7 +638,7 @@ void ObjectPainter::drawInSpace(const Scene& scene, std::span<const QVector3D> p
   scratch_.allocate(positions.data(), int(positions.size_bytes()));
   Scene over = scene;
   over.fog = {};
-  use(over, colour, 0, 3);
+  use(over, colour, Shading::plain, 3);
   program_->setUniformValue("to_view", scene.toView);
   const bool lines = shape == Shape::segments;
   if (lines) {
@@ -661,7 +667,8 @@ void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   scratch_.write(int(positions.size_bytes()), values.data(), int(values.size_bytes()));
   Scene over = scene;
   over.fog = {};  // fading would change the colour, which is a value
-  use(over, {}, lines ? 0 : int(shape == Shape::discs ? Mark::disc : Mark::ring), 3, 1);
+  use(over, {}, lines ? Shading::plain : shape == Shape::discs ? Shading::disc : Shading::ring, 3,
+      Colouring::elements);
   program_->setUniformValue("to_view", scene.toView);
   program_->setUniformValue("to_clip", liftedClip(scene, valuedLift));
   useMap(scale);

@@ -59,6 +59,25 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   bool takeLayerDrawn() { return std::exchange(layerDrawn_, false); }
 
  private:
+  /// How shapes are drawn: SHADING of object.frag.
+  enum class Shading {
+    plain,    // in their colour
+    lit,      // faces in space, lit
+    disc,     // points as marks
+    diamond,
+    ring,
+    plane     // faces in a plane, darker if folded
+  };
+  /// Where colours come from: COLOURED_BY of object.frag.
+  enum class Colouring { one, elements, links, picture, volume };
+  struct Variant {
+    Shading shading;
+    Colouring colouring;
+    bool operator==(const Variant&) const = default;
+  };
+  static QByteArray definitions(const Variant& variant);
+  static Shading shadingOf(Mark mark);
+
   /// All that the picture of the object depends on.
   struct Drawn {
     QMatrix4x4 toView, toClip;
@@ -78,8 +97,9 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   }
   void uploadPositions(const Frame& frame);
 
-  void use(const Scene& scene, QColor colour, int shading, int dimension, int colouredBy = 0);
-  void useValues(const Scene& scene, const Paint& paint, int shading);
+  void use(const Scene& scene, QColor colour, Shading shading, int dimension,
+           Colouring colouring = Colouring::one);
+  void useValues(const Scene& scene, const Paint& paint, Shading shading);
   void uploadValues(const ColourValues& values);
   void useMap(const ColourScale& scale);
   void useRest(const DrawOptions& options);
@@ -98,25 +118,25 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw);
   void drawEveryElement(const Scene& scene, const Paint& paint);
-  void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, int shading,
-               float diameter);
+  void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
+               Shading shading, float diameter);
 
-  // The shaders, compiled for each pair of SHADING and COLOURED_BY that is used.
-  static constexpr std::array<std::array<int, 2>, 15> variants{{{0, 0},
-                                                                {0, 1},
-                                                                {0, 2},
-                                                                {0, 3},
-                                                                {0, 4},
-                                                                {1, 0},
-                                                                {1, 1},
-                                                                {2, 0},
-                                                                {2, 1},
-                                                                {3, 0},
-                                                                {4, 0},
-                                                                {4, 1},
-                                                                {5, 0},
-                                                                {5, 1},
-                                                                {5, 3}}};
+  // The shaders, compiled for each pair that is used.
+  static constexpr std::array<Variant, 15> variants{{{Shading::plain, Colouring::one},
+                                                     {Shading::plain, Colouring::elements},
+                                                     {Shading::plain, Colouring::links},
+                                                     {Shading::plain, Colouring::picture},
+                                                     {Shading::plain, Colouring::volume},
+                                                     {Shading::lit, Colouring::one},
+                                                     {Shading::lit, Colouring::elements},
+                                                     {Shading::disc, Colouring::one},
+                                                     {Shading::disc, Colouring::elements},
+                                                     {Shading::diamond, Colouring::one},
+                                                     {Shading::ring, Colouring::one},
+                                                     {Shading::ring, Colouring::elements},
+                                                     {Shading::plane, Colouring::one},
+                                                     {Shading::plane, Colouring::elements},
+                                                     {Shading::plane, Colouring::picture}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
   QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;
