@@ -3,6 +3,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "files/formats/mesh_pieces.h"
 #include "files/support.h"
 #include "files/text/outputs.h"
 #include "measure/violation.h"
@@ -100,6 +101,7 @@ class WritersTest : public QObject {
   void msh_of_elements_alone();
   void cut_pieces_are_gone();
   void positions_are_told_to_the_bit();
+  void other_edges_of_a_cut_face_are_lines();
   void a_full_disk_is_told_data();
   void a_full_disk_is_told();
 
@@ -232,6 +234,24 @@ void WritersTest::positions_are_told_to_the_bit() {
   }
   QCOMPARE(ply, expected);
   QCOMPARE(msh, expected);
+}
+
+/// The edges of a face that is not written are lines, even if the writer saw some of them before it met the cut.
+void WritersTest::other_edges_of_a_cut_face_are_lines() {
+  MeshParts parts;
+  for (int i = 0; i < 6; ++i) {
+    parts.rest.emplace_back(i / 3 * 5 + (i % 3 == 1 ? 1 : 0), i % 3 == 2 ? 1 : 0, 0);
+  }
+  parts.triangles = {{0, 1, 2}, {3, 4, 5}};  // far from each other
+  add_links_along_edges(parts);
+  const auto mesh = build_mesh(std::move(parts));
+  for (const auto& [a, b] : {std::array{0, 1}, std::array{1, 2}, std::array{0, 2}}) {
+    Cuts cuts(mesh);
+    cuts.cut(*find_link(*mesh, ElementId(a), ElementId(b)));
+    const MeshPieces pieces(*mesh, cuts, {}, {});
+    QCOMPARE(pieces.count(Piece::triangle), 1U);
+    QCOMPARE(pieces.count(Piece::line), 2U);
+  }
 }
 
 void WritersTest::a_full_disk_is_told_data() {

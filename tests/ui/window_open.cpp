@@ -95,6 +95,7 @@ class WindowOpen : public QObject {
     QVERIFY(bar.isVisible());
     QCOMPARE(bench.find<QLabel>("volumeAbout")->text(), QStringLiteral("vtk.mha: 6 × 5 × 4 voxels"));
     auto* threshold = bench.find<QDoubleSpinBox>("volumeThreshold");
+    QCOMPARE(threshold->singleStep(), (threshold->maximum() - threshold->minimum()) / 100);
     threshold->setValue(-1000);
     QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("120 voxels"));
     threshold->setValue(500);

@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenu>
+#include <QPainter>
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolBar>
@@ -241,6 +242,22 @@ class WindowWords : public QObject {
       QCOMPARE(!explanation.startsWith(QStringLiteral("Not available: ")), possible);
       QVERIFY(!possible || explanation.toLower() == QString::fromUtf8(info.summary.data()).toLower());
     }
+  }
+
+  /// The view of the list paints all rows with one painter.
+  void aRowOfTheListLeavesThePainterAsItWas() {
+    const Workbench bench;
+    const QComboBox& selector = bench.window.panel(0).selector();
+    QImage picture(300, 100, QImage::Format_ARGB32);
+    QPainter painter(&picture);
+    QStyleOptionViewItem option;
+    option.initFrom(selector.view());
+    option.rect = picture.rect();
+    const QFont font = painter.font();
+    const QPen pen = painter.pen();
+    AlgorithmDelegate().paint(&painter, option, selector.model()->index(0, 0));
+    QCOMPARE(painter.opacity(), 1.0);
+    QVERIFY(painter.font() == font && painter.pen() == pen);
   }
 
   void aButtonPinsTheBottomWherePinsAreMissing() {

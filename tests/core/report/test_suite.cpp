@@ -63,6 +63,7 @@ class SuiteTest : public QObject {
   void linear_fem_meets_the_beam();
   void a_handle_that_turns_has_a_reference();
   void limited_iterations_count_unlimited_ones_must_converge();
+  void each_size_is_one_column();
   void times_grow_with_the_accuracy();
   void a_fresh_move_is_timed_with_its_grab();
   void parts_have_every_experiment_once();
@@ -172,6 +173,22 @@ void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
   QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
   QVERIFY(entries[1].measurement && entries[1].refusal.empty());
   QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
+}
+
+void SuiteTest::each_size_is_one_column() {
+  SuiteResult result;
+  result.orders = {{"Linear FEM", "fem", "", {{100, 0.5}, {400, 0.125}}, 2.0},
+                   {"Exact", "exact", "", {{400, 0.5}, {50, 0.75}}, {}},
+                   {"BEM", "bem", "it has no cells", {}, {}}};
+  const FigureTable table = order_table(result);
+  QStringList names;
+  for (const auto& column : table.columns) {
+    names << QString::fromStdString(column.name);
+  }
+  QCOMPARE(names, QStringList({"50", "100", "400", "order"}));
+  QCOMPARE(table.rows.at(0).cells, std::vector<std::string>({"-", "0.5", "0.125", "2"}));
+  QCOMPARE(table.rows.at(1).cells.at(0), std::string("0.75"));
+  QVERIFY(table.rows.at(2).refusal == "it has no cells" && table.rows.at(2).cells.empty());
 }
 
 void SuiteTest::times_grow_with_the_accuracy() {
