@@ -177,17 +177,20 @@ std::vector<double> positions_of(py::handle values) {
   return spread_out(real_numbers(array, "positions"), {0, 1, 2}, {0, 0, 0});
 }
 
-std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values) {
+std::vector<double> positions_on(const api::Mesh& mesh, py::handle values) {
   const py::array array = array_from(values, "positions");
   const std::string count = std::to_string(mesh.element_count());
   const bool fits = array.ndim() == 2 && array.shape(0) == py::ssize_t(mesh.element_count()) &&
-                    (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension);
+                    (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension());
   if (!fits) {
-    const std::string flat = "(" + count + ", " + std::to_string(mesh.space_dimension) + ")";
+    const std::string flat = "(" + count + ", " + std::to_string(mesh.space_dimension()) + ")";
     throw Error("positions", "the array has the shape " + shape_in_words(array),
-                "give the shape (" + count + ", 3)" + (mesh.space_dimension == 3 ? "" : " or " + flat));
+                "give the shape (" + count + ", 3)" + (mesh.space_dimension() == 3 ? "" : " or " + flat));
   }
-  return spread_out(real_numbers(array, "positions"), mesh.axes, {mesh.origin.x(), mesh.origin.y(), mesh.origin.z()});
+  std::array<int, 3> axes{};
+  std::ranges::transform(mesh.axes(), axes.begin(), [](char axis) { return axis - 'x'; });
+  const api::Vector3 constant = mesh.rest_position(0);  // on the axes that do not exist
+  return spread_out(real_numbers(array, "positions"), axes, {constant.x, constant.y, constant.z});
 }
 
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count) {
@@ -203,9 +206,17 @@ std::vector<double> numbers_of(py::handle value, const std::string& name, std::s
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
-std::vector<double> flat_reals_of(py::handle values, const std::string& name) {
-  const Flat<double> numbers = real_numbers(array_from(values, name), name);
-  return {numbers.data(), numbers.data() + numbers.size()};
+api::StateValue flat_numbers_of(py::handle values, const std::string& name) {
+  const py::array array = array_from(values, name);
+  if (array.size() == 0 || is_whole(array)) {
+    const Flat<std::int64_t> numbers = whole_numbers(array, name);
+    const std::span<const std::int64_t> all(numbers.data(), std::size_t(numbers.size()));
+    if (std::ranges::all_of(all, [](std::int64_t one) { return one >= 0 && one <= max_ids; })) {
+      return std::vector<std::uint32_t>(all.begin(), all.end());
+    }
+  }
+  const Flat<double> numbers = real_numbers(array, name);
+  return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
 }
 
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words) {

@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "chainmail/mesh.h"
+#include "chainmail/state.h"
 #include "chainmail/types.h"
-#include "mesh/mesh.h"
 
 namespace chainmail::python {
 
@@ -34,12 +35,12 @@ api::Vector3 vector_of(py::handle value, const char* where);
 /// Returns an array of shape (elements, 1 to 3) as x, y and z for each element; coordinates that are missing are 0.
 std::vector<double> positions_of(py::handle values);
 /// The same for the elements of a mesh: an array of shape (elements, 3), or with a column for each axis that exists.
-std::vector<double> positions_on(const chainmail::Mesh& mesh, py::handle values);
+std::vector<double> positions_on(const api::Mesh& mesh, py::handle values);
 /// Returns a number, or one for each of `count` links. `name` is that of the argument.
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count);
 
-/// Returns the numbers of an array of any shape, one row after the other.
-std::vector<double> flat_reals_of(py::handle values, const std::string& name);
+/// Returns the numbers of an array of any shape, one row after the other: ids if all of them can be.
+api::StateValue flat_numbers_of(py::handle values, const std::string& name);
 
 /// Returns the position of a word in a list. Throws Error, with all words, if it is not in it.
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words);

@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "chainmail/error.h"
-#include "mesh/error.h"
-#include "mesh/progress.h"
 
 namespace chainmail::python {
 namespace {
@@ -15,8 +13,7 @@ namespace py = pybind11;
 py::object class_of(const char* name) { return py::module_::import("chainmail.errors").attr(name); }
 
 /// Sets chainmail.Error as the exception of Python.
-template <class AnyError>
-void set_error(const AnyError& error) {
+void set_error(const api::Error& error) {
   const py::object type = class_of("Error");
   const py::object value = type(error.where(), error.problem(), error.remedy());
   PyErr_SetObject(type.ptr(), value.ptr());
@@ -33,10 +30,6 @@ void translate_errors() {
     } catch (const api::Error& error) {
       set_error(error);
     } catch (const api::Cancelled&) {
-      set_cancelled();
-    } catch (const chainmail::Error& error) {
-      set_error(error);
-    } catch (const chainmail::Cancelled&) {
       set_cancelled();
     }
   });

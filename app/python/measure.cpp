@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include "api/access.h"
 #include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
@@ -45,7 +44,7 @@ auto figure_of(Object& object, Figure figure) {
 
 api::Spread distance_to_positions(Object& object, const py::object& values) {
   const UseObject use(object);
-  const std::vector<double> positions = positions_on(*api::Access::pointer(object.body().mesh()), values);
+  const std::vector<double> positions = positions_on(object.body().mesh(), values);
   const py::gil_scoped_release unlocked;
   return api::distance(object.body(), positions);
 }

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "api/access.h"
+#include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
 
@@ -26,10 +26,6 @@ py::array shown(const api::Mesh& mesh, std::span<const std::array<api::ElementId
   return shown(mesh, rows.empty() ? nullptr : rows.front().data(), rows.size(), Columns);
 }
 
-py::array links_of(const api::Mesh& mesh) {
-  return shown<2>(mesh, std::span<const std::array<api::ElementId, 2>>(api::Access::pointer(mesh)->links));
-}
-
 py::array_t<double> rest_lengths_of(const api::Mesh& mesh) {
   py::array_t<double> lengths(mesh.link_count());
   double* out = lengths.mutable_data();
@@ -39,19 +35,11 @@ py::array_t<double> rest_lengths_of(const api::Mesh& mesh) {
   return lengths;
 }
 
-std::string axes_of(const api::Mesh& mesh) {
-  std::string axes;
-  for (int k = 0; k < 3; ++k) {
-    axes += api::Access::pointer(mesh)->has_axis(k) ? std::string(1, "xyz"[k]) : "";
-  }
-  return axes;
-}
-
 std::string mesh_in_words(const api::Mesh& mesh) {
   static constexpr std::array<const char*, 4> kinds{"", "chain", "surface", "volume"};
   return "<Mesh: " + std::string(kinds[std::size_t(mesh.object_dimension())]) + " of " +
          std::to_string(mesh.element_count()) + " elements and " + std::to_string(mesh.link_count()) + " links along " +
-         axes_of(mesh) + ">";
+         mesh.axes() + ">";
 }
 
 api::LatticeOptions lattice_options(double spacing, std::optional<int> space_dimension) {
@@ -84,7 +72,7 @@ void add_content(py::class_<api::Mesh>& mesh) {
       .def_property_readonly("link_count", &api::Mesh::link_count,
                              "Number of links. Their ids are 0 to link_count - 1.")
       .def_property_readonly(
-          "links", &links_of,
+          "links", [](const api::Mesh& one) { return shown(one, one.links()); },
           "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32.\n"
           "A read-only view.")
       .def_property_readonly(
@@ -146,7 +134,7 @@ void add_facts(py::class_<api::Mesh>& mesh) {
                              "1 for a chain, 2 for a surface, 3 for a volume.")
       .def_property_readonly("space_dimension", &api::Mesh::space_dimension,
                              "Number of coordinates that exist: on a line there is no y, in a plane no z.")
-      .def_property_readonly("axes", &axes_of, "The axes that exist: 'xyz', or 'xy' in a plane.")
+      .def_property_readonly("axes", &api::Mesh::axes, "The axes that exist: 'xyz', or 'xy' in a plane.")
       .def_property_readonly("part_count", &api::Mesh::part_count, "Number of parts that no link joins.")
       .def_property_readonly(
           "lattice",
@@ -162,7 +150,7 @@ void add_facts(py::class_<api::Mesh>& mesh) {
            [](const api::Mesh& one, const py::object& other) {
              return py::isinstance<api::Mesh>(other) && one == other.cast<const api::Mesh&>();
            })
-      .def("__hash__", [](const api::Mesh& one) { return std::hash<const void*>()(api::Access::pointer(one).get()); })
+      .def("__hash__", [](const api::Mesh& one) { return std::hash<const void*>()(one.identity()); })
       .def("__repr__", &mesh_in_words);
 }
 
@@ -222,9 +210,7 @@ void add_mesh(py::module_& module) {
   add_content(mesh);
   add_connectivity(mesh);
   add_facts(mesh);
-#ifdef CHAINMAIL_HAS_JSON  // its checks are those of sessions
   add_mesh_state(mesh);
-#endif
   add_generators(module);
   module.def(
       "make_mesh", &mesh_from, py::arg("positions"), py::arg("links") = py::none(), py::kw_only(),

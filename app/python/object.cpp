@@ -3,13 +3,11 @@
 #include <string>
 #include <utility>
 
-#include "api/access.h"
 #include "chainmail/error.h"
 #include "chainmail/method.h"
 
 namespace chainmail::python {
 
-using api::Access;
 using api::Error;
 
 Use::Use(Busy& busy, const char* what) : busy_(busy) {
@@ -29,11 +27,7 @@ void Object::check_no_views(std::string_view before) const {
 
 /// Some methods store displacements or turned coordinates, which a view would show instead of positions.
 void Object::check_views(std::string_view method) {
-  const chainmail::Body& impl = Access::body(body());
-  const AlgorithmInfo& next = info(api::algorithm_of(method));
-  const bool works_in_axes = next.family() == Family::chainmail;
-  if (next.from_rest != impl.stores_displacements() ||
-      (works_in_axes != impl.works_in_axes() && impl.softness().axes.is_turned())) {
+  if (!body().keeps_stored_positions(method)) {
     check_no_views("change the method");
   }
 }
@@ -47,8 +41,7 @@ void Object::attach(std::string_view method) {
     throw Error("body", "it has a deformer already", "use that one and its set_method(), or a copy of the body");
   }
   // A deformer that refuses a body takes it along, so everything is checked before.
-  const Algorithm algorithm = api::algorithm_of(method);
-  api::guarded([&] { check(algorithm, *Access::pointer(body().mesh())); });
+  api::check_method(method, body().mesh());
   check_views(method);
   api::Body taken = std::move(body());
   deformer_.emplace(std::move(taken), method);

@@ -1,9 +1,12 @@
 #include "python/pickling.h"
 
 #include <algorithm>
+#include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
-#include "api/access.h"
+#include "chainmail/error.h"
 #include "python/arrays.h"
 
 namespace chainmail::python {
@@ -21,7 +24,58 @@ constexpr const char* meshes_name = "_meshes";  // in the module
 py::object meshes() { return py::module_::import(module_name).attr(meshes_name); }
 
 py::object key_of(const api::Mesh& mesh) {
-  return py::int_(reinterpret_cast<std::uintptr_t>(api::Access::pointer(mesh).get()));
+  return py::int_(reinterpret_cast<std::uintptr_t>(mesh.identity()));
+}
+
+// An array is bytes: one that says what its numbers are, then theirs.
+constexpr char ids_mark = 'I', reals_mark = 'd';
+
+template <class Number>
+py::bytes bytes_of(char mark, const std::vector<Number>& numbers) {
+  const std::size_t size = numbers.size() * sizeof(Number);
+  auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(nullptr, py::ssize_t(1 + size)));
+  if (!bytes) {
+    throw py::error_already_set();
+  }
+  char* const out = PyBytes_AS_STRING(bytes.ptr());
+  *out = mark;
+  std::copy_n(reinterpret_cast<const char*>(numbers.data()), size, out + 1);
+  return bytes;
+}
+
+template <class Number>
+std::optional<api::StateValue> unpacked(std::string_view bytes) {
+  if (bytes.size() % sizeof(Number) != 0) {
+    return std::nullopt;
+  }
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::ranges::copy(bytes, reinterpret_cast<char*>(numbers.data()));
+  return numbers;
+}
+
+/// Returns a part of a dictionary as a value of a state; nothing if no state has such a value.
+std::optional<api::StateValue> value_of(py::handle part, const std::string& name) {
+  PyObject* const object = part.ptr();
+  if (PyBool_Check(object) != 0) {
+    return part.cast<bool>();
+  }
+  if (PyLong_Check(object) != 0) {
+    const auto whole = whole_of(part);
+    return whole ? std::optional<api::StateValue>(*whole) : std::nullopt;
+  }
+  if (PyFloat_Check(object) != 0) {
+    return PyFloat_AS_DOUBLE(object);
+  }
+  if (PyUnicode_Check(object) != 0) {
+    return part.cast<std::string>();
+  }
+  if (PyBytes_Check(object) != 0) {
+    const std::string_view bytes(PyBytes_AS_STRING(object), std::size_t(PyBytes_GET_SIZE(object)));
+    return bytes.starts_with(ids_mark)     ? unpacked<std::uint32_t>(bytes.substr(1))
+           : bytes.starts_with(reals_mark) ? unpacked<double>(bytes.substr(1))
+                                           : std::nullopt;
+  }
+  return part.is_none() ? std::nullopt : std::optional(flat_numbers_of(part, name));
 }
 
 }  // namespace
@@ -85,48 +139,53 @@ void add_pickled_meshes(py::module_& module) {
   module.attr(meshes_name) = py::module_::import("weakref").attr("WeakValueDictionary")();
 }
 
-StateFields::StateFields(const char* class_name, const py::object& state)
+py::dict dict_of(const api::State& state) {
+  const auto in_python = [](const auto& value) -> py::object {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) {
+      return bytes_of(ids_mark, value);
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      return bytes_of(reals_mark, value);
+    } else {
+      return py::cast(value);
+    }
+  };
+  py::dict parts;
+  for (const auto& [name, value] : state) {
+    parts[py::str(name)] = std::visit(in_python, value);
+  }
+  return parts;
+}
+
+PickledParts::PickledParts(const char* class_name, const py::object& parts)
     : where_(std::string("state of a ") + class_name) {
-  if (!py::isinstance<py::dict>(state)) {
+  if (!py::isinstance<py::dict>(parts)) {
     throw api::Error(where_, "it is not a dictionary", "pickle the object again");
   }
-  parts_ = state;
+  parts_ = parts;
 }
 
-py::object StateFields::object(const char* name) const {
-  if (!parts_.contains(name)) {
-    refuse(name);
+api::State PickledParts::without(const char* name) const {
+  api::State state;
+  for (const auto& [key, part] : parts_) {
+    if (!py::isinstance<py::str>(key)) {
+      refuse(std::string(py::repr(key)).substr(0, 60));
+    }
+    const auto of = key.cast<std::string>();
+    if (of == name) {
+      continue;
+    }
+    auto value = value_of(part, of);
+    if (!value) {
+      refuse(of);
+    }
+    state[of] = std::move(*value);
   }
-  return parts_[name];
+  return state;
 }
 
-void StateFields::refuse(const char* name) const {
-  throw api::Error(where_, "its part '" + std::string(name) + "' is missing or damaged", "pickle the object again");
-}
-
-template <class Number>
-std::optional<std::vector<Number>> StateFields::unpacked(const char* name) const {
-  const py::object part = object(name);
-  if (PyBytes_Check(part.ptr()) == 0) {
-    return std::nullopt;
-  }
-  const auto size = std::size_t(PyBytes_GET_SIZE(part.ptr()));
-  if (size % sizeof(Number) != 0) {
-    refuse(name);
-  }
-  std::vector<Number> numbers(size / sizeof(Number));
-  std::copy_n(PyBytes_AS_STRING(part.ptr()), size, reinterpret_cast<char*>(numbers.data()));
-  return numbers;
-}
-
-std::vector<std::uint32_t> StateFields::ids(const char* name) const {
-  auto numbers = unpacked<std::uint32_t>(name);
-  return numbers ? std::move(*numbers) : ids_of(object(name), name);
-}
-
-std::vector<double> StateFields::reals(const char* name) const {
-  auto numbers = unpacked<double>(name);
-  return numbers ? std::move(*numbers) : flat_reals_of(object(name), name);
+void PickledParts::refuse(const std::string& name) const {
+  throw api::Error(where_, "its part '" + name + "' is missing or damaged", "pickle the object again");
 }
 
 }  // namespace chainmail::python

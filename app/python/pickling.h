@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "chainmail/mesh.h"
+#include "chainmail/state.h"
 
 namespace chainmail::python {
 
@@ -51,46 +52,34 @@ py::object shared_mesh(const api::Mesh& mesh);
 /// The same for an object that stands for its mesh if no other one does.
 py::object shared_mesh(const py::object& mesh);
 
-/// Returns the bytes of numbers, as a part of a state. An array of NumPy would not do: NumPy trusts what is pickled of
-/// it, and a damaged one ends the process.
-template <class Numbers>
-py::bytes bytes_of(const Numbers& numbers) {
-  const auto* const data = reinterpret_cast<const char*>(numbers.data());
-  const auto size = py::ssize_t(numbers.size() * sizeof(*numbers.data()));
-  auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(data, size));
-  if (!bytes) {
-    throw py::error_already_set();
-  }
-  return bytes;
-}
+/// Returns a state as a dictionary, with bytes for its arrays. An array of NumPy would not do: NumPy trusts what is
+/// pickled of it, and a damaged one ends the process.
+py::dict dict_of(const api::State& state);
 
-/// The parts of a state. Throws Error, with the name of the class, if one is missing or of another type.
-class StateFields {
+/// A dictionary that may come from outside. `class_name` is the name of the object in errors.
+class PickledParts {
  public:
-  StateFields(const char* class_name, const py::object& state);
+  /// Throws Error if the object is no dictionary.
+  PickledParts(const char* class_name, const py::object& parts);
 
-  py::object object(const char* name) const;
+  /// Returns the part that is an object of Python. Throws Error if it is missing or of another class.
   template <class Value>
   Value get(const char* name) const {
     try {
-      return object(name).cast<Value>();
-    } catch (const py::cast_error&) {
-      refuse(name);
+      if (parts_.contains(name)) {
+        return parts_[name].cast<Value>();
+      }
+    } catch (const py::cast_error&) {            // refused below
     } catch (const py::reference_cast_error&) {  // from None
-      refuse(name);
     }
+    refuse(name);
   }
-  /// Return numbers: those that bytes_of() took, or those of an array of any shape.
-  std::vector<std::uint32_t> ids(const char* name) const;
-  std::vector<double> reals(const char* name) const;
-  [[noreturn]] void refuse(const char* name) const;
+  /// Returns all parts but this one. Throws Error for one that no state has.
+  api::State without(const char* name) const;
 
-  const std::string& where() const { return where_; }
+  [[noreturn]] void refuse(const std::string& name) const;
 
  private:
-  template <class Number>
-  std::optional<std::vector<Number>> unpacked(const char* name) const;
-
   std::string where_;
   py::dict parts_;
 };

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 
-#include "api/access.h"
-#include "body/body_view.h"
+#include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
 
 namespace chainmail::python {
 namespace {
 
-using api::Access;
 using api::Error;
 
 constexpr py::ssize_t all_columns = 3;
@@ -29,30 +27,6 @@ py::array_t<double> new_array(const api::Body& body) {
   return py::array_t<double>({py::ssize_t(body.mesh().element_count()), all_columns});
 }
 
-/// Copies x, y and z of each element, from positions that are stored as they are.
-template <class View>
-void copy_stored(const View& view, const chainmail::Mesh& mesh, double* out) {
-  for (ElementId e = 0; e < mesh.element_count(); ++e, out += all_columns) {
-    if constexpr (View::Dimension < 3) {
-      std::copy_n(mesh.origin.data(), all_columns, out);
-    }
-    for (int k = 0; k < View::Dimension; ++k) {
-      out[View::Dimension == 3 ? k : mesh.axes[std::size_t(k)]] = double(view.positions[e][k]);
-    }
-  }
-}
-
-/// Copies x, y and z of each element. Most bodies store positions, which takes a quarter of the time of the others.
-void copy_into(api::Body& body, std::span<double> out) {
-  const py::gil_scoped_release unlocked;
-  chainmail::Body& impl = Access::impl(body).body();
-  if (impl.stores_displacements() || impl.region_axes().is_turned()) {
-    body.copy_positions(out);
-  } else {
-    impl.with_view([&](const auto& view) { copy_stored(view, impl.mesh(), out.data()); });
-  }
-}
-
 py::array checked_out(const py::object& out, std::size_t rows) {
   const bool fits = py::isinstance<py::array_t<double, py::array::c_style>>(out) &&
                     py::cast<py::array>(out).ndim() == 2 && py::cast<py::array>(out).shape(1) == all_columns &&
@@ -68,40 +42,30 @@ py::array positions(Object& object, const py::object& out) {
   const UseObject use(object);
   api::Body& body = object.body();
   py::array array = out.is_none() ? py::array(new_array(body)) : checked_out(out, body.mesh().element_count());
-  copy_into(body, std::span(static_cast<double*>(array.mutable_data()), std::size_t(array.size())));
+  const std::span<double> numbers(static_cast<double*>(array.mutable_data()), std::size_t(array.size()));
+  {
+    const py::gil_scoped_release unlocked;
+    body.copy_positions(numbers);
+  }
   return array;
-}
-
-void check_view(const chainmail::Body& body) {
-  if (body.stores_displacements()) {
-    throw Error("view", "the method of the body stores displacements from rest, not positions",
-                "use positions(), which copies");
-  }
-  if (body.region_axes().is_turned()) {
-    throw Error("view", "the body stores coordinates along turned axes", "use positions(), which copies");
-  }
 }
 
 py::array view(const ObjectPointer& object) {
   const UseObject use(*object);
-  chainmail::Body& body = Access::impl(object->body()).body();
-  check_view(body);
+  const api::StoredPositions stored = object->body().stored_positions();
+  const bool is_single = stored.precision == api::Precision::single_precision;
   const py::capsule owner(new Lease(object), [](void* lease) { delete static_cast<Lease*>(lease); });
-  return body.with_view([&]<class View>(const View& view) {
-    using Stored = std::remove_reference_t<decltype(view.positions[0])>;
-    py::array array(py::dtype::of<typename View::Scalar>(),
-                    {py::ssize_t(body.mesh().element_count()), py::ssize_t(View::Dimension)},
-                    {py::ssize_t(sizeof(Stored)), py::ssize_t(sizeof(typename View::Scalar))}, view.positions[0].at,
-                    owner);
-    py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-    return array;
-  });
+  py::array array(is_single ? py::dtype::of<float>() : py::dtype::of<double>(),
+                  {py::ssize_t(object->body().mesh().element_count()), py::ssize_t(stored.columns)},
+                  {py::ssize_t(stored.stride), py::ssize_t(is_single ? sizeof(float) : sizeof(double))}, stored.first,
+                  owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
 }
 
 void set_positions(Object& object, const py::object& values) {
   const UseObject use(object);
-  const chainmail::Mesh& mesh = *Access::pointer(object.body().mesh());
-  const std::vector<double> all = positions_on(mesh, values);
+  const std::vector<double> all = positions_on(object.body().mesh(), values);
   const py::gil_scoped_release unlocked;
   object.body().set_positions(all);
 }

@@ -3,60 +3,22 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
-#include "api/access.h"
+#include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
-#include "python/own_softness.h"
 
 namespace chainmail::python {
 namespace {
 
-using api::Access;
 using api::Error;
-using InnerSoftness = chainmail::LinkSoftness;
+using api::LinkId;
 
-std::vector<LinkId> every_link(const chainmail::Mesh& mesh) {
+std::vector<LinkId> every_link(const api::Mesh& mesh) {
   std::vector<LinkId> links(mesh.link_count());
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    links[link] = link;
-  }
+  std::iota(links.begin(), links.end(), 0);
   return links;
-}
-
-std::vector<LinkId> links_or_all(const py::object& links, const chainmail::Mesh& mesh) {
-  if (links.is_none()) {
-    return every_link(mesh);
-  }
-  std::vector<LinkId> ids = ids_of(links, "link");
-  api::check_link_ids(mesh, ids);
-  return ids;
-}
-
-void check_unique(std::vector<LinkId> links) {
-  std::ranges::sort(links);
-  if (const auto twice = std::ranges::adjacent_find(links); twice != links.end()) {
-    throw Error("link " + std::to_string(*twice), "it is given twice", "give each link once");
-  }
-}
-
-/// Checks the softness of a link, and names the link in the error.
-void check_softness(LinkId link, const InnerSoftness& softness) {
-  try {
-    check(softness);
-  } catch (const chainmail::Error& error) {
-    throw Error("link " + std::to_string(link) + ", " + error.where(), error.problem(), error.remedy());
-  }
-}
-
-bool is_before(const InnerSoftness& one, const InnerSoftness& other) {
-  const auto key = [](const InnerSoftness& softness) {
-    std::array<double, softness_numbers.size()> numbers{};
-    std::ranges::transform(softness_numbers, numbers.begin(),
-                           [&](const SoftnessNumber& n) { return softness.*n.value; });
-    return numbers;
-  };
-  return key(one) < key(other);
 }
 
 using Numbers = std::map<std::string, std::vector<double>>;
@@ -65,9 +27,7 @@ Numbers numbers_given(const py::kwargs& given, std::size_t links) {
   Numbers numbers;
   for (const auto& [key, value] : given) {
     const auto name = key.cast<std::string>();
-    const bool known =
-        std::ranges::any_of(softness_numbers, [&](const SoftnessNumber& one) { return one.parameter->name == name; });
-    if (!known) {
+    if (std::ranges::find(api::softness_numbers(), name, &api::SoftnessNumber::name) == api::softness_numbers().end()) {
       throw py::type_error("set_link_softness() has no argument '" + name + "'");
     }
     if (!value.is_none()) {
@@ -77,9 +37,9 @@ Numbers numbers_given(const py::kwargs& given, std::size_t links) {
   return numbers;
 }
 
-void put(InnerSoftness& softness, const Numbers& numbers, std::size_t at) {
-  for (const SoftnessNumber& one : softness_numbers) {
-    if (const auto found = numbers.find(std::string(one.parameter->name)); found != numbers.end()) {
+void put(api::LinkSoftness& softness, const Numbers& numbers, std::size_t at) {
+  for (const api::SoftnessNumber& one : api::softness_numbers()) {
+    if (const auto found = numbers.find(std::string(one.name)); found != numbers.end()) {
       softness.*one.value = found->second[at];
     }
   }
@@ -87,42 +47,26 @@ void put(InnerSoftness& softness, const Numbers& numbers, std::size_t at) {
 
 void set_link_softness(Object& object, const py::object& links, const py::kwargs& given) {
   const UseObject use(object);
-  auto& impl = Access::impl(object.body());
-  const Softness& present = impl.body().softness();
-  const std::vector<LinkId> ids = links_or_all(links, impl.body().mesh());
-  check_unique(ids);
+  api::Body& body = object.body();
+  const std::vector<LinkId> ids = links.is_none() ? every_link(body.mesh()) : ids_of(links, "link");
   const Numbers numbers = numbers_given(given, ids.size());
   const py::gil_scoped_release unlocked;
-  std::vector<std::pair<LinkId, InnerSoftness>> entries;
-  entries.reserve(ids.size() + present.links.size());
-  std::vector<bool> is_new(impl.body().mesh().link_count());
+  std::vector<api::LinkSoftness> next;
+  next.reserve(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    auto& [link, softness] = entries.emplace_back(ids[i], present.of(ids[i]));
-    put(softness, numbers, i);
-    check_softness(link, softness);
-    is_new[link] = true;
+    put(next.emplace_back(body.softness(ids[i])), numbers, i);
   }
-  for (const auto& [link, softness] : present.links) {
-    if (!is_new[link]) {
-      entries.emplace_back(link, softness);
-    }
-  }
-  Softness next = present;
-  next.links = grouped(std::move(entries));
-  api::guarded([&] { impl.set_softness(next); });
+  body.set_softness(ids, next);
 }
 
 py::dict link_softness(Object& object) {
   const UseObject use(object);
-  const chainmail::Body& body = Access::body(object.body());
+  const std::vector<api::LinkSoftness> softness = object.body().link_softness();
   py::dict arrays;
-  for (const SoftnessNumber& one : softness_numbers) {
-    py::array_t<double> numbers(body.mesh().link_count());
-    double* out = numbers.mutable_data();
-    for (LinkId link = 0; link < body.mesh().link_count(); ++link) {
-      out[link] = body.softness().of(link).*one.value;
-    }
-    arrays[py::str(std::string(one.parameter->name))] = numbers;
+  for (const api::SoftnessNumber& one : api::softness_numbers()) {
+    py::array_t<double> numbers(py::ssize_t(softness.size()));
+    std::ranges::transform(softness, numbers.mutable_data(), [&](const auto& link) { return link.*one.value; });
+    arrays[py::str(std::string(one.name))] = numbers;
   }
   return arrays;
 }
@@ -137,11 +81,6 @@ void set_softness(Object& object, const api::LinkSoftness& softness, const py::o
 }
 
 }  // namespace
-
-OwnSoftness grouped(std::vector<std::pair<LinkId, LinkSoftness>> entries) {
-  std::ranges::stable_sort(entries, [](const auto& a, const auto& b) { return is_before(a.second, b.second); });
-  return OwnSoftness(entries.begin(), entries.end());
-}
 
 void add_softness(BodyClass& body) {
   body.def_property_readonly(
@@ -164,7 +103,7 @@ void add_softness(BodyClass& body) {
           "clear_softness",
           [](Object& one, const py::object& links) {
             const UseObject use(one);
-            one.body().clear_softness(links.is_none() ? every_link(*Access::pointer(one.body().mesh()))
+            one.body().clear_softness(links.is_none() ? every_link(one.body().mesh())
                                                       : ids_of(links, "link"));
           },
           py::arg("links") = py::none(),

@@ -21,12 +21,9 @@ std::string text_of(const api::Rotation& rotation) {
 
 py::dict numbers_of(const api::LinkSoftness& softness) {
   py::dict numbers;
-  numbers["compression"] = softness.compression;
-  numbers["stretch"] = softness.stretch;
-  numbers["shear"] = softness.shear;
-  numbers["lateral"] = softness.lateral;
-  numbers["stiffness"] = softness.stiffness;
-  numbers["exponent"] = softness.exponent;
+  for (const api::SoftnessNumber& one : api::softness_numbers()) {
+    numbers[py::str(std::string(one.name))] = softness.*one.value;
+  }
   return numbers;
 }
 
@@ -43,8 +40,12 @@ py::tuple values_of(const api::LinkSoftness& softness) {
 }
 
 api::LinkSoftness softness_from(const py::tuple& values) {
-  return {values[0].cast<double>(), values[1].cast<double>(), values[2].cast<double>(),
-          values[3].cast<double>(), values[4].cast<double>(), values[5].cast<double>()};
+  api::LinkSoftness softness;
+  std::size_t i = 0;
+  for (const api::SoftnessNumber& one : api::softness_numbers()) {
+    softness.*one.value = values[i++].cast<double>();
+  }
+  return softness;
 }
 
 void add_rotation(py::module_& module) {
@@ -108,22 +109,14 @@ void add_link_softness(py::module_& module) {
            py::kw_only(), py::arg("compression") = defaults.compression, py::arg("stretch") = defaults.stretch,
            py::arg("shear") = defaults.shear, py::arg("lateral") = defaults.lateral,
            py::arg("stiffness") = defaults.stiffness, py::arg("exponent") = defaults.exponent)
-      .def_readonly("compression", &api::LinkSoftness::compression,
-                    "Shortest length along each axis, of rest length: 0 (no limit) to 1 (rigid).")
-      .def_readonly("stretch", &api::LinkSoftness::stretch,
-                    "Greatest length along each axis, of rest length: 1 (rigid) or more.")
-      .def_readonly("shear", &api::LinkSoftness::shear,
-                    "How far it may lean, per length along the other axes: 0 or more.")
-      .def_readonly("lateral", &api::LinkSoftness::lateral,
-                    "Stiffness against sideways motion, per stiffness along the link: 0 or more.")
-      .def_readonly("stiffness", &api::LinkSoftness::stiffness,
-                    "Stiffness along the link, relative to other links: above 0.")
-      .def_readonly("exponent", &api::LinkSoftness::exponent,
-                    "Power of its rest length by which its stiffness is multiplied: -4 to 4.")
       .def("as_dict", &numbers_of, "Returns the six numbers by name.")
       .def(py::self == py::self)
       .def("__hash__", [](const api::LinkSoftness& one) { return py::hash(values_of(one)); })
       .def("__repr__", [](const api::LinkSoftness& one) { return text_of(one); });
+  for (const api::SoftnessNumber& one : api::softness_numbers()) {
+    const std::string help = std::string(one.help) + " (" + std::string(one.unit) + ").";
+    softness.def_readonly(std::string(one.name).c_str(), one.value, help.c_str());
+  }
   add_pickling(softness, &values_of, &softness_from);
 }
 

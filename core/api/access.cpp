@@ -1,7 +1,10 @@
 #include "api/access.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "solver/algorithms.h"
 
@@ -56,6 +59,23 @@ void check_coordinates(const inner::Mesh& mesh, const std::string& where, const 
       refuse_axis(where, k);
     }
   }
+}
+
+OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries) {
+  const auto numbers_of = [](const OwnSoftness::Entry& entry) {
+    return std::bit_cast<std::array<double, inner::softness_numbers.size()>>(entry.second);
+  };
+  std::ranges::stable_sort(entries, {}, numbers_of);
+  OwnSoftness softness;
+  std::vector<LinkId> links;
+  for (auto first = entries.begin(); first != entries.end();) {
+    const auto end = std::find_if(first, entries.end(), [&](const auto& one) { return one.second != first->second; });
+    links.clear();
+    std::transform(first, end, std::back_inserter(links), [](const auto& one) { return one.first; });
+    softness.set(links, first->second);
+    first = end;
+  }
+  return softness;
 }
 
 Algorithm algorithm_of(std::string_view name) {

@@ -88,7 +88,7 @@ struct Access {
   static Handle handle(inner::Handle handle, Mesh mesh) {
     return Handle(std::make_unique<Handle::Impl>(Handle::Impl{std::move(handle), std::move(mesh)}));
   }
-  // Defined with Deformer, see api/state.h.
+  // Defined with Deformer, see api/body_state.h.
   static DeformerState hand_over(Deformer& deformer);
   static void take_over(Deformer& deformer, const DeformerState& state);
   static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
@@ -149,6 +149,8 @@ void check_ids(const inner::Mesh& mesh, std::span<const ElementId> elements);
 void check_link_ids(const inner::Mesh& mesh, std::span<const LinkId> links);
 /// On axes that do not exist, a coordinate must be 0 or, unless it is a displacement, that of the object.
 void check_coordinates(const inner::Mesh& mesh, const std::string& where, const Vector3& vector, bool is_displacement);
+/// Returns the softness of single links, in groups: a link whose softness others share costs four bytes.
+OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries);
 /// Returns the algorithm with this name; names all of them otherwise.
 Algorithm algorithm_of(std::string_view name);
 

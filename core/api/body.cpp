@@ -1,11 +1,16 @@
 #include "chainmail/body.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <numbers>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "api/access.h"
-#include "api/state.h"
+#include "api/body_state.h"
+#include "body/body_view.h"
 #include "mesh/parameters.h"
 
 namespace chainmail::api {
@@ -34,6 +39,34 @@ void check_precision(const inner::Mesh& mesh, inner::Precision precision) {
   }
 }
 
+constexpr std::array link_softness_values{&LinkSoftness::compression, &LinkSoftness::stretch,
+                                         &LinkSoftness::shear,       &LinkSoftness::lateral,
+                                         &LinkSoftness::stiffness,   &LinkSoftness::exponent};
+static_assert(link_softness_values.size() == inner::softness_numbers.size());
+
+/// Copies x, y and z of each element, from positions that are stored as they are. This takes a quarter of the time of
+/// the general way.
+template <class View>
+void copy_stored(const View& view, const inner::Mesh& mesh, double* out) {
+  for (ElementId e = 0; e < mesh.element_count(); ++e, out += 3) {
+    if constexpr (View::Dimension < 3) {
+      std::copy_n(mesh.origin.data(), 3, out);
+    }
+    for (int k = 0; k < View::Dimension; ++k) {
+      out[View::Dimension == 3 ? k : mesh.axes[std::size_t(k)]] = double(view.positions[e][k]);
+    }
+  }
+}
+
+/// Throws Error with the number of the link.
+void check_own(LinkId link, const LinkSoftness& softness) {
+  try {
+    inner::check(softness_of(softness));
+  } catch (const inner::Error& error) {
+    throw Error("link " + std::to_string(link) + ", " + error.where(), error.problem(), error.remedy());
+  }
+}
+
 std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> links) {
   check_link_ids(mesh, links);
   std::ranges::sort(links);
@@ -42,6 +75,20 @@ std::vector<LinkId> unique_links(const inner::Mesh& mesh, std::vector<LinkId> li
 }
 
 }  // namespace
+
+std::span<const SoftnessNumber> softness_numbers() {
+  static const auto numbers = [] {
+    std::array<SoftnessNumber, link_softness_values.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Parameter& one = *inner::softness_numbers[i].parameter;
+      all[i] = {one.name, one.unit, one.help, one.lowest, one.highest, link_softness_values[i]};
+    }
+    return all;
+  }();
+  return numbers;
+}
+
+const Mesh& Snapshot::mesh() const { return impl_->mesh; }
 
 bool Snapshot::operator==(const Snapshot& other) const {
   return impl_->mesh == other.impl_->mesh && impl_->precision == other.impl_->precision &&
@@ -90,10 +137,38 @@ void Body::copy_positions(std::span<double> out) const {
     throw Error("positions", "the array has " + std::to_string(out.size()) + " numbers",
                 "use one of " + std::to_string(std::size_t{3} * mesh.element_count()));
   }
-  const PositionView positions = impl_->body().positions();
+  inner::Body& body = impl_->body();
+  if (!body.stores_displacements() && !body.region_axes().is_turned()) {
+    body.with_view([&](const auto& view) { copy_stored(view, mesh, out.data()); });
+    return;
+  }
+  const PositionView positions = body.positions();
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     std::ranges::copy(inner::point_of(mesh, positions, e), out.begin() + std::ptrdiff_t(3) * e);
   }
+}
+
+StoredPositions Body::stored_positions() const {
+  inner::Body& body = impl_->body();
+  if (body.stores_displacements()) {
+    throw Error("stored positions", "the method of the body stores displacements from rest, not positions",
+                "use positions(), which copies");
+  }
+  if (body.region_axes().is_turned()) {
+    throw Error("stored positions", "the body stores coordinates along turned axes", "use positions(), which copies");
+  }
+  return body.with_view([&]<class View>(const View& view) {
+    return StoredPositions{view.positions[0].at, precision(), View::Dimension,
+                           sizeof(std::remove_reference_t<decltype(view.positions[0])>)};
+  });
+}
+
+bool Body::keeps_stored_positions(std::string_view method) const {
+  const inner::Body& body = impl_->body();
+  const AlgorithmInfo& next = info(algorithm_of(method));
+  const bool works_in_axes = next.family() == Family::chainmail;
+  return next.from_rest == body.stores_displacements() &&
+         (works_in_axes == body.works_in_axes() || !body.softness().axes.is_turned());
 }
 
 void Body::set_positions(std::span<const double> positions) {
@@ -189,6 +264,30 @@ void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& so
   impl_->set_softness(next);
 }
 
+void Body::set_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness) {
+  const inner::Mesh& mesh = impl_->body().mesh();
+  check_link_ids(mesh, links);
+  if (softness.size() != links.size()) {
+    throw Error("softness", "there are " + std::to_string(softness.size()) + " for " + std::to_string(links.size()) +
+                                " links", "give one for each link");
+  }
+  Softness next = impl_->body().softness();
+  std::vector<OwnSoftness::Entry> entries;
+  entries.reserve(links.size() + next.links.size());
+  std::vector<bool> is_new(mesh.link_count());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (is_new[links[i]]) {
+      throw Error("link " + std::to_string(links[i]), "it is given twice", "give each link once");
+    }
+    check_own(links[i], softness[i]);
+    is_new[links[i]] = true;
+    entries.emplace_back(links[i], softness_of(softness[i]));
+  }
+  std::ranges::copy_if(next.links, std::back_inserter(entries), [&](const auto& one) { return !is_new[one.first]; });
+  next.links = own_softness_of(std::move(entries));
+  impl_->set_softness(next);
+}
+
 void Body::clear_softness(const std::vector<LinkId>& links) {
   Softness next = impl_->body().softness();
   next.links.erase(unique_links(impl_->body().mesh(), links));
@@ -200,6 +299,15 @@ LinkSoftness Body::softness() const { return softness_of(impl_->body().softness(
 LinkSoftness Body::softness(LinkId link) const {
   check_link_ids(impl_->body().mesh(), std::span(&link, 1));
   return softness_of(impl_->body().softness().of(link));
+}
+
+std::vector<LinkSoftness> Body::link_softness() const {
+  const Softness& softness = impl_->body().softness();
+  std::vector<LinkSoftness> all(impl_->body().mesh().link_count(), softness_of(softness.global));
+  for (const auto& [link, own] : softness.links) {
+    all[link] = softness_of(own);
+  }
+  return all;
 }
 
 void Body::set_energy(EnergyKind kind) {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "api/access.h"
-#include "api/state.h"
+#include "api/body_state.h"
 #include "mesh/parameters.h"
 
 namespace chainmail::api {

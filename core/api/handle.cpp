@@ -34,6 +34,7 @@ Handle& Handle::operator=(const Handle& other) {
 Handle& Handle::operator=(Handle&& other) noexcept = default;
 Handle::~Handle() = default;
 
+const Mesh& Handle::mesh() const { return impl_->mesh; }
 std::span<const ElementId> Handle::elements() const { return impl_->handle.elements(); }
 Pose Handle::grabbed() const { return pose_of(impl_->handle.grabbed()); }
 Pose Handle::pose() const { return pose_of(impl_->handle.pose()); }

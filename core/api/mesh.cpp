@@ -99,6 +99,8 @@ std::span<const ElementId> Mesh::neighbours(ElementId element) const {
   return impl_->mesh->neighbours_of(element);
 }
 
+std::span<const std::array<ElementId, 2>> Mesh::links() const { return impl_->mesh->links; }
+
 std::array<ElementId, 2> Mesh::link(LinkId link) const {
   check_link_ids(*impl_->mesh, std::span(&link, 1));
   return impl_->mesh->links[link];
@@ -136,6 +138,15 @@ std::array<Vector3, 2> Mesh::bounds() const { return {vector_of(impl_->mesh->box
 
 int Mesh::object_dimension() const { return impl_->mesh->object_dimension; }
 int Mesh::space_dimension() const { return impl_->mesh->space_dimension; }
+
+std::string Mesh::axes() const {
+  std::string axes;
+  for (int k = 0; k < 3; ++k) {
+    axes += impl_->mesh->has_axis(k) ? std::string(1, "xyz"[k]) : "";
+  }
+  return axes;
+}
+
 std::uint32_t Mesh::part_count() const { return impl_->mesh->part_count; }
 
 std::optional<std::array<std::uint32_t, 3>> Mesh::lattice() const {
@@ -168,6 +179,7 @@ std::vector<ElementId> Mesh::side(std::string_view name) const {
 }
 
 bool Mesh::operator==(const Mesh& other) const { return impl_->mesh == other.impl_->mesh; }
+const void* Mesh::identity() const { return impl_->mesh.get(); }
 const std::string& Mesh::remark() const { return impl_->remark; }
 
 Mesh make_line(std::uint32_t length, const LatticeOptions& options) {

@@ -30,9 +30,15 @@ std::vector<MethodInfo> methods() {
 
 MethodInfo method_info(std::string_view name) { return info_of(info(algorithm_of(name))); }
 
+void check_method(std::string_view method, const Mesh& mesh) {
+  const Algorithm algorithm = algorithm_of(method);
+  guarded([&] { check(algorithm, *Access::pointer(mesh)); });
+}
+
 std::string refusal(std::string_view method, const Mesh& mesh) {
+  const Algorithm algorithm = algorithm_of(method);
   try {
-    check(algorithm_of(method), *Access::pointer(mesh));
+    check(algorithm, *Access::pointer(mesh));
   } catch (const inner::Error& error) {
     return error.what();
   }

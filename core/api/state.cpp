@@ -1,90 +1,334 @@
-#include "api/state.h"
+#include "chainmail/state.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <ranges>
 #include <utility>
+
+#include "api/access.h"
+#include "api/body_state.h"
+#include "api/state_fields.h"
+#include "body/handle.h"
+#ifdef CHAINMAIL_HAS_JSON  // the checks of a mesh are those of sessions
+#include "files/session/flat_mesh.h"
+#endif
 
 namespace chainmail::api {
 namespace {
 
-void check_reach(const inner::Body::Reach& reach) {
-  for (const double one : {reach.since_rest, reach.since_check}) {
-    if (!(one >= 0 && std::isfinite(one))) {
-      throw Error("body", "the size of its moves is not a finite number", "use the state of a body");
-    }
+constexpr std::array precision_names{"float", "double"};
+
+std::vector<double> row_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
+
+Point point_from(const StateFields& state, std::string_view name) {
+  const auto [x, y, z] = state.row<3>(name);
+  return {x, y, z};
+}
+
+std::string name_of(inner::Precision precision) {
+  return precision_names[precision == inner::Precision::single_precision ? 0 : 1];
+}
+
+inner::Precision precision_from(const StateFields& state) {
+  return state.word("precision", precision_names) == 0 ? inner::Precision::single_precision
+                                                        : inner::Precision::double_precision;
+}
+
+/// Puts positions as runs of elements away from rest.
+void put_positions(State& state, const inner::Snapshot& positions, const inner::Mesh& mesh) {
+  PositionRuns runs = runs_of(positions, mesh);
+  state["from_rest"] = runs.from_rest;
+  state["runs"] = std::move(runs.runs);
+  state["held"] = std::move(runs.held);
+  state["axes_of_positions"] = row_of(runs.axes.rotation());
+}
+
+inner::Snapshot positions_from(const StateFields& state, const inner::Mesh& mesh, inner::Precision precision) {
+  const RegionAxes axes(AxesKind::given, point_from(state, "axes_of_positions"));
+  inner::check(axes, mesh);
+  return inner::snapshot_of(
+      {state.flag("from_rest"), state.ids("runs"), state.reals("held"), axes.is_turned() ? axes : RegionAxes()}, mesh,
+      precision);
+}
+
+void append(std::vector<double>& numbers, const inner::LinkSoftness& softness) {
+  for (const inner::SoftnessNumber& one : inner::softness_numbers) {
+    numbers.push_back(softness.*one.value);
   }
+}
+
+inner::LinkSoftness softness_at(std::span<const double> numbers) {
+  inner::LinkSoftness softness;
+  for (std::size_t i = 0; i < inner::softness_numbers.size(); ++i) {
+    softness.*inner::softness_numbers[i].value = numbers[i];
+  }
+  return softness;
+}
+
+void put_own_softness(State& state, const OwnSoftness& softness) {
+  std::vector<LinkId> links;
+  std::vector<double> numbers;
+  for (const auto& [link, own] : softness) {
+    links.push_back(link);
+    append(numbers, own);
+  }
+  state["own_links"] = std::move(links);
+  state["own_softness"] = std::move(numbers);
+}
+
+OwnSoftness own_softness_from(const StateFields& state, const inner::Mesh& mesh) {
+  const std::vector<LinkId>& links = state.ids("own_links");
+  const std::vector<double> numbers = state.reals("own_softness");
+  inner::check_links(mesh, links);
+  const std::size_t columns = inner::softness_numbers.size();
+  if (numbers.size() != links.size() * columns) {
+    state.refuse("own_softness");
+  }
+  std::vector<OwnSoftness::Entry> entries;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    entries.emplace_back(links[i], softness_at(std::span(numbers).subspan(i * columns, columns)));
+    inner::check(entries.back().second);
+  }
+  return own_softness_of(std::move(entries));
+}
+
+void put_softness(State& state, const Softness& softness) {
+  std::vector<double> common;
+  append(common, softness.global);
+  state["softness"] = std::move(common);
+  put_own_softness(state, softness.links);
+  state["energy"] = std::string(info(softness.energy).name);
+  state["axes"] = std::string(axes_kinds[std::size_t(softness.axes.kind())]);
+  state["turned_by"] = row_of(softness.axes.rotation());
+}
+
+Softness softness_from(const StateFields& state, const inner::Mesh& mesh) {
+  const auto names = inner::energy_kinds() | std::views::transform(&inner::EnergyKindInfo::name);
+  const auto energy = inner::EnergyKind(state.word("energy", names));
+  const auto kind = AxesKind(state.word("axes", axes_kinds));
+  return {softness_at(state.row<inner::softness_numbers.size()>("softness")), own_softness_from(state, mesh), energy,
+          kind == AxesKind::axes ? RegionAxes() : RegionAxes(kind, point_from(state, "turned_by"))};
+}
+
+void put_elastic(State& state, const ElasticOptions& elastic) {
+  state["young"] = elastic.material.young;
+  state["poisson"] = elastic.material.poisson;
+  state["control_points"] = std::vector<std::uint32_t>(elastic.lattice.begin(), elastic.lattice.end());
+  state["iterations"] = std::int64_t(elastic.iterations);
+}
+
+ElasticOptions elastic_from(const StateFields& state) {
+  const std::vector<std::uint32_t>& points = state.ids("control_points");
+  if (points.size() != 3) {
+    state.refuse("control_points");
+  }
+  return {{state.real("young"), state.real("poisson")},
+          {points[0], points[1], points[2]},
+          std::uint32_t(state.whole("iterations", 0, std::numeric_limits<std::uint32_t>::max()))};
+}
+
+BodyState body_state_from(const StateFields& state, const inner::Mesh& mesh) {
+  const inner::Precision precision = precision_from(state);
+  const auto [since_rest, since_check] = state.row<2>("reach");
+  return {.precision = precision,
+          .works_in_axes = state.flag("works_in_axes"),
+          .stores_displacements = state.flag("stores_displacements"),
+          .softness = std::make_shared<const Softness>(softness_from(state, mesh)),
+          .elastic = elastic_from(state),
+          .cuts = state.ids("cuts"),
+          .pins = state.ids("pins"),
+          .positions = positions_from(state, mesh, precision),
+          .reach = {since_rest, since_check},
+          .handle = state.ids("handle"),
+          .is_held = state.flag("is_held")};
+}
+
+/// Returns three numbers for each step: the element, its sponsor, and 1 if it moved.
+std::vector<std::uint32_t> flat_trace(const std::vector<TraceStep>& trace) {
+  std::vector<std::uint32_t> flat;
+  for (const TraceStep& step : trace) {
+    flat.insert(flat.end(), {step.element, step.sponsor, step.moved ? 1U : 0U});
+  }
+  return flat;
+}
+
+std::vector<TraceStep> trace_from(const StateFields& state) {
+  const std::vector<std::uint32_t>& flat = state.ids("trace");
+  if (flat.size() % 3 != 0) {
+    state.refuse("trace");
+  }
+  std::vector<TraceStep> trace;
+  for (std::size_t i = 0; i < flat.size(); i += 3) {
+    trace.push_back({flat[i], flat[i + 1], flat[i + 2] != 0});
+  }
+  return trace;
+}
+
+DeformerState deformer_state_from(const StateFields& state) {
+  const auto names = inner::relaxation_schemes | std::views::transform(&inner::RelaxationSchemeInfo::name);
+  return {.method = state.text("method"),
+          .is_tracing = state.flag("is_tracing"),
+          .trace = trace_from(state),
+          .memory = {.relaxation = inner::RelaxationScheme(state.word("scheme", names)),
+                     .threads = int(state.whole("threads", 0, std::numeric_limits<int>::max())),
+                     .moved = state.ids("moved"),
+                     .pending = {state.ids("relaxes_now"), state.ids("relaxes_next"), state.flag("in_sweep"),
+                                 state.real("largest_step")},
+                     .is_awake = state.flag("is_awake"),
+                     .method = state.reals("memory")}};
 }
 
 }  // namespace
 
-ElementBlocks every_block(const inner::Mesh& mesh) {
-  ElementBlocks all(mesh.element_count());
-  all.insert_all();
-  return all;
+#ifdef CHAINMAIL_HAS_JSON
+
+State save(const Mesh& mesh) {
+  const auto& [pointer, softness, remark] = Access::impl(mesh);
+  FlatMesh flat = flat_mesh_of(*pointer);
+  State state;
+  state["rest"] = std::move(flat.rest);
+  state["first_entry"] = std::move(flat.first_entry);
+  state["neighbours"] = std::move(flat.neighbours);
+  state["triangles"] = std::move(flat.triangles);
+  state["polygons"] = std::move(flat.polygons);
+  state["tetrahedra"] = std::move(flat.tetrahedra);
+  state["hexahedra"] = std::move(flat.hexahedra);
+  state["lattice"] = flat.lattice ? std::vector<std::uint32_t>(flat.lattice->size.begin(), flat.lattice->size.end())
+                                  : std::vector<std::uint32_t>();
+  state["spacing"] = flat.lattice ? flat.lattice->spacing : 0.0;
+  state["space_dimension"] = flat.space_dimension;
+  put_own_softness(state, softness);
+  state["remark"] = remark;
+  return state;
 }
 
-inner::Snapshot snapshot_of(const inner::Body& body) {
-  return body.is_at_rest() ? body.snapshot(ElementBlocks(body.mesh().element_count()))
-                           : body.snapshot(every_block(body.mesh()));
-}
-
-BodyState state_of(const Body& body) {
-  const auto& impl = Access::impl(body);
-  inner::Body& from = impl.solver->body();
-  return {.precision = from.precision(),
-          .works_in_axes = from.works_in_axes(),
-          .stores_displacements = from.stores_displacements(),
-          .softness = from.shared_softness(),
-          .elastic = from.elastic(),
-          .cuts = from.cuts().links(),
-          .pins = {from.pins().begin(), from.pins().end()},
-          .positions = snapshot_of(from),
-          .reach = from.reach(),
-          .handle = impl.handle,
-          .is_held = impl.is_held};
-}
-
-Body body_of(const Mesh& mesh, const BodyState& state) {
-  Body result(mesh, state.precision == inner::Precision::single_precision ? Precision::single_precision
-                                                                          : Precision::double_precision);
-  auto& impl = Access::impl(result);
-  inner::Body& body = impl.body();
-  body.work_in_axes(state.works_in_axes);
-  body.store_displacements(state.stores_displacements);
-  body.set_softness(state.softness);
-  body.set_elastic(state.elastic);
-  body.cut(state.cuts);
-  body.pin(state.pins);
-  if (!state.positions.is_at_rest()) {
-    body.restore(state.positions, every_block(body.mesh()));
+Mesh load_mesh(const State& from) {
+  const StateFields state("mesh", from);
+  FlatMesh flat{.rest = state.reals("rest"),
+                .first_entry = state.ids("first_entry"),
+                .neighbours = state.ids("neighbours"),
+                .triangles = state.ids("triangles"),
+                .polygons = state.ids("polygons"),
+                .tetrahedra = state.ids("tetrahedra"),
+                .hexahedra = state.ids("hexahedra"),
+                .lattice = {},
+                .space_dimension = state.whole("space_dimension", std::numeric_limits<std::int64_t>::min(),
+                                               std::numeric_limits<std::int64_t>::max())};
+  if (const std::vector<std::uint32_t>& size = state.ids("lattice"); size.size() == 3) {
+    flat.lattice = Lattice{{size[0], size[1], size[2]}, state.real("spacing")};
+  } else if (!size.empty()) {
+    state.refuse("lattice");
   }
-  body.reach() = state.reach;
-  impl.handle = state.handle;
-  impl.is_held = state.is_held;
-  return result;
-}
-
-void check(const BodyState& state, const inner::Mesh& mesh) {
-  guarded([&] {
-    inner::check(state.softness->global);
-    for (const auto& [link, softness] : state.softness->links) {
-      inner::check_links(mesh, std::span(&link, 1));
-      inner::check(softness);
-    }
-    inner::check(state.softness->axes, mesh);
-    inner::check(state.elastic);
-    inner::check_links(mesh, state.cuts);
-    for (const auto* elements : {&state.pins, &state.handle}) {
-      check_ids(mesh, *elements);
-    }
-    inner::check(state.positions, mesh, state.precision);
-    inner::check(state.positions.axes, mesh);
+  return guarded([&] {
+    MeshPointer mesh = checked_mesh(std::move(flat), state.where());
+    OwnSoftness softness = own_softness_from(state, *mesh);
+    return Access::mesh(std::move(mesh), std::move(softness), state.text("remark"));
   });
-  check_reach(state.reach);
-  if (std::ranges::adjacent_find(state.handle, std::greater_equal()) != state.handle.end()) {
-    throw Error("body", "the elements of its handle are not ascending", "use the state of a body");
+}
+
+#else
+
+State save(const Mesh& /*mesh*/) { refuse_without("nlohmann-json", "state of a mesh"); }
+Mesh load_mesh(const State& /*state*/) { refuse_without("nlohmann-json", "state of a mesh"); }
+
+#endif
+
+State save(const Body& body) {
+  BodyState from = state_of(body);
+  State state;
+  state["precision"] = name_of(from.precision);
+  state["works_in_axes"] = from.works_in_axes;
+  state["stores_displacements"] = from.stores_displacements;
+  put_softness(state, *from.softness);
+  put_elastic(state, from.elastic);
+  state["cuts"] = std::move(from.cuts);
+  state["pins"] = std::move(from.pins);
+  put_positions(state, from.positions, *Access::pointer(body.mesh()));
+  state["reach"] = std::vector<double>{from.reach.since_rest, from.reach.since_check};
+  state["handle"] = std::move(from.handle);
+  state["is_held"] = from.is_held;
+  return state;
+}
+
+Body load_body(const Mesh& mesh, const State& state) {
+  return guarded([&] {
+    const BodyState values = body_state_from(StateFields("body", state), *Access::pointer(mesh));
+    check(values, *Access::pointer(mesh));
+    return body_of(mesh, values);
+  });
+}
+
+State save(const Snapshot& snapshot) {
+  const auto& [positions, mesh, precision] = Access::impl(snapshot);
+  State state;
+  state["precision"] = name_of(precision);
+  put_positions(state, positions, *Access::pointer(mesh));
+  return state;
+}
+
+Snapshot load_snapshot(const Mesh& mesh, const State& from) {
+  const StateFields state("snapshot", from);
+  return guarded([&] {
+    const inner::Precision precision = precision_from(state);
+    return Access::make<Snapshot>(positions_from(state, *Access::pointer(mesh), precision), mesh, precision);
+  });
+}
+
+State save(const Handle& handle) {
+  HandleState from = Access::impl(handle).handle.state();
+  std::vector<double> positions;
+  for (const Point& position : from.positions) {
+    positions.insert(positions.end(), position.begin(), position.end());
   }
+  State state;
+  state["elements"] = std::move(from.elements);
+  state["positions"] = std::move(positions);
+  state["pivot"] = row_of(from.pose.pivot);
+  state["rotation"] = row_of(from.pose.rotation);
+  return state;
+}
+
+Handle load_handle(const Mesh& mesh, const State& from) {
+  const StateFields state("handle", from);
+  const std::vector<double> numbers = state.reals("positions");
+  if (numbers.size() % 3 != 0) {
+    state.refuse("positions");
+  }
+  HandleState values{state.ids("elements"), {}, {point_from(state, "pivot"), point_from(state, "rotation")}};
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    values.positions.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  }
+  return guarded([&] { return Access::handle(inner::Handle(*Access::pointer(mesh), std::move(values)), mesh); });
+}
+
+State save(Deformer& deformer) {
+  DeformerState from = hand_over(deformer);
+  SolverMemory& memory = from.memory;
+  State state;
+  state["method"] = from.method;
+  state["is_tracing"] = from.is_tracing;
+  state["trace"] = flat_trace(from.trace);
+  state["scheme"] = std::string(info(memory.relaxation).name);
+  state["threads"] = std::int64_t(memory.threads);
+  state["moved"] = std::move(memory.moved);
+  state["relaxes_now"] = std::move(memory.pending.now);
+  state["relaxes_next"] = std::move(memory.pending.next);
+  state["in_sweep"] = memory.pending.in_sweep;
+  state["largest_step"] = memory.pending.largest_step;
+  state["is_awake"] = memory.is_awake;
+  state["memory"] = std::move(memory.method);
+  return state;
+}
+
+void load(Deformer& deformer, const State& state) {
+  const DeformerState values = deformer_state_from(StateFields("deformer", state));
+  if (values.method != deformer.method()) {
+    throw Error("state of a deformer", "it is of the method '" + values.method.substr(0, 60) + "'",
+                "load it into a deformer with that method");
+  }
+  take_over(deformer, values);
 }
 
 }  // namespace chainmail::api

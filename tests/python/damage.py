@@ -103,7 +103,7 @@ def damaged(chance, value):
         elif kind == 5 and array.size:
             one, other = chance.randrange(array.size), chance.randrange(array.size)
             array.flat[one], array.flat[other] = array.flat[other], array.flat[one]
-        return array if kind == 6 or chance.randrange(4) == 0 else array.tobytes()
+        return array if kind == 6 or chance.randrange(4) == 0 else packed(array)
     if isinstance(value, (tuple, list)) and value and kind < 6:
         parts = list(value)
         parts[chance.randrange(len(parts))] = damaged(chance, chance.choice(parts))
@@ -117,10 +117,14 @@ def fits(number, dtype):
     return dtype.kind == "f" or (number == number and abs(number) < 2**31 and number == int(number) >= 0)
 
 
-def numbers_of(name, value):
+def packed(array):
+    """Returns the bytes in which a state has an array."""
+    return (b"d" if array.dtype.kind == "f" else b"I") + array.tobytes()
+
+
+def numbers_of(value):
     """Returns the numbers in the bytes of a state."""
-    reals = {"rest", "held", "own_softness", "positions", "memory"}
-    return np.frombuffer(value, float if name in reals else np.uint32) if isinstance(value, bytes) else value
+    return np.frombuffer(value[1:], float if value[:1] == b"d" else np.uint32) if isinstance(value, bytes) else value
 
 
 def damaged_state(chance, one):
@@ -134,7 +138,7 @@ def damaged_state(chance, one):
         if chance.randrange(20) == 0:
             del state[name]
         else:
-            state[name] = damaged(chance, numbers_of(name, state[name]))
+            state[name] = damaged(chance, numbers_of(state[name]))
         if not state:
             break
     return state

@@ -12,7 +12,7 @@ FILLED = {
     "relax": ("core/api/chainmail/deformer.h", "RelaxOptions", chainmail.Deformer.relax),
     "calibrate": ("core/api/chainmail/calibrate.h", "CalibrateOptions", chainmail.calibrate),
     "compare": ("core/api/chainmail/compare.h", "CompareOptions", chainmail.compare),
-    "ramp": ("core/report/run/ramp.h", "RampOptions", chainmail.ramp),
+    "ramp": ("core/api/chainmail/ramp.h", "RampOptions", chainmail.ramp),
     "LinkSoftness": ("core/api/chainmail/body.h", "LinkSoftness", chainmail.LinkSoftness.__init__),
     "Elasticity": ("core/api/chainmail/body.h", "Elasticity", chainmail.Elasticity.__init__),
     "make_line": ("core/api/chainmail/mesh.h", "LatticeOptions", chainmail.make_line),
@@ -21,9 +21,9 @@ FILLED = {
     "make_block": ("core/api/chainmail/mesh.h", "LatticeOptions", chainmail.make_block),
     "make_tetra": ("core/api/chainmail/mesh.h", "LatticeOptions", chainmail.make_tetra),
 }
-# Keywords that are no member, have another name there (algorithms), or a default of their own (the largest grid).
+# Keywords that are no member, or have another name there (drags).
 ELSEWHERE = {"job", "progress", "folder"}
-OWN = {("compare", "drags"), ("ramp", "methods"), ("ramp", "largest")}
+OWN = {("compare", "drags")}
 
 
 def value_of(initializer):

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "chainmail/mesh.h"
@@ -26,6 +28,17 @@ struct LinkSoftness {
   /// True if all values are equal.
   bool operator==(const LinkSoftness&) const = default;
 };
+
+/// A number of a link's softness, for programs that show or set all of them.
+struct SoftnessNumber {
+  std::string_view name;        ///< Its name, as on the command line and in files.
+  std::string_view unit;        ///< Its unit; empty for a number without one.
+  std::string_view help;        ///< What it means, in a few words.
+  double lowest, highest;       ///< Limits of its values.
+  double LinkSoftness::*value;  ///< The number.
+};
+/// The numbers of a link's softness, in the order of LinkSoftness.
+std::span<const SoftnessNumber> softness_numbers();
 
 /// The elastic energy, which relaxation lowers. See elastic_energy for the formulas.
 enum class EnergyKind {
@@ -52,12 +65,22 @@ class Snapshot {
  public:
   /// True if both contain the same positions, bit for bit.
   bool operator==(const Snapshot& other) const;
+  /// The object at rest.
+  const Mesh& mesh() const;
 
  private:
   friend struct Access;
   struct Impl;
   explicit Snapshot(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
+};
+
+/// The positions of an object as they are stored: a row of numbers for each element.
+struct StoredPositions {
+  const void* first = nullptr;                        ///< First number of element 0.
+  Precision precision = Precision::double_precision;  ///< Type of the numbers.
+  int columns = 0;                                    ///< Numbers in a row: one for each axis of Mesh::axes().
+  std::size_t stride = 0;                             ///< Bytes from one row to the next.
 };
 
 /// The state of one object: positions, cuts, pins and softness. Copies are independent.
@@ -91,6 +114,14 @@ class Body {
   /// Writes the positions of all elements into an array, without allocating memory. Throws Error if it has another
   /// size.
   void copy_positions(std::span<double> out) const;
+  /// Returns the positions as they are stored, without a copy; they show every later move. Valid until the body is
+  /// assigned to or destroyed, its axes are turned, or a Deformer uses a method on it for which
+  /// keeps_stored_positions() is false. Throws Error if something else is stored: displacements from rest, with the
+  /// method `exact`, or coordinates along turned axes.
+  StoredPositions stored_positions() const;
+  /// True if a Deformer with this method leaves the positions where and as they are stored. Throws Error for an unknown
+  /// name.
+  bool keeps_stored_positions(std::string_view method) const;
   /// Sets the positions of all elements, also of pinned ones. They are rounded to the precision. Throws Error if the
   /// array has another size, or if a coordinate is not finite, out of the range of the precision, or on an axis that
   /// does not exist.
@@ -128,12 +159,16 @@ class Body {
   void set_softness(const LinkSoftness& softness);
   /// Gives links their own softness.
   void set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness);
+  /// Gives each of these links its own softness, one for each link. Throws Error if a link is given twice.
+  void set_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness);
   /// Takes their own softness away from links: the common one applies to them.
   void clear_softness(const std::vector<LinkId>& links);
   /// The softness of all links that have none of their own.
   LinkSoftness softness() const;
   /// The softness of a link.
   LinkSoftness softness(LinkId link) const;
+  /// Returns the softness of each link.
+  std::vector<LinkSoftness> link_softness() const;
 
   /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has corotated energy.
   /// A global lateral stiffness that was the usual one of the old kind becomes that of the new kind: 1 for corotated,

@@ -16,4 +16,6 @@
 #include "chainmail/mesh_file.h"
 #include "chainmail/method.h"
 #include "chainmail/own_method.h"
+#include "chainmail/ramp.h"
+#include "chainmail/state.h"
 #include "chainmail/types.h"

@@ -48,6 +48,8 @@ class Handle {
   Handle& operator=(Handle&& other) noexcept;
   ~Handle();
 
+  /// The object at rest.
+  const Mesh& mesh() const;
   /// The grabbed elements, ascending. Valid while the handle exists.
   std::span<const ElementId> elements() const;
   /// The pose at which it was grabbed.

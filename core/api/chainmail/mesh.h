@@ -29,6 +29,8 @@ class Mesh {
   /// The elements that an element is linked to: in the order of the file if it lists them (.dat), otherwise ascending.
   /// Valid while a copy of the mesh exists.
   std::span<const ElementId> neighbours(ElementId element) const;
+  /// The two elements of each link, the smaller id first. Valid while a copy of the mesh exists.
+  std::span<const std::array<ElementId, 2>> links() const;
   /// The two elements of a link, the smaller id first.
   std::array<ElementId, 2> link(LinkId link) const;
   /// Returns the link between two elements, if any.
@@ -49,6 +51,8 @@ class Mesh {
   int object_dimension() const;
   /// Number of coordinates that exist: on a line there is no y, in a plane there is no z.
   int space_dimension() const;
+  /// The axes that exist: `xyz`, or `xy` in a plane.
+  std::string axes() const;
   /// Number of parts that no link joins.
   std::uint32_t part_count() const;
   /// Numbers of elements along x, y and z, if the elements are in a lattice. Element i is then at (i mod w, i / w mod
@@ -76,6 +80,8 @@ class Mesh {
 
   /// True for two copies of the same mesh. Meshes with the same content that were made twice differ.
   bool operator==(const Mesh& other) const;
+  /// The same for all copies of a mesh, and for no other one while one of them exists.
+  const void* identity() const;
 
  private:
   friend struct Access;

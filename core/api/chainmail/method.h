@@ -38,8 +38,10 @@ std::vector<MethodInfo> methods();
 /// Returns what is known about a method. Throws Error, with all names, if there is none with this name.
 MethodInfo method_info(std::string_view name);
 
-/// Returns the reason why a method does not work on a mesh, in one sentence; empty if it does. Throws Error for an
-/// unknown name. Whether the pins suffice is found by the first move.
+/// Throws Error, with the reason, if a method does not work on a mesh or does not exist. Whether the pins suffice is
+/// found by the first move.
+void check_method(std::string_view method, const Mesh& mesh);
+/// Returns that reason as one sentence; empty if there is none. Throws Error for an unknown name.
 std::string refusal(std::string_view method, const Mesh& mesh);
 
 }  // namespace chainmail::api

@@ -35,6 +35,7 @@ class ApiMeasuresTest : public QObject {
   void methods_are_compared_with_physics();
   void bad_comparisons_are_refused();
   void softness_is_calibrated();
+  void grids_grow_until_methods_are_too_slow();
   void bad_calibrations_are_refused();
 };
 
@@ -299,6 +300,28 @@ void ApiMeasuresTest::softness_is_calibrated() {
   std::ostringstream written;
   written << preset.rdbuf();
   QVERIFY(has(written.str(), "\"felt\"") && has(written.str(), "\"compression\""));
+}
+
+void ApiMeasuresTest::grids_grow_until_methods_are_too_slow() {
+  const cm::RampOptions options{.methods = {"exact", "natural-queue"}, .budget = 60, .largest = 40, .drags = 1, .moves = 2};
+  const cm::Job job;
+  const cm::Ramp ramp = cm::ramp(options, job);
+  QCOMPARE(ramp.methods.size(), std::size_t(2));
+  for (const cm::RampMethod& one : ramp.methods) {
+    QVERIFY(one.largest_width == 6U && !one.lost);  // 6 x 6 is the largest grid of up to 40 elements
+  }
+  QCOMPARE(ramp.sizes.back().elements, std::uint64_t(36));
+  QVERIFY(ramp.sizes.back().real_time && ramp.sizes.back().passes == 2 && ramp.seconds > 0);
+  QVERIFY(job.share() > 0);
+  const cm::Ramp none = cm::ramp({.methods = {"exact"}, .budget = 1e-12, .largest = 40, .drags = 1, .moves = 1});
+  QVERIFY(!none.methods[0].largest_width && none.methods[0].lost && none.sizes[0].repeated);
+  QVERIFY(has(refusal_of([] { cm::ramp({.budget = 0}); }), "budget"));
+  QVERIFY(has(refusal_of([] { cm::ramp({.largest = 15}); }), "largest"));
+  QVERIFY(has(refusal_of([] { cm::ramp({.methods = {"fem"}}); }), "not of the ChainMail family"));
+  QVERIFY(has(refusal_of([] { cm::ramp({.softness = {.stretch = 0}}); }), "stretch"));
+  const cm::Job cancelled;
+  cancelled.cancel();
+  QVERIFY_EXCEPTION_THROWN(cm::ramp(options, cancelled), cm::Cancelled);
 }
 
 void ApiMeasuresTest::bad_calibrations_are_refused() {
