@@ -65,7 +65,7 @@ class Repair {
 
  private:
   void take(const Repaired& repaired) {
-    opened_.softness = carried(opened_.softness, *opened_.mesh, repaired);
+    opened_.softness = softness_after(opened_.softness, *opened_.mesh, repaired);
     opened_.mesh = repaired.mesh;
     defects_ = find_defects(*opened_.mesh);
   }

@@ -23,9 +23,7 @@ constexpr const char* meshes_name = "_meshes";  // in the module
 /// else has them.
 py::object meshes() { return py::module_::import(module_name).attr(meshes_name); }
 
-py::object key_of(const api::Mesh& mesh) {
-  return py::int_(reinterpret_cast<std::uintptr_t>(mesh.identity()));
-}
+py::object key_of(const api::Mesh& mesh) { return py::int_(reinterpret_cast<std::uintptr_t>(mesh.identity())); }
 
 // An array is bytes: one that says what its numbers are, then theirs.
 constexpr char ids_mark = 'I', reals_mark = 'd';

@@ -61,9 +61,9 @@ void add_ramp(py::module_& module) {
         return named(run_long(watched, progress, [&] { return api::ramp(options, watched); }));
       },
       py::arg("methods") = py::list(), py::kw_only(), py::arg("seed") = defaults.seed,
-      py::arg("budget") = defaults.budget, py::arg("largest") = defaults.largest,
-      py::arg("drags") = defaults.drags, py::arg("moves") = defaults.moves, py::arg("precision") = "float",
-      py::arg("softness") = api::LinkSoftness(), py::arg("job") = py::none(), py::arg("progress") = py::none(),
+      py::arg("budget") = defaults.budget, py::arg("largest") = defaults.largest, py::arg("drags") = defaults.drags,
+      py::arg("moves") = defaults.moves, py::arg("precision") = "float", py::arg("softness") = api::LinkSoftness(),
+      py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds the largest square grid on which each method runs in real time (Dean 2004, chapter 6).\n\n"
       "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops "
       "when\n"

@@ -103,8 +103,7 @@ void add_softness(BodyClass& body) {
           "clear_softness",
           [](Object& one, const py::object& links) {
             const UseObject use(one);
-            one.body().clear_softness(links.is_none() ? every_link(one.body().mesh())
-                                                      : ids_of(links, "link"));
+            one.body().clear_softness(links.is_none() ? every_link(one.body().mesh()) : ids_of(links, "link"));
           },
           py::arg("links") = py::none(),
           "Takes their own softness away from these links, or from all: the common one applies to them.")

@@ -100,15 +100,15 @@ std::vector<double> positions_of(const inner::Mesh& mesh, const PositionView& po
   return all;
 }
 
-std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> positions, double limit) {
+std::vector<double> active_coordinates_of(const inner::Mesh& mesh, std::span<const double> positions, double limit) {
   if (positions.size() != std::size_t{3} * mesh.element_count()) {
     throw Error("positions",
                 "there are " + std::to_string(positions.size()) + " numbers for " +
                     std::to_string(mesh.element_count()) + " elements",
                 "give x, y and z for each element");
   }
-  std::vector<double> carried;
-  carried.reserve(mesh.rest.size());
+  std::vector<double> coordinates;
+  coordinates.reserve(mesh.rest.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const int k = int(i % 3);
     const std::string where = "positions, element " + std::to_string(i / 3);
@@ -116,12 +116,12 @@ std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> 
       throw Error(where, "a coordinate is not finite or out of the range of the precision", "give smaller numbers");
     }
     if (mesh.has_axis(k)) {
-      carried.push_back(positions[i]);
+      coordinates.push_back(positions[i]);
     } else if (positions[i] != mesh.origin[k]) {
       refuse_axis(where, k);
     }
   }
-  return carried;
+  return coordinates;
 }
 
 }  // namespace chainmail::api

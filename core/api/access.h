@@ -158,6 +158,6 @@ Algorithm algorithm_of(std::string_view name);
 std::vector<double> positions_of(const inner::Mesh& mesh, const PositionView& positions);
 /// Returns positions, x, y, z for each element, without the coordinates that do not exist. Throws Error if there are
 /// not as many as the mesh has, or if one is not finite, beyond the limit, or on an axis that does not exist.
-std::vector<double> carried_of(const inner::Mesh& mesh, std::span<const double> positions, double limit);
+std::vector<double> active_coordinates_of(const inner::Mesh& mesh, std::span<const double> positions, double limit);
 
 }  // namespace chainmail::api

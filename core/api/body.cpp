@@ -40,8 +40,8 @@ void check_precision(const inner::Mesh& mesh, inner::Precision precision) {
 }
 
 constexpr std::array link_softness_values{&LinkSoftness::compression, &LinkSoftness::stretch,
-                                         &LinkSoftness::shear,       &LinkSoftness::lateral,
-                                         &LinkSoftness::stiffness,   &LinkSoftness::exponent};
+                                          &LinkSoftness::shear,       &LinkSoftness::lateral,
+                                          &LinkSoftness::stiffness,   &LinkSoftness::exponent};
 static_assert(link_softness_values.size() == inner::softness_numbers.size());
 
 /// Copies x, y and z of each element, from positions that are stored as they are. This takes a quarter of the time of
@@ -173,7 +173,7 @@ bool Body::keeps_stored_positions(std::string_view method) const {
 
 void Body::set_positions(std::span<const double> positions) {
   inner::Body& body = impl_->body();
-  body.set_positions(carried_of(body.mesh(), positions, position_limit(body.precision())));
+  body.set_positions(active_coordinates_of(body.mesh(), positions, position_limit(body.precision())));
   impl_->forget_handle();
 }
 
@@ -268,8 +268,9 @@ void Body::set_softness(const std::vector<LinkId>& links, std::span<const LinkSo
   const inner::Mesh& mesh = impl_->body().mesh();
   check_link_ids(mesh, links);
   if (softness.size() != links.size()) {
-    throw Error("softness", "there are " + std::to_string(softness.size()) + " for " + std::to_string(links.size()) +
-                                " links", "give one for each link");
+    throw Error("softness",
+                "there are " + std::to_string(softness.size()) + " for " + std::to_string(links.size()) + " links",
+                "give one for each link");
   }
   Softness next = impl_->body().softness();
   std::vector<OwnSoftness::Entry> entries;

@@ -199,10 +199,10 @@ std::vector<double> Deformer::control_points() {
     Solver& solver = impl_->solver();
     solver.set_progress(Access::progress(impl_->job));
     const inner::Mesh& mesh = solver.body().mesh();
-    const std::span<const double> carried = solver.control_points();
+    const std::span<const double> coordinates = solver.control_points();
     std::vector<double> points;
-    for (std::size_t i = 0; i < carried.size(); i += static_cast<std::size_t>(mesh.space_dimension)) {
-      const Point point = mesh.to_point(carried.data() + i);
+    for (std::size_t i = 0; i < coordinates.size(); i += static_cast<std::size_t>(mesh.space_dimension)) {
+      const Point point = mesh.to_point(coordinates.data() + i);
       points.insert(points.end(), point.begin(), point.end());
     }
     return points;

@@ -42,10 +42,11 @@ Spread distance(const Body& one, const Body& other) {
 
 Spread distance(const Body& body, std::span<const double> positions) {
   const inner::Mesh& mesh = Access::body(body).mesh();
-  const std::vector<double> carried = carried_of(mesh, positions, position_limit(inner::Precision::double_precision));
+  const std::vector<double> coordinates =
+      active_coordinates_of(mesh, positions, position_limit(inner::Precision::double_precision));
   const Distance apart =
       measure_distance(mesh, Access::body(body).positions(),
-                       {carried.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
+                       {coordinates.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
                         inner::Precision::double_precision});
   return {apart.max, apart.rms};
 }
@@ -57,11 +58,11 @@ double elastic_energy(const Body& body) {
 
 std::vector<double> ReferenceSolution::positions() const {
   const inner::Mesh& mesh = *impl_->mesh;
-  std::vector<double> carried = mesh.rest;
-  for (std::size_t i = 0; i < carried.size(); ++i) {
-    carried[i] += impl_->reference.displacements[i];
+  std::vector<double> coordinates = mesh.rest;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    coordinates[i] += impl_->reference.displacements[i];
   }
-  return positions_of(mesh, {carried.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
+  return positions_of(mesh, {coordinates.data(), sizeof(double) * static_cast<std::size_t>(mesh.space_dimension),
                              inner::Precision::double_precision});
 }
 

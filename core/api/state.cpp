@@ -33,7 +33,7 @@ std::string name_of(inner::Precision precision) {
 
 inner::Precision precision_from(const StateFields& state) {
   return state.word("precision", precision_names) == 0 ? inner::Precision::single_precision
-                                                        : inner::Precision::double_precision;
+                                                       : inner::Precision::double_precision;
 }
 
 /// Puts positions as runs of elements away from rest.

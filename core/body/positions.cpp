@@ -12,11 +12,11 @@ double position_limit(Precision precision) {
 }
 
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {
-  std::array<double, 3> carried{};
+  std::array<double, 3> coordinates{};
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    carried[k] = positions(element, k);
+    coordinates[k] = positions(element, k);
   }
-  return mesh.to_point(carried.data());
+  return mesh.to_point(coordinates.data());
 }
 
 std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions,

@@ -14,9 +14,9 @@ LinkSoftness between(const LinkSoftness& one, const LinkSoftness& other) {
 }
 
 /// Reads and writes the coordinates that a body stores, element by element.
-class CarriedPositions {
+class SplitPositions {
  public:
-  CarriedPositions(const Split& split, const Snapshot& positions, Precision precision)
+  SplitPositions(const Split& split, const Snapshot& positions, Precision precision)
       : split_(split),
         after_mesh_(in_axes(split.after, positions.axes)),
         after_(*after_mesh_),
@@ -28,7 +28,7 @@ class CarriedPositions {
     result_.blocks.resize(ElementBlocks(after_.element_count()).block_count());
   }
 
-  Snapshot carried();
+  Snapshot snapshot();
 
  private:
   double rounded(double value) const {
@@ -59,7 +59,7 @@ class CarriedPositions {
 };
 
 /// Places an appended element. Elements at rest stay exactly there.
-void CarriedPositions::place(ElementId element, const SplitPoint& point) {
+void SplitPositions::place(ElementId element, const SplitPoint& point) {
   bool at_rest_all = true;
   for (std::size_t k = 0; k < dimension_; ++k) {
     for (const ElementId one : point.of) {
@@ -75,7 +75,7 @@ void CarriedPositions::place(ElementId element, const SplitPoint& point) {
 }
 
 /// Returns a block with appended elements; null if all its elements are at rest.
-Snapshot::Block CarriedPositions::block(std::size_t number) const {
+Snapshot::Block SplitPositions::block(std::size_t number) const {
   const auto first = static_cast<ElementId>(number * ElementBlocks::block_elements);
   const ElementId end = std::min(first + ElementBlocks::block_elements, after_.element_count());
   bool is_away = result_.blocks[number] != nullptr;
@@ -94,7 +94,7 @@ Snapshot::Block CarriedPositions::block(std::size_t number) const {
   return block;
 }
 
-Snapshot CarriedPositions::carried() {
+Snapshot SplitPositions::snapshot() {
   for (ElementId i = 0; i < split_.edit.elements.size(); ++i) {
     place(old_ + i, split_.edit.elements[i]);
   }
@@ -127,7 +127,7 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
 }
 
 Snapshot positions_after(const Split& split, const Snapshot& positions, Precision precision) {
-  return CarriedPositions(split, positions, precision).carried();
+  return SplitPositions(split, positions, precision).snapshot();
 }
 
 }  // namespace chainmail

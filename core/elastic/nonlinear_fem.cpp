@@ -116,11 +116,11 @@ class NonlinearFem final : public ElasticSolver {
 
   /// Moves some prescribed elements from their displacements to their targets. Returns an empty text if it converged.
   /// Otherwise returns the reason, and `displacements` is the last converged state.
-  std::string carry(Newton& newton, const std::vector<ElementId>& carried, const std::vector<double>& target,
+  std::string carry(Newton& newton, const std::vector<ElementId>& moved, const std::vector<double>& target,
                     std::vector<double>& displacements, const Progress& progress) {
     std::vector<double> displacement;
     for (std::size_t i = 0; i < target.size(); ++i) {
-      displacement.push_back(target[i] - displacements[carried[i / dimension_] * dimension_ + i % dimension_]);
+      displacement.push_back(target[i] - displacements[moved[i / dimension_] * dimension_ + i % dimension_]);
     }
     double done = 0, step = 1;
     int number = 1;
@@ -130,7 +130,7 @@ class NonlinearFem final : public ElasticSolver {
       std::vector<double> trial = displacements;
       std::vector<double> increment(displacements.size(), 0.0);
       for (std::size_t i = 0; i < displacement.size(); ++i) {
-        increment[carried[i / dimension_] * dimension_ + i % dimension_] = displacement[i] * (next - done);
+        increment[moved[i / dimension_] * dimension_ + i % dimension_] = displacement[i] * (next - done);
       }
       if (newton.solve(trial, increment, progress.part(done, next))) {
         displacements = std::move(trial);
@@ -143,7 +143,7 @@ class NonlinearFem final : public ElasticSolver {
       }
     }
     for (std::size_t i = 0; i < target.size(); ++i) {
-      displacements[carried[i / dimension_] * dimension_ + i % dimension_] = target[i];  // exact, without rounding
+      displacements[moved[i / dimension_] * dimension_ + i % dimension_] = target[i];  // exact, without rounding
     }
     return {};
   }

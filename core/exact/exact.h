@@ -240,7 +240,7 @@ class ExactPropagation {
 
   static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
 
-  /// Elements of one share, clamped by one thread.
+  /// Elements of one partition, clamped by one thread.
   struct Piece {
     std::span<const ElementId> elements;
     const Region<Scalar, Dimension>* regions;
@@ -252,14 +252,14 @@ class ExactPropagation {
     moved.resize(regions_.known());
     pieces_.clear();
     ElementId* to = moved.data();
-    const auto shares = regions_.shares();
-    // Neighbours on a cache line belong to one share. A single share is cut in as few places as possible.
-    const std::size_t per_share = shares.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
-    for (const auto& share : shares) {
-      const std::size_t size = share.elements().size(), piece = std::max(size / per_share + 1, min_for_thread);
-      for (std::size_t i = share.handle_size(), end = 0; i < size; i = end) {
+    const auto partitions = regions_.partitions();
+    // Neighbours on a cache line belong to one partition. A single partition is cut in as few places as possible.
+    const std::size_t per_partition = partitions.size() > 1 ? 1 : static_cast<std::size_t>(threads_);
+    for (const auto& partition : partitions) {
+      const std::size_t size = partition.elements().size(), piece = std::max(size / per_partition + 1, min_for_thread);
+      for (std::size_t i = partition.handle_size(), end = 0; i < size; i = end) {
         end = std::min(size, i + piece);
-        pieces_.push_back({share.elements().subspan(i, end - i), share.regions().data() + i, to});
+        pieces_.push_back({partition.elements().subspan(i, end - i), partition.regions().data() + i, to});
         to += end - i;
       }
     }
@@ -314,9 +314,9 @@ class ExactPropagation {
 
   void write_trace(const State& body, const Reach& reach, Trace& trace) const {
     std::vector<Row> rows;
-    for (const auto& share : regions_.shares()) {
-      for (std::size_t i = share.handle_size(); i < share.elements().size(); ++i) {
-        add_row(body, reach, share.elements()[i], share.regions()[i], rows);
+    for (const auto& partition : regions_.partitions()) {
+      for (std::size_t i = partition.handle_size(); i < partition.elements().size(); ++i) {
+        add_row(body, reach, partition.elements()[i], partition.regions()[i], rows);
       }
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exact/exact_schedule.h"
-#include "exact/region_share.h"
+#include "exact/region_partition.h"
 #include "exact/thread_team.h"
 #include "mesh/progress.h"
 
@@ -25,9 +25,9 @@ namespace chainmail {
 /// theirs once it moves (as candidates are admitted in every ChainMail), and no schedule changes a bit of them. The
 /// derivation is this project's own.
 ///
-/// So threads may search too. Each has a share of the elements; they work in rounds, in which no share reads what
-/// another one writes. Pins that are found stop the handle while the search goes on, and then the order matters for
-/// which elements become known: an object with pins has one share.
+/// So threads may search too. Each has a partition of the elements; they work in rounds, in which no partition reads
+/// what another one writes. Pins that are found stop the handle while the search goes on, and then the order matters
+/// for which elements become known: an object with pins has one partition.
 ///
 /// The body stores displacements from rest. One search handles all axes.
 template <class Scalar, int Dimension, class Schedule = AdaptiveSchedule<Scalar>>
@@ -37,14 +37,14 @@ class HandleRegions {
   using Reach = HandleReach<Scalar, Dimension>;
   using Bounds = Region<Scalar, Dimension>;
   using Offset = Position<Scalar, Dimension>;
-  using Share = RegionShare<Scalar, Dimension, Schedule>;
+  using Partition = RegionPartition<Scalar, Dimension, Schedule>;
 
   /// Drops all regions. Call this for a new handle, when offsets or links, softness or pins have changed. A handle of
   /// one element has no offsets; one of many has an offset for each element. The search will use `threads` at most.
   void begin(const State& body, std::span<const ElementId> handle, std::span<const Offset> offsets, int threads = 1) {
     search_.index.resize(body.positions.size(), Search::unknown);
-    for (Share& share : shares_) {
-      share.clear(search_);
+    for (Partition& partition : partitions_) {
+      partition.clear(search_);
     }
     divide(body, threads);
     search_.handle.assign(handle.begin(), handle.end());
@@ -54,7 +54,8 @@ class HandleRegions {
       search_.most[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
     }
     for (std::size_t i = 0; i < handle.size(); ++i) {
-      shares_[search_.share_of(handle[i])].add_to_handle(search_, handle[i], offsets.empty() ? Offset{} : offsets[i]);
+      partitions_[search_.partition_of(handle[i])].add_to_handle(search_, handle[i],
+                                                                 offsets.empty() ? Offset{} : offsets[i]);
     }
   }
 
@@ -62,13 +63,13 @@ class HandleRegions {
   /// tolerance (mesh units). False if the handle has rotated so far that it contradicts itself.
   bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
     bool agree = true;
-    for (const Share& share : shares_) {
-      for (const Bounds& region : share.regions()) {
+    for (const Partition& partition : partitions_) {
+      for (const Bounds& region : partition.regions()) {
         for (int k = 0; k < Dimension; ++k) {
           agree &= region.low[k] <= region.high[k] + tolerance;
         }
       }
-      for (const auto& pin : share.pins()) {
+      for (const auto& pin : partition.pins()) {
         for (int k = 0; k < Dimension; ++k) {
           const Scalar at = body.positions[pin.element][k] - handle[k];
           agree &= pin.region.low[k] <= at + tolerance && at <= pin.region.high[k] + tolerance;
@@ -81,8 +82,8 @@ class HandleRegions {
   /// Moves the displacement of a handle, on each axis, as little as the known pins require. Returns true if it moved.
   bool hold(const State& body, Offset& handle) const {
     const Offset before = handle;
-    for (const Share& share : shares_) {
-      for (const auto& pin : share.pins()) {
+    for (const Partition& partition : partitions_) {
+      for (const auto& pin : partition.pins()) {
         for (int k = 0; k < Dimension; ++k) {
           const Scalar at = body.positions[pin.element][k];
           handle[k] = std::min(std::max(handle[k], at - pin.region.high[k]), at - pin.region.low[k]);
@@ -102,83 +103,84 @@ class HandleRegions {
   /// have found just these regions.
   bool moves_all(const State& body, const Reach& reach) const {
     Reach held = reach;
-    for (const Share& share : shares_) {
-      for (const auto& pin : share.pins()) {
+    for (const Partition& partition : partitions_) {
+      for (const auto& pin : partition.pins()) {
         held.hold(body.positions[pin.element], pin.region);
       }
     }
     return std::ranges::none_of(held.stopped, std::identity()) &&
-           std::ranges::all_of(shares_, [&](const Share& share) { return share.moves_all(body, reach); });
+           std::ranges::all_of(partitions_,
+                               [&](const Partition& partition) { return partition.moves_all(body, reach); });
   }
 
   /// Computes the regions of all elements that a handle with this reach moves. Pins that it finds stop the handle.
   void extend(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress = {}) {
-    for (const Share& share : shares_) {
-      for (const auto& pin : share.pins()) {
+    for (const Partition& partition : partitions_) {
+      for (const auto& pin : partition.pins()) {
         reach.hold(body.positions[pin.element], pin.region);
       }
     }
-    for (Share& share : shares_) {
-      share.begin(body, reach);
+    for (Partition& partition : partitions_) {
+      partition.begin(body, reach);
     }
     if constexpr (Schedule::has_rounds) {
-      if (shares_.size() > 1) {
+      if (partitions_.size() > 1) {
         extend_in_rounds(body, reach, team, progress);
         return;
       }
     }
-    shares_.front().run(search_, body, reach, [&](Share& share) {
-      progress.report(share.visits(), body.positions.size());
+    partitions_.front().run(search_, body, reach, [&](Partition& partition) {
+      progress.report(partition.visits(), body.positions.size());
       if constexpr (Schedule::adapts) {
-        if (share.schedule().must_adapt(share.visits(), share.elements().size())) {
-          share.adapt(bucket_width(body));
+        if (partition.schedule().must_adapt(partition.visits(), partition.elements().size())) {
+          partition.adapt(bucket_width(body));
         }
       }
     });
   }
 
-  std::span<const Share> shares() const { return shares_; }
+  std::span<const Partition> partitions() const { return partitions_; }
   std::span<const ElementId> handle() const { return search_.handle; }  // ascending
   /// Number of elements with a region.
   std::size_t known() const {
     std::size_t known = 0;
-    for (const Share& share : shares_) {
-      known += share.elements().size();
+    for (const Partition& partition : partitions_) {
+      known += partition.elements().size();
     }
     return known;
   }
   /// Returns the region of an element, or null if the drag has not come near it.
   const Bounds* find(ElementId element) const {
     const auto index = search_.index[element];
-    return index == Search::unknown ? nullptr : &shares_[search_.share_of(element)].regions()[index];
+    return index == Search::unknown ? nullptr : &partitions_[search_.partition_of(element)].regions()[index];
   }
   /// Number of visits of elements in this drag, on all axes together.
   std::uint64_t visits() const {
     std::uint64_t visits = 0;
-    for (const Share& share : shares_) {
-      visits += share.visits();
+    for (const Partition& partition : partitions_) {
+      visits += partition.visits();
     }
     return visits;
   }
 
  private:
-  using Search = typename Share::Search;
+  using Search = typename Partition::Search;
 
-  /// Divides the elements into shares, if that can pay.
+  /// Divides the elements into partitions, if that can pay.
   void divide(const State& body, int threads) {
     const std::size_t elements = body.positions.size();
     bool divides = false;
     if constexpr (Schedule::has_rounds) {
       divides = threads > 1 && body.pin_count == 0 && elements >= Schedule::min_to_share;
     }
-    search_.share_count = divides ? std::bit_ceil(static_cast<unsigned>(std::min(threads, max_shares))) : 1;
-    const std::size_t stripes = std::max<std::size_t>(32, 8 * search_.share_count);
+    search_.partition_count = divides ? std::bit_ceil(static_cast<unsigned>(std::min(threads, max_partitions))) : 1;
+    const std::size_t stripes = std::max<std::size_t>(32, 8 * search_.partition_count);
     search_.stripe = divides ? std::bit_width(std::max<std::size_t>(1, elements / stripes)) - 1 : 31;
-    if (shares_.size() != search_.share_count) {
-      shares_ = std::vector<Share>(search_.share_count);
+    if (partitions_.size() != search_.partition_count) {
+      partitions_ = std::vector<Partition>(search_.partition_count);
     }
-    for (std::size_t i = 0; i < shares_.size(); ++i) {
-      shares_[i].set_number(i, shares_.size());
+    for (std::size_t i = 0; i < partitions_.size(); ++i) {
+      partitions_[i].set_number(i, partitions_.size());
     }
   }
 
@@ -188,31 +190,31 @@ class HandleRegions {
       std::size_t waiting = 0;
       auto lowest = std::numeric_limits<typename Schedule::Number>::max();
       bool has_messages = false;
-      for (Share& share : shares_) {
-        waiting += share.schedule().size();
-        has_messages |= share.has_messages();
-        lowest = std::min(lowest, share.schedule().lowest());
+      for (Partition& partition : partitions_) {
+        waiting += partition.schedule().size();
+        has_messages |= partition.has_messages();
+        lowest = std::min(lowest, partition.schedule().lowest());
       }
       if (waiting == 0 && !has_messages) {
         return;
       }
-      for (Share& share : shares_) {
-        share.schedule().begin_round(lowest);
+      for (Partition& partition : partitions_) {
+        partition.schedule().begin_round(lowest);
       }
-      const auto run = [&](std::size_t i) { shares_[i].run_round(search_, body, reach, shares_, round_); };
+      const auto run = [&](std::size_t i) { partitions_[i].run_round(search_, body, reach, partitions_, round_); };
       if (waiting >= min_for_helpers) {
         team.call_helpers();
-        team.run(shares_.size(), run);
+        team.run(partitions_.size(), run);
       } else {
-        for (std::size_t i = 0; i < shares_.size(); ++i) {
+        for (std::size_t i = 0; i < partitions_.size(); ++i) {
           run(i);
         }
       }
       ++round_;
       if constexpr (Schedule::adapts) {
-        if (shares_.front().schedule().must_adapt(visits(), known())) {
+        if (partitions_.front().schedule().must_adapt(visits(), known())) {
           const Scalar width = bucket_width(body);
-          std::ranges::for_each(shares_, [width](Share& share) { share.adapt(width); });
+          std::ranges::for_each(partitions_, [width](Partition& partition) { partition.adapt(width); });
         }
       }
     }
@@ -224,9 +226,9 @@ class HandleRegions {
     double sum = 0;
     std::size_t count = 0;
     const std::size_t step = known() / sampled_elements + 1;
-    for (const Share& share : shares_) {
-      for (std::size_t i = 0; i < share.elements().size(); i += step) {
-        body.for_each_neighbour(share.elements()[i], [&](ElementId, EntryId entry) {
+    for (const Partition& partition : partitions_) {
+      for (std::size_t i = 0; i < partition.elements().size(); i += step) {
+        body.for_each_neighbour(partition.elements()[i], [&](ElementId, EntryId entry) {
           const Bounds& link = body.regions[entry];
           for (int k = 0; k < Dimension; ++k) {
             sum += double(link.high[k]) - double(link.low[k]);
@@ -241,11 +243,11 @@ class HandleRegions {
 
   static constexpr std::size_t sampled_elements = 256;
   static constexpr double width_in_links = 0.05;  // measured by bench_passes
-  static constexpr int max_shares = 64;
+  static constexpr int max_partitions = 64;
   static constexpr std::size_t min_for_helpers = 128;  // waiting elements, of which a round visits some
 
   Search search_;
-  std::vector<Share> shares_;
+  std::vector<Partition> partitions_;
   std::uint64_t round_ = 0;
 };
 

@@ -80,8 +80,8 @@ const ObjectSide* find_side(std::string_view name) {
 }
 
 std::vector<ElementId> layer(const Mesh& mesh, const ObjectSide& side) {
-  const int carried = mesh.space_dimension;
-  if (std::find(mesh.axes.begin(), mesh.axes.begin() + carried, side.axis) == mesh.axes.begin() + carried) {
+  const int active_axes = mesh.space_dimension;
+  if (std::find(mesh.axes.begin(), mesh.axes.begin() + active_axes, side.axis) == mesh.axes.begin() + active_axes) {
     return {};
   }
   const double outermost = bounds(mesh)[side.high ? 1 : 0][side.axis];

@@ -86,11 +86,11 @@ void number_links(Mesh& mesh, const Progress& progress) {
 
 /// Chooses the axes that the object needs, then others in the order x, y, z until there are `asked` axes.
 void choose_axes(Mesh& mesh, const std::vector<Point>& rest, std::optional<int> asked) {
-  std::array<bool, 3> carried{};
+  std::array<bool, 3> is_active{};
   for (int k = 0; k < 3; ++k) {
-    carried[k] = std::any_of(rest.begin(), rest.end(), [&](const Point& p) { return p[k] != rest.front()[k]; });
+    is_active[k] = std::any_of(rest.begin(), rest.end(), [&](const Point& p) { return p[k] != rest.front()[k]; });
   }
-  const auto needed = static_cast<int>(std::count(carried.begin(), carried.end(), true));
+  const auto needed = static_cast<int>(std::count(is_active.begin(), is_active.end(), true));
   if (asked && (*asked < 1 || *asked > 3)) {
     throw Error("space dimension " + std::to_string(*asked), "there is no such space", "use 1, 2 or 3");
   }
@@ -101,13 +101,13 @@ void choose_axes(Mesh& mesh, const std::vector<Point>& rest, std::optional<int> 
   }
   const int wanted = std::max(asked.value_or(needed), 1);
   for (int k = 0; k < 3; ++k) {
-    if (std::count(carried.begin(), carried.end(), true) < wanted) {
-      carried[k] = true;
+    if (std::count(is_active.begin(), is_active.end(), true) < wanted) {
+      is_active[k] = true;
     }
   }
   mesh.space_dimension = 0;
   for (int k = 0; k < 3; ++k) {
-    if (carried[k]) {
+    if (is_active[k]) {
       mesh.axes[mesh.space_dimension++] = k;
     }
   }
@@ -197,10 +197,10 @@ bool Mesh::has_axis(int axis) const {
   return std::find(axes.begin(), end, axis) != end;
 }
 
-Point Mesh::to_point(const double* carried) const {
+Point Mesh::to_point(const double* coordinates) const {
   Point point = origin;
   for (int k = 0; k < space_dimension; ++k) {
-    point[axes[k]] = carried[k];
+    point[axes[k]] = coordinates[k];
   }
   return point;
 }

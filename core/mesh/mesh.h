@@ -119,7 +119,7 @@ struct Mesh {
   /// Rest position with all three coordinates.
   Point rest_position(ElementId element) const;
   /// Returns a point with all three coordinates, from the space_dimension ones that exist.
-  Point to_point(const double* carried) const;
+  Point to_point(const double* coordinates) const;
 };
 
 using MeshPointer = std::shared_ptr<const Mesh>;

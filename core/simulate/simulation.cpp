@@ -133,7 +133,7 @@ bool Simulation::step() {
   }
   measure_.reset();
   try {
-    if (settle()) {
+    if (relax_on()) {
       fall_asleep();
     }
   } catch (const Cancelled&) {
@@ -150,7 +150,7 @@ bool Simulation::step() {
 }
 
 /// Runs a slice of relaxation. Returns true if the object has come to rest.
-bool Simulation::settle() {
+bool Simulation::relax_on() {
   const RelaxationResult slice = relax_slice(relaxation_step_);
   prepared_ = slice.has_prepared;
   if (!slice.sweep_ended) {

@@ -125,7 +125,7 @@ class Simulation {
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
-  bool settle();
+  bool relax_on();
   RelaxationResult relax_slice(double step);
   template <class Relax>
   RelaxationResult take_relaxed(Relax relax);

@@ -45,11 +45,11 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
 }
 
 inline Point position_of(const Solver& solver, const Mesh& mesh, ElementId element) {
-  std::array<double, 3> carried{};
+  std::array<double, 3> coordinates{};
   for (int k = 0; k < mesh.space_dimension; ++k) {
-    carried[k] = solver.body().positions()(element, k);
+    coordinates[k] = solver.body().positions()(element, k);
   }
-  return mesh.to_point(carried.data());
+  return mesh.to_point(coordinates.data());
 }
 
 /// Returns the largest step of any element on any axis between two states (mesh units).

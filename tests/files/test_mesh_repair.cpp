@@ -370,12 +370,12 @@ void MeshRepairTest::the_softness_of_links_stays() {
   own.set(*find_link(*mesh, 2, 3), soft);
   own.set(*find_link(*mesh, 3, 4), softer);
   const auto welded = weld(*mesh);
-  const auto after = carried(own, *mesh, welded);
+  const auto after = softness_after(own, *mesh, welded);
   QCOMPARE(after.size(), std::size_t{2});
   QVERIFY(*after.find(*find_link(*welded.mesh, 2, 3)) == soft);
   QVERIFY(*after.find(*find_link(*welded.mesh, 1, 3)) == softer);
   const auto kept = remove_loose(*mesh);
-  QVERIFY(*carried(own, *mesh, kept).find(*find_link(*kept.mesh, 1, 2)) == soft);
+  QVERIFY(*softness_after(own, *mesh, kept).find(*find_link(*kept.mesh, 1, 2)) == soft);
 }
 
 void MeshRepairTest::what_cannot_be_closed_is_one_sentence() {

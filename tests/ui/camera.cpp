@@ -31,11 +31,11 @@ class CameraTest : public QObject {
     camera.fit(bounds(*mesh), std::span(mesh->axes).first(std::size_t(mesh->space_dimension)), view);
     const Projection projection(*mesh, camera.toView(), camera.toClip(view), view);
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
-      float carried[3]{};
+      float coordinates[3]{};
       for (int k = 0; k < mesh->space_dimension; ++k) {
-        carried[k] = float(mesh->rest[e * mesh->space_dimension + k]);
+        coordinates[k] = float(mesh->rest[e * mesh->space_dimension + k]);
       }
-      const auto at = projection(carried);
+      const auto at = projection(coordinates);
       QVERIFY(at.visible());
       QVERIFY(at.x > 0 && at.x < view.width() && at.y > 0 && at.y < view.height());
     }

@@ -125,9 +125,9 @@ void ElementMove::setElements(const std::vector<ElementId>& elements) {
 void ElementMove::adapt() {
   const Mesh& mesh = *document_.mesh();
   for (std::size_t k = 0; k < 3; ++k) {
-    const bool carried = mesh.has_axis(int(k));
-    names_[k]->setVisible(carried);
-    numbers_[k]->setVisible(carried);
+    const bool exists = mesh.has_axis(int(k));
+    names_[k]->setVisible(exists);
+    numbers_[k]->setVisible(exists);
     numbers_[k]->setToolTip(relative() ? QStringLiteral("Distance along this axis (mesh units)")
                                        : QStringLiteral("Target position on this axis (mesh units)"));
   }

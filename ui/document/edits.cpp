@@ -53,10 +53,10 @@ Change meshChange(const Document& document, const MeshPointer& mesh, const QStri
   Change edit = document.change(text);
   takeOwnSettings(edit.after);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
-  Softness carried = kept_for(*mesh, *edit.after.softness);
-  carried.links = std::move(own);
-  if (carried != *edit.after.softness) {
-    edit.after.softness = std::make_shared<const Softness>(std::move(carried));
+  Softness kept = kept_for(*mesh, *edit.after.softness);
+  kept.links = std::move(own);
+  if (kept != *edit.after.softness) {
+    edit.after.softness = std::make_shared<const Softness>(std::move(kept));
   }
   return edit;
 }

@@ -12,9 +12,9 @@ void include(Box& box, const Point& point) { box = {box[0].cwiseMin(point), box[
 
 Point positionIn(const Frame& frame, ElementId element) {
   const auto dimension = std::size_t(frame.mesh->space_dimension);
-  double carried[3]{};
-  std::copy_n(frame.positions.data() + std::size_t{element} * dimension, dimension, carried);
-  return frame.mesh->to_point(carried);
+  double coordinates[3]{};
+  std::copy_n(frame.positions.data() + std::size_t{element} * dimension, dimension, coordinates);
+  return frame.mesh->to_point(coordinates);
 }
 
 /// Returns the drag that is under way before a move: its handle, and where it has led so far.

@@ -667,8 +667,7 @@ void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   scratch_.write(int(positions.size_bytes()), values.data(), int(values.size_bytes()));
   Scene over = scene;
   over.fog = {};  // fading would change the colour, which is a value
-  use(over, {}, lines ? Shading::plain : shape == Shape::discs ? Shading::disc : Shading::ring, 3,
-      Colouring::elements);
+  use(over, {}, lines ? Shading::plain : shape == Shape::discs ? Shading::disc : Shading::ring, 3, Colouring::elements);
   program_->setUniformValue("to_view", scene.toView);
   program_->setUniformValue("to_clip", liftedClip(scene, valuedLift));
   useMap(scale);

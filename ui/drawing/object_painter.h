@@ -61,12 +61,12 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
  private:
   /// How shapes are drawn: SHADING of object.frag.
   enum class Shading {
-    plain,    // in their colour
-    lit,      // faces in space, lit
-    disc,     // points as marks
+    plain,  // in their colour
+    lit,    // faces in space, lit
+    disc,   // points as marks
     diamond,
     ring,
-    plane     // faces in a plane, darker if folded
+    plane  // faces in a plane, darker if folded
   };
   /// Where colours come from: COLOURED_BY of object.frag.
   enum class Colouring { one, elements, links, picture, volume };
@@ -97,8 +97,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   }
   void uploadPositions(const Frame& frame);
 
-  void use(const Scene& scene, QColor colour, Shading shading, int dimension,
-           Colouring colouring = Colouring::one);
+  void use(const Scene& scene, QColor colour, Shading shading, int dimension, Colouring colouring = Colouring::one);
   void useValues(const Scene& scene, const Paint& paint, Shading shading);
   void uploadValues(const ColourValues& values);
   void useMap(const ColourScale& scale);
@@ -118,8 +117,8 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw);
   void drawEveryElement(const Scene& scene, const Paint& paint);
-  void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour,
-               Shading shading, float diameter);
+  void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, Shading shading,
+               float diameter);
 
   // The shaders, compiled for each pair that is used.
   static constexpr std::array<Variant, 15> variants{{{Shading::plain, Colouring::one},

@@ -63,12 +63,12 @@ Projection::Projection(const Mesh& mesh, const QMatrix4x4& toView, const QMatrix
   pixelsPerZ_ = parallel ? -pixelsPerDepth_ / toClip(2, 2) : 0;
 }
 
-Projection::Place Projection::operator()(const float* carried) const {
+Projection::Place Projection::operator()(const float* coordinates) const {
   const float* m = matrix_.constData();  // column by column
   float clip[4]{m[12], m[13], m[14], m[15]};
   for (int k = 0; k < dimension_; ++k) {
     for (int row = 0; row < 4; ++row) {
-      clip[row] += m[4 * k + row] * carried[k];
+      clip[row] += m[4 * k + row] * coordinates[k];
     }
   }
   const float w = clip[3];

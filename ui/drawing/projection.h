@@ -39,8 +39,8 @@ class Projection {
     float z;         // of the clip space
     bool visible() const { return distance > 0; }
   };
-  /// Projects a point. `carried` points to its coordinates on the axes of the mesh.
-  Place operator()(const float* carried) const;
+  /// Projects a point. `coordinates` points to its coordinates on the axes of the mesh.
+  Place operator()(const float* coordinates) const;
   /// Returns the depth in pixels, which grows with the distance from the eye.
   float depth(const Place& place) const;
   /// Returns the number of pixels per mesh unit at this place, across the view and in depth.

@@ -68,10 +68,10 @@ void VectorPainter::setFrame(const Frame& frame, const Cuts& cuts) {
 }
 
 QVector3D VectorPainter::inSpace(ElementId element) const {
-  std::array<float, 3> carried{};
+  std::array<float, 3> coordinates{};
   const int dimension = frame_->mesh->space_dimension;
-  std::copy_n(frame_->positions.data() + std::size_t{element} * dimension, dimension, carried.begin());
-  return meshToWorld_.map(QVector3D(carried[0], carried[1], carried[2]));
+  std::copy_n(frame_->positions.data() + std::size_t{element} * dimension, dimension, coordinates.begin());
+  return meshToWorld_.map(QVector3D(coordinates[0], coordinates[1], coordinates[2]));
 }
 
 // Pieces: projected, faded and clipped marks, lines and faces

@@ -134,7 +134,7 @@ void MeshRepair::start(const QString& doing, const Named& step, const Repair& re
         try {
           const Repaired repaired = repair(*mesh, progress.part(0, 0.9));
           const Defects defects = find_defects(*repaired.mesh, progress.part(0.9, 1));
-          const OwnSoftness own = carried(softness->links, *mesh, repaired);
+          const OwnSoftness own = softness_after(softness->links, *mesh, repaired);
           return [this, name, step, repaired, defects, own, mesh, softness] {
             if (document_.mesh() != mesh || document_.wholeSoftness() != softness) {
               emit document_.refused(

@@ -212,9 +212,9 @@ std::vector<QVector3D> View::outline(bool atRest) const {
   }
   std::vector<QVector3D> points;
   const QMatrix4x4 inSpace = meshToWorld(mesh);
-  const auto add = [&](const float* carried) {
+  const auto add = [&](const float* coordinates) {
     QVector3D at;
-    std::copy_n(carried, mesh.space_dimension, &at[0]);
+    std::copy_n(coordinates, mesh.space_dimension, &at[0]);
     points.push_back(inSpace.map(at));
   };
   if (mesh.element_count() <= maxOutlinePoints) {

@@ -18,11 +18,11 @@ constexpr float latticeWidth = 1.2F;
 
 Point controlPointOf(const Frame& frame, std::uint32_t point) {
   const auto dimension = std::size_t(frame.mesh->space_dimension);
-  std::array<double, 3> carried{};
+  std::array<double, 3> coordinates{};
   for (std::size_t k = 0; k < dimension; ++k) {
-    carried[k] = double(frame.control_points[dimension * point + k]);
+    coordinates[k] = double(frame.control_points[dimension * point + k]);
   }
-  return frame.mesh->to_point(carried.data());
+  return frame.mesh->to_point(coordinates.data());
 }
 
 std::uint32_t countOf(const Frame& frame) {

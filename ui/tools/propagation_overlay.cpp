@@ -33,9 +33,9 @@ float discSize(const Overlay::Canvas& canvas) {
 /// Returns the position of an element of a frame (mesh units).
 QVector3D elementPosition(const Frame& frame, ElementId element) {
   const int dimension = frame.mesh->space_dimension;
-  double carried[3]{};
-  std::copy_n(frame.positions.data() + std::size_t{element} * std::size_t(dimension), dimension, carried);
-  const Point point = frame.mesh->to_point(carried);
+  double coordinates[3]{};
+  std::copy_n(frame.positions.data() + std::size_t{element} * std::size_t(dimension), dimension, coordinates);
+  const Point point = frame.mesh->to_point(coordinates);
   return {float(point.x()), float(point.y()), float(point.z())};
 }
 

@@ -13,12 +13,12 @@ namespace chainmail::api {
 
 /// Options of a ramp.
 struct RampOptions {
-  std::vector<std::string> methods = {};  ///< Names of methods of the ChainMail family. Empty: all of them.
-  std::uint64_t seed = 1;                 ///< Random seed of the drags.
-  double budget = 1.0 / 60;               ///< Time limit of a pass (s), above 0.
-  std::uint64_t largest = 1'000'000;      ///< Largest number of elements of a grid: 16 to 20 million.
-  int drags = 10;                         ///< Number of drags at each size, at least 1.
-  int moves = 30;                         ///< Number of moves of each drag, at least 1.
+  std::vector<std::string> methods = {};              ///< Names of methods of the ChainMail family. Empty: all of them.
+  std::uint64_t seed = 1;                             ///< Random seed of the drags.
+  double budget = 1.0 / 60;                           ///< Time limit of a pass (s), above 0.
+  std::uint64_t largest = 1'000'000;                  ///< Largest number of elements of a grid: 16 to 20 million.
+  int drags = 10;                                     ///< Number of drags at each size, at least 1.
+  int moves = 30;                                     ///< Number of moves of each drag, at least 1.
   Precision precision = Precision::single_precision;  ///< Precision of the methods.
   LinkSoftness softness = {};                         ///< Softness of all links.
 };
@@ -39,10 +39,10 @@ struct RampSize {
 
 /// The result of one method.
 struct RampMethod {
-  std::string method = {};                      ///< Name of the method.
-  std::optional<std::uint32_t> largest_width;   ///< Width of the largest grid in real time, if any.
-  bool lost = false;                            ///< True: the next size was too slow. False: there was no next size.
-  std::optional<double> growth_exponent;        ///< Power of the number of elements with which the median grows.
+  std::string method = {};                     ///< Name of the method.
+  std::optional<std::uint32_t> largest_width;  ///< Width of the largest grid in real time, if any.
+  bool lost = false;                           ///< True: the next size was too slow. False: there was no next size.
+  std::optional<double> growth_exponent;       ///< Power of the number of elements with which the median grows.
 };
 
 /// The result of a ramp.

@@ -170,7 +170,7 @@ Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>
   return repaired;
 }
 
-OwnSoftness carried(const OwnSoftness& own, const Mesh& before, const Repaired& after) {
+OwnSoftness softness_after(const OwnSoftness& own, const Mesh& before, const Repaired& after) {
   OwnSoftness result;
   for (const auto& [link, softness] : own) {
     const ElementId a = after.new_ids[before.links[link][0]], b = after.new_ids[before.links[link][1]];

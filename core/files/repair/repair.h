@@ -37,6 +37,6 @@ Repaired remove_loose(const Mesh& mesh, const Progress& progress = {});
 Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>& holes, const Progress& progress = {});
 
 /// Returns the softness of single links of `before` for the same links after a repair.
-OwnSoftness carried(const OwnSoftness& own, const Mesh& before, const Repaired& after);
+OwnSoftness softness_after(const OwnSoftness& own, const Mesh& before, const Repaired& after);
 
 }  // namespace chainmail

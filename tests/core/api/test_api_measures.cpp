@@ -303,7 +303,8 @@ void ApiMeasuresTest::softness_is_calibrated() {
 }
 
 void ApiMeasuresTest::grids_grow_until_methods_are_too_slow() {
-  const cm::RampOptions options{.methods = {"exact", "natural-queue"}, .budget = 60, .largest = 40, .drags = 1, .moves = 2};
+  const cm::RampOptions options{
+      .methods = {"exact", "natural-queue"}, .budget = 60, .largest = 40, .drags = 1, .moves = 2};
   const cm::Job job;
   const cm::Ramp ramp = cm::ramp(options, job);
   QCOMPARE(ramp.methods.size(), std::size_t(2));

@@ -134,7 +134,8 @@ void ApiStateTest::whole_numbers_are_real_numbers() {
   const cm::Mesh mesh = cm::make_grid(3, 3);
   cm::State state = cm::save(mesh);
   state["spacing"] = std::int64_t{1};
-  state["rest"] = std::vector<std::uint32_t>{0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 0, 2, 0, 1, 2, 0, 2, 2, 0};
+  state["rest"] =
+      std::vector<std::uint32_t>{0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 0, 2, 0, 1, 2, 0, 2, 2, 0};
   QVERIFY(cm::load_mesh(state).rest_positions() == mesh.rest_positions());
   state["neighbours"] = std::vector<double>{0, 1};
   QVERIFY(has(refusal_of([&] { cm::load_mesh(state); }), "'neighbours' is missing or damaged"));

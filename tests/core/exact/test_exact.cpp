@@ -126,11 +126,11 @@ void ExactTest::agrees_with_bellman_and_ford() {
       const ElementId element = drag_step.of(*mesh);
       const Point target = position_of(*solver, *mesh, element) + drag_step.by();
       solver->move(element, target);
-      std::array<double, 3> carried{};
+      std::array<double, 3> coordinates{};
       for (int k = 0; k < mesh->space_dimension; ++k) {
-        carried[k] = target[mesh->axes[k]];
+        coordinates[k] = target[mesh->axes[k]];
       }
-      const auto expected = answer.move(before, element, carried);
+      const auto expected = answer.move(before, element, coordinates);
       const auto after = positions_of(*solver, *mesh);
       // Along a path, each link rounds its slack (of positions and bounds) and a difference. Paths are shorter than the
       // number of elements. The violation that earlier rounding left has the same size.

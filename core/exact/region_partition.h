@@ -12,29 +12,29 @@
 
 namespace chainmail {
 
-/// What all shares of a search for regions have in common.
+/// What all partitions of a search for regions have in common.
 template <class Scalar, int Dimension>
 struct RegionSearch {
   static constexpr std::uint32_t unknown = no_element;
 
-  /// The share that searches for the region of an element: stripes of ids take turns, since a front is in a few of them
-  /// at a time.
-  std::size_t share_of(ElementId element) const { return (element >> stripe) & (share_count - 1); }
+  /// The partition that searches for the region of an element: stripes of ids take turns, since a front is in a few of
+  /// them at a time.
+  std::size_t partition_of(ElementId element) const { return (element >> stripe) & (partition_count - 1); }
   bool in_handle(ElementId element) const { return std::ranges::binary_search(handle, element); }
 
-  std::size_t share_count = 1;       // a power of two
+  std::size_t partition_count = 1;   // a power of two
   int stripe = 31;                   // the logarithm of the number of ids in one
-  LargeVector<std::uint32_t> index;  // of each element in its share; unknown if the drag has not come near it
+  LargeVector<std::uint32_t> index;  // of each element in its partition; unknown if the drag has not come near it
   std::vector<ElementId> handle;     // ascending
   Scalar least[Dimension]{}, most[Dimension]{};  // offsets of the handle's elements, 0 for one element
 };
 
 /// The part of the elements whose regions about the handle one thread computes: see HandleRegions.
 ///
-/// A share reads and writes only what belongs to its own elements. What it finds out about others goes into messages,
-/// which their shares read in the next round.
+/// A partition reads and writes only what belongs to its own elements. What it finds out about others goes into
+/// messages, which their partitions read in the next round.
 template <class Scalar, int Dimension, class Schedule>
-class alignas(64) RegionShare {
+class alignas(64) RegionPartition {
  public:
   using State = BodyView<Scalar, Dimension>;
   using Reach = HandleReach<Scalar, Dimension>;
@@ -68,10 +68,10 @@ class alignas(64) RegionShare {
     }
   }
 
-  void set_number(std::size_t number, std::size_t share_count) {
+  void set_number(std::size_t number, std::size_t partition_count) {
     number_ = number;
-    messages_[0].resize(share_count);
-    messages_[1].resize(share_count);
+    messages_[0].resize(partition_count);
+    messages_[1].resize(partition_count);
   }
 
   /// Adds an element of the handle. Call this before all others become known.
@@ -106,7 +106,7 @@ class alignas(64) RegionShare {
     frontier_.resize(kept);
   }
 
-  /// The search of a single share, which lets pins that it finds stop the handle.
+  /// The search of a single partition, which lets pins that it finds stop the handle.
   template <class Adapt>
   void run(Search& search, const State& body, Reach& reach, Adapt adapt) {
     while (!schedule_.empty()) {
@@ -116,10 +116,11 @@ class alignas(64) RegionShare {
     }
   }
 
-  /// One round of one of several shares: reads the messages that the others wrote in the last round, then visits the
-  /// elements of this one. There are no pins.
-  void run_round(Search& search, const State& body, Reach& reach, std::span<RegionShare> shares, std::uint64_t round) {
-    for (RegionShare& other : shares) {
+  /// One round of one of several partitions: reads the messages that the others wrote in the last round, then visits
+  /// the elements of this one. There are no pins.
+  void run_round(Search& search, const State& body, Reach& reach, std::span<RegionPartition> partitions,
+                 std::uint64_t round) {
+    for (RegionPartition& other : partitions) {
       auto& messages = other.messages_[(round + 1) % 2][number_];
       for (const Message& message : messages) {
         narrow(search, body, reach, message.element, message.through);
@@ -168,7 +169,7 @@ class alignas(64) RegionShare {
     Scalar key = 0;  // the shortest path found since the last visit
     SearchState state = done;
   };
-  /// An element of another share may lie in this region at most.
+  /// An element of another partition may lie in this region at most.
   struct Message {
     ElementId element;
     Bounds through;
@@ -233,7 +234,7 @@ class alignas(64) RegionShare {
         reach.hold(body.positions[neighbour], through);
         return;
       }
-      if (const std::size_t to = IsAlone ? number_ : search.share_of(neighbour); to == number_) {
+      if (const std::size_t to = IsAlone ? number_ : search.partition_of(neighbour); to == number_) {
         narrow(search, body, reach, neighbour, through);
       } else {
         write(messages_[messages][to], {neighbour, through});
@@ -291,7 +292,7 @@ class alignas(64) RegionShare {
   std::size_t handle_size_ = 0;
   Schedule schedule_;
   std::uint64_t visits_ = 0;
-  std::vector<std::vector<Message>> messages_[2];  // of the even rounds and of the odd ones, to each share
+  std::vector<std::vector<Message>> messages_[2];  // of the even rounds and of the odd ones, to each partition
 };
 
 }  // namespace chainmail
