@@ -4,11 +4,13 @@
 #include <QSet>
 #include <QtTest>
 
+#include "body/softness.h"
 #include "files/mesh/mesh_formats.h"
 #include "folders.h"
 #include "program.h"
+#include "report/page/format.h"
 
-namespace chainmail::test_format_names {
+namespace chainmail::test_manual_tables {
 
 namespace {
 
@@ -63,16 +65,17 @@ QSet<QString> types_in(const char* path) {
 
 }  // namespace
 
-/// What is written elsewhere about formats agrees with their table.
-class FormatNamesTest : public QObject {
+/// What the manual and the desktop say about formats and numbers agrees with their tables.
+class ManualTablesTest : public QObject {
   Q_OBJECT
 
  private slots:
   void the_manual_lists_each_format();
   void the_desktop_opens_each_format();
+  void the_manual_lists_each_number_of_softness();
 };
 
-void FormatNamesTest::the_manual_lists_each_format() {
+void ManualTablesTest::the_manual_lists_each_format() {
   QMap<QString, QStringList> rows = rows_of_manual();
   for (const MeshFormat& format : mesh_formats()) {
     for (const QString& ending : endings_of(format)) {
@@ -85,7 +88,7 @@ void FormatNamesTest::the_manual_lists_each_format() {
   QVERIFY2(rows.isEmpty(), qPrintable(rows.keys().join(' ')));
 }
 
-void FormatNamesTest::the_desktop_opens_each_format() {
+void ManualTablesTest::the_desktop_opens_each_format() {
   const QMap<QString, QString> types = types_by_ending();
   QSet<QString> opened{types.value(".chainmail")};
   for (const MeshFormat& format : mesh_formats()) {
@@ -100,8 +103,22 @@ void FormatNamesTest::the_desktop_opens_each_format() {
   QCOMPARE(types_in("resources/chainmail.thumbnailer"), opened);
 }
 
-CHAINMAIL_TEST(FormatNamesTest)
+void ManualTablesTest::the_manual_lists_each_number_of_softness() {
+  const auto written = [](double number) { return QString::fromStdString(report::all_digits(number)); };
+  const QString page = text_of("resources/manual/algorithms.md");
+  for (const auto& [parameter, value] : softness_numbers) {
+    const QString highest = parameter->highest == parameters::no_highest ? QStringLiteral("or more")
+                                                                         : "to " + written(parameter->highest);
+    const QString row = QStringLiteral("| %1 | `%2` | %3 | %4 %5 | %6 |\n")
+                            .arg(QString::fromUtf8(parameter->label.data()), QString::fromUtf8(parameter->name.data()),
+                                 written(parameter->default_value), written(parameter->lowest), highest,
+                                 QString::fromUtf8(parameter->help.data()));
+    QVERIFY2(page.contains(row), qPrintable("algorithms.md lacks: " + row));
+  }
+}
 
-}  // namespace chainmail::test_format_names
+CHAINMAIL_TEST(ManualTablesTest)
 
-#include "test_format_names.moc"
+}  // namespace chainmail::test_manual_tables
+
+#include "test_manual_tables.moc"
