@@ -52,7 +52,8 @@ std::optional<std::string> value_of(const CLI::Option* option);
 double parse_number_of(const std::string& where, std::string_view text);
 /// Returns the value of a parameter, or its default. Throws Error if it is out of range.
 double value_of(const CLI::Option* option, const Parameter& parameter);
-/// Returns the whole number of an option, or `standard` if the option is missing. Throws Error if it is out of range.
+/// Returns the whole number of an option, or `default_value` if the option is missing. Throws Error if it is out of
+/// range.
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
                               std::uint32_t highest = 1'000'000'000);
 /// Throws Error, with the list of words, if the word is not one of them.

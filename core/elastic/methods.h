@@ -8,6 +8,7 @@
 namespace chainmail {
 
 // Makers of the methods, for the table in elastic.cpp. make_elastic has checked options, kind and size of the object.
+// make_neo_hookean and make_corotational are in nonlinear_fem.cpp.
 std::unique_ptr<ElasticSolver> make_linear_fem(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_boundary_elements(const ElasticProblem& problem, const Progress& progress);

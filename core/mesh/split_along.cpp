@@ -23,7 +23,7 @@ namespace chainmail {
 namespace {
 
 using Eigen::Vector2d;
-constexpr ElementId nobody = std::numeric_limits<ElementId>::max();
+constexpr ElementId no_element = std::numeric_limits<ElementId>::max();
 constexpr double pi = std::numbers::pi;
 // Moves the stroke (pixels), so that no corner is exactly on it.
 const Vector2d aside(1.37e-6, 0.73e-6);
@@ -108,8 +108,8 @@ bool StrokeInView::is_inside(const Vector2d& point, std::span<const ElementId> c
 struct Chord {
   double when = 0;  // of its first crossing
   std::uint32_t face = 0;
-  std::array<ElementId, 2> nodes{nobody, nobody};  // the second is nobody for a point inside
-  std::array<double, 3> inside{};                  // this point, as shares of the three corners
+  std::array<ElementId, 2> nodes{no_element, no_element};  // the second is no_element for a point inside
+  std::array<double, 3> inside{};                          // this point, as shares of the three corners
 };
 
 // Dividing
@@ -121,7 +121,7 @@ Vector2d corner_place(std::size_t i, std::size_t n) {
 }
 
 /// A face that is divided into pieces.
-struct Divided {
+struct DividedFace {
   std::vector<Ring> sides;               // the elements on each side, with both corners, in order
   std::map<ElementId, Vector2d> places;  // coordinates of its elements
   std::vector<Ring> pieces;              // convex
@@ -130,7 +130,7 @@ struct Divided {
 bool has(const Ring& ring, ElementId element) { return std::ranges::find(ring, element) != ring.end(); }
 
 /// True if the elements of a ring are on a line.
-bool is_line(const Divided& face, const Ring& ring) {
+bool is_line(const DividedFace& face, const Ring& ring) {
   constexpr double rounding = 1e-9;  // the whole face has an area of 1.3 or more
   double area = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -140,9 +140,9 @@ bool is_line(const Divided& face, const Ring& ring) {
 }
 
 /// Divides the faces of a mesh along a stroke.
-class Division {
+class FaceDivider {
  public:
-  Division(const Mesh& mesh, const Faces& faces, const StrokeInView& stroke, std::span<const LinkId> reached)
+  FaceDivider(const Mesh& mesh, const Faces& faces, const StrokeInView& stroke, std::span<const LinkId> reached)
       : mesh_(mesh), faces_(faces), stroke_(stroke), reached_(reached), next_(mesh.element_count()) {}
 
   void run();
@@ -178,11 +178,11 @@ class Division {
   std::optional<Eigen::Vector3d> shares_at(std::uint32_t face, const Vector2d& seen) const;
 
   void begin_face(std::uint32_t face);
-  void connect(Divided& face, ElementId from, ElementId to);
-  bool run_along_side(const Divided& face, ElementId from, ElementId to);
-  bool join(Divided& face, ElementId from, ElementId to);
-  ElementId step(Divided& face, ElementId from, ElementId to);
-  ElementId divide_side(Divided& face, ElementId a, ElementId b, double share);
+  void connect(DividedFace& face, ElementId from, ElementId to);
+  bool run_along_side(const DividedFace& face, ElementId from, ElementId to);
+  bool cut_piece(DividedFace& face, ElementId from, ElementId to);
+  ElementId cut_next_piece(DividedFace& face, ElementId from, ElementId to);
+  ElementId divide_edge(DividedFace& face, ElementId a, ElementId b, double share);
   void add_tip(const Chord& chord);
 
   const Mesh& mesh_;
@@ -192,12 +192,12 @@ class Division {
   ElementId next_;
   std::unordered_map<EdgeKey, Side> sides_;
   std::vector<Chord> chords_;
-  std::map<std::uint32_t, Divided> divided_;
+  std::map<std::uint32_t, DividedFace> divided_;
   std::vector<SplitPoint> points_;
   std::set<EdgeKey> cut_;
 };
 
-Division::Side& Division::side(ElementId a, ElementId b) {
+FaceDivider::Side& FaceDivider::side(ElementId a, ElementId b) {
   const auto [found, is_new] = sides_.try_emplace(edge_key(a, b));
   if (is_new) {
     found->second.crossings = stroke_.crossings(a, b);
@@ -206,7 +206,7 @@ Division::Side& Division::side(ElementId a, ElementId b) {
 }
 
 /// Finds the links that the stroke crosses.
-void Division::find_sides() {
+void FaceDivider::find_sides() {
   for (const LinkId link : reached_) {
     const auto& [a, b] = mesh_.links[link];
     if (Side& one = side(a, b); one.crossings.empty()) {
@@ -219,7 +219,7 @@ void Division::find_sides() {
 
 /// Returns the faces with a side for which `is_meant` is true, ascending.
 template <class Meant>
-std::vector<std::uint32_t> Division::faces_at(Meant is_meant) const {
+std::vector<std::uint32_t> FaceDivider::faces_at(Meant is_meant) const {
   std::vector<bool> is_end(mesh_.element_count());
   for (const auto& [key, one] : sides_) {
     if (is_meant(one)) {
@@ -241,7 +241,7 @@ std::vector<std::uint32_t> Division::faces_at(Meant is_meant) const {
   return result;
 }
 
-std::vector<Division::FaceCrossing> Division::crossings_of(std::uint32_t face) {
+std::vector<FaceDivider::FaceCrossing> FaceDivider::crossings_of(std::uint32_t face) {
   const auto corners = faces_[face];
   std::vector<FaceCrossing> result;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -257,7 +257,7 @@ std::vector<Division::FaceCrossing> Division::crossings_of(std::uint32_t face) {
 
 /// Finds the ways of the stroke through a face: each crossing leads into it or out of it, also if it is seen from its
 /// edge, where no point is between them.
-void Division::find_chords(std::uint32_t face) {
+void FaceDivider::find_chords(std::uint32_t face) {
   const auto corners = faces_[face];
   if (std::ranges::any_of(corners, [this](ElementId one) { return stroke_.place(one).distance <= 0; })) {
     return;
@@ -281,14 +281,14 @@ void Division::find_chords(std::uint32_t face) {
 }
 
 /// The stroke begins or ends inside a triangle. The cut ends there; or, near a side or a corner, on it.
-void Division::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector2d& end) {
+void FaceDivider::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector2d& end) {
   const auto corners = faces_[face];
   const auto shares = shares_at(face, end);
   if (!shares) {
     return;
   }
   if (shares->minCoeff() >= tip_share) {
-    chords_.push_back({at.when, face, {node(at), nobody}, {shares->x(), shares->y(), shares->z()}});
+    chords_.push_back({at.when, face, {node(at), no_element}, {shares->x(), shares->y(), shares->z()}});
     return;
   }
   Eigen::Index least = 0;
@@ -304,7 +304,7 @@ void Division::find_tip(std::uint32_t face, const FaceCrossing& at, const Vector
 
 /// Returns the shares of the three corners of a triangle at a position in the view; none if the triangle is seen from
 /// its edge or if a corner is behind the eye.
-std::optional<Eigen::Vector3d> Division::shares_at(std::uint32_t face, const Vector2d& seen) const {
+std::optional<Eigen::Vector3d> FaceDivider::shares_at(std::uint32_t face, const Vector2d& seen) const {
   const auto corners = faces_[face];
   const auto &a = stroke_.place(corners[0]), &b = stroke_.place(corners[1]), &c = stroke_.place(corners[2]);
   const double area = cross(b.at - a.at, c.at - a.at);
@@ -320,7 +320,7 @@ std::optional<Eigen::Vector3d> Division::shares_at(std::uint32_t face, const Vec
 }
 
 /// Returns the element on a side at this share of it: an end or another element nearby, or a new one.
-ElementId Division::node(EdgeKey key, double share) {
+ElementId FaceDivider::node(EdgeKey key, double share) {
   const auto [a, b] = ends_of(key);
   if (!(share >= snap_share)) {
     return a;
@@ -340,9 +340,9 @@ ElementId Division::node(EdgeKey key, double share) {
 }
 
 /// Puts the elements on its sides into a face, which is one piece then.
-void Division::begin_face(std::uint32_t face) {
+void FaceDivider::begin_face(std::uint32_t face) {
   const auto corners = faces_[face];
-  Divided& divided = divided_[face];
+  DividedFace& divided = divided_[face];
   Ring whole;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ElementId a = corners[i], b = corners[(i + 1) % corners.size()];
@@ -365,7 +365,7 @@ void Division::begin_face(std::uint32_t face) {
   divided.pieces = {whole};
 }
 
-void Division::run() {
+void FaceDivider::run() {
   find_sides();
   for (const std::uint32_t face : faces_at([](const Side& side) { return side.reached; })) {
     find_chords(face);
@@ -378,7 +378,7 @@ void Division::run() {
     if (!divided_.contains(chord.face)) {
       begin_face(chord.face);  // all its crossings are at corners
     }
-    if (chord.nodes[1] == nobody) {
+    if (chord.nodes[1] == no_element) {
       add_tip(chord);
     } else {
       connect(divided_.at(chord.face), chord.nodes[0], chord.nodes[1]);
@@ -387,18 +387,18 @@ void Division::run() {
 }
 
 /// Cuts a face from one element on its sides to another.
-void Division::connect(Divided& face, ElementId from, ElementId to) {
-  constexpr int max_steps = 1000;
+void FaceDivider::connect(DividedFace& face, ElementId from, ElementId to) {
+  constexpr int max_steps = 1000;  // rounding may lead a cut in circles
   if (from == to || run_along_side(face, from, to)) {
     return;
   }
-  for (int i = 0; i < max_steps && from != nobody && !join(face, from, to); ++i) {
-    from = step(face, from, to);
+  for (int i = 0; i < max_steps && from != no_element && !cut_piece(face, from, to); ++i) {
+    from = cut_next_piece(face, from, to);
   }
 }
 
 /// The cut runs along a side if both elements are on it. Returns false if they are not.
-bool Division::run_along_side(const Divided& face, ElementId from, ElementId to) {
+bool FaceDivider::run_along_side(const DividedFace& face, ElementId from, ElementId to) {
   for (const Ring& on : face.sides) {
     auto first = std::ranges::find(on, from), last = std::ranges::find(on, to);
     if (first != on.end() && last != on.end()) {
@@ -414,8 +414,8 @@ bool Division::run_along_side(const Divided& face, ElementId from, ElementId to)
   return false;
 }
 
-/// Cuts the piece with both elements between them. Returns false if there is no such piece.
-bool Division::join(Divided& face, ElementId from, ElementId to) {
+/// Cuts the piece that has both elements, between them. Returns false if there is no such piece.
+bool FaceDivider::cut_piece(DividedFace& face, ElementId from, ElementId to) {
   const auto piece = std::ranges::find_if(face.pieces, [&](const Ring& one) { return has(one, from) && has(one, to); });
   if (piece == face.pieces.end()) {
     return false;
@@ -439,8 +439,8 @@ bool Division::join(Divided& face, ElementId from, ElementId to) {
 }
 
 /// Cuts the piece into which the way from one element to another leads. Returns the element where the way leaves the
-/// piece, or nobody.
-ElementId Division::step(Divided& face, ElementId from, ElementId to) {
+/// piece, or no_element.
+ElementId FaceDivider::cut_next_piece(DividedFace& face, ElementId from, ElementId to) {
   constexpr double rounding = 1e-9;
   const Vector2d start = face.places.at(from), way = face.places.at(to) - start;
   for (const Ring& piece : face.pieces) {
@@ -453,16 +453,16 @@ ElementId Division::step(Divided& face, ElementId from, ElementId to) {
       const double across = cross(way, side);
       const double along = cross(there, side) / across, share = cross(there, way) / across;
       if (across != 0 && along > rounding && along < 1 && share >= 0 && share <= 1) {
-        const ElementId next = share < snap_share ? a : share > 1 - snap_share ? b : divide_side(face, a, b, share);
-        return next != nobody && join(face, from, next) ? next : nobody;
+        const ElementId next = share < snap_share ? a : share > 1 - snap_share ? b : divide_edge(face, a, b, share);
+        return next != no_element && cut_piece(face, from, next) ? next : no_element;
       }
     }
   }
-  return nobody;
+  return no_element;
 }
 
-/// Adds an element to a side that two pieces share; returns nobody if they do not.
-ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double share) {
+/// Adds an element to the edge between two pieces. Returns no_element for an edge of the face: the cut ends there.
+ElementId FaceDivider::divide_edge(DividedFace& face, ElementId a, ElementId b, double share) {
   std::vector<std::pair<Ring*, std::size_t>> where;  // pieces, and the index at which to insert
   for (Ring& piece : face.pieces) {
     for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -472,7 +472,7 @@ ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double 
     }
   }
   if (where.size() != 2) {
-    return nobody;
+    return no_element;
   }
   const ElementId element = add(SplitPoint::between(a, b, share));
   face.places[element] = (1 - share) * face.places.at(a) + share * face.places.at(b);
@@ -487,10 +487,10 @@ ElementId Division::divide_side(Divided& face, ElementId a, ElementId b, double 
 }
 
 /// Cuts a triangle from an element on its sides to a point inside, around which the piece becomes triangles.
-void Division::add_tip(const Chord& chord) {
+void FaceDivider::add_tip(const Chord& chord) {
   constexpr double least_area = 0.01;  // of a triangle at the point; the whole face has 1.3
   const auto corners = faces_[chord.face];
-  Divided& face = divided_.at(chord.face);
+  DividedFace& face = divided_.at(chord.face);
   Vector2d place = Vector2d::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     place += chord.inside[i] * corner_place(i, corners.size());
@@ -518,7 +518,7 @@ void Division::add_tip(const Chord& chord) {
   cut_.insert(edge_key(chord.nodes[0], tip));
 }
 
-FacesInPieces Division::pieces() const {
+FacesInPieces FaceDivider::pieces() const {
   FacesInPieces result{{}, points_, cut_};
   for (const auto& [face, divided] : divided_) {
     result.pieces[face] = divided.pieces;
@@ -536,9 +536,9 @@ SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::
     return {};
   }
   const Faces faces(mesh);
-  Division division(mesh, faces, stroke, reached);
-  division.run();
-  return separate(mesh, faces, division.pieces());
+  FaceDivider divider(mesh, faces, stroke, reached);
+  divider.run();
+  return separate(mesh, faces, divider.pieces());
 }
 
 }  // namespace chainmail

@@ -127,13 +127,13 @@ void Simulation::mark_all() {
   unkept_.insert_all();
 }
 
-bool Simulation::step() {
+bool Simulation::continue_relaxation() {
   if (!statistics_.relaxing) {
     return false;
   }
   measure_.reset();
   try {
-    if (relax_on()) {
+    if (run_slice()) {
       fall_asleep();
     }
   } catch (const Cancelled&) {
@@ -150,7 +150,7 @@ bool Simulation::step() {
 }
 
 /// Runs a slice of relaxation. Returns true if the object has come to rest.
-bool Simulation::relax_on() {
+bool Simulation::run_slice() {
   const RelaxationResult slice = relax_slice(relaxation_step_);
   prepared_ = slice.has_prepared;
   if (!slice.sweep_ended) {

@@ -45,7 +45,7 @@ class Simulation {
   void apply(const Command& command);
   /// Runs a slice of relaxation of about 2 ms, or one iteration toward the equilibrium, for idle time. Returns true if
   /// there is more to do. If there is no equilibrium, or if it fails, relaxation ends and the remark says why.
-  bool step();
+  bool continue_relaxation();
   /// True if the last slice prepared later ones, which are much faster.
   bool has_prepared() const { return prepared_; }
 
@@ -125,7 +125,7 @@ class Simulation {
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
-  bool relax_on();
+  bool run_slice();
   RelaxationResult relax_slice(double step);
   template <class Relax>
   RelaxationResult take_relaxed(Relax relax);

@@ -293,7 +293,7 @@ void SolverThread::relax() {
   const auto end = Clock::now() + relaxation_share;
   for (bool more = true; more && idle() && Clock::now() < end;) {
     const auto start = Clock::now();
-    more = simulation_.step();
+    more = simulation_.continue_relaxation();
     if (!simulation_.has_prepared()) {  // what happens once says nothing about the next slice
       slice_time_ = Clock::now() - start;
     }

@@ -140,7 +140,7 @@ void lag(Results& results, const char* name, const MeshPointer& mesh, const Link
     scene.drag(double(frame) / frames);
     const auto start = Clock::now();
     do {
-      scene.simulation().step();
+      scene.simulation().continue_relaxation();
     } while (seconds_since(start) < 0.008);
   }
   results.add(std::string("/equilibrium/lag/") + name, scene.distance_from(goal));

@@ -1,5 +1,6 @@
-"""The tests of a build: which of them pass, which faults each of them reaches, and which one a fault makes fail."""
+"""The tests of a build: which of their functions pass, which faults each of these reaches, and which a fault makes fail."""
 
+import collections
 import json
 import pathlib
 import re
@@ -12,6 +13,9 @@ import process
 # The folder of tests that belongs to a room. The first that fits counts.
 FOLDERS = {"core/files": "files", "core": "core", "app/python": "python", "app": "cli", "ui": "ui"}
 FAULT_LIMIT = 4096  # as in fault.h
+START_SECONDS = 1  # of a test, beside its functions
+# A function of a test, or a whole test with the name ''. `reached` are the numbers of the faults whose place it executes.
+Function = collections.namedtuple("Function", "name seconds reached")
 
 
 class Test:
@@ -25,7 +29,10 @@ class Test:
         self.limit = properties.get("TIMEOUT", 300)  # seconds
         self.seconds = seconds.get(self.name, 5)
         self.lock = threading.Lock()
-        self.reached = None  # numbers of the faults whose place it executes; empty if it fails without a fault
+        self.functions = None  # those that pass without a fault
+
+    def functions_reaching(self, number):
+        return [one for one in self.functions if number in one.reached]
 
     def program(self):
         """Returns the name of the test program, or pytest; nothing for a test that is something else."""
@@ -51,30 +58,40 @@ class Suite:
         tests = [Test(described, known) for described in json.loads(shown)["tests"]]
         self.tests = [test for test in tests if test.program() and (not programs or test.program() in programs)]
 
-    def passes(self, test, home, limit, **variables):
+    def run(self, test, home, limit, functions=(), **variables):
+        """Returns whether a test passes, or some of its functions, and its output."""
         own = {"HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
         environment = {**self.build.environment, **own, **test.environment, **variables}
-        return process.run(test.command, test.place, environment, limit)[0] == 0
+        names = [one.name for one in functions if one.name]
+        code, output = process.run([*test.command, *names], test.place, environment, limit)
+        return code == 0, output
 
-    def reached_by(self, test, home):
-        """Returns the faults that a test reaches. It runs without a fault, when it is needed for the first time."""
+    def find_functions(self, test, home):
+        """Runs a test without a fault, when it is needed for the first time. Programs of Qt Test say what each of their
+        functions reaches; other tests are a single function."""
         with test.lock:
-            if test.reached is None:
-                record = home / "reached"
-                record.write_bytes(bytes(FAULT_LIMIT))
-                start = time.time()
-                if any(self.passes(test, home, test.limit, CHAINMAIL_FAULTS_REACHED=str(record)) for _ in range(2)):
-                    test.reached = {number for number, byte in enumerate(record.read_bytes()) if byte}
-                else:
-                    print(f"     {test.name} fails without a fault and is left out", flush=True)
-                    test.reached = set()
-                test.seconds = time.time() - start
-            return test.reached
+            if test.functions is not None:
+                return
+            record = home / "reached"
+            record.write_bytes(bytes(FAULT_LIMIT))
+            start = time.time()
+            passes, output = self.run(test, home, 2 * test.limit, CHAINMAIL_FAULTS_REACHED=str(record))
+            found = re.findall(r"^@ (\w+) (\d+)((?: \d+)*)$", output, re.M)
+            test.functions = [Function(name, int(ms) / 1000, set(map(int, numbers.split())))
+                              for name, ms, numbers in found]
+            if passes and not found:
+                reached = {number for number, byte in enumerate(record.read_bytes()) if byte}
+                test.functions = [Function("", time.time() - start, reached)]
+            if not test.functions:
+                print(f"     {test.name} fails without a fault and is left out", flush=True)
 
-    def fails(self, test, home, number):
-        """True if a test fails twice with a fault. A test that takes much longer than without has failed."""
-        limit = 3 * test.seconds + 10
-        return not any(self.passes(test, home, limit, CHAINMAIL_FAULT=str(number)) for _ in range(2))
+    def fails(self, test, functions, home, number):
+        """True if functions of a test fail twice with a fault, and pass without it. Those that take much longer than
+        without it have failed."""
+        limit = 3 * sum(one.seconds for one in functions) + 10
+        if any(self.run(test, home, limit, functions, CHAINMAIL_FAULT=str(number))[0] for _ in range(2)):
+            return False
+        return self.run(test, home, limit, functions)[0]
 
     def ordered(self, fault):
         """Returns the tests: those of the fault's room first, then those with words of the file in their name, then the
@@ -91,9 +108,13 @@ class Suite:
         """Returns the name of the first test that catches a fault, '' if none does, and how many of them reached it."""
         spent, reaching = 0, 0
         for test in self.ordered(self.build.faults[number]):
-            if spent < self.max_seconds and number in self.reached_by(test, home):
+            if spent >= self.max_seconds:
+                break
+            self.find_functions(test, home)
+            functions = test.functions_reaching(number)
+            if functions:
                 reaching += 1
-                spent += test.seconds
-                if self.fails(test, home, number):
+                spent += START_SECONDS + sum(one.seconds for one in functions)
+                if self.fails(test, functions, home, number):
                     return test.name, reaching
         return "", reaching

@@ -88,31 +88,24 @@ void note(SuiteResult& result, const DragReference& reference, const StrainLaw& 
   }
 }
 
-/// The object, turned by 45° with its drags, and the contest on it.
-class Turned {
+/// The contest on the object that is turned by 45° with its drags.
+class TurnedContest {
  public:
-  Turned(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options)
+  TurnedContest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options)
       : turn_(AxesKind::given, rotation_by(*object.mesh, turned_by)),
         object_(turned(object, turn_.rotation())),
         contest_(object_, contestants, options, Measured::errors) {}
 
-  /// Adds the errors of a drag (its number) on the turned object to the rows of the drag.
+  /// Adds the errors of a drag (its number) on the turned object to the rows of the drag: one for each contestant, in
+  /// their order. `reference` is that of the object as it is.
   void add_errors(std::size_t drag, const ReferenceSolution& reference, SuiteRow* rows, const std::stop_token& stop) {
-    ReferenceSolution there = reference;
-    const Mesh& mesh = *object_.mesh;
-    const auto n = std::size_t(mesh.space_dimension);
-    for (std::size_t at = 0; at < there.displacements.size(); at += n) {
-      Point displacement = Point::Zero();
-      for (std::size_t k = 0; k < n; ++k) {
-        displacement[mesh.axes[k]] = there.displacements[at + k];
-      }
-      displacement = turn_.into_world(displacement);
-      for (std::size_t k = 0; k < n; ++k) {
-        there.displacements[at + k] = displacement[mesh.axes[k]];
-      }
+    ReferenceSolution turned_reference = reference;
+    std::vector<double>& displacements = turned_reference.displacements;
+    for (std::size_t at = 0; at < displacements.size(); at += std::size_t(object_.mesh->space_dimension)) {
+      turn_into_world(*object_.mesh, turn_, &displacements[at]);
     }
-    const auto entries = contest_.run(
-        object_.drags[drag], there, [](double) {}, stop);
+    const auto no_progress = [](double) {};
+    const auto entries = contest_.run(object_.drags[drag], turned_reference, no_progress, stop);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].measurement) {
         rows[i].relative_turned = entries[i].measurement->error.relative;
@@ -152,7 +145,7 @@ void run_drags(Running& running, const Case& object) {
   const auto contestants = calibrated_contestants(running, object);
   DragReferences references(object, running.options.refine);
   Contest contest(object, contestants, contest_options);
-  Turned turned(object, contestants, contest_options);
+  TurnedContest turned(object, contestants, contest_options);
   for (std::size_t i = 0; i < object.drags.size() && !running.stop.stop_requested(); ++i) {
     const RecordedMoves& moves = object.drags[i];
     running.tell(double(i) / double(object.drags.size()));

@@ -53,7 +53,7 @@ double largest_step_in_simulation(bool relaxed, double step, int slices) {
     const auto before = positions_of(simulation);
     drag_by(simulation, drag.element, Point(drag.step, drag.step, 0));
     largest = std::max(largest, largest_step(before, positions_of(simulation)) / std::abs(drag.step));
-    for (int slice = 0; slice < slices && simulation.step(); ++slice) {
+    for (int slice = 0; slice < slices && simulation.continue_relaxation(); ++slice) {
     }
   }
   return largest;

@@ -59,7 +59,7 @@ bool is_valid(const Simulation& simulation) {
 int steps_to_sleep(Simulation& simulation) {
   constexpr int most = 1000;
   for (int steps = 1; steps < most; ++steps) {
-    const bool more = simulation.step();
+    const bool more = simulation.continue_relaxation();
     if (!is_valid(simulation)) {
       return 0;
     }
@@ -88,7 +88,7 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
   Simulation simulation =
       held_grid(Algorithm::exact, in_float ? Precision::single_precision : Precision::double_precision);
   QVERIFY(steps_to_sleep(simulation) > 0);  // a scene at rest comes to rest
-  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.continue_relaxation());
   drag_by(simulation, handle, by);
   const Point target = position_of(simulation, handle);
   const double energy =
@@ -104,7 +104,7 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
   QCOMPARE(simulation.statistics().sweeps, std::uint64_t(steps));
   // Asleep, it costs nothing and nothing moves.
   const auto asleep = positions_of(simulation);
-  QVERIFY(!simulation.step() && !simulation.statistics().relaxing);
+  QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().relaxing);
   QVERIFY(same_bits(positions_of(simulation), asleep));
 }
 
@@ -117,7 +117,7 @@ void SettlingTest::a_drag_while_it_settles_is_followed() {
       const Point target = start + i * Point(0.08, 0.05, 0);
       carry_out(simulation, commands::Drag{target});
       QVERIFY(position_of(simulation, handle) == target);
-      QVERIFY(simulation.step());
+      QVERIFY(simulation.continue_relaxation());
       QVERIFY(position_of(simulation, handle) == target);
       QVERIFY(is_valid(simulation));
     }
@@ -137,13 +137,13 @@ void SettlingTest::pins_that_contradict_each_other_leave_a_remark() {
   carry_out(simulation, commands::Pin{{0}});
   const auto before = positions_of(simulation);
   carry_out(simulation, on);
-  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.continue_relaxation());
   QVERIFY(!simulation.statistics().remark.empty() && !simulation.statistics().residual);
   QVERIFY(same_bits(positions_of(simulation), before));
   QVERIFY_THROWS_EXCEPTION(Error, carry_out(simulation, commands::Relax{5, 1, RelaxationScheme::equilibrium}));
   // Without the contradiction, the remark goes.
   carry_out(simulation, commands::Unpin{{0}});
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(simulation.statistics().remark.empty() && simulation.statistics().residual);
 }
 
@@ -171,15 +171,15 @@ void SettlingTest::another_scheme_begins_at_once() {
   pin_left(simulation);
   carry_out(simulation, commands::SetRelaxation{true, 1, RelaxationScheme::mean});
   drag_by(simulation, handle, Point(0.4, 0.3, 0));
-  while (simulation.step()) {
+  while (simulation.continue_relaxation()) {
   }
   QVERIFY(!simulation.statistics().residual);
   carry_out(simulation, on);
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(simulation.statistics().residual);
   carry_out(simulation, commands::SetRelaxation{true, 1, RelaxationScheme::link});
   QVERIFY(!simulation.statistics().residual);
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(!simulation.statistics().residual);
 }
 
@@ -201,9 +201,9 @@ void SettlingTest::softness_is_felt_without_a_pass() {
 void SettlingTest::positions_from_elsewhere_stay() {
   Simulation simulation = held_grid(Algorithm::exact);
   drag_by(simulation, handle, Point(0.4, 0.3, 0));
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   carry_out(simulation, commands::Reset{});
-  QVERIFY(!simulation.step() && !simulation.statistics().residual);
+  QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().residual);
   simulation.relax(5, 1);  // an object at rest is at equilibrium
   QVERIFY(same_bits(positions_of(simulation), simulation.mesh().rest));
 }
@@ -215,10 +215,10 @@ void SettlingTest::a_cancelled_iteration_moves_nothing_and_goes_on() {
   drag_by(simulation, handle, Point(0.4, 0.3, 0));
   const auto before = positions_of(simulation);
   job.cancelled = true;
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(same_bits(positions_of(simulation), before));
   job.cancelled = false;
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(!same_bits(positions_of(simulation), before));
 }
 

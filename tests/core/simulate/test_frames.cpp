@@ -83,7 +83,7 @@ void FramesTest::whoever_copies_what_changed_has_it_all() {
     for (int i = 0; i < 100; ++i) {
       carry_out_if_it_fits(scene.simulation, any.draw());
       if (any.below(3) == 0) {
-        scene.simulation.step();
+        scene.simulation.continue_relaxation();
       }
       if (any.below(20) == 0) {
         carry_out_if_it_fits(scene.simulation, commands::Relax{1, 0.5, scene.simulation.relaxation().scheme});

@@ -46,7 +46,7 @@ Simulation grid_simulation(Algorithm algorithm = Algorithm::natural_queue) {
 /// Runs steps until the simulation sleeps. Returns false if it does not within this number of slices.
 bool comes_to_rest(Simulation& simulation, int slices = 100'000) {
   for (int i = 0; i < slices; ++i) {
-    if (!simulation.step()) {
+    if (!simulation.continue_relaxation()) {
       return true;
     }
   }
@@ -294,7 +294,7 @@ void SimulationTest::every_setting_survives_another_mesh() {
 
 void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
   auto simulation = grid_simulation();
-  QVERIFY(!simulation.step());  // off
+  QVERIFY(!simulation.continue_relaxation());  // off
   carry_out(simulation, commands::SetRelaxation{true, 1});
   QVERIFY(comes_to_rest(simulation));  // at rest there is nothing to relax
   QVERIFY(positions_of(simulation) == simulation.mesh().rest);
@@ -302,10 +302,10 @@ void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
   QVERIFY(simulation.statistics().relaxing);
   const double before =
       elastic_energy(simulation.mesh(), simulation.softness(), simulation.body().cuts(), simulation.body().positions());
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   QVERIFY(comes_to_rest(simulation));
   QVERIFY(!simulation.statistics().relaxing);
-  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.continue_relaxation());
   QVERIFY(position_of(simulation, 0) == Point(-2, -1, 0));  // the handle stays
   const double after =
       elastic_energy(simulation.mesh(), simulation.softness(), simulation.body().cuts(), simulation.body().positions());
@@ -316,12 +316,12 @@ void SimulationTest::relaxation_stops_when_switched_off() {
   auto simulation = grid_simulation();
   carry_out(simulation, commands::SetRelaxation{true, 1});
   drag_by(simulation, 0, Point(-2, -1, 0));
-  QVERIFY(simulation.step());
+  QVERIFY(simulation.continue_relaxation());
   carry_out(simulation, commands::SetRelaxation{false, 1});
   const auto before = positions_of(simulation);
-  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.continue_relaxation());
   drag_by(simulation, 0, Point(0, 0, 0));
-  QVERIFY(!simulation.step());
+  QVERIFY(!simulation.continue_relaxation());
   QVERIFY(same_bits(before, positions_of(simulation)));
 }
 

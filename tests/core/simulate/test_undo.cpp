@@ -253,7 +253,7 @@ void UndoTest::the_hand_lets_go_and_relaxation_sleeps() {
   exchange(simulation, 1);
   QVERIFY(simulation.grabbed().empty());
   QVERIFY(!simulation.statistics().relaxing);
-  QVERIFY(!simulation.step());  // otherwise the state that undo restored would change slowly
+  QVERIFY(!simulation.continue_relaxation());  // otherwise the state that undo restored would change slowly
   QVERIFY(SavedState(simulation).same_object(kept));
 }
 
