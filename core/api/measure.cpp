@@ -10,6 +10,8 @@
 namespace chainmail::api {
 namespace {
 
+constexpr double preparation_share = 0.3;  // of the time of a reference solution, roughly
+
 PhysicalError error_of(const inner::PhysicalError& error) { return {error.relative, error.rms, error.max}; }
 
 }  // namespace
@@ -81,15 +83,15 @@ ReferenceSolution reference_solution(const Body& body, const std::vector<Element
       throw inner::Error("pins", "nothing pins the object, so physics has no solution", "pin a side or some elements");
     }
     const Progress progress = Access::progress(job);
-    ReferenceSolver solver({impl.mesh_pointer(),
-                            impl.cuts(),
-                            {pins.begin(), pins.end()},
-                            displacements_of(impl.mesh(), impl.positions(), pins),
-                            impl.elastic()},
-                           progress.part(0, 0.3));
+    ReferenceSolver solver({.mesh = impl.mesh_pointer(),
+                            .cuts = impl.cuts(),
+                            .pins = {pins.begin(), pins.end()},
+                            .pinned = displacements_of(impl.mesh(), impl.positions(), pins),
+                            .options = impl.elastic()},
+                           progress.part(0, preparation_share));
     const std::vector<ElementId> elements(grabbed.elements().begin(), grabbed.elements().end());
     return Access::make<ReferenceSolution>(impl.mesh_pointer(),
-                                           solver.at(elements, displacements, progress.part(0.3, 1)));
+                                           solver.at(elements, displacements, progress.part(preparation_share, 1)));
   });
 }
 

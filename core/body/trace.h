@@ -1,20 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "mesh/mesh.h"
 
 namespace chainmail {
 
-/// Stands for the sponsor of a candidate without one.
-inline constexpr ElementId no_element = std::numeric_limits<ElementId>::max();
-
 /// One processed candidate of a pass.
 struct TraceRow {
   ElementId element;
-  ElementId sponsor;
+  ElementId sponsor;  // no_element for a candidate without one
   bool moved;
 };
 using Trace = std::vector<TraceRow>;

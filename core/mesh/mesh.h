@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,6 +18,8 @@ namespace chainmail {
 
 /// Id of an element: its index in the file's order, from 0.
 using ElementId = std::uint32_t;
+/// Stands for an element that does not exist.
+inline constexpr ElementId no_element = std::numeric_limits<ElementId>::max();
 /// Id of a link: an unordered pair of elements, numbered by its first element, then in that element's order.
 using LinkId = std::uint32_t;
 /// Index of an entry in the neighbour table: a link as seen from one of its two elements.

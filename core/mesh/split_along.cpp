@@ -23,7 +23,6 @@ namespace chainmail {
 namespace {
 
 using Eigen::Vector2d;
-constexpr ElementId no_element = std::numeric_limits<ElementId>::max();
 constexpr double pi = std::numbers::pi;
 // Moves the stroke (pixels), so that no corner is exactly on it.
 const Vector2d aside(1.37e-6, 0.73e-6);
