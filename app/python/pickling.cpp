@@ -51,6 +51,17 @@ std::optional<api::StateValue> unpacked(std::string_view bytes) {
   return numbers;
 }
 
+/// Returns a text; nothing if it has characters that are none.
+std::optional<std::string> text_of(py::handle text) {
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes == nullptr) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return std::string(bytes, std::size_t(size));
+}
+
 /// Returns a part of a dictionary as a value of a state; nothing if no state has such a value.
 std::optional<api::StateValue> value_of(py::handle part, const std::string& name) {
   PyObject* const object = part.ptr();
@@ -65,7 +76,7 @@ std::optional<api::StateValue> value_of(py::handle part, const std::string& name
     return PyFloat_AS_DOUBLE(object);
   }
   if (PyUnicode_Check(object) != 0) {
-    return part.cast<std::string>();
+    return text_of(part);
   }
   if (PyBytes_Check(object) != 0) {
     const std::string_view bytes(PyBytes_AS_STRING(object), std::size_t(PyBytes_GET_SIZE(object)));
@@ -166,24 +177,27 @@ PickledParts::PickledParts(const char* class_name, const py::object& parts)
 api::State PickledParts::without(const char* name) const {
   api::State state;
   for (const auto& [key, part] : parts_) {
-    if (!py::isinstance<py::str>(key)) {
-      refuse(std::string(py::repr(key)).substr(0, 60));
+    const auto of = py::isinstance<py::str>(key) ? text_of(key) : std::nullopt;
+    if (!of) {
+      throw api::Error(where_, "a part has a name that is no text", "pickle the object again");
     }
-    const auto of = key.cast<std::string>();
-    if (of == name) {
+    if (*of == name) {
       continue;
     }
-    auto value = value_of(part, of);
+    auto value = value_of(part, "part");
     if (!value) {
-      refuse(of);
+      refuse(*of);
     }
-    state[of] = std::move(*value);
+    state[*of] = std::move(*value);
   }
   return state;
 }
 
 void PickledParts::refuse(const std::string& name) const {
-  throw api::Error(where_, "its part '" + name + "' is missing or damaged", "pickle the object again");
+  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  const bool shown = name.size() <= 40 && std::ranges::all_of(name, is_plain);  // a part that no state has may say more
+  throw api::Error(where_, (shown ? "its part '" + name + "'" : "one of its parts") + " is missing or damaged",
+                   "pickle the object again");
 }
 
 }  // namespace chainmail::python

@@ -74,7 +74,7 @@ class PickledParts {
     }
     refuse(name);
   }
-  /// Returns all parts but this one. Throws Error for one that no state has.
+  /// Returns all parts but this one. Throws Error for one that is no value of a state.
   api::State without(const char* name) const;
 
   [[noreturn]] void refuse(const std::string& name) const;

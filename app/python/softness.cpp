@@ -56,7 +56,7 @@ void set_link_softness(Object& object, const py::object& links, const py::kwargs
   for (std::size_t i = 0; i < ids.size(); ++i) {
     put(next.emplace_back(body.softness(ids[i])), numbers, i);
   }
-  body.set_softness(ids, next);
+  body.set_link_softness(ids, next);
 }
 
 py::dict link_softness(Object& object) {

@@ -66,13 +66,14 @@ py::object parts_of_deformer(const Mover& mover) {
 
 std::unique_ptr<Mover> deformer_from(const py::object& from) {
   const PickledParts parts("Deformer", from);
-  const api::State state = parts.without(body_part);
+  api::State state = parts.without(body_part);
   const auto body = parts.get<ObjectPointer>(body_part);
   if (body == nullptr) {
     parts.refuse(body_part);
   }
+  api::check_deformer(body->body(), state);  // before the method changes how the body stores positions
   auto mover = std::make_unique<Mover>(body, parts.get<std::string>(method_part));
-  api::load(mover->object()->deformer(), state);
+  api::load(mover->object()->deformer(), std::move(state));
   return mover;
 }
 

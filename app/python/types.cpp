@@ -2,6 +2,8 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <cctype>
+#include <limits>
 #include <sstream>
 
 #include "chainmail/chainmail.h"
@@ -95,6 +97,15 @@ void add_pose(py::module_& module) {
       });
 }
 
+/// Returns a docstring: `Shortest length … From 0 to 1.`
+std::string help_of(const api::SoftnessNumber& number) {
+  std::string help(number.help);
+  help.front() = char(std::toupper(static_cast<unsigned char>(help.front())));
+  const bool has_limit = number.highest < std::numeric_limits<double>::max();
+  return help + ". From " + text_of(number.lowest) + (has_limit ? " to " + text_of(number.highest) : std::string()) +
+         ".";
+}
+
 void add_link_softness(py::module_& module) {
   const api::LinkSoftness defaults;
   py::class_<api::LinkSoftness> softness(
@@ -114,8 +125,7 @@ void add_link_softness(py::module_& module) {
       .def("__hash__", [](const api::LinkSoftness& one) { return py::hash(values_of(one)); })
       .def("__repr__", [](const api::LinkSoftness& one) { return text_of(one); });
   for (const api::SoftnessNumber& one : api::softness_numbers()) {
-    const std::string help = std::string(one.help) + " (" + std::string(one.unit) + ").";
-    softness.def_readonly(std::string(one.name).c_str(), one.value, help.c_str());
+    softness.def_readonly(std::string(one.name).c_str(), one.value, help_of(one).c_str());
   }
   add_pickling(softness, &values_of, &softness_from);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
 
 #include "solver/algorithms.h"
 
@@ -66,16 +65,7 @@ OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries) {
     return std::bit_cast<std::array<double, inner::softness_numbers.size()>>(entry.second);
   };
   std::ranges::stable_sort(entries, {}, numbers_of);
-  OwnSoftness softness;
-  std::vector<LinkId> links;
-  for (auto first = entries.begin(); first != entries.end();) {
-    const auto end = std::find_if(first, entries.end(), [&](const auto& one) { return one.second != first->second; });
-    links.clear();
-    std::transform(first, end, std::back_inserter(links), [](const auto& one) { return one.first; });
-    softness.set(links, first->second);
-    first = end;
-  }
-  return softness;
+  return OwnSoftness(entries.begin(), entries.end());
 }
 
 Algorithm algorithm_of(std::string_view name) {

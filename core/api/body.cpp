@@ -264,7 +264,7 @@ void Body::set_softness(const std::vector<LinkId>& links, const LinkSoftness& so
   impl_->set_softness(next);
 }
 
-void Body::set_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness) {
+void Body::set_link_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness) {
   const inner::Mesh& mesh = impl_->body().mesh();
   check_link_ids(mesh, links);
   if (softness.size() != links.size()) {

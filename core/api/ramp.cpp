@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
 
 #include "api/access.h"
 #include "mesh/parameters.h"

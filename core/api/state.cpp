@@ -1,11 +1,14 @@
 #include "chainmail/state.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <ranges>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "api/access.h"
 #include "api/body_state.h"
@@ -22,7 +25,7 @@ constexpr std::array precision_names{"float", "double"};
 
 std::vector<double> row_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
-Point point_from(const StateFields& state, std::string_view name) {
+Point point_from(StateFields& state, std::string_view name) {
   const auto [x, y, z] = state.row<3>(name);
   return {x, y, z};
 }
@@ -31,7 +34,7 @@ std::string name_of(inner::Precision precision) {
   return precision_names[precision == inner::Precision::single_precision ? 0 : 1];
 }
 
-inner::Precision precision_from(const StateFields& state) {
+inner::Precision precision_from(StateFields& state) {
   return state.word("precision", precision_names) == 0 ? inner::Precision::single_precision
                                                        : inner::Precision::double_precision;
 }
@@ -45,7 +48,7 @@ void put_positions(State& state, const inner::Snapshot& positions, const inner::
   state["axes_of_positions"] = row_of(runs.axes.rotation());
 }
 
-inner::Snapshot positions_from(const StateFields& state, const inner::Mesh& mesh, inner::Precision precision) {
+inner::Snapshot positions_from(StateFields& state, const inner::Mesh& mesh, inner::Precision precision) {
   const RegionAxes axes(AxesKind::given, point_from(state, "axes_of_positions"));
   inner::check(axes, mesh);
   return inner::snapshot_of(
@@ -78,10 +81,15 @@ void put_own_softness(State& state, const OwnSoftness& softness) {
   state["own_softness"] = std::move(numbers);
 }
 
-OwnSoftness own_softness_from(const StateFields& state, const inner::Mesh& mesh) {
-  const std::vector<LinkId>& links = state.ids("own_links");
+OwnSoftness own_softness_from(StateFields& state, const inner::Mesh& mesh) {
+  const std::vector<LinkId> links = state.ids("own_links");
   const std::vector<double> numbers = state.reals("own_softness");
   inner::check_links(mesh, links);
+  std::vector<LinkId> ascending = links;
+  std::ranges::sort(ascending);
+  if (std::ranges::adjacent_find(ascending) != ascending.end()) {
+    state.refuse("own_links");
+  }
   const std::size_t columns = inner::softness_numbers.size();
   if (numbers.size() != links.size() * columns) {
     state.refuse("own_softness");
@@ -104,7 +112,7 @@ void put_softness(State& state, const Softness& softness) {
   state["turned_by"] = row_of(softness.axes.rotation());
 }
 
-Softness softness_from(const StateFields& state, const inner::Mesh& mesh) {
+Softness softness_from(StateFields& state, const inner::Mesh& mesh) {
   const auto names = inner::energy_kinds() | std::views::transform(&inner::EnergyKindInfo::name);
   const auto energy = inner::EnergyKind(state.word("energy", names));
   const auto kind = AxesKind(state.word("axes", axes_kinds));
@@ -119,8 +127,8 @@ void put_elastic(State& state, const ElasticOptions& elastic) {
   state["iterations"] = std::int64_t(elastic.iterations);
 }
 
-ElasticOptions elastic_from(const StateFields& state) {
-  const std::vector<std::uint32_t>& points = state.ids("control_points");
+ElasticOptions elastic_from(StateFields& state) {
+  const std::vector<std::uint32_t> points = state.ids("control_points");
   if (points.size() != 3) {
     state.refuse("control_points");
   }
@@ -129,7 +137,7 @@ ElasticOptions elastic_from(const StateFields& state) {
           std::uint32_t(state.whole("iterations", 0, std::numeric_limits<std::uint32_t>::max()))};
 }
 
-BodyState body_state_from(const StateFields& state, const inner::Mesh& mesh) {
+BodyState body_state_from(StateFields& state, const inner::Mesh& mesh) {
   const inner::Precision precision = precision_from(state);
   const auto [since_rest, since_check] = state.row<2>("reach");
   return {.precision = precision,
@@ -154,23 +162,26 @@ std::vector<std::uint32_t> flat_trace(const std::vector<TraceStep>& trace) {
   return flat;
 }
 
-std::vector<TraceStep> trace_from(const StateFields& state) {
-  const std::vector<std::uint32_t>& flat = state.ids("trace");
+std::vector<TraceStep> trace_from(StateFields& state, ElementId element_count) {
+  const std::vector<std::uint32_t> flat = state.ids("trace");
   if (flat.size() % 3 != 0) {
     state.refuse("trace");
   }
   std::vector<TraceStep> trace;
   for (std::size_t i = 0; i < flat.size(); i += 3) {
+    if (flat[i] >= element_count || (flat[i + 1] >= element_count && flat[i + 1] != no_sponsor)) {
+      state.refuse("trace");
+    }
     trace.push_back({flat[i], flat[i + 1], flat[i + 2] != 0});
   }
   return trace;
 }
 
-DeformerState deformer_state_from(const StateFields& state) {
+DeformerState deformer_state_from(StateFields state, ElementId element_count) {
   const auto names = inner::relaxation_schemes | std::views::transform(&inner::RelaxationSchemeInfo::name);
   return {.method = state.text("method"),
           .is_tracing = state.flag("is_tracing"),
-          .trace = trace_from(state),
+          .trace = trace_from(state, element_count),
           .memory = {.relaxation = inner::RelaxationScheme(state.word("scheme", names)),
                      .threads = int(state.whole("threads", 0, std::numeric_limits<int>::max())),
                      .moved = state.ids("moved"),
@@ -204,8 +215,8 @@ State save(const Mesh& mesh) {
   return state;
 }
 
-Mesh load_mesh(const State& from) {
-  const StateFields state("mesh", from);
+Mesh load_mesh(State from) {
+  StateFields state("mesh", std::move(from));
   FlatMesh flat{.rest = state.reals("rest"),
                 .first_entry = state.ids("first_entry"),
                 .neighbours = state.ids("neighbours"),
@@ -216,7 +227,7 @@ Mesh load_mesh(const State& from) {
                 .lattice = {},
                 .space_dimension = state.whole("space_dimension", std::numeric_limits<std::int64_t>::min(),
                                                std::numeric_limits<std::int64_t>::max())};
-  if (const std::vector<std::uint32_t>& size = state.ids("lattice"); size.size() == 3) {
+  if (const std::vector<std::uint32_t> size = state.ids("lattice"); size.size() == 3) {
     flat.lattice = Lattice{{size[0], size[1], size[2]}, state.real("spacing")};
   } else if (!size.empty()) {
     state.refuse("lattice");
@@ -230,8 +241,8 @@ Mesh load_mesh(const State& from) {
 
 #else
 
-State save(const Mesh& /*mesh*/) { refuse_without("nlohmann-json", "state of a mesh"); }
-Mesh load_mesh(const State& /*state*/) { refuse_without("nlohmann-json", "state of a mesh"); }
+State save(const Mesh& /*mesh*/) { refuse_without("nlohmann/json", "state of a mesh"); }
+Mesh load_mesh(State /*state*/) { refuse_without("nlohmann/json", "state of a mesh"); }
 
 #endif
 
@@ -252,9 +263,10 @@ State save(const Body& body) {
   return state;
 }
 
-Body load_body(const Mesh& mesh, const State& state) {
+Body load_body(const Mesh& mesh, State from) {
   return guarded([&] {
-    const BodyState values = body_state_from(StateFields("body", state), *Access::pointer(mesh));
+    StateFields state("body", std::move(from));
+    const BodyState values = body_state_from(state, *Access::pointer(mesh));
     check(values, *Access::pointer(mesh));
     return body_of(mesh, values);
   });
@@ -268,8 +280,8 @@ State save(const Snapshot& snapshot) {
   return state;
 }
 
-Snapshot load_snapshot(const Mesh& mesh, const State& from) {
-  const StateFields state("snapshot", from);
+Snapshot load_snapshot(const Mesh& mesh, State from) {
+  StateFields state("snapshot", std::move(from));
   return guarded([&] {
     const inner::Precision precision = precision_from(state);
     return Access::make<Snapshot>(positions_from(state, *Access::pointer(mesh), precision), mesh, precision);
@@ -290,8 +302,8 @@ State save(const Handle& handle) {
   return state;
 }
 
-Handle load_handle(const Mesh& mesh, const State& from) {
-  const StateFields state("handle", from);
+Handle load_handle(const Mesh& mesh, State from) {
+  StateFields state("handle", std::move(from));
   const std::vector<double> numbers = state.reals("positions");
   if (numbers.size() % 3 != 0) {
     state.refuse("positions");
@@ -322,8 +334,14 @@ State save(Deformer& deformer) {
   return state;
 }
 
-void load(Deformer& deformer, const State& state) {
-  const DeformerState values = deformer_state_from(StateFields("deformer", state));
+void check_deformer(const Body& body, const State& state) {
+  const DeformerState values = deformer_state_from(StateFields("deformer", state), body.mesh().element_count());
+  guarded([&] { inner::check(values.memory, Access::body(body)); });
+}
+
+void load(Deformer& deformer, State state) {
+  const DeformerState values =
+      deformer_state_from(StateFields("deformer", std::move(state)), deformer.body().mesh().element_count());
   if (values.method != deformer.method()) {
     throw Error("state of a deformer", "it is of the method '" + values.method.substr(0, 60) + "'",
                 "load it into a deformer with that method");

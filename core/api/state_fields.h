@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <span>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "chainmail/error.h"
@@ -12,34 +16,36 @@
 namespace chainmail::api {
 
 /// Reads the values of a state, which may come from outside. Throws Error for one that is missing or of another type.
+/// Arrays are moved out: read each of them once.
 class StateFields {
  public:
   /// `kind` is the name of the object in errors.
-  StateFields(const std::string& kind, const State& state) : where_("state of a " + kind), state_(state) {}
+  StateFields(const std::string& kind, State state) : where_("state of a " + kind), state_(std::move(state)) {}
 
   const std::string& where() const { return where_; }
 
-  bool flag(std::string_view name) const { return value<bool>(name); }
-  const std::string& text(std::string_view name) const { return value<std::string>(name); }
-  const std::vector<std::uint32_t>& ids(std::string_view name) const { return value<std::vector<std::uint32_t>>(name); }
+  bool flag(std::string_view name) { return value<bool>(name); }
+  const std::string& text(std::string_view name) { return value<std::string>(name); }
+  std::vector<std::uint32_t> ids(std::string_view name) { return std::move(value<std::vector<std::uint32_t>>(name)); }
   /// Returns a whole number from `lowest` to `highest`.
-  std::int64_t whole(std::string_view name, std::int64_t lowest, std::int64_t highest) const {
+  std::int64_t whole(std::string_view name, std::int64_t lowest, std::int64_t highest) {
     const auto number = value<std::int64_t>(name);
     if (number < lowest || number > highest) {
       refuse(name);
     }
     return number;
   }
-  double real(std::string_view name) const {
+  double real(std::string_view name) {
     const auto* const whole = std::get_if<std::int64_t>(&any(name));
     return whole != nullptr ? double(*whole) : value<double>(name);
   }
-  std::vector<double> reals(std::string_view name) const {
+  std::vector<double> reals(std::string_view name) {
     const auto* const whole = std::get_if<std::vector<std::uint32_t>>(&any(name));
-    return whole != nullptr ? std::vector<double>(whole->begin(), whole->end()) : value<std::vector<double>>(name);
+    return whole != nullptr ? std::vector<double>(whole->begin(), whole->end())
+                            : std::move(value<std::vector<double>>(name));
   }
   template <std::size_t Size>
-  std::array<double, Size> row(std::string_view name) const {
+  std::array<double, Size> row(std::string_view name) {
     const std::vector<double> all = reals(name);
     if (all.size() != Size) {
       refuse(name);
@@ -50,7 +56,7 @@ class StateFields {
   }
   /// Returns the position of a word in a list.
   template <class Words>
-  std::size_t word(std::string_view name, const Words& words) const {
+  std::size_t word(std::string_view name, const Words& words) {
     const std::string& given = text(name);
     for (std::size_t i = 0; i < std::size(words); ++i) {
       if (given == words[i]) {
@@ -65,7 +71,7 @@ class StateFields {
   }
 
  private:
-  const StateValue& any(std::string_view name) const {
+  StateValue& any(std::string_view name) {
     const auto found = state_.find(name);
     if (found == state_.end()) {
       refuse(name);
@@ -73,8 +79,8 @@ class StateFields {
     return found->second;
   }
   template <class Value>
-  const Value& value(std::string_view name) const {
-    const auto* const found = std::get_if<Value>(&any(name));
+  Value& value(std::string_view name) {
+    auto* const found = std::get_if<Value>(&any(name));
     if (found == nullptr) {
       refuse(name);
     }
@@ -82,7 +88,7 @@ class StateFields {
   }
 
   std::string where_;
-  const State& state_;
+  State state_;
 };
 
 }  // namespace chainmail::api

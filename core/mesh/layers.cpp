@@ -80,8 +80,9 @@ const ObjectSide* find_side(std::string_view name) {
 }
 
 std::vector<ElementId> layer(const Mesh& mesh, const ObjectSide& side) {
-  const int active_axes = mesh.space_dimension;
-  if (std::find(mesh.axes.begin(), mesh.axes.begin() + active_axes, side.axis) == mesh.axes.begin() + active_axes) {
+  const int active_axis_count = mesh.space_dimension;
+  if (std::find(mesh.axes.begin(), mesh.axes.begin() + active_axis_count, side.axis) ==
+      mesh.axes.begin() + active_axis_count) {
     return {};
   }
   const double outermost = bounds(mesh)[side.high ? 1 : 0][side.axis];

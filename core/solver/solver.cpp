@@ -71,12 +71,12 @@ SolverMemory Solver::hand_over() {
 
 void Solver::take_over(const SolverMemory& memory) {
   check(memory, body_);
+  method().take_over(body_, memory.method);  // first: it may throw
   set_relaxation(memory.relaxation);
   threads_ = memory.threads;
   moved_ = memory.moved;
   relaxation_.take_over(body_, memory.pending);
   awake_at_ = memory.is_awake ? std::optional(body_.revisions().positions) : std::nullopt;
-  method().take_over(body_, memory.method);
 }
 
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {

@@ -8,7 +8,6 @@
 #include "files/mesh/mesh_formats.h"
 #include "folders.h"
 #include "program.h"
-#include "report/page/format.h"
 
 namespace chainmail::test_manual_tables {
 
@@ -104,11 +103,11 @@ void ManualTablesTest::the_desktop_opens_each_format() {
 }
 
 void ManualTablesTest::the_manual_lists_each_number_of_softness() {
-  const auto written = [](double number) { return QString::fromStdString(report::all_digits(number)); };
+  const auto written = [](double number) { return QString::number(number, 'g', 10); };
   const QString page = text_of("resources/manual/algorithms.md");
   for (const auto& [parameter, value] : softness_numbers) {
-    const QString highest = parameter->highest == parameters::no_highest ? QStringLiteral("or more")
-                                                                         : "to " + written(parameter->highest);
+    const QString highest =
+        parameter->highest == parameters::no_highest ? QStringLiteral("or more") : "to " + written(parameter->highest);
     const QString row = QStringLiteral("| %1 | `%2` | %3 | %4 %5 | %6 |\n")
                             .arg(QString::fromUtf8(parameter->label.data()), QString::fromUtf8(parameter->name.data()),
                                  written(parameter->default_value), written(parameter->lowest), highest,

@@ -64,11 +64,12 @@ BAD_MESHES = {
     "too much space": dict(space_dimension=2**40),
     "a plane": dict(space_dimension=2),
     "softness of no link": dict(own_links=[10**6], own_softness=[0.8, 1.2, 0.1, 1, 1, -1]),
+    "a link twice": dict(own_links=[3, 3], own_softness=2 * [0.8, 1.2, 0.1, 1, 1, -1]),
     "softness out of range": dict(own_links=[0], own_softness=[0.8, -1, 0.1, 1, 1, -1]),
     "arrays of text": dict(rest="abc"),
     "half a number": dict(rest=b"d" + bytes(81 * 8 - 1)),
     "bytes of no kind": dict(rest=bytes(81 * 8)),
-    "a part that is no name": {5: 3},
+    "text that is no UTF-8": dict(remark="\udc80"),
     "ids that are text": dict(neighbours="abc"),
     "arrays of floats": dict(triangles=[0.5, 1, 2]),
     "a remark that is none": dict(remark=5),
@@ -80,6 +81,12 @@ def test_a_damaged_mesh_is_refused(bad):
     with pytest.raises(chainmail.Error) as raised:
         made(MESH, state_of(MESH, **BAD_MESHES[bad]))
     assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("name", [5, "\udc80", b"rest", None])
+def test_a_part_without_a_name_is_refused(name):
+    with pytest.raises(chainmail.Error, match="state of a Mesh: a part has a name that is no text"):
+        made(MESH, {**MESH.__getstate__(), name: 3})
 
 
 def test_an_untouched_state_is_taken():
@@ -149,6 +156,8 @@ BAD_DEFORMERS = {
     "a step that is no number": dict(largest_step=np.nan),
     "half a trace": dict(trace=[0, 1]),
     "a trace of nobody": dict(trace=[-5, 2, 1]),
+    "a trace of an element that does not exist": dict(trace=[27, 0, 1]),
+    "a sponsor that does not exist": dict(trace=[0, 27, 1]),
     "a memory of no number": dict(memory=[np.nan]),
 }
 
@@ -159,6 +168,17 @@ def test_a_damaged_deformer_is_refused(bad):
     changes = {"body": chainmail.Body(MESH), **BAD_DEFORMERS[bad]}
     with pytest.raises(chainmail.Error):
         made(deformer, state_of(deformer, **changes))
+
+
+def test_a_damaged_deformer_leaves_the_body_as_it_was():
+    body = chainmail.Body(MESH)
+    shown = body.view()
+    again = chainmail.Deformer.__new__(chainmail.Deformer)
+    state = {**chainmail.Deformer(MESH, "generalized").__getstate__(), "body": body, "trace": [0, 1]}
+    with pytest.raises(chainmail.Error, match="trace"):
+        again.__setstate__(state)
+    assert np.array_equal(shown, body.positions())
+    chainmail.Deformer(body, "natural-queue")  # it has no deformer
 
 
 @pytest.mark.parametrize("method", [row["name"] for row in chainmail.methods() if row["family"] == "elastic"])

@@ -246,8 +246,9 @@ class WindowWords : public QObject {
 
   /// The view of the list paints all rows with one painter.
   void aRowOfTheListLeavesThePainterAsItWas() {
-    const Workbench bench;
+    Workbench bench;
     const QComboBox& selector = bench.window.panel(0).selector();
+    QVERIFY(!selector.itemData(0, AlgorithmDelegate::explanationRole).toString().isEmpty());
     QImage picture(300, 100, QImage::Format_ARGB32);
     QPainter painter(&picture);
     QStyleOptionViewItem option;

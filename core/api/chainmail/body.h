@@ -34,7 +34,8 @@ struct SoftnessNumber {
   std::string_view name;        ///< Its name, as on the command line and in files.
   std::string_view unit;        ///< Its unit; empty for a number without one.
   std::string_view help;        ///< What it means, in a few words.
-  double lowest, highest;       ///< Limits of its values.
+  double lowest;                ///< Lowest value.
+  double highest;               ///< Highest value; the largest number if there is no limit.
   double LinkSoftness::*value;  ///< The number.
 };
 /// The numbers of a link's softness, in the order of LinkSoftness.
@@ -160,7 +161,7 @@ class Body {
   /// Gives links their own softness.
   void set_softness(const std::vector<LinkId>& links, const LinkSoftness& softness);
   /// Gives each of these links its own softness, one for each link. Throws Error if a link is given twice.
-  void set_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness);
+  void set_link_softness(const std::vector<LinkId>& links, std::span<const LinkSoftness> softness);
   /// Takes their own softness away from links: the common one applies to them.
   void clear_softness(const std::vector<LinkId>& links);
   /// The softness of all links that have none of their own.

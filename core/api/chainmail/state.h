@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <variant>
@@ -24,30 +25,33 @@ using StateValue =
 using State = std::map<std::string, StateValue, std::less<>>;
 
 /// Returns the state of a mesh, with the order of neighbours, on which results depend. Throws Error if the library was
-/// built without nlohmann-json.
+/// built without nlohmann/json.
 State save(const Mesh& mesh);
 /// Returns an equal mesh, which is another object.
-Mesh load_mesh(const State& state);
+Mesh load_mesh(State state);
 
 /// Returns the state of a body without its mesh.
 State save(const Body& body);
 /// Returns a body whose next moves are, bit for bit, those of the one that was saved.
-Body load_body(const Mesh& mesh, const State& state);
+Body load_body(const Mesh& mesh, State state);
 
 /// Returns the state of a snapshot without its mesh.
 State save(const Snapshot& snapshot);
 /// Returns an equal snapshot.
-Snapshot load_snapshot(const Mesh& mesh, const State& state);
+Snapshot load_snapshot(const Mesh& mesh, State state);
 
 /// Returns the state of a handle without its mesh.
 State save(const Handle& handle);
 /// Returns an equal handle.
-Handle load_handle(const Mesh& mesh, const State& state);
+Handle load_handle(const Mesh& mesh, State state);
 
 /// Returns the state of a deformer without its body; its job is not part of it. The next move of this one may have to
 /// prepare again. Throws Error for a method of your own (register_method()).
 State save(Deformer& deformer);
-/// Continues, with a copy of its body and the same method, as the deformer that was saved, bit for bit.
-void load(Deformer& deformer, const State& state);
+/// Throws Error if a state is none of a deformer of this body or of a copy of it.
+void check_deformer(const Body& body, const State& state);
+/// Continues, with a copy of its body and the same method, as the deformer that was saved, bit for bit. Throws Error if
+/// the method is another one, or if the state does not fit the body; nothing has changed then.
+void load(Deformer& deformer, State state);
 
 }  // namespace chainmail::api

@@ -12,6 +12,7 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
+#include "report/run/ramp.h"
 
 namespace chainmail::test_api_measures {
 
@@ -303,6 +304,10 @@ void ApiMeasuresTest::softness_is_calibrated() {
 }
 
 void ApiMeasuresTest::grids_grow_until_methods_are_too_slow() {
+  const report::RampOptions inner;
+  const cm::RampOptions defaults;  // but for the largest grid, those of the command line
+  QVERIFY(defaults.seed == inner.seed && defaults.budget == inner.budget && defaults.drags == inner.drags &&
+          defaults.moves == inner.moves && inner.precision == Precision::single_precision);
   const cm::RampOptions options{
       .methods = {"exact", "natural-queue"}, .budget = 60, .largest = 40, .drags = 1, .moves = 2};
   const cm::Job job;

@@ -1,5 +1,4 @@
 #include <QtTest>
-#include <cmath>
 #include <cstring>
 
 #include "core/api/api_support.h"
@@ -201,7 +200,7 @@ void ApiStateTest::links_get_their_own_softness_at_once() {
   }
   const std::vector<cm::LinkId> links{7, 2, 9};
   const std::vector<cm::LinkSoftness> softness{{0.1, 1.1, 0, 1, 1, 0}, {0.2, 1.2, 0, 1, 2, 0}, {0.1, 1.1, 0, 1, 1, 0}};
-  body.set_softness(links, softness);
+  body.set_link_softness(links, softness);
   for (std::size_t i = 0; i < links.size(); ++i) {
     other.set_softness({links[i]}, softness[i]);
   }
@@ -209,7 +208,7 @@ void ApiStateTest::links_get_their_own_softness_at_once() {
   QVERIFY(body.link_softness() == State(body).softness_of_links);
   const State before(body);
   const auto refused = [&](const std::vector<cm::LinkId>& ids, const std::vector<cm::LinkSoftness>& given) {
-    return refusal_of([&] { body.set_softness(ids, given); });
+    return refusal_of([&] { body.set_link_softness(ids, given); });
   };
   QVERIFY(has(refused({1, 2}, {softness[0]}), "there are 1 for 2 links"));
   QVERIFY(has(refused({1, 1}, {softness[0], softness[1]}), "link 1: it is given twice"));
