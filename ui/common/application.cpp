@@ -61,7 +61,7 @@ bool Application::notify(QObject* receiver, QEvent* event) {
   }
   paints_ -= paints ? 1 : 0;
   if (!failure_.empty() && paints_ == 0) {
-    reportFailure();
+    isOfPaint_ ? reportLater() : reportFailure();
   }
   return isHandled;
 }
@@ -70,6 +70,25 @@ void Application::noteFailure() noexcept {
   if (Application* application = get()) {
     application->failure_ = failure_sentence("Action not completed");
     application->isOfPaint_ = application->paints_ > 0;
+  }
+}
+
+/// A report shows a bar, which resizes the views. Qt must not meet that between the paint of a view and the moment when
+/// it shows what was painted: it would use the memory of the picture that the view had before.
+void Application::reportLater() noexcept {
+  try {
+    if (!reportWaits_) {
+      QMetaObject::invokeMethod(this, &Application::reportWaiting, Qt::QueuedConnection);
+      reportWaits_ = true;
+    }
+  } catch (...) {  // it is tried again after the next event
+  }
+}
+
+void Application::reportWaiting() {
+  reportWaits_ = false;
+  if (!failure_.empty()) {
+    reportFailure();
   }
 }
 

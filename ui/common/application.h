@@ -43,12 +43,15 @@ class Application : public QApplication {
   /// Takes note of the exception that is being handled, unless the application is of another class.
   static void noteFailure() noexcept;
   void reportFailure() noexcept;
+  void reportLater() noexcept;
+  void reportWaiting();
 
-  std::string failure_;      // not reported yet; empty: none
-  bool isOfPaint_ = false;   // true if it failed while Qt was painting
-  std::string lastOfPaint_;  // the last one of these that was reported
-  QElapsedTimer since_;      // runs since then
-  int paints_ = 0;           // number of paint events that are being handled
+  std::string failure_;       // not reported yet; empty: none
+  bool isOfPaint_ = false;    // true if it failed while Qt was painting
+  std::string lastOfPaint_;   // the last one of these that was reported
+  QElapsedTimer since_;       // runs since then
+  bool reportWaits_ = false;  // true if reportWaiting() is posted
+  int paints_ = 0;            // number of paint events that are being handled
 };
 
 }  // namespace chainmail

@@ -443,7 +443,10 @@ void View::initializeGL() {
     selectionOutdated_ = true;
     painterReady_ = true;
   } catch (...) {
-    emit failed(QString::fromStdString(failure_sentence("view")));
+    // Not while Qt paints: the sentence may show a bar, which resizes the view.
+    const auto sentence = QString::fromStdString(failure_sentence("view"));
+    QMetaObject::invokeMethod(
+        this, [this, sentence] { emit failed(sentence); }, Qt::QueuedConnection);
   }
 }
 
