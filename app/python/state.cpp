@@ -23,7 +23,7 @@ py::object with_mesh(const api::State& state, const api::Mesh& mesh) {
 
 py::object parts_of_mesh(const api::Mesh& mesh) { return dict_of(api::save(mesh)); }
 
-api::Mesh mesh_from(const py::object& parts) { return api::load_mesh(PickledParts("Mesh", parts).without(mesh_part)); }
+api::Mesh loaded_mesh(const py::object& parts) { return api::load_mesh(PickledParts("Mesh", parts).without(mesh_part)); }
 
 py::object parts_of_body(Object& object) {
   const UseObject use(object);
@@ -80,7 +80,7 @@ std::unique_ptr<Mover> deformer_from(const py::object& from) {
 }  // namespace
 
 void add_mesh_state(py::class_<api::Mesh>& mesh) {
-  add_pickling(mesh, &parts_of_mesh, &mesh_from);
+  add_pickling(mesh, &parts_of_mesh, &loaded_mesh);
   const py::object as_object = mesh.attr("__reduce__");
   set_reduction(mesh, [as_object](const py::object& self) -> py::object {
     const py::object shared = shared_mesh(self);

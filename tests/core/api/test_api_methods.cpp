@@ -1,7 +1,7 @@
 #include <QtTest>
 #include <algorithm>
 
-#include "api/state.h"
+#include "api/body_state.h"
 #include "core/api/api_support.h"
 #include "program.h"
 
