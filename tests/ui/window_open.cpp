@@ -87,6 +87,20 @@ class WindowOpen : public QObject {
     QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));
   }
 
+  void coordinatesBeyondSinglePrecisionAreRefused() {
+    Workbench bench;
+    const auto before = bench.document().mesh();
+    const QString path = folder_.filePath(QStringLiteral("far.obj"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("v 0 0 0\nv 1e60 0 0\nv 0 1e60 0\nf 1 2 3\n");
+    file.close();
+    bench.open(path);
+    QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("scale the object down")),
+             qPrintable(bench.window.messages().sentence()));
+    QCOMPARE(bench.document().mesh(), before);
+  }
+
   void aVolumeAsksForItsThresholdAndBecomesABlock() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();

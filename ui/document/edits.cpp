@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "body/positions.h"
 #include "body/split_state.h"
 #include "common/held_memory.h"
 #include "common/text.h"
@@ -22,6 +23,24 @@ void requireMemoryFor(const Mesh& mesh) {
   HeldMemory trial;
   if (!trial.hold(forDrawing + perElement * mesh.element_count() + perLink * mesh.links.size())) {
     throw Error("memory", "there is not enough to work with this object", "close other programs or use a smaller mesh");
+  }
+}
+
+/// Throws Error if a coordinate is beyond what the window draws: it has positions in single precision.
+void requireDrawable(const Mesh& mesh) {
+  const double farthest = std::max(mesh.box[0].cwiseAbs().maxCoeff(), mesh.box[1].cwiseAbs().maxCoeff());
+  if (const double limit = position_limit(Precision::single_precision); farthest > limit) {
+    throw Error("coordinates",
+                "they extend to " + QString::number(farthest, 'g', 2).toStdString() + ", and the window draws up to " +
+                    QString::number(limit, 'g', 2).toStdString(),
+                "scale the object down, or use the command line");
+  }
+}
+void requireDrawable(const Session& session) {
+  requireDrawable(*session.mesh);
+  for (const Session::Panel& panel : session.panels) {
+    // As positions in single precision, whatever their precision is.
+    check(panel.positions, *session.mesh, Precision::single_precision);
   }
 }
 
@@ -50,6 +69,7 @@ void takeOwnSettings(Contents& after) {
 Change meshChange(const Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                   OwnSoftness own) {
   requireMemoryFor(*mesh);
+  requireDrawable(*mesh);
   Change edit = document.change(text);
   takeOwnSettings(edit.after);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
@@ -225,6 +245,7 @@ void reworkMesh(Document& document, const MeshPointer& mesh, const QString& name
 void restore(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
              const QString& text) {
   requireMemoryFor(*session->mesh);
+  requireDrawable(*session);
   Change edit = document.change(text);
   auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
   object->parts.cut(object->cuts, session->cuts);
