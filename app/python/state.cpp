@@ -23,7 +23,9 @@ py::object with_mesh(const api::State& state, const api::Mesh& mesh) {
 
 py::object parts_of_mesh(const api::Mesh& mesh) { return dict_of(api::save(mesh)); }
 
-api::Mesh loaded_mesh(const py::object& parts) { return api::load_mesh(PickledParts("Mesh", parts).without(mesh_part)); }
+api::Mesh loaded_mesh(const py::object& parts) {
+  return api::load_mesh(PickledParts("Mesh", parts).without(mesh_part));
+}
 
 py::object parts_of_body(Object& object) {
   const UseObject use(object);
