@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 #include <memory>
-#include <ranges>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,8 +35,9 @@ std::string name_of(inner::Precision precision) {
 }
 
 inner::Precision precision_from(StateFields& state) {
-  return state.word("precision", precision_names) == 0 ? inner::Precision::single_precision
-                                                       : inner::Precision::double_precision;
+  const auto name_at = [](std::size_t i) { return std::string_view(precision_names[i]); };
+  return state.word("precision", precision_names.size(), name_at) == 0 ? inner::Precision::single_precision
+                                                                       : inner::Precision::double_precision;
 }
 
 /// Puts positions as runs of elements away from rest.
@@ -113,9 +114,11 @@ void put_softness(State& state, const Softness& softness) {
 }
 
 Softness softness_from(StateFields& state, const inner::Mesh& mesh) {
-  const auto names = inner::energy_kinds() | std::views::transform(&inner::EnergyKindInfo::name);
-  const auto energy = inner::EnergyKind(state.word("energy", names));
-  const auto kind = AxesKind(state.word("axes", axes_kinds));
+  const std::span<const inner::EnergyKindInfo> kinds = inner::energy_kinds();
+  const auto energy =
+      inner::EnergyKind(state.word("energy", kinds.size(), [kinds](std::size_t i) { return kinds[i].name; }));
+  const auto kind =
+      AxesKind(state.word("axes", axes_kinds.size(), [](std::size_t i) { return std::string_view(axes_kinds[i]); }));
   return {softness_at(state.row<inner::softness_numbers.size()>("softness")), own_softness_from(state, mesh), energy,
           kind == AxesKind::axes ? RegionAxes() : RegionAxes(kind, point_from(state, "turned_by"))};
 }
@@ -177,18 +180,19 @@ std::vector<TraceStep> trace_from(StateFields& state, ElementId element_count) {
   return trace;
 }
 
-DeformerState deformer_state_from(StateFields state, ElementId element_count) {
-  const auto names = inner::relaxation_schemes | std::views::transform(&inner::RelaxationSchemeInfo::name);
+DeformerState deformer_state_from(StateFields&& state, ElementId element_count) {
+  const auto scheme_at = [](std::size_t i) { return inner::relaxation_schemes[i].name; };
   return {.method = state.text("method"),
           .is_tracing = state.flag("is_tracing"),
           .trace = trace_from(state, element_count),
-          .memory = {.relaxation = inner::RelaxationScheme(state.word("scheme", names)),
-                     .threads = int(state.whole("threads", 0, std::numeric_limits<int>::max())),
-                     .moved = state.ids("moved"),
-                     .pending = {state.ids("relaxes_now"), state.ids("relaxes_next"), state.flag("in_sweep"),
-                                 state.real("largest_step")},
-                     .is_awake = state.flag("is_awake"),
-                     .method = state.reals("memory")}};
+          .memory = {
+              .relaxation = inner::RelaxationScheme(state.word("scheme", inner::relaxation_schemes.size(), scheme_at)),
+              .threads = int(state.whole("threads", 0, std::numeric_limits<int>::max())),
+              .moved = state.ids("moved"),
+              .pending = {state.ids("relaxes_now"), state.ids("relaxes_next"), state.flag("in_sweep"),
+                          state.real("largest_step")},
+              .is_awake = state.flag("is_awake"),
+              .method = state.reals("memory")}};
 }
 
 }  // namespace

@@ -54,12 +54,12 @@ class StateFields {
     std::copy(all.begin(), all.end(), numbers.begin());
     return numbers;
   }
-  /// Returns the position of a word in a list.
-  template <class Words>
-  std::size_t word(std::string_view name, const Words& words) {
+  /// Returns the position of a word among `count` ones; `word_at(i)` is one of them.
+  template <class WordAt>
+  std::size_t word(std::string_view name, std::size_t count, WordAt word_at) {
     const std::string& given = text(name);
-    for (std::size_t i = 0; i < std::size(words); ++i) {
-      if (given == words[i]) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (given == word_at(i)) {
         return i;
       }
     }
