@@ -51,7 +51,7 @@ std::optional<api::StateValue> unpacked(std::string_view bytes) {
   return numbers;
 }
 
-/// Returns a text; nothing if it has characters that are none.
+/// Returns a text; nothing if it is not valid Unicode.
 std::optional<std::string> text_of(py::handle text) {
   Py_ssize_t size = 0;
   const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
@@ -179,7 +179,7 @@ api::State PickledParts::without(const char* name) const {
   for (const auto& [key, part] : parts_) {
     const auto of = py::isinstance<py::str>(key) ? text_of(key) : std::nullopt;
     if (!of) {
-      throw api::Error(where_, "a part has a name that is no text", "pickle the object again");
+      throw api::Error(where_, "the name of a part is not a text", "pickle the object again");
     }
     if (*of == name) {
       continue;
@@ -195,7 +195,8 @@ api::State PickledParts::without(const char* name) const {
 
 void PickledParts::refuse(const std::string& name) const {
   const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
-  const bool shown = name.size() <= 40 && std::ranges::all_of(name, is_plain);  // a part that no state has may say more
+  const bool shown =
+      name.size() <= 40 && std::ranges::all_of(name, is_plain);  // others may have any text as their name
   throw api::Error(where_, (shown ? "its part '" + name + "'" : "one of its parts") + " is missing or damaged",
                    "pickle the object again");
 }

@@ -72,7 +72,7 @@ Deformer::Deformer(Body body, std::string_view method) {
   const Algorithm algorithm = algorithm_of(method);
   guarded([&] { check(algorithm, *Access::pointer(body.mesh())); });
   impl_ = std::make_unique<Impl>(Impl{std::move(body), algorithm});
-  impl_->set_algorithm(algorithm);
+  guarded([&] { impl_->set_algorithm(algorithm); });
 }
 
 Deformer::Deformer(const Mesh& mesh, std::string_view method, Precision precision)
@@ -181,7 +181,9 @@ DeformerState Access::hand_over(Deformer& deformer) {
                 "a program has registered it, so its state cannot be copied",
                 "set another method first, or keep what it needs yourself");
   }
-  return {deformer.method(), impl.is_tracing, impl.trace, deformer.impl_->solver().hand_over()};
+  return guarded([&]() -> DeformerState {
+    return {deformer.method(), impl.is_tracing, impl.trace, deformer.impl_->solver().hand_over()};
+  });
 }
 
 void Access::take_over(Deformer& deformer, const DeformerState& state) {

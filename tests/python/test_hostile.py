@@ -85,7 +85,7 @@ def test_a_damaged_mesh_is_refused(bad):
 
 @pytest.mark.parametrize("name", [5, "\udc80", b"rest", None])
 def test_a_part_without_a_name_is_refused(name):
-    with pytest.raises(chainmail.Error, match="state of a Mesh: a part has a name that is no text"):
+    with pytest.raises(chainmail.Error, match="state of a Mesh: the name of a part is not a text"):
         made(MESH, {**MESH.__getstate__(), name: 3})
 
 

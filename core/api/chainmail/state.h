@@ -20,8 +20,8 @@ using StateValue =
 
 /// What an object consists of, as values by name, for checkpoints and for other processes: write and read them in any
 /// form that keeps every bit. Names and values belong to the version of the library. A state may come from outside:
-/// each load_… function throws Error if a value is missing, damaged or does not fit the mesh. Of real numbers, those
-/// that are whole may be given as ids.
+/// each load_… function throws Error if a value is missing, damaged or does not fit the mesh. Real numbers that
+/// are whole may be given as ids.
 using State = std::map<std::string, StateValue, std::less<>>;
 
 /// Returns the state of a mesh, with the order of neighbours, on which results depend. Throws Error if the library was
@@ -48,7 +48,7 @@ Handle load_handle(const Mesh& mesh, State state);
 /// Returns the state of a deformer without its body; its job is not part of it. The next move of this one may have to
 /// prepare again. Throws Error for a method of your own (register_method()).
 State save(Deformer& deformer);
-/// Throws Error if a state is none of a deformer of this body or of a copy of it.
+/// Throws Error if a state is not that of a deformer of this body or of a copy of it.
 void check_deformer(const Body& body, const State& state);
 /// Continues, with a copy of its body and the same method, as the deformer that was saved, bit for bit. Throws Error if
 /// the method is another one, or if the state does not fit the body; nothing has changed then.
