@@ -4,6 +4,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "common/dock_scroll.h"
 #include "common/panel_names.h"
 #include "common/shown_number.h"
 #include "common/text.h"
@@ -29,6 +30,7 @@ RelaxationDock::RelaxationDock(Document& document)
                      "within their valid regions"));
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(6, 4, 6, 4);
   fillSchemes();
   auto* row = new QHBoxLayout;
   row->addWidget(on_, 1);
@@ -44,7 +46,7 @@ RelaxationDock::RelaxationDock(Document& document)
   refresh_.setSingleShot(true);
   refresh_.setInterval(residualMilliseconds);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // leaves the height to other docks
-  setWidget(content);
+  setWidget(new DockScroll(content));
   connect(on_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
   connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { edits::setRelaxation(document_, chosen()); });
   connect(step_, &ParameterRow::changed, this,

@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "common/dock_scroll.h"
 #include "common/icons.h"
 
 namespace chainmail {
@@ -74,7 +75,7 @@ void SectionDock::arrange() {
   row->addWidget(slider_, 1);
   row->addWidget(spin_);
   row->addWidget(flipBox_);
-  setWidget(content);
+  setWidget(new DockScroll(content));
   connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
     if (shown && on_->isEnabled()) {
       on_->setChecked(true);

@@ -8,9 +8,11 @@
 #include <QMenu>
 #include <QSettings>
 #include <QSpinBox>
+#include <QStackedWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "tools/cut_tool.h"
 #include "tools/select_tool.h"
@@ -31,9 +33,10 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select) {
+ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
+    : options_(new QStackedWidget), without_(new QWidget) {
   auto* content = new QWidget;
-  column_ = new QVBoxLayout(content);
+  auto* column = new QVBoxLayout(content);
   auto* strip = new QHBoxLayout;
   strip->setSpacing(2);
   for (QAction* action : tools.actions()) {
@@ -44,10 +47,12 @@ ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut
     button->setFixedHeight(toolHeight);
     strip->addWidget(button);
   }
-  column_->addLayout(strip);
-  setWidget(content);
+  column->addLayout(strip);
+  column->addWidget(options_);
+  options_->addWidget(without_);
   // A tall column of docks gives its height to other docks.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  setWidget(new DockScroll(content));
   for (QAction* action : tools.actions()) {
     if (action->text() == cut.name()) {
       showFor(*action, makeCutOptions(document, cut));
@@ -57,12 +62,13 @@ ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut
   }
 }
 
-/// Shows options while their tool is the current one.
+/// Shows options while their tool is the current one. Their room is kept for them, so that nothing below it moves.
 void ToolsDock::showFor(QAction& tool, QWidget* options) {
-  column_->addWidget(options);
+  options_->addWidget(options);
   const auto adapt = [this, options](bool on) {
-    options->setVisible(on);
-    widget()->setFixedHeight(column_->sizeHint().height());
+    if (on || options_->currentWidget() == options) {
+      options_->setCurrentWidget(on ? options : without_);
+    }
   };
   connect(&tool, &QAction::toggled, this, adapt);
   adapt(tool.isChecked());

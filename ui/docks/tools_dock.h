@@ -5,7 +5,7 @@
 class QAction;
 class QActionGroup;
 class QMenu;
-class QVBoxLayout;
+class QStackedWidget;
 
 namespace chainmail {
 
@@ -30,7 +30,8 @@ class ToolsDock : public QDockWidget {
   QWidget* makeSplits(Document& document, CutTool& cut);
   void showFor(QAction& tool, QWidget* options);
 
-  QVBoxLayout* column_;
+  QStackedWidget* options_;
+  QWidget* without_;  // the page of a tool without options
   QAction* frontOnly_ = nullptr;
   QAction* splits_ = nullptr;
 };

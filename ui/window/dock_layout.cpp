@@ -196,11 +196,11 @@ void letFloat(const Place& place) {
 
 void dockAll(QMainWindow& window, const std::vector<Place>& places) {
   for (const Place& place : places) {
+    place.dock->setFloating(false);  // first: a dock that was removed stays floating
     window.removeDockWidget(place.dock);
   }
   std::map<QString, QDockWidget*> firsts;  // of tabs, by their names
   for (const Place& place : places) {
-    place.dock->setFloating(false);
     const auto [first, isNew] = firsts.try_emplace(place.tabs, place.dock);
     if (isNew || place.tabs.isEmpty()) {
       window.addDockWidget(place.area, place.dock);

@@ -1,8 +1,10 @@
 #include "window/docks.h"
 
 #include <QAction>
+#include <QLayout>
 #include <QMainWindow>
 #include <QMenu>
+#include <QScopeGuard>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -294,21 +296,19 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
                                 dock->toggleViewAction());  // before the dock's own actions
   }
   place(entry, *dock);
+  if (entry.tabbedWith != nullptr) {
+    raiseWhenShown(*dock);
+  }
   docks_.push_back(dock);
   sizes_->follow(*dock);
 }
 
-void Docks::place(const DockEntry& entry, QDockWidget& dock) {
+void Docks::place(const DockEntry& entry, QDockWidget& dock) const {
   window_.addDockWidget(entry.area, &dock);
   if (entry.tabbedWith != nullptr) {
     window_.tabifyDockWidget(byId(entry.tabbedWith), &dock);
   }
-  if (!entry.visible) {
-    dock.hide();
-  }
-  if (entry.tabbedWith != nullptr) {
-    raiseWhenShown(dock);
-  }
+  dock.setVisible(entry.visible);
 }
 
 QDockWidget* Docks::byId(const char* id) const {
@@ -320,6 +320,25 @@ void Docks::fill(QMenu& menu) const {
   for (QDockWidget* dock : docks_) {
     menu.addAction(dock->toggleViewAction());
   }
+}
+
+void Docks::reset() const {
+  {
+    // A layout that reacts to each dock alone moves the others several times.
+    window_.layout()->setEnabled(false);
+    const auto enable = qScopeGuard([this] {
+      window_.layout()->setEnabled(true);
+      window_.layout()->activate();
+    });
+    for (QDockWidget* dock : docks_) {
+      dock->setFloating(false);  // first: a dock that was removed stays floating
+      window_.removeDockWidget(dock);
+    }
+    for (std::size_t i = 0; i < docks_.size(); ++i) {
+      place(entries[i], *docks_[i]);
+    }
+  }
+  resize();
 }
 
 void Docks::resize() const {

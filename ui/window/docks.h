@@ -90,10 +90,12 @@ class Docks {
   void fill(QMenu& menu) const;
   /// Sets the sizes for the first start.
   void resize() const;
+  /// Shows, hides and places all docks as at the first start.
+  void reset() const;
 
  private:
   void add(const DockEntry& entry, const DockParts& parts);
-  void place(const DockEntry& entry, QDockWidget& dock);
+  void place(const DockEntry& entry, QDockWidget& dock) const;
   QDockWidget* byId(const char* id) const;
 
   QMainWindow& window_;

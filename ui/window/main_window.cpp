@@ -56,6 +56,8 @@
 namespace chainmail {
 namespace {
 
+constexpr QSize usualSize(1600, 900);  // at the first start
+constexpr QSize roomOfFrame(40, 80);   // pixels, more than the frame of a window manager takes
 constexpr int layoutVersion = 5;  // raise it after changes to the docks: layouts of other versions are not restored
 constexpr int statusMilliseconds = 4000;
 constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
@@ -369,6 +371,9 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   addFigures(menu);
   menu.addSeparator();
   menu.addAction(&lecture_->action());
+  auto* reset = menu.addAction(QStringLiteral("&Reset layout"), this, &MainWindow::resetLayout);
+  reset->setObjectName(QStringLiteral("resetLayout"));
+  reset->setStatusTip(QStringLiteral("Shows, hides and places the docks and the tool bar as at the first start"));
   (new ThemeMenu(this))->fill(menu);
 }
 
@@ -449,8 +454,18 @@ QByteArray MainWindow::layoutForSettings() const {
   return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
 }
 
+void MainWindow::resetLayout() {
+  lecture_->leave();
+  docks_->reset();
+  bar_->show();
+}
+
 void MainWindow::restoreLayout() {
-  resize(QSize(1600, 900).boundedTo(screen()->availableSize()));
+  const QSize available = screen()->availableSize();
+  resize(usualSize.boundedTo(available));
+  if (usualSize.boundedTo(available - roomOfFrame) != usualSize) {
+    setWindowState(Qt::WindowMaximized);  // else its frame would move its last lines out of the screen
+  }
   docks_->resize();
   const QSettings settings;
   restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
@@ -461,7 +476,12 @@ void MainWindow::restoreLayout() {
   layout()->setEnabled(true);
   layout()->activate();
   // Widgets that were never shown ask for more room than they need, which widens the window beyond a small screen.
-  QTimer::singleShot(0, this, [this] { resize(size().boundedTo(screen()->availableSize())); });
+  QTimer::singleShot(0, this, [this] {
+    const QSize largest = screen()->availableSize() - (frameGeometry().size() - size());
+    if (!isMaximized() && !isFullScreen() && size().boundedTo(largest) != size()) {
+      resize(size().boundedTo(largest));
+    }
+  });
 }
 
 // The window as a whole.

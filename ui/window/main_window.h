@@ -98,6 +98,7 @@ class MainWindow : public QMainWindow {
   bool keepsWork();
   QByteArray layoutForSettings() const;
   void restoreLayout();
+  void resetLayout();
 
   Document document_;
   Colouring colouring_;

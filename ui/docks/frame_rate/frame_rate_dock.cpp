@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/ask_where.h"
+#include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/parameter_row.h"
@@ -62,7 +63,7 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
   column->addWidget(makeControls());
   column->addWidget(plot_, 1);
   content->setMinimumWidth(dockWidth);
-  setWidget(content);
+  setWidget(new DockScroll(content));
   clock_.start();
   timer_.setInterval(refreshMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);

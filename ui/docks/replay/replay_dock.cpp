@@ -12,6 +12,7 @@
 
 #include "common/as_path.h"
 #include "common/ask_where.h"
+#include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
@@ -267,7 +268,7 @@ void ReplayDock::arrange() {
   column->addLayout(line);
   column->addWidget(filmBar_);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  setWidget(content);
+  setWidget(new DockScroll(content));
 }
 
 QWidget* ReplayDock::makeFilmBar() {

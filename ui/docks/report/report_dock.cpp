@@ -4,6 +4,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/dock_scroll.h"
+
 namespace chainmail {
 namespace {
 
@@ -48,7 +50,7 @@ ReportDock::ReportDock(Document& document)
   row->setContentsMargins(6, 4, 6, 2);
   row->addWidget(makeControls());
   row->addLayout(right, 1);
-  setWidget(content);
+  setWidget(new DockScroll(content));
   listen();
   showState();
 }

@@ -7,6 +7,7 @@
 #include <QTimer>
 
 #include "common/ask_where.h"
+#include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "common/table_text.h"
 #include "files/text/outputs.h"
@@ -58,7 +59,7 @@ SizeTestDock::SizeTestDock(QMainWindow& window, const Document& document, QWidge
   row->setContentsMargins(6, 4, 6, 2);
   row->addWidget(makeControls());
   row->addLayout(right, 1);
-  setWidget(content);
+  setWidget(new DockScroll(content));
   // Closing the dock cancels the test.
   connect(toggleViewAction(), &QAction::toggled, this, [this](bool shown) { shown ? void() : cancel(); });
   // An empty table shows the current panels.

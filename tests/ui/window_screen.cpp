@@ -1,0 +1,122 @@
+// Tests that the window fits on its screen. CMakeLists.txt runs them on small screens and large ones, with a window
+// manager that draws frames.
+
+#include <QDockWidget>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QScopeGuard>
+#include <QStatusBar>
+#include <QToolBar>
+
+#include "window.h"
+#include "window/docks.h"
+
+namespace chainmail::window_screen {
+
+namespace {
+
+/// The window with its frame is on the screen.
+bool fits(const MainWindow& window) {
+  return window.screen()->availableGeometry().contains(window.frameGeometry());
+}
+
+QString placeOf(const MainWindow& window) {
+  const QRect at = window.frameGeometry();
+  return QStringLiteral("%1 x %2 at %3, %4").arg(at.width()).arg(at.height()).arg(at.x()).arg(at.y());
+}
+
+/// Returns where each dock is and whether it is seen, without sizes.
+QStringList docksOf(const MainWindow& window) {
+  QStringList docks;
+  for (const QJsonValue& value : window.dockPlaces()) {
+    QJsonObject place = value.toObject();
+    place.remove(QStringLiteral("size"));
+    docks << QString::fromUtf8(QJsonDocument(place).toJson(QJsonDocument::Compact));
+  }
+  return docks;
+}
+
+}  // namespace
+
+class WindowScreen : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    failOnWarnings();
+    QSettings().clear();
+  }
+
+  void theFirstWindowFitsWithItsFrame() {
+    Workbench bench;
+    QTRY_VERIFY2(fits(bench.window), qPrintable(placeOf(bench.window)));
+    const auto* status = bench.window.statusBar();
+    const QRect line(status->mapToGlobal(QPoint()), status->size());
+    QVERIFY(status->isVisible() && bench.window.screen()->availableGeometry().contains(line));
+  }
+
+  void everyDockFitsBesideTheOthers_data() {
+    QTest::addColumn<int>("dpi");
+    QTest::newRow("96 dpi") << 96;
+    QTest::newRow("150 dpi") << 150;
+  }
+  void everyDockFitsBesideTheOthers() {
+    QFETCH(int, dpi);
+    const QFont usual = QApplication::font();
+    const auto restore = qScopeGuard([&usual] { QApplication::setFont(usual); });
+    QFont font = usual;
+    font.setPointSizeF(usual.pointSizeF() * dpi / 96);
+    QApplication::setFont(font);
+    Workbench bench;
+    QTRY_VERIFY2(fits(bench.window), qPrintable(placeOf(bench.window)));
+    const QRect before = bench.window.geometry();
+    const bool wasMaximized = bench.window.isMaximized();
+    QList<QDockWidget*> opened;
+    for (const DockEntry& entry : dockEntries()) {
+      if (auto* dock = bench.find<QDockWidget>(entry.id); dock->isHidden()) {
+        bench.trigger(entry.action);
+        bench.settle();
+        opened << dock;
+        QVERIFY2(bench.window.geometry() == before, qPrintable(entry.id + placeOf(bench.window)));
+      }
+    }
+    for (QDockWidget* dock : opened) {
+      dock->hide();
+    }
+    bench.settle();
+    QVERIFY2(bench.window.geometry() == before, qPrintable(placeOf(bench.window)));
+    QCOMPARE(bench.window.isMaximized(), wasMaximized);
+  }
+
+  void theOptionsOfAToolMoveNothing() {
+    Workbench bench;
+    const auto* mesh = bench.find<QDockWidget>("meshDock");
+    const QRect before = mesh->geometry();
+    for (const char* tool : {"toolCut", "toolSelect", "toolDrag"}) {
+      bench.trigger(tool);
+      bench.settle();
+      QCOMPARE(mesh->geometry(), before);
+    }
+  }
+
+  void resetLayoutShowsTheDocksAsAtTheFirstStart() {
+    Workbench bench;
+    const QStringList before = docksOf(bench.window);
+    bench.trigger("showPropagation");
+    bench.find<QDockWidget>("toolsDock")->setFloating(true);
+    bench.find<QDockWidget>("meshDock")->hide();
+    bench.window.addDockWidget(Qt::BottomDockWidgetArea, bench.find<QDockWidget>("stiffnessDock"));
+    bench.settle();
+    QVERIFY(docksOf(bench.window) != before);
+    bench.trigger("resetLayout");
+    QTRY_COMPARE(docksOf(bench.window), before);
+    QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible());
+  }
+};
+
+CHAINMAIL_WINDOW_TEST(WindowScreen)
+
+}  // namespace chainmail::window_screen
+
+#include "window_screen.moc"
