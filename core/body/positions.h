@@ -68,20 +68,22 @@ struct AxisTurn {
 /// The current positions of all elements, without a copy. Valid until the solver changes.
 class PositionView {
  public:
-  /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh. If `turn` is given,
-  /// their coordinates are along turned axes.
+  /// If `from_rest` is given, the elements hold displacements from the rest positions of this mesh; otherwise, if
+  /// `origin` is given, from this point, on the axes that exist (mesh units). If `turn` is given, their coordinates are
+  /// along turned axes, or in another unit.
   PositionView(const void* first, std::size_t stride, Precision precision, const Mesh* from_rest = nullptr,
-               const AxisTurn* turn = nullptr)
+               const AxisTurn* turn = nullptr, const double* origin = nullptr)
       : first_(static_cast<const std::byte*>(first)),
         stride_(stride),
         precision_(precision),
         from_rest_(from_rest),
-        turn_(turn) {}
+        turn_(turn),
+        origin_(origin) {}
 
   /// Returns coordinate k (of the axes that exist) of an element, in mesh units.
   double operator()(ElementId element, int k) const {
     const double at = turn_ == nullptr ? held(element, k) : (*turn_)(k, [&](int j) { return held(element, j); });
-    return from_rest_ == nullptr ? at : rest(element, k) + at;
+    return from_rest_ != nullptr ? rest(element, k) + at : origin_ != nullptr ? origin_[k] + at : at;
   }
 
   /// Returns the distance from one element to another along axis k (mesh units). Displacements keep their digits,
@@ -107,6 +109,7 @@ class PositionView {
   Precision precision_;
   const Mesh* from_rest_;
   const AxisTurn* turn_;
+  const double* origin_;
 };
 
 /// Returns the position of an element with all three coordinates (mesh units).

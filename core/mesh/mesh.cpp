@@ -209,6 +209,12 @@ Point Mesh::rest_position(ElementId element) const {
   return to_point(rest.data() + std::size_t{element} * space_dimension);
 }
 
+bool is_far(const Mesh& mesh) {
+  constexpr double many = 16;  // radii: four of the 24 bits of single precision
+  const Point middle = (mesh.box[0] + mesh.box[1]) / 2;
+  return middle.cwiseAbs().maxCoeff() > many * (mesh.box[1] - mesh.box[0]).norm() / 2;
+}
+
 double rest_length(const Mesh& mesh, LinkId link) {
   const int dimension = mesh.space_dimension;
   const double* from = mesh.rest.data() + std::size_t{mesh.links[link][0]} * dimension;

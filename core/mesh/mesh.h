@@ -132,6 +132,9 @@ void check_element(const Mesh& mesh, ElementId element);
 void check_links(const Mesh& mesh, std::span<const LinkId> links);
 
 inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }
+/// True if the object lies far from the origin for its size: its absolute coordinates have fewer digits in single
+/// precision than those about its middle, as in data of a survey.
+bool is_far(const Mesh& mesh);
 
 /// Length of a link at rest (mesh units).
 double rest_length(const Mesh& mesh, LinkId link);

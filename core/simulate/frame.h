@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulate/frame_space.h"
 #include "simulate/simulation.h"
 
 namespace chainmail {
@@ -15,13 +16,14 @@ struct Frame {
   static constexpr ElementId block_elements = ElementBlocks::block_elements;
 
   MeshPointer mesh;
-  /// Current positions, element by element, mesh->space_dimension coordinates each (mesh units).
+  FrameSpace space;
+  /// Current positions, element by element, mesh->space_dimension coordinates each, in `space`.
   std::vector<float> positions;
   /// For each block of block_elements elements, in id order: the number of the frame in which a position of the block
   /// last changed. A reader that has shown frame n needs only the blocks with higher numbers. If the mesh has changed,
   /// it needs all blocks.
   std::vector<std::uint64_t> changed;
-  /// The control points of free-form deformation, space_dimension coordinates each (mesh units); empty for other
+  /// The control points of free-form deformation, space_dimension coordinates each, in `space`; empty for other
   /// algorithms.
   std::vector<float> control_points;
   Statistics statistics;
@@ -30,10 +32,8 @@ struct Frame {
   /// the series has changed.
   std::uint64_t series = 0;
 
-  /// Returns a view of the positions; valid while the frame does not change.
-  PositionView view() const {
-    return {positions.data(), mesh->space_dimension * sizeof(float), Precision::single_precision};
-  }
+  /// Returns a view of the positions in mesh units; valid while the frame does not change.
+  PositionView view() const { return space.view(positions); }
 };
 
 /// Passes frames from one writer to one reader without locks, in two frames: the reader's, and the one that the writer

@@ -47,17 +47,21 @@ void FrameWriter::note_changes(Simulation& simulation) {
 
 void FrameWriter::fill(Frame& frame, ElementBlocks& pending, Simulation& simulation) {
   const auto coordinates = static_cast<std::size_t>(mesh_->space_dimension);
-  frame.mesh = mesh_;
+  if (frame.mesh != mesh_) {
+    frame.mesh = mesh_;
+    frame.space = FrameSpace(*mesh_);
+  }
   frame.positions.resize(mesh_->rest.size());
   frame.changed.resize(changed_.size());
   pending.for_each_run([&](ElementId first, ElementId end) {
     const auto run = std::span(frame.positions).subspan(coordinates * first, coordinates * (end - first));
-    simulation.body().copy_positions(first, run);
+    frame.space.copy(simulation.body(), first, run);
     std::ranges::copy(blocks_of(changed_, first, end), blocks_of(frame.changed, first, end).begin());
   });
   pending.clear();
   const auto control_points = simulation.control_points();
-  frame.control_points.assign(control_points.begin(), control_points.end());
+  frame.control_points.resize(control_points.size());
+  frame.space.into(control_points, frame.control_points);
   frame.statistics = simulation.statistics();
   frame.number = number_;
 }

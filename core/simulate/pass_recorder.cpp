@@ -68,6 +68,7 @@ void PassRecorder::follow(const Simulation& simulation) {
     record_.before.resize(simulation.mesh().rest.size());
     pending_ = ElementBlocks(simulation.mesh().element_count());
     record_.mesh = simulation.mesh_pointer();
+    space_ = FrameSpace(*record_.mesh);
     conditions_.reset();
     copy(simulation, 0, record_.mesh->element_count());
     return;
@@ -79,8 +80,8 @@ void PassRecorder::follow(const Simulation& simulation) {
 
 void PassRecorder::copy(const Simulation& simulation, ElementId first, ElementId end) {
   const auto coordinates = static_cast<std::size_t>(record_.mesh->space_dimension);
-  simulation.body().copy_positions(first,
-                                   std::span(record_.before).subspan(coordinates * first, coordinates * (end - first)));
+  space_.copy_about_origin(simulation.body(), first,
+                           std::span(record_.before).subspan(coordinates * first, coordinates * (end - first)));
 }
 
 void PassRecorder::end(Simulation& simulation) {
@@ -119,7 +120,7 @@ void PassRecorder::write(const Simulation& simulation) {
   record_.after.resize(coordinates * (handle.size() + record_.trace.size()));
   auto after = std::span(record_.after);
   const auto copy_next = [&](ElementId element) {
-    simulation.body().copy_positions(element, after.first(coordinates));
+    space_.copy_about_origin(simulation.body(), element, after.first(coordinates));
     after = after.subspan(coordinates);
   };
   std::ranges::for_each(handle, copy_next);

@@ -15,11 +15,13 @@ Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
   store_for(algorithm_);
 }
 
-/// Stores positions as the algorithm needs them. Valid regions lie along their own axes: so does the ChainMail
-/// family. All others have no such axes, or have their own.
+/// Stores positions as the algorithm and the precision need them: far from the origin, positions in single precision
+/// are too coarse, but displacements are not. Valid regions lie along their own axes: so does the ChainMail family. All
+/// others have no such axes, or have their own.
 void Solver::store_for(const AlgorithmInfo& algorithm) {
   body_.work_in_axes(algorithm.family() == Family::chainmail);
-  body_.store_displacements(algorithm.from_rest);
+  body_.store_displacements(algorithm.from_rest ||
+                            (body_.precision() == Precision::single_precision && is_far(body_.mesh())));
 }
 
 void Solver::set_algorithm(Algorithm algorithm) {

@@ -204,6 +204,8 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
                           << "a.off: a .off file can be opened but not written; ";
   QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"
                              << "a.off: it is not a volume of voxels; ";
+  QTest::newRow("no voxels") << "convert a.off --voxels 2 -o a.obj"
+                             << "a.off: it is not a volume of voxels; ";
   QTest::newRow("threshold") << "convert a.mha --threshold dense -o a.obj"
                              << "--threshold: ";
   QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"

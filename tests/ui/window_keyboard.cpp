@@ -62,11 +62,11 @@ bool isControl(const QWidget& widget) {
       qobject_cast<const QKeySequenceEdit*>(parent) != nullptr || qobject_cast<const QLineEdit*>(parent) != nullptr ||
       qobject_cast<const QAbstractItemView*>(parent) != nullptr || qobject_cast<const QTabBar*>(parent) != nullptr ||
       widget.objectName().startsWith(QLatin1String("qt_"));
-  return !part &&
-         (qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
-          qobject_cast<const QComboBox*>(&widget) != nullptr ||
-          qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
-          qobject_cast<const QSlider*>(&widget) != nullptr || qobject_cast<const QLineEdit*>(&widget) != nullptr);
+  return !part && (qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
+                   qobject_cast<const QComboBox*>(&widget) != nullptr ||
+                   qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
+                   qobject_cast<const QSlider*>(&widget) != nullptr ||
+                   qobject_cast<const QLineEdit*>(&widget) != nullptr || qobject_cast<const View*>(&widget) != nullptr);
 }
 
 QString whatItIs(const QWidget& widget) {
@@ -123,7 +123,8 @@ class WindowKeyboard : public QObject {
     for (const QWidget* widget : bench.window.findChildren<QWidget*>()) {
       if (isControl(*widget)) {
         QVERIFY2(!nameOf(*widget, bench.window).isEmpty(), qPrintable(whatItIs(*widget)));
-        QVERIFY2(!widget->toolTip().isEmpty(), qPrintable(whatItIs(*widget)));
+        const bool isView = qobject_cast<const View*>(widget) != nullptr;  // a tool tip would cover the object
+        QVERIFY2(isView || !widget->toolTip().isEmpty(), qPrintable(whatItIs(*widget)));
       }
     }
   }

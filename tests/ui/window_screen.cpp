@@ -18,7 +18,8 @@ namespace {
 
 /// The window with its frame is on the screen.
 bool fits(const MainWindow& window) {
-  return window.screen()->availableGeometry().contains(window.frameGeometry());
+  const int rounding = window.devicePixelRatioF() > 1 ? 1 : 0;  // of a frame with an odd number of pixels
+  return window.screen()->availableGeometry().adjusted(0, 0, rounding, rounding).contains(window.frameGeometry());
 }
 
 QString placeOf(const MainWindow& window) {

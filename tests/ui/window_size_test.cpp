@@ -153,6 +153,7 @@ class WindowSizeTest : public QObject {
       QVERIFY(!bench.table().item(0, column + 1)->toolTip().isEmpty());
     }
     QCOMPARE(bench.verdicts().count(QStringLiteral("never in real time")), contestants);
+    QCOMPARE(bench.find<PlotWidget>("sizeTestPlot")->plot().good_below, 0.001);  // ms: the chosen limit
   }
 
   void cancellingBringsThePanelsBackAtOnce() {

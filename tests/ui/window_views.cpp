@@ -2,6 +2,7 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <cmath>
 
 #include "document/edits.h"
 #include "folders.h"
@@ -163,6 +164,62 @@ class WindowViews : public QObject {
     const QString wrong = differs(bench, panel, QString::fromLatin1(QTest::currentDataTag()));
     bench.trigger("themeDark");
     QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+  }
+
+  void anObjectLooksTheSameWhereverItLiesAndOfAnySize_data() {
+    QTest::addColumn<double>("size");
+    QTest::addColumn<double>("x");
+    QTest::addColumn<QStringList>("actions");
+    for (const auto& [name, actions] :
+         {std::pair("violation", QStringList{QStringLiteral("colourBy-violation")}),
+          std::pair("regions", QStringList{QStringLiteral("showValidRegions")}),
+          std::pair("tree", QStringList{QStringLiteral("showPropagation"), QStringLiteral("passLast")}),
+          std::pair("section", QStringList{QStringLiteral("section")})}) {
+      QTest::addRow("a survey, %s", name) << 1.0 << 4.5e6 << actions;
+      QTest::addRow("tiny, %s", name) << 5e-8 << 0.0 << actions;
+      QTest::addRow("huge, %s", name) << 5e12 << 3e17 << actions;
+    }
+  }
+  /// The twin is the same object about the origin.
+  void anObjectLooksTheSameWhereverItLiesAndOfAnySize() {
+    QFETCH(double, size);
+    QFETCH(double, x);
+    QFETCH(QStringList, actions);
+    const QImage here = dragged(1, 0, actions), there = dragged(size, x, actions);
+    QCOMPARE(there.size(), here.size());
+    const double share = compared(there, here).first;
+    QVERIFY2(share <= maxDifferent, qPrintable(QString::number(share)));
+  }
+
+ private:
+  static QImage dragged(double size, double x, const QStringList& actions) {
+    const Point middle(x, -x / 2, x / 3);
+    const auto whole = generate({MeshKind::tetra, {6, 4, 3}, 1, {}});
+    MeshParts parts;
+    for (ElementId e = 0; e < whole->element_count(); ++e) {
+      // Not a lattice, in which rounding decides between equal violations.
+      const Point jitter = 0.2 * Point(std::sin(12.9 * e), std::sin(78.2 * e + 1), std::sin(37.7 * e + 2));
+      parts.rest.push_back(size * (whole->rest_position(e) + jitter - Point(2.5, 1.5, 1)) + middle);
+    }
+    parts.links = whole->links;
+    parts.tetrahedra = whole->tetrahedra;
+    Workbench bench(build_mesh(std::move(parts)));
+    bench.document().selection().set({31});
+    for (const QString& action : actions) {
+      bench.trigger(action.toUtf8().constData());
+    }
+    const ElementId grabbed = 31;
+    const Point from = bench.document().mesh()->rest_position(grabbed);
+    bench.document().handle().grab(grabbed);
+    bench.document().handle().drag(from + size * Point(1.3, 1.6, 0.8));
+    bench.document().handle().release();
+    bench.settle();
+    bench.view(0).setFixedSize(viewSize);
+    bench.view(1).setFixedSize(viewSize);
+    bench.trigger("fitView");
+    bench.settleFigures();
+    bench.document().highlight().set({});
+    return pictureOf(bench.view(0)).convertToFormat(QImage::Format_RGB32);
   }
 };
 

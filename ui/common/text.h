@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <QString>
+#include <cmath>
 #include <string_view>
 
 namespace chainmail {
@@ -25,6 +26,13 @@ inline QString shownTime(double milliseconds) {
   const double time = isShort ? 1000 * milliseconds : milliseconds;
   return QLocale().toString(time, time < 1000 ? 'g' : 'f', time < 1000 ? 3 : 0) +
          (isShort ? QStringLiteral(" µs") : QStringLiteral(" ms"));
+}
+
+/// Returns a rate per second, rounded to three digits: more would be noise.
+inline QString shownRate(double perSecond) {
+  const double digit = perSecond < 1000 ? 1 : std::pow(10, std::floor(std::log10(perSecond)) - 2);
+  return perSecond < 100 ? QLocale().toString(perSecond, 'g', 3)
+                         : QLocale().toString(digit * std::round(perSecond / digit), 'f', 0);
 }
 
 }  // namespace chainmail

@@ -9,6 +9,7 @@
 
 #include "common/dock_scroll.h"
 #include "common/icons.h"
+#include "common/number_field.h"
 
 namespace chainmail {
 namespace {
@@ -31,7 +32,7 @@ SectionDock::SectionDock(const Document& document)
       flip_(new QAction(QStringLiteral("&Other side of section"), this)),
       axis_(new QComboBox),
       slider_(new QSlider(Qt::Horizontal)),
-      spin_(new QDoubleSpinBox),
+      spin_(new NumberField(QStringLiteral("Position"))),
       flipBox_(new QCheckBox(QStringLiteral("Other s&ide"))) {
   makeActions();
   arrange();

@@ -10,12 +10,7 @@ using Box = std::array<Point, 2>;
 
 void include(Box& box, const Point& point) { box = {box[0].cwiseMin(point), box[1].cwiseMax(point)}; }
 
-Point positionIn(const Frame& frame, ElementId element) {
-  const auto dimension = std::size_t(frame.mesh->space_dimension);
-  double coordinates[3]{};
-  std::copy_n(frame.positions.data() + std::size_t{element} * dimension, dimension, coordinates);
-  return frame.mesh->to_point(coordinates);
-}
+Point positionIn(const Frame& frame, ElementId element) { return point_of(*frame.mesh, frame.view(), element); }
 
 /// Returns the drag that is under way before a move: its handle, and where it has led so far.
 LessonDrag underWay(std::span<const Command> moves, std::size_t from, Point& reached) {

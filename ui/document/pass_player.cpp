@@ -29,7 +29,11 @@ PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& sta
     updatedAt_[pass_->trace[row].element] = row + 1;
   }
   frame_.mesh = pass_->mesh;
+  frame_.space = FrameSpace(*pass_->mesh);
   frame_.positions = pass_->before;
+  for (float& coordinate : frame_.positions) {
+    coordinate /= float(frame_.space.unit());
+  }
   frame_.changed.assign(ElementBlocks(pass_->mesh->element_count()).block_count(), 1);
   frame_.statistics = statistics;
   frame_.series = newSeries();
@@ -53,7 +57,8 @@ void PassPlayer::setStep(std::size_t step) {
 }
 
 void PassPlayer::move(ElementId element, std::span<const float> to) {
-  std::ranges::copy(to, frame_.positions.begin() + std::ptrdiff_t(element * to.size()));
+  std::ranges::transform(to, frame_.positions.begin() + std::ptrdiff_t(element * to.size()),
+                         [unit = float(frame_.space.unit())](float coordinate) { return coordinate / unit; });
   frame_.changed[element / Frame::block_elements] = frame_.number;
 }
 

@@ -17,13 +17,13 @@ inline QVector3D asVector(const Point& point) { return {float(point.x()), float(
 std::array<QVector3D, 8> cornersOf(const std::array<Point, 2>& box);
 
 /// The camera of a view. In 1D and 2D, it looks straight at the plane. In 3D, it orbits a centre, with perspective or
-/// parallel projection. Lengths are in mesh units. Positions in the view are in logical pixels from its top left
-/// corner.
+/// parallel projection. Points and lengths are those of frames (FrameSpace), which are mesh units for most objects.
+/// Positions in the view are in logical pixels from its top left corner.
 class Camera {
  public:
   /// Shows the whole box: straight at the plane of the given axes, or obliquely from above if there are three of them.
   void fit(const std::array<Point, 2>& box, std::span<const int> axes, QSizeF view);
-  /// Shows all points (mesh units) from the current side, as large as possible with a small margin.
+  /// Shows all points from the current side, as large as possible with a small margin.
   void frame(std::span<const QVector3D> points, QSizeF view);
   /// True if the camera was neither panned nor zoomed since fit() or frame(). A resized view may then frame
   /// it again.
@@ -49,7 +49,7 @@ class Camera {
   void setParallel(bool parallel) { parallel_ = parallel; }
   bool parallel() const { return parallel_; }
 
-  /// The state of the camera without the size of the object: centre and visible height (mesh units), and angles
+  /// The state of the camera without the size of the object: centre and visible height, and angles
   /// (degrees), which are used only in 3D.
   struct Pose {
     QVector3D centre;
@@ -63,9 +63,9 @@ class Camera {
   bool spatial() const { return spatial_; }
   QMatrix4x4 toView() const;
   QMatrix4x4 toClip(QSizeF view) const;
-  /// Returns the mesh units per pixel in the plane through the centre.
+  /// Returns the units per pixel in the plane through the centre.
   double unitsPerPixel(QSizeF view) const;
-  /// Returns the smallest and the largest distance of the object from the eye (mesh units), for fading with depth.
+  /// Returns the smallest and the largest distance of the object from the eye, for fading with depth.
   std::array<double, 2> depthRange() const;
   /// Returns the point in space under a position in the view. It lies in the plane that contains `through` and is
   /// parallel to the view.
@@ -77,8 +77,8 @@ class Camera {
   void frameInPerspective(std::span<const QVector3D> turned, double aspect);
 
   QVector3D centre_;
-  double radius_ = 1;  // of the object (mesh units)
-  double height_ = 2;  // visible height in the plane through the centre (mesh units)
+  double radius_ = 1;  // of the object
+  double height_ = 2;  // visible height in the plane through the centre
   double yaw_ = 0;     // degrees
   double pitch_ = 0;   // degrees
   bool spatial_ = false;

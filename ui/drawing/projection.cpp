@@ -17,11 +17,12 @@ constexpr double viewEdge = 1.05;
 }  // namespace
 
 QMatrix4x4 meshToWorld(const Mesh& mesh) {
+  const Point constant = FrameSpace(mesh).into(mesh.origin);
   QMatrix4x4 matrix;
   matrix.fill(0);
   matrix(3, 3) = 1;
   for (int k = 0; k < 3; ++k) {
-    matrix(k, 3) = float(mesh.origin[k]);
+    matrix(k, 3) = float(constant[k]);
   }
   for (int k = 0; k < mesh.space_dimension; ++k) {
     matrix(mesh.axes[k], k) = 1;

@@ -9,7 +9,7 @@
 
 namespace chainmail {
 
-/// Returns the matrix that maps the coordinates on the axes of the mesh (1 to 3) to all three coordinates of space. The
+/// Returns the matrix that maps the coordinates of frames on the axes of the mesh (1 to 3) to all three coordinates. The
 /// other coordinates are constant.
 QMatrix4x4 meshToWorld(const Mesh& mesh);
 

@@ -13,20 +13,21 @@ constexpr int maxDashes = 400;  // per edge: more are indistinguishable
 
 }  // namespace
 
-RegionShape::RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView, int spaceDimension,
-                         double unitsPerPixel)
-    : at_(asVector(region.at)), nearest_(asVector(region.nearest)) {
-  right_ = toView.row(0).toVector3D().normalized() * float(unitsPerPixel);
-  up_ = toView.row(1).toVector3D().normalized() * float(unitsPerPixel);
+RegionShape::RegionShape(const NeighbourRegion& region, const FrameSpace& space, const QMatrix4x4& toView,
+                         int spaceDimension, double unitsPerPixel)
+    : at_(asVector(space.into(region.at))), nearest_(asVector(space.into(region.nearest))) {
+  const auto pixel = float(unitsPerPixel / space.unit());
+  right_ = toView.row(0).toVector3D().normalized() * pixel;
+  up_ = toView.row(1).toVector3D().normalized() * pixel;
   for (int i = 0; i < 8; ++i) {
-    corners_[std::size_t(i)] = asVector(region.corner(i));
+    corners_[std::size_t(i)] = asVector(space.into(region.corner(i)));
   }
   if (spaceDimension == 1) {
     // The bar is horizontal or vertical, across the axis of the mesh.
-    const QVector3D along = (asVector(region.high) - asVector(region.low)).normalized();
+    const QVector3D low = asVector(space.into(region.low)), high = asVector(space.into(region.high));
+    const QVector3D along = (high - low).normalized();
     const bool upright = std::abs(QVector3D::dotProduct(along, up_)) > std::abs(QVector3D::dotProduct(along, right_));
     const QVector3D across = (upright ? right_ : up_) * barPixels;
-    const QVector3D low = asVector(region.low), high = asVector(region.high);
     corners_ = {low - across, high - across, low + across, high + across,
                 low - across, high - across, low + across, high + across};
   }

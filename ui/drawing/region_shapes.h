@@ -13,8 +13,10 @@ namespace chainmail {
 /// ends are visible next to the links. Positions are in mesh units; lines are pairs of ends, faces are triangles.
 class RegionShape {
  public:
-  /// `unitsPerPixel` is in mesh units per logical pixel, in the plane through the centre of the view.
-  RegionShape(const NeighbourRegion& region, const QMatrix4x4& toView, int spaceDimension, double unitsPerPixel);
+  /// `unitsPerPixel` is in mesh units per logical pixel, in the plane through the centre of the view. The shape is in
+  /// the space of frames.
+  RegionShape(const NeighbourRegion& region, const FrameSpace& space, const QMatrix4x4& toView, int spaceDimension,
+              double unitsPerPixel);
 
   std::vector<QVector3D> faces() const;
   std::vector<QVector3D> edges() const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/number_field.h"
+
 namespace chainmail {
 namespace {
 
@@ -35,7 +37,7 @@ VolumeBar::VolumeBar()
     : AskBar(QStringLiteral("volume"), QStringLiteral("Open &volume"),
              QStringLiteral("Replaces the object with the dense voxels of the volume, as one undo step")),
       slider_(new QSlider(Qt::Horizontal)),
-      threshold_(new QDoubleSpinBox),
+      threshold_(new NumberField(QStringLiteral("Threshold"))),
       every_(new QSpinBox),
       stiff_(new QCheckBox(QStringLiteral("So&ftness from density"))) {
   makeFields();

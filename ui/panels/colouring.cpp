@@ -201,6 +201,7 @@ void Colouring::Copy::follow(const Frame& frame) {
     positions = frame.positions;
     number = frame.number;
     series = frame.series;
+    space = frame.space;
     return;
   }
   const std::size_t perBlock = std::size_t{Frame::block_elements} * frame.mesh->space_dimension;
@@ -291,8 +292,7 @@ float Colouring::value(int panel, std::size_t i) const {
 
 float Colouring::violation(const Work& work, int panel, LinkId link) const {
   const Mesh& mesh = *work.building.mesh;
-  const PositionView positions(work.copies[panel].positions.data(), mesh.space_dimension * sizeof(float),
-                               Precision::single_precision);
+  const PositionView positions = work.copies[panel].space.view(work.copies[panel].positions);
   return float(link_violation(mesh, *work.softness, positions, link));
 }
 
@@ -304,18 +304,19 @@ float Colouring::distance(const Work& work, int panel, int other, ElementId elem
     const double apart = double(work.copies[panel].positions[at]) - double(work.copies[other].positions[at]);
     squared += apart * apart;
   }
-  return mesh.mean_link_length > 0 ? float(std::sqrt(squared) / mesh.mean_link_length) : 0;
+  const double unit = work.copies[panel].space.unit();
+  return mesh.mean_link_length > 0 ? float(std::sqrt(squared) * unit / mesh.mean_link_length) : 0;
 }
 
 /// Returns the distance of an element from its position in the reference solution, as a fraction of the handle's
 /// displacement.
 float Colouring::physicsError(const Work& work, int panel, ElementId element) const {
   const Mesh& mesh = *work.building.mesh;
+  const PositionView positions = work.copies[panel].space.view(work.copies[panel].positions);
   double squared = 0;
   for (int k = 0; k < mesh.space_dimension; ++k) {
     const std::size_t at = std::size_t{element} * std::size_t(mesh.space_dimension) + std::size_t(k);
-    const double apart =
-        double(work.copies[panel].positions[at]) - mesh.rest[at] - work.solution->solution.displacements[at];
+    const double apart = positions(element, k) - mesh.rest[at] - work.solution->solution.displacements[at];
     squared += apart * apart;
   }
   return float(std::sqrt(squared) / work.solution->solution.handle_displacement);

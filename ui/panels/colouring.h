@@ -62,6 +62,7 @@ class Colouring : public QObject {
   struct Copy {
     std::vector<float> positions;
     std::uint64_t number = 0, series = 0;  // of the frame
+    FrameSpace space;
 
     /// Copies the blocks that changed since the last frame.
     void follow(const Frame& frame);

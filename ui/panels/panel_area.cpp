@@ -74,6 +74,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
       fitRest();
     }
   });
+  connect(&document.solvers(), &PanelSolvers::becameIdle, this, &PanelArea::followObject);
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
 }
@@ -255,6 +256,14 @@ void PanelArea::frame(bool atRest) {
 void PanelArea::fitAgain() {
   if (!document_.highlight().marks().grabbed && fits()) {
     frame(fitsRest_);
+  }
+}
+
+/// After a drag that led out of the views, fits them again, unless the user has panned or zoomed since the last fit.
+void PanelArea::followObject() {
+  const bool wasDragged = std::exchange(dragged_, document_.handle().isActive());
+  if (wasDragged && !dragged_ && fits() && !showsAll()) {
+    frame(false);
   }
 }
 

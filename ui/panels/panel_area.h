@@ -101,6 +101,7 @@ class PanelArea : public QWidget {
   void frame(bool atRest);
   void turnUp(Camera::Up up);
   void fitAgain();
+  void followObject();
   bool stacksPanels(int shown) const;
 
   Document& document_;
@@ -122,6 +123,7 @@ class PanelArea : public QWidget {
   std::optional<int> alone_;
   bool figures_ = false, lecture_ = false;
   QTimer refit_;
+  bool dragged_ = false;  // true if the handle was held when the solvers became idle
   bool fitsRest_ = true;  // true if the views show the rest shape since the last fit
   bool stacked_ = false;  // true if two panels are above each other
 };

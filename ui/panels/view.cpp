@@ -15,6 +15,8 @@
 #include <cmath>
 
 #include "common/application.h"
+#include "common/panel_names.h"
+#include "common/text.h"
 #include "document/panel_colour.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
@@ -41,16 +43,22 @@ constexpr double smallestSelected = 2;
 constexpr double handleMarkShare = 0.5, spatialMarkShare = 0.2;
 constexpr double largestHandleMark = 10;  // pixels
 
+/// Returns the bounds of an object at rest in the space of its frames.
+std::array<Point, 2> boxIn(const FrameSpace& space, const Mesh& mesh) {
+  return {space.into(bounds(mesh)[0]), space.into(bounds(mesh)[1])};
+}
+
 /// Returns points of an object at rest that tell where it is: its corners, or many of its elements.
 std::vector<QVector3D> restOutline(const Mesh& mesh) {
+  const FrameSpace space(mesh);
   if (mesh.lattice) {
-    const auto corners = cornersOf(mesh.box);
+    const auto corners = cornersOf(boxIn(space, mesh));
     return {corners.begin(), corners.end()};
   }
   std::vector<QVector3D> points;
   const std::size_t step = mesh.element_count() / maxOutlinePoints + 1;
   for (std::size_t element = 0; element < mesh.element_count(); element += step) {
-    points.push_back(asVector(mesh.rest_position(ElementId(element))));
+    points.push_back(asVector(space.into(mesh.rest_position(ElementId(element)))));
   }
   return points;
 }
@@ -97,6 +105,8 @@ void View::listen() {
   connect(&document_.highlight(), &Highlight::changed, this, qOverload<>(&View::update));
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::algorithmChanged, this, qOverload<>(&View::update));  // changes colours of panels
+  connect(&document_, &Document::algorithmChanged, this, &View::nameIt);
+  nameIt();
   connect(&document_.selection(), &Selection::changed, this, [this] {
     selectionOutdated_ = true;
     selectedHere_ = links_.pointed() == panel_;
@@ -116,6 +126,12 @@ void View::listen() {
     meter_.swapped();
     measurePaint();
   });
+}
+
+/// Names the view for screen readers.
+void View::nameIt() {
+  setAccessibleName(
+      QStringLiteral("Object of panel %1, %2").arg(panelName(panel_), text(info(document_.algorithm(panel_)).label)));
 }
 
 /// Highlights the element under the cursor again after an edit has cleared the highlight.
@@ -199,7 +215,7 @@ void View::setCamera(std::shared_ptr<Camera> camera) {
 
 void View::fitRest() {
   const Mesh& mesh = *document_.mesh();
-  camera_->fit(bounds(mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
+  camera_->fit(boxIn(space(), mesh), std::span(mesh.axes).first(std::size_t(mesh.space_dimension)), size());
   fitPending_ = false;
   frame(outline(true));
 }
@@ -304,8 +320,14 @@ Point View::position(ElementId element) const {
   return frame == nullptr ? document_.mesh()->rest_position(element) : point_of(*frame->mesh, frame->view(), element);
 }
 
-QVector3D View::pointAt(QPointF position, const Point& through) const {
-  return camera_->pointAt(position, asVector(through), size());
+FrameSpace View::space() const { return FrameSpace(*document_.mesh()); }
+
+double View::unitsPerPixel() const { return camera_->unitsPerPixel(size()) * space().unit(); }
+
+Point View::pointAt(QPointF position, const Point& through) const {
+  const FrameSpace space = this->space();
+  const QVector3D at = camera_->pointAt(position, asVector(space.into(through)), size());
+  return space.out_of({at.x(), at.y(), at.z()});
 }
 
 QPointF View::viewPosition(ElementId element) const {
@@ -318,7 +340,7 @@ QPointF View::viewPosition(ElementId element) const {
 }
 
 QPointF View::viewPosition(const Point& point) const {
-  const QVector3D at = (camera_->toClip(size()) * camera_->toView()).map(asVector(point));
+  const QVector3D at = (camera_->toClip(size()) * camera_->toView()).map(asVector(space().into(point)));
   return {(1 + double(at.x())) / 2 * width(), (1 - double(at.y())) / 2 * height()};
 }
 
@@ -376,7 +398,7 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
   }
   cursor_ = event->position();
   if (const auto element = search_.elementAt(cursor_)) {
-    camera_->centreOn(asVector(position(*element)));
+    camera_->centreOn(asVector(space().into(position(*element))));
     announceCamera();
   }
 }
@@ -580,7 +602,7 @@ void View::draw(const PaintTarget& on) {
   drawObjects(on);
   const Frame& frame = *document_.solvers().frame(panel_);
   for (Overlay* overlay : overlays_) {
-    overlay->draw({*this, on.own, on.scene, frame, panel_, camera_->unitsPerPixel(size())});
+    overlay->draw({*this, on.own, on.scene, frame, panel_, unitsPerPixel()});
   }
   drawMarks(on);
   drawAnnotations(on);
@@ -601,7 +623,7 @@ void View::takeFrames(const PaintTarget& on) {
 }
 
 void View::drawObjects(const PaintTarget& on) {
-  const double pixelsPerUnit = 1 / camera_->unitsPerPixel(size());
+  const double pixelsPerUnit = 1 / unitsPerPixel();
   const ObjectDrawing::Paint ownPaint = objectPaint();
   const auto drawOwn = [&] { on.own.drawObject(on.scene, ownPaint, pixelsPerUnit); };
   if (on.ghost == nullptr) {
@@ -640,7 +662,7 @@ ObjectDrawing::Paint View::colouredPaint() {
 void View::drawMarks(const PaintTarget& on) {
   const auto& in = on.scene;
   if (links_.marks() || selectedHere_) {
-    const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
+    const double pixelsPerLink = document_.mesh()->mean_link_length / unitsPerPixel();
     on.own.drawSelection(in, colours::selected,
                          float(std::clamp(0.7 * pixelsPerLink, smallestSelected, largestSelected)));
   }
@@ -663,7 +685,7 @@ void View::drawHighlight(const PaintTarget& on) {
   on.own.drawLinks(in, marks.links, colours::lit);
   const QColor colour = marks.grabbed ? colours::lit : colours::marked;
   if (!marks.handle.empty()) {
-    const double pixelsPerLink = document_.mesh()->mean_link_length / camera_->unitsPerPixel(size());
+    const double pixelsPerLink = document_.mesh()->mean_link_length / unitsPerPixel();
     const double share = camera_->spatial() ? spatialMarkShare : handleMarkShare;
     const auto diameter = float(std::clamp(share * pixelsPerLink, smallestSelected, largestHandleMark));
     on.own.drawElements(in, marks.handle, colour, diameter);

@@ -93,9 +93,13 @@ class View : public QOpenGLWidget {
   void hoverSoon() { hover_.start(0); }
   /// Returns the position of an element in the newest frame (mesh units).
   Point position(ElementId element) const;
-  /// Returns the point in space under a position in the view. It lies in the plane that contains `through` and is
-  /// parallel to the view.
-  QVector3D pointAt(QPointF position, const Point& through) const;
+  /// Returns the space of the frames, in which the view draws.
+  FrameSpace space() const;
+  /// Returns the mesh units per logical pixel in the plane through the centre of the view.
+  double unitsPerPixel() const;
+  /// Returns the point in space under a position in the view (mesh units). It lies in the plane that contains `through`
+  /// and is parallel to the view.
+  Point pointAt(QPointF position, const Point& through) const;
   /// Returns the position in the view of an element or of a point (mesh units).
   QPointF viewPosition(ElementId element) const;
   QPointF viewPosition(const Point& point) const;
@@ -143,6 +147,7 @@ class View : public QOpenGLWidget {
   };
 
   void listen();
+  void nameIt();
   void updateHover();
   void searchUnderCursor();
   void announceCamera();

@@ -1,7 +1,6 @@
 #include "tools/control_points.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "common/colours.h"
@@ -17,12 +16,7 @@ constexpr float rim = 1.5F;                           // pixels of background ar
 constexpr float latticeWidth = 1.2F;
 
 Point controlPointOf(const Frame& frame, std::uint32_t point) {
-  const auto dimension = std::size_t(frame.mesh->space_dimension);
-  std::array<double, 3> coordinates{};
-  for (std::size_t k = 0; k < dimension; ++k) {
-    coordinates[k] = double(frame.control_points[dimension * point + k]);
-  }
-  return frame.mesh->to_point(coordinates.data());
+  return point_of(*frame.mesh, frame.space.view(frame.control_points), point);
 }
 
 std::uint32_t countOf(const Frame& frame) {
@@ -32,15 +26,14 @@ std::uint32_t countOf(const Frame& frame) {
 std::vector<QVector3D> controlPointsOf(const Frame& frame) {
   std::vector<QVector3D> positions;
   for (std::uint32_t point = 0; point < countOf(frame); ++point) {
-    const Point at = controlPointOf(frame, point);
-    positions.emplace_back(float(at.x()), float(at.y()), float(at.z()));
+    positions.push_back(asVector(frame.space.into(controlPointOf(frame, point))));
   }
   return positions;
 }
 
 /// Adds a square around a point: two triangles parallel to the screen. `side` is in logical pixels.
 void addSquare(const Overlay::Canvas& canvas, const QVector3D& at, float side, std::vector<QVector3D>& corners) {
-  const float half = side / 2 * float(canvas.unitsPerPixel);
+  const float half = side / 2 * float(canvas.unitsPerPixel / canvas.frame.space.unit());
   const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * half;
   const QVector3D up = canvas.scene.toView.row(1).toVector3D().normalized() * half;
   for (const auto& corner : {-right - up, right - up, right + up, -right - up, right + up, up - right}) {

@@ -213,7 +213,7 @@ void DragTool::move(View& view, QPointF position, Qt::KeyboardModifiers modifier
     moveHandle(view, position, grip_ == Grip::ring || (shift && RotationRing::canRotate(*document_.mesh())));
     return;
   }
-  const Point target = start_ + pointOf(view.pointAt(position, start_) - gripAt_);
+  const Point target = start_ + (view.pointAt(position, start_) - gripAt_);
   grip_ == Grip::element ? document_.handle().drag(target) : document_.handle().dragControlPoint(target);
 }
 
@@ -227,7 +227,7 @@ void DragTool::moveHandle(View& view, QPointF position, bool turns) {
     ring_.showRotation({document_.handle().held().begin(), document_.handle().held().end()}, view.panel(), position,
                        motion_.rotation.degrees);
   } else {
-    motion_.by = motion_.byBefore + pointOf(view.pointAt(position, start_) - gripAt_);
+    motion_.by = motion_.byBefore + (view.pointAt(position, start_) - gripAt_);
     ring_.hideRotation();
     if (grip_ == Grip::handle && brush_.radius() > 0) {
       outline(view, position);

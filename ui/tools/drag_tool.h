@@ -74,8 +74,8 @@ class DragTool : public Tool {
   RotationRing& ring_;
   Grip grip_ = Grip::nothing;
   std::optional<ControlPoints::PointId> point_;
-  Point start_ = Point::Zero();  // position of what is under the cursor when it was grabbed (mesh units)
-  QVector3D gripAt_;             // position of the cursor at that moment, in the same plane (mesh units)
+  Point start_ = Point::Zero();   // position of what is under the cursor when it was grabbed (mesh units)
+  Point gripAt_ = Point::Zero();  // position of the cursor at that moment, in the same plane (mesh units)
   Motion motion_;
   QPointer<View> ringHovered_;     // the view whose ring is under the cursor
   const View* brushAt_ = nullptr;  // the view of the brush's outline

@@ -30,14 +30,13 @@ float discSize(const Overlay::Canvas& canvas) {
       std::clamp(shareOfLink * canvas.frame.mesh->mean_link_length / canvas.unitsPerPixel, smallestDisc, largestDisc));
 }
 
-/// Returns the position of an element of a frame (mesh units).
+/// Returns the position of an element in the space of the frame.
 QVector3D elementPosition(const Frame& frame, ElementId element) {
-  const int dimension = frame.mesh->space_dimension;
-  double coordinates[3]{};
-  std::copy_n(frame.positions.data() + std::size_t{element} * std::size_t(dimension), dimension, coordinates);
-  const Point point = frame.mesh->to_point(coordinates);
-  return {float(point.x()), float(point.y()), float(point.z())};
+  return asVector(frame.space.into(point_of(*frame.mesh, frame.view(), element)));
 }
+
+/// Returns the length of a logical pixel in the space of the frame.
+double pixelIn(const Overlay::Canvas& canvas) { return canvas.unitsPerPixel / canvas.frame.space.unit(); }
 
 /// Arrows from sponsors to the elements that they have updated, as pairs of ends. An arrow to an element that did not
 /// move has no head.
@@ -47,8 +46,8 @@ class SponsorArrows {
   SponsorArrows(const Overlay::Canvas& canvas, float gap)
       : frame_(canvas.frame),
         toEye_(canvas.scene.toView.row(2).toVector3D().normalized()),
-        gap_(gap / 2 * float(canvas.unitsPerPixel)),
-        head_(headPixels * float(canvas.unitsPerPixel)) {}
+        gap_(gap / 2 * float(pixelIn(canvas))),
+        head_(headPixels * float(pixelIn(canvas))) {}
 
   /// Adds the arrow of a step, if it has a sponsor. The value of the arrow is the step.
   void add(const TraceRow& row, std::size_t step) {
@@ -82,7 +81,7 @@ class SponsorArrows {
 
   const Frame& frame_;
   QVector3D toEye_;
-  float gap_, head_;  // mesh units
+  float gap_, head_;  // in the space of the frame
   std::vector<QVector3D> ends_;
   std::vector<float> values_;
 };

@@ -40,9 +40,7 @@ RegionLens::RegionLens(const Overlay::Canvas& canvas, ElementId element, const s
   useful_ = canvas.frame.mesh->space_dimension == 2 && reach > 0 && reach < readable * canvas.unitsPerPixel;
   if (useful_) {
     scale_ = inner * radius * canvas.unitsPerPixel / reach;
-    const QVector3D centre =
-        canvas.view.pointAt(centreBeside(canvas.view.viewPosition(element_), canvas.view.size()), element_);
-    centre_ = Point(centre.x(), centre.y(), centre.z());
+    centre_ = canvas.view.pointAt(centreBeside(canvas.view.viewPosition(element_), canvas.view.size()), element_);
   }
 }
 
@@ -59,15 +57,17 @@ NeighbourRegion RegionLens::magnified(const NeighbourRegion& region) const {
   return larger;
 }
 
+QVector3D RegionLens::drawn(const Point& point) const { return asVector(canvas_.frame.space.into(point)); }
+
 std::vector<QVector3D> RegionLens::rim() const {
   const auto& toView = canvas_.scene.toView;
-  const auto length = float(radius * canvas_.unitsPerPixel);
+  const auto length = float(radius * canvas_.unitsPerPixel / canvas_.frame.space.unit());
   const QVector3D right = toView.row(0).toVector3D().normalized() * length;
   const QVector3D up = toView.row(1).toVector3D().normalized() * length;
   std::vector<QVector3D> points;
   for (int i = 0; i <= corners; ++i) {
     const auto angle = float(2 * M_PI * i / corners);
-    points.push_back(asVector(centre_) + std::cos(angle) * right + std::sin(angle) * up);
+    points.push_back(drawn(centre_) + std::cos(angle) * right + std::sin(angle) * up);
   }
   return points;
 }
@@ -76,11 +76,11 @@ void RegionLens::draw() const {
   const auto points = rim();
   std::vector<QVector3D> disc, circle, links;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    disc.insert(disc.end(), {asVector(centre_), points[i], points[i + 1]});
+    disc.insert(disc.end(), {drawn(centre_), points[i], points[i + 1]});
     circle.insert(circle.end(), {points[i], points[i + 1]});
   }
   for (const NeighbourRegion& region : regions_) {
-    links.insert(links.end(), {asVector(centre_), asVector(magnified(region.at))});
+    links.insert(links.end(), {drawn(centre_), drawn(magnified(region.at))});
   }
   ObjectDrawing& painter = canvas_.painter;
   painter.drawInSpace(canvas_.scene, disc, ObjectDrawing::Shape::triangles, colours::background);

@@ -21,6 +21,7 @@ class RegionLens {
 
  private:
   Point magnified(const Point& point) const;
+  QVector3D drawn(const Point& point) const;
   std::vector<QVector3D> rim() const;
 
   const Overlay::Canvas& canvas_;

@@ -99,9 +99,9 @@ std::optional<RotationRing::Circle> RotationRing::circle(const View& view) const
   const RotationExtent& extent = this->extent(view);
   Circle circle;
   circle.pivot = extent.pivot;
-  const QVector3D across =
+  const Point across =
       view.pointAt({measuredPixels, 0}, circle.pivot) - view.pointAt({0, 0}, circle.pivot);  // parallel to the view
-  circle.unitsPerPixel = double(across.length()) / measuredPixels;
+  circle.unitsPerPixel = across.norm() / measuredPixels;
   const double largest = std::max(smallestRing, largestRingShare * std::min(view.width(), view.height()));
   circle.radius = std::clamp(extent.reach / circle.unitsPerPixel + ringMargin, smallestRing, largest);
   return circle;
@@ -117,11 +117,12 @@ void RotationRing::draw(const Canvas& canvas) {
   if (!ring) {
     return;
   }
-  const auto radius = float(ring->radius * ring->unitsPerPixel);
+  const FrameSpace& space = canvas.frame.space;
+  const auto radius = float(ring->radius * ring->unitsPerPixel / space.unit());
   const QVector3D right = canvas.scene.toView.row(0).toVector3D().normalized() * radius;
   const QVector3D up = canvas.scene.toView.row(1).toVector3D().normalized() * radius;
   const auto at = [&](double angle) {
-    return asVector(ring->pivot) + right * float(std::cos(angle)) + up * float(std::sin(angle));
+    return asVector(space.into(ring->pivot)) + right * float(std::cos(angle)) + up * float(std::sin(angle));
   };
   const int corners = int(std::ceil(M_PI / std::acos(1 - largestSagitta / ring->radius)));
   const double overlap = ringOverlap / ring->radius;

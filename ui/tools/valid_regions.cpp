@@ -94,7 +94,8 @@ void ValidRegions::draw(const Canvas& canvas) {
 /// line joins a neighbour that is outside to the nearest point inside.
 void ValidRegions::draw(const Canvas& canvas, const NeighbourRegion& region) const {
   const QColor colour = region.inside ? colours::inside : colours::outside;
-  const RegionShape shape(region, canvas.scene.toView, canvas.frame.mesh->space_dimension, canvas.unitsPerPixel);
+  const RegionShape shape(region, canvas.frame.space, canvas.scene.toView, canvas.frame.mesh->space_dimension,
+                          canvas.unitsPerPixel);
   QColor faint = colour;
   faint.setAlphaF(float(canvas.frame.mesh->space_dimension < 3 ? planeOpacity : spaceOpacity));
   canvas.painter.drawInSpace(canvas.scene, shape.faces(), ObjectDrawing::Shape::triangles, faint);

@@ -177,7 +177,9 @@ QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::
 void Lessons::fitBefore() {
   if (window_.area().fits()) {
     std::vector<QVector3D> reach;
-    std::ranges::transform(player_.reach(), std::back_inserter(reach), asVector);
+    const FrameSpace space(*window_.document().mesh());
+    std::ranges::transform(player_.reach(), std::back_inserter(reach),
+                           [&space](const Point& point) { return asVector(space.into(point)); });
     window_.area().fitWith(std::move(reach));
   }
 }

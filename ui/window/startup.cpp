@@ -4,7 +4,9 @@
 
 #include <QApplication>
 #include <QIcon>
+#include <QLocale>
 #include <QOpenGLContext>
+#include <QScreen>
 #include <QSettings>
 #include <QSurfaceFormat>
 
@@ -19,6 +21,13 @@ namespace {
 
 // Address space that the window takes with a small object. OpenGL without a graphics card takes most of it.
 constexpr std::size_t windowBytes = std::size_t{1024} * 1024 * 1024;
+
+constexpr int leastDepth = 24;  // bits per pixel
+
+/// True if the display is that of another computer, reached by ssh.
+bool isRemote() {
+  return qEnvironmentVariableIsSet("SSH_CONNECTION") && qEnvironmentVariable("DISPLAY").contains(QLatin1Char('.'));
+}
 
 }  // namespace
 
@@ -38,6 +47,8 @@ void prepareApplication() {
 }
 
 void styleApplication() {
+  // The texts are English, and so are their numbers, on every system: plots and files have a decimal point, too.
+  QLocale::setDefault(QLocale(QLocale::English, QLocale::UnitedStates));
   QGuiApplication::setDesktopFileName(QStringLiteral("org.chainmail.workbench"));
   QApplication::setWindowIcon(QIcon(QStringLiteral(":/org.chainmail.workbench.png")));
   QApplication::setStyle(new WorkbenchStyle);
@@ -67,11 +78,23 @@ QString whyNoWindow() {
           .arg(platform);
     }
   }
+  const QScreen* screen = QGuiApplication::primaryScreen();
+  if (screen != nullptr && screen->depth() < leastDepth) {
+    return QStringLiteral(
+               "the display has %1 bits per pixel, with which the panels would stay black; set it to 24 bits, or use "
+               "the "
+               "command line program chainmail")
+        .arg(screen->depth());
+  }
   QOpenGLContext context;
   if (!context.create() || context.format().version() < qMakePair(3, 3)) {
-    return QStringLiteral(
-        "OpenGL 3.3 is not available; update the graphics driver, or use the command line program "
-        "chainmail");
+    return isRemote()
+               ? QStringLiteral(
+                     "OpenGL 3.3 is not available over ssh; set LIBGL_ALWAYS_SOFTWARE=1 to draw on this computer, "
+                     "or use a remote desktop, or the command line program chainmail")
+               : QStringLiteral(
+                     "OpenGL 3.3 is not available; update the graphics driver, or use the command line program "
+                     "chainmail");
   }
   return {};
 }

@@ -17,9 +17,10 @@
 namespace chainmail {
 namespace {
 
-QJsonObject toJson(const Camera::Pose& pose) {
-  return {{QStringLiteral("centre"), QJsonArray{pose.centre.x(), pose.centre.y(), pose.centre.z()}},
-          {QStringLiteral("height"), pose.height},
+QJsonObject toJson(const Camera::Pose& pose, const FrameSpace& space) {
+  const Point centre = space.out_of({pose.centre.x(), pose.centre.y(), pose.centre.z()});
+  return {{QStringLiteral("centre"), QJsonArray{centre.x(), centre.y(), centre.z()}},
+          {QStringLiteral("height"), pose.height * space.unit()},
           {QStringLiteral("yaw"), pose.yaw},
           {QStringLiteral("pitch"), pose.pitch},
           {QStringLiteral("parallel"), pose.parallel},
@@ -29,11 +30,11 @@ QJsonObject toJson(const Camera::Pose& pose) {
 
 /// Returns the pose in the JSON. Missing values stay as in `present`, and so do coordinates of the centre that are
 /// infinite as float. JSON has no NaN. An angle counts modulo a whole turn: the sine of a huge one is noise.
-Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
+Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present, const FrameSpace& space) {
   const auto number = [&](const char* key, double otherwise) { return json[QLatin1String(key)].toDouble(otherwise); };
   const QString up = json[QStringLiteral("up")].toString();
   Camera::Pose pose{present.centre,
-                    number("height", present.height),
+                    number("height", present.height * space.unit()) / space.unit(),
                     std::remainder(number("yaw", present.yaw), 360),
                     std::clamp(number("pitch", present.pitch), -90.0, 90.0),
                     json[QStringLiteral("parallel")].toBool(present.parallel),
@@ -42,9 +43,13 @@ Camera::Pose poseOf(const QJsonObject& json, const Camera::Pose& present) {
                     : up == QLatin1String("y") ? Camera::Up::y
                                                : present.up};
   const QJsonArray centre = json[QStringLiteral("centre")].toArray();
-  for (int k = 0; k < 3 && centre.size() == 3; ++k) {
-    const auto at = float(centre[k].toDouble(pose.centre[k]));
-    pose.centre[k] = std::isfinite(at) ? at : pose.centre[k];
+  if (centre.size() == 3) {
+    const Point before = space.out_of({pose.centre.x(), pose.centre.y(), pose.centre.z()});
+    const Point at(centre[0].toDouble(before.x()), centre[1].toDouble(before.y()), centre[2].toDouble(before.z()));
+    const QVector3D there = asVector(space.into(at));
+    for (int k = 0; k < 3; ++k) {
+      pose.centre[k] = std::isfinite(there[k]) ? there[k] : pose.centre[k];
+    }
   }
   return pose;
 }
@@ -72,7 +77,7 @@ void takeCameras(MainWindow& window, const QJsonObject& layout) {
   const QJsonArray cameras = layout[QStringLiteral("cameras")].toArray();
   for (int panel = 0; panel < std::min(int(cameras.size()), window.document().panels()); ++panel) {
     View& view = window.panel(panel).view();
-    view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose()));
+    view.camera()->setPose(poseOf(cameras[panel].toObject(), view.camera()->pose(), view.space()));
     if (view.camera()->framed()) {
       view.frame(view.outline(false));  // the window of the saved layout may have had another size
     }
@@ -97,7 +102,8 @@ void takeColours(MainWindow& window, const QString& name) {
 std::string layoutOf(MainWindow& window) {
   QJsonArray cameras;
   for (int panel = 0; panel < window.document().panels(); ++panel) {
-    cameras << toJson(window.panel(panel).view().camera()->pose());
+    const View& view = window.panel(panel).view();
+    cameras << toJson(view.camera()->pose(), view.space());
   }
   const QJsonObject layout{{QStringLiteral("cameras"), cameras},
                            {QStringLiteral("linked"), window.area().links().cameras()},

@@ -112,9 +112,8 @@ void RateFigures::show(int panel, const RateSample& sample) {
   if (std::isnan(sample.medianMs)) {
     return;
   }
-  const QLocale locale;
   const double passes = sample.passesPerSecond();
-  row.passes->setText(std::isnan(passes) ? QStringLiteral("–") : locale.toString(passes, 'f', 0));
+  row.passes->setText(std::isnan(passes) ? QStringLiteral("–") : shownRate(passes));
   row.median->setText(shownTime(sample.medianMs));
   row.worst->setText(shownTime(sample.worstMs));
 }

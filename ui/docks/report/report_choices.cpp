@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "common/colours.h"
+#include "common/number_field.h"
 #include "common/plot_painting.h"
 #include "common/text.h"
 #include "mesh/error.h"
@@ -36,7 +37,7 @@ ReportChoices::ReportChoices(Document& document)
       algorithms_(new QListWidget),
       sweeps_(new QComboBox),
       precision_(new QComboBox),
-      seconds_(new QDoubleSpinBox) {
+      seconds_(new NumberField(QStringLiteral("Time"))) {
   fillDrags();
   fillAlgorithms();
   fillRest();

@@ -3,13 +3,15 @@
 #include <QFormLayout>
 #include <QLabel>
 
+#include "common/number_field.h"
+
 namespace chainmail {
 
 SizeTestChoices::SizeTestChoices()
     : first_(new QSpinBox),
       growth_(new QComboBox),
       largest_(new QSpinBox),
-      budget_(new QDoubleSpinBox),
+      budget_(new NumberField(QStringLiteral("Limit"))),
       drags_(new QSpinBox) {
   const SizeTestOptions defaults;
   auto* form = new QFormLayout(this);
