@@ -149,6 +149,9 @@ class WindowLessons : public QObject {
   void theHandleIsMarkedAfterItsDrag();
   void figuresOfAWholePassSaySo();
   void theEndLeadsToTheNextLesson();
+  void pageDownLeadsThroughAllLessons();
+  void theNameOfTheNextLessonFitsANarrowBar();
+  void undoMovesTheCaption();
   void theBarKeepsItsHeight();
   void theHintsAreHiddenDuringALesson();
   void theNextObjectHasTheColoursOfBefore();
@@ -376,6 +379,88 @@ void WindowLessons::theEndLeadsToTheNextLesson() {
   QVERIFY(bench.window.lessons().bar().isHidden());
 }
 
+void WindowLessons::pageDownLeadsThroughAllLessons() {
+  Workbench& bench = shared();
+  const auto title = [&] { return QString::fromStdString(player(bench).lesson().title); };
+  const auto number = [&] { return bench.find<QLabel>("lessonStep")->text(); };
+  const auto press = [&](Qt::Key key) {
+    QTest::keyClick(&bench.window, key);
+    bench.settle();
+    awaitStep(bench);
+  };
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());  // it is the first lesson
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  QCOMPARE(number(), QStringLiteral("Step 4 of 4 · PgDown: next lesson"));
+  press(Qt::Key_PageDown);
+  QCOMPARE(title(), QStringLiteral("The waiting list, step by step"));
+  QCOMPARE(player(bench).step(), std::size_t{0});
+  QCOMPARE(number(), QStringLiteral("Step 1 of 5 · PgUp: lesson before"));
+  press(Qt::Key_PageUp);
+  QCOMPARE(title(), QStringLiteral("Why order matters"));
+  QVERIFY(player(bench).isLast());  // as if nothing but the last key had been pressed
+  QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps.back().until);
+  open(bench, pathOf("face.chainmail"));
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  QVERIFY(!number().contains(QStringLiteral("next lesson")));
+  QVERIFY(!bench.find<QAction>("lessonNext")->isEnabled());
+}
+
+void WindowLessons::theNameOfTheNextLessonFitsANarrowBar() {
+  Workbench& bench = shared();
+  open(bench, pathOf("organ.chainmail"));
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  const int least = bench.window.minimumSizeHint().width();
+  bench.trigger("lectureMode");
+  bench.window.showNormal();
+  bench.window.resize(900, 600);
+  bench.settle();
+  QVERIFY2(bench.window.width() <= 900, qPrintable(QString::number(bench.window.width())));
+  QVERIFY(bench.find<QPushButton>("lessonFollowingButton")->text().endsWith(QStringLiteral("…")));
+  bench.trigger("lectureMode");
+  bench.window.resize(900, 600);
+  bench.settle();
+  QCOMPARE(bench.window.minimumSizeHint().width(), least);
+}
+
+void WindowLessons::undoMovesTheCaption() {
+  Workbench& bench = shared();
+  const auto caption = [&] { return bench.find<QLabel>("lessonText")->text(); };
+  const auto textOf = [&](std::size_t step) { return QString::fromStdString(player(bench).lesson().steps[step].text); };
+  const auto undo = [&] {
+    bench.trigger("undo");
+    bench.settle();
+  };
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  next(bench);
+  undo();  // all steps in a row are one step of undo
+  QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
+  QCOMPARE(caption(), textOf(0));
+  bench.trigger("redo");
+  bench.settle();
+  QCOMPARE(caption(), textOf(2));
+  disturb(bench);
+  QCOMPARE(caption(), textOf(2));
+  next(bench);
+  QCOMPARE(caption(), textOf(3));
+  undo();
+  QCOMPARE(caption(), textOf(2));  // the drag is still there
+  undo();
+  QCOMPARE(caption(), textOf(2));
+  undo();
+  QCOMPARE(caption(), textOf(0));
+  next(bench);
+  QCOMPARE(caption(), textOf(1));
+  QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps[1].until);
+}
+
 void WindowLessons::theBarKeepsItsHeight() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
@@ -502,7 +587,7 @@ void WindowLessons::aLessonReplacesNoWork() {
   for (int round = 0; round < 16; ++round) {
     player(bench).isLast() ? back(bench) : next(bench);
   }
-  while (bench.document().lesson()) {
+  while (bench.document().lesson().session) {
     QVERIFY(bench.document().undoStack().canUndo());
     bench.document().undo();
   }

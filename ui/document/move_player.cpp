@@ -125,14 +125,14 @@ void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, 
 }
 
 bool MovePlayer::recordsLesson() const {
-  return document_.lesson() && history().timeline() == lessonTimeline_ &&
-         history().length() >= document_.lesson()->moves.size();
+  return document_.lesson().session && history().timeline() == lessonTimeline_ &&
+         history().length() >= document_.lesson().session->moves.size();
 }
 
 /// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
 bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
   return recordsLesson() && replayed_ && !document_.handle().isActive() && !document_.relaxation().on &&
-         document_.elastic() == document_.lesson()->elastic &&
+         document_.elastic() == document_.lesson().session->elastic &&
          std::ranges::equal(algorithms, document_.runningAlgorithms());
 }
 
@@ -146,23 +146,26 @@ bool MovePlayer::onlyLessonMoved() const {
          document_.undoStack().command(clean)->id() == lessonGesture;
 }
 
-void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) {
-  if (!document_.lesson() || isInLesson(position, algorithms)) {
+void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
+
+void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step) {
+  if (!document_.lesson().session || isInLesson(position, algorithms)) {
     return;
   }
   endSweeps();
   const bool goesOn = followsLesson(algorithms);
   Change edit = document_.change(QStringLiteral("lesson"), lessonGesture);
   edit.after.relaxation.on = false;
-  edit.after.elastic = document_.lesson()->elastic;
+  edit.after.lesson.step = step;
+  edit.after.elastic = document_.lesson().session->elastic;
   std::ranges::copy(algorithms, edit.after.algorithms.begin());
-  const MeshPointer first = first_mesh(*document_.lesson());
-  if (first_mesh(document_.lesson()->moves) || first != document_.mesh()) {
+  const MeshPointer first = first_mesh(*document_.lesson().session);
+  if (first_mesh(document_.lesson().session->moves) || first != document_.mesh()) {
     MoveHistory moves;
-    moves.load(document_.lesson()->moves);
+    moves.load(document_.lesson().session->moves);
     replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
   }
-  edit.carryOut = [this, position, goesOn, first, session = document_.lesson()] {
+  edit.carryOut = [this, position, goesOn, first, session = document_.lesson().session] {
     if (!goesOn) {
       noteDeparture();
     }

@@ -35,8 +35,11 @@ class MovePlayer : public QObject {
   void load(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
   /// Brings the object to its state after the first `position` moves of its lesson, from rest, with these algorithms
-  /// (one per panel) and the lesson's options. Several calls in a row become one undo step.
-  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms);
+  /// (one per panel) and the lesson's options, on the way to the end of a step. Several calls in a row become one undo
+  /// step, which also restores the step.
+  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step);
+  /// Notes the step that the object is at the end of. It is no undo step, because a step may move nothing.
+  void noteLessonStep(std::size_t step);
   /// True if the object is in the state to which goToInLesson() leads with these arguments.
   bool isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const;
   /// True if the recorded commands begin with the lesson's moves.

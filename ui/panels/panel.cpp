@@ -2,7 +2,6 @@
 
 #include "panels/panel.h"
 
-#include <QApplication>
 #include <QPainter>
 #include <QTextDocument>
 #include <QVBoxLayout>
@@ -117,15 +116,6 @@ void Panel::showStatistics() {
 void Panel::showFigures(bool on) {
   statistics_->setVisible(on);
   refresh();
-}
-
-void Panel::enlargeTexts(double factor) {
-  QFont larger = font();
-  larger.setPointSizeF(factor * QApplication::font().pointSizeF());
-  for (QWidget* part : {static_cast<QWidget*>(head_), static_cast<QWidget*>(legend_), static_cast<QWidget*>(violation_),
-                        static_cast<QWidget*>(statistics_)}) {
-    part->setFont(larger);
-  }
 }
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.

@@ -26,8 +26,6 @@ class Panel : public QFrame {
   Legend& legend() { return *legend_; }
   /// Shows or hides the figures of the last pass below the sentence.
   void showFigures(bool on);
-  /// Enlarges the texts around the view by a factor.
-  void enlargeTexts(double factor);
   /// Draws an overlay over the object and shows its notes in the head.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
   /// Draws the panel as vector graphics, in logical pixels and without its buttons.

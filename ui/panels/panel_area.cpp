@@ -17,8 +17,7 @@ constexpr int handleWidth = 3;
 constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
 // Panels change between next to each other and above each other if that shows the object larger by this factor.
 constexpr double maxBetter = 1.3;
-constexpr double lectureTexts = 1.6;  // times the usual size
-constexpr int equalSize = 10'000;     // the splitter scales it to the available space
+constexpr int equalSize = 10'000;  // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -106,8 +105,7 @@ void PanelArea::addPanel() {
   panel->view().setDrawOptions(drawOptions_);
   panel->head().setActions(headActions_);
   panel->showFigures(figures_);
-  panel->enlargeTexts(lecture_ ? lectureTexts : 1);
-  panel->view().setRing(lecture_);
+  panel->view().setLecture(lecture_);
   listenTo(*panel, number);
 }
 
@@ -182,8 +180,7 @@ void PanelArea::setFigures(bool on) {
 void PanelArea::setLecture(bool on) {
   lecture_ = on;
   for (Panel* panel : panels_) {
-    panel->enlargeTexts(on ? lectureTexts : 1);
-    panel->view().setRing(on);
+    panel->view().setLecture(on);
   }
 }
 

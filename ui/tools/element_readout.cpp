@@ -53,7 +53,22 @@ void ElementReadout::updateText() {
   setText(element && !measured  ? describe(*element)
           : holdsMany()         ? describeHandle()
           : measurement_.from() ? measurement_.sentence()
-                                : hint_);
+                                : fittingHint());
+}
+
+void ElementReadout::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  updateText();
+}
+
+/// Returns as many parts of the hint as there is room for.
+QString ElementReadout::fittingHint() const {
+  const QString separator = QStringLiteral(" · ");
+  QStringList parts = hint_.split(separator);
+  while (parts.size() > 1 && !hasRoomFor(parts.join(separator))) {
+    parts.removeLast();
+  }
+  return parts.join(separator);
 }
 
 bool ElementReadout::holdsMany() const {

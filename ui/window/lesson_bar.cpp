@@ -26,6 +26,9 @@ QPushButton* makeButton(const QString& text, const char* name, QAction& action) 
   return button;
 }
 
+constexpr int buttonMargins = 120;   // pixels around the buttons and their texts
+constexpr int narrowestButton = 80;  // pixels
+
 QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
@@ -53,6 +56,8 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  following_->setToolTip(QStringLiteral("Opens the next lesson"));
+  following_->setMinimumWidth(narrowestButton);  // else its text would keep the window wide
   leave_->setObjectName(QStringLiteral("lessonCloseButton"));
   leave_->setIcon(icon("close"));
   leave_->setAutoRaise(true);
@@ -62,7 +67,6 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
     button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
   }
-  following_->setToolTip(QStringLiteral("Opens the next lesson"));
   arrange();
   listen();
   showKeys();
@@ -102,14 +106,30 @@ void LessonBar::showKeys() {
     const QString key = action.shortcut().toString(QKeySequence::NativeText);
     return key.isEmpty() ? what : QStringLiteral("%1 (%2)").arg(what, key);
   };
-  back_->setToolTip(tip(QStringLiteral("Restores the end of the step before"), backAction_));
+  back_->setToolTip(tip(
+      QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"), backAction_));
   next_->setToolTip(tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
+  if (player_.isOpen()) {
+    showStep();
+  }
 }
 
 void LessonBar::resizeEvent(QResizeEvent* event) {
   QFrame::resizeEvent(event);
+  fitFollowing();
   showTitle();
   keepHeight();
+}
+
+/// Texts are large in the lecture mode.
+void LessonBar::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  if (event->type() == QEvent::FontChange && layout() != nullptr) {
+    fitFollowing();
+    layout()->activate();
+    showTitle();
+    keepHeight();
+  }
 }
 
 /// Reserves the height of the longest caption of the lesson, so that the views keep their size from step to step.
@@ -134,9 +154,32 @@ void LessonBar::showButtons() {
   next_->setEnabled(nextAction_.isEnabled());
   next_->setVisible(!ended);
   leave_->setVisible(!ended);
-  following_->setText(followingAction_.text());
+  following_->setToolTip(
+      QStringLiteral("Opens the next lesson, '%1'").arg(followingAction_.text().section(QStringLiteral(": "), 1)));
   following_->setVisible(ended && followingAction_.isEnabled());
   end_->setVisible(ended);
+  fitFollowing();
+}
+
+/// Shortens the name of the next lesson if there is no room for it.
+void LessonBar::fitFollowing() {
+  const int ofOthers = step_->sizeHint().width() + back_->sizeHint().width() + end_->sizeHint().width();
+  const int room = width() - ofOthers - buttonMargins;
+  following_->setText(following_->fontMetrics().elidedText(followingAction_.text(), Qt::ElideRight, room));
+}
+
+/// Shows the number of the step, and where the keys lead from the ends of the lesson.
+void LessonBar::showStep() {
+  const QString number = QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(player_.lesson().steps.size());
+  const auto leading = [](const QAction& action, const QString& where) {
+    const QString key = action.shortcut().toString(QKeySequence::NativeText);
+    return key.isEmpty() ? QString() : QStringLiteral(" · %1: %2").arg(key, where);
+  };
+  const bool ended = player_.isLast() && !player_.plays();
+  step_->setText(number + (ended && nextAction_.isEnabled() ? leading(nextAction_, QStringLiteral("next lesson"))
+                           : player_.step() == 0 && backAction_.isEnabled()
+                               ? leading(backAction_, QStringLiteral("lesson before"))
+                               : QString()));
 }
 
 /// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
@@ -156,10 +199,8 @@ void LessonBar::refresh() {
   if (!player_.isOpen()) {
     return;
   }
-  const Lesson& lesson = player_.lesson();
-  const LessonStep& step = lesson.steps[player_.step()];
-  const QString caption = shown(step.text);
-  step_->setText(QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(lesson.steps.size()));
+  const QString caption = shown(player_.lesson().steps[player_.step()].text);
+  showStep();
   showButtons();
   layout()->activate();  // gives the title its width
   showTitle();

@@ -22,6 +22,7 @@ class LessonBar : public QFrame {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void refresh();
@@ -31,6 +32,8 @@ class LessonBar : public QFrame {
   void showButtons();
   void keepHeight();
   void showKeys();
+  void showStep();
+  void fitFollowing();
 
   const LessonPlayer& player_;
   QAction &backAction_, &nextAction_, &followingAction_;

@@ -54,10 +54,12 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
     : QObject(&window),
       window_(window),
       player_(window.document(), propagation),
-      next_(add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
-                QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
+      next_(
+          add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
+              QStringLiteral("Plays the next step of the lesson; during a step, goes to its end; after the last step, "
+                             "opens the next lesson"))),
       back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
-                QStringLiteral("Restores the end of the step before"))),
+                QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"))),
       following_(add("lessonFollowing", QStringLiteral("Next l&esson"), {},
                      QStringLiteral("Opens the lesson after the present one"))),
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
@@ -67,8 +69,8 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   next_->setIcon(icon("stepForward"));
   back_->setIcon(icon("stepBack"));
   close_->setIcon(icon("close"));
-  connect(next_, &QAction::triggered, &player_, &LessonPlayer::next);
-  connect(back_, &QAction::triggered, &player_, &LessonPlayer::back);
+  connect(next_, &QAction::triggered, this, &Lessons::goOn);
+  connect(back_, &QAction::triggered, this, &Lessons::goBack);
   connect(following_, &QAction::triggered, this, &Lessons::openFollowing);
   connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
   // In this order: the bar reads the actions.
@@ -110,18 +112,32 @@ void Lessons::fill(QMenu& menu) {
 
 void Lessons::openFirst() { open(lessonFiles().front().file); }
 
-/// Returns the bundled lesson after the present one; null if there is none.
-const LessonFile* Lessons::following() const {
+/// Returns the bundled lesson that is so many places after the present one; null if there is none.
+const LessonFile* Lessons::neighbour(int steps) const {
   const auto files = lessonFiles();
   const auto isPresent = [this](const LessonFile& one) { return player_.lesson().title == one.title; };
   const auto present = std::ranges::find_if(files, isPresent);
-  return !player_.isOpen() || present == files.end() || std::next(present) == files.end() ? nullptr
-                                                                                          : &*std::next(present);
+  const std::ptrdiff_t wanted = present - files.begin() + steps;
+  const bool exists = present != files.end() && wanted >= 0 && wanted < std::ssize(files);
+  return player_.isOpen() && exists ? &files[std::size_t(wanted)] : nullptr;
 }
 
 void Lessons::openFollowing() {
-  if (const LessonFile* next = following()) {
+  if (const LessonFile* next = neighbour(1)) {
     open(next->file);
+  }
+}
+
+void Lessons::goOn() { player_.isLast() && !player_.plays() ? openFollowing() : player_.next(); }
+
+/// From the first step, leads to the end of the lesson before, like the pages of a talk.
+void Lessons::goBack() {
+  const LessonFile* before = neighbour(-1);
+  if (player_.step() > 0 || before == nullptr) {
+    player_.back();
+  } else {
+    opensAtEnd_ = true;
+    open(before->file);
   }
 }
 
@@ -137,9 +153,9 @@ void Lessons::open(const char* file) {
 
 void Lessons::adapt() {
   const bool open = player_.isOpen();
-  next_->setEnabled(open && (!player_.isLast() || player_.plays()));
-  back_->setEnabled(open && player_.step() > 0);
-  const LessonFile* next = following();
+  const LessonFile* next = neighbour(1);
+  next_->setEnabled(open && (!player_.isLast() || player_.plays() || next != nullptr));
+  back_->setEnabled(open && (player_.step() > 0 || neighbour(-1) != nullptr));
   following_->setText(next != nullptr ? QStringLiteral("Next lesson: %1").arg(QString::fromUtf8(next->title))
                                       : QStringLiteral("Next lesson"));
   following_->setEnabled(next != nullptr);
@@ -147,9 +163,10 @@ void Lessons::adapt() {
 }
 
 void Lessons::start() {
+  const bool atEnd = std::exchange(opensAtEnd_, false);
   if (player_.isOpen()) {
     warnOfUnknownNames();
-    player_.start();
+    atEnd ? player_.goToEnd() : player_.start();
   }
 }
 
@@ -162,7 +179,7 @@ void Lessons::leave() {
     return;
   }
   chooseDock({});
-  if (!window_.document().lesson() && colourBefore_) {
+  if (!window_.document().lesson().session && colourBefore_) {
     window_.colouring().setMode(*std::exchange(colourBefore_, {}));
     window_.showMenu().forgetShown();
   }

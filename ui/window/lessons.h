@@ -40,7 +40,9 @@ class Lessons : public QObject {
  private:
   void open(const char* file);
   void openFollowing();
-  const LessonFile* following() const;
+  const LessonFile* neighbour(int steps) const;
+  void goOn();
+  void goBack();
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
   void start();
   void leave();
@@ -58,6 +60,7 @@ class Lessons : public QObject {
   LessonPlayer player_;
   QAction *next_, *back_, *following_, *close_;
   LessonHandle handle_;
+  bool opensAtEnd_ = false;  // true while a lesson is opened to show its last step
   LessonBar* bar_;
   QString dock_;                            // name of the dock that the lesson has opened
   std::optional<ColourMode> colourBefore_;  // what coloured the object before the lesson
