@@ -352,9 +352,9 @@ class WindowWords : public QObject {
       const QImage picture = bench.view(0).grabFramebuffer();
       const QPointF middle = (bench.view(0).viewPosition(0) + bench.view(0).viewPosition(1)) / 2;
       const int x = int(middle.x()), y = int(middle.y());
-      int lit = 0;
+      int lit = 0;  // sum over the pixels across the link
       for (int dy = -8; dy <= 8; ++dy) {
-        lit += qGray(picture.pixel(x, y + dy)) - qGray(picture.pixel(x, y + 20)) > 10 ? 1 : 0;
+        lit += std::abs(qGray(picture.pixel(x, y + dy)) - qGray(picture.pixel(x, y + 20)));
       }
       return lit;
     };
@@ -362,7 +362,7 @@ class WindowWords : public QObject {
     QVERIFY(usual > 0);
     bench.trigger("lectureMode");
     bench.settle();
-    QVERIFY2(wide() > usual, qPrintable(QStringLiteral("%1 after %2").arg(wide()).arg(usual)));
+    QVERIFY2(wide() > 1.6 * usual, qPrintable(QStringLiteral("%1 after %2").arg(wide()).arg(usual)));
     bench.trigger("lectureMode");
     bench.settle();
     QCOMPARE(wide(), usual);
@@ -403,7 +403,11 @@ class WindowWords : public QObject {
     bench.settle();
     const QString text = readout->text();
     QVERIFY2(readout->fontMetrics().horizontalAdvance(text) <= readout->width(), qPrintable(text));
-    QVERIFY(text.startsWith(QStringLiteral("Left: drag")));
+    QVERIFY(!text.contains(QStringLiteral("Wheel")));
+    bench.window.resize(1300, 600);
+    bench.settle();
+    QTRY_VERIFY2(readout->text().startsWith(QStringLiteral("Left: drag")), qPrintable(readout->text()));
+    QVERIFY(!readout->text().contains(QStringLiteral("Wheel")));
     bench.trigger("lectureMode");
   }
 

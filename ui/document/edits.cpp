@@ -230,6 +230,14 @@ void resetObject(Document& document) {
   document.apply(std::move(edit));
 }
 
+void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture) {
+  if (lesson != document.lesson()) {
+    Change edit = document.change(text, gesture);
+    edit.after.lesson = lesson;
+    document.apply(std::move(edit));
+  }
+}
+
 void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                  OwnSoftness own) {
   Change edit = meshChange(document, mesh, name, text, std::move(own));

@@ -39,7 +39,7 @@ void MovePlayer::open(const Session& session) {
   log.flush();  // to the history that is replaced below
   log.history().load(hasMoves ? session.moves : object);
   log.history().go_to(hasMoves ? session.moves_done : object.size());
-  lessonTimeline_ = history().timeline();
+  noteRecorded(&session);
   replayed_ = hasMoves && startsFromRest(session);
 }
 
@@ -125,8 +125,8 @@ void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, 
 }
 
 bool MovePlayer::recordsLesson() const {
-  return document_.lesson().session && history().timeline() == lessonTimeline_ &&
-         history().length() >= document_.lesson().session->moves.size();
+  return document_.lesson().session && document_.lesson().session.get() == lessonRecorded_ &&
+         history().timeline() == lessonTimeline_ && history().length() >= document_.lesson().session->moves.size();
 }
 
 /// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
@@ -145,6 +145,13 @@ bool MovePlayer::onlyLessonMoved() const {
   return clean >= 0 && clean == document_.undoStack().index() - 1 &&
          document_.undoStack().command(clean)->id() == lessonGesture;
 }
+
+void MovePlayer::noteRecorded(const Session* lesson) {
+  lessonRecorded_ = lesson;
+  lessonTimeline_ = history().timeline();
+}
+
+void MovePlayer::noteLessonRecorded() { noteRecorded(document_.lesson().session.get()); }
 
 void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
 
@@ -172,7 +179,7 @@ void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>
     if (!recordsLesson()) {
       document_.solvers().log().flush();
       document_.solvers().log().history().load(session->moves);
-      lessonTimeline_ = history().timeline();
+      noteRecorded(session.get());
     }
     travel(std::min(position, history().length()), first);
   };

@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <QTextDocument>
+#include <algorithm>
 
 #include "common/text.h"
 #include "document/element_facts.h"
@@ -63,12 +64,11 @@ void ElementReadout::resizeEvent(QResizeEvent* event) {
 
 /// Returns as many parts of the hint as there is room for.
 QString ElementReadout::fittingHint() const {
-  const QString separator = QStringLiteral(" · ");
-  QStringList parts = hint_.split(separator);
-  while (parts.size() > 1 && !hasRoomFor(parts.join(separator))) {
-    parts.removeLast();
+  QString fitting = hint_;
+  while (!fitting.isEmpty() && !hasRoomFor(fitting)) {
+    fitting = fitting.left(std::max<qsizetype>(0, fitting.lastIndexOf(QChar(0xb7)))).trimmed();  // a middle dot
   }
-  return parts.join(separator);
+  return fitting;
 }
 
 bool ElementReadout::holdsMany() const {

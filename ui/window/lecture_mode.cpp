@@ -55,7 +55,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
   window.statusBar()->addPermanentWidget(tool_);
   connect(&tools, &QActionGroup::triggered, this, &LectureMode::nameTool);
   connect(action_, &QAction::toggled, this, [this](bool on) { on ? enter() : restore(); });
-  connect(&area, &PanelArea::added, this, [this] {
+  connect(&area, &PanelArea::arranged, this, [this] {  // also after a panel was added
     if (isOn()) {
       enlargeIcons();
     }
@@ -125,7 +125,7 @@ void LectureMode::hideMenus() {
       lent_.emplace_back(action);
     }
   }
-  hadMenus_ = window_.menuBar()->isVisible();
+  hadMenus_ = !window_.menuBar()->isHidden();
   window_.menuBar()->hide();
 }
 

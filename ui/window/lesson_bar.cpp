@@ -7,6 +7,7 @@
 
 #include "common/colours.h"
 #include "common/icons.h"
+#include "window/lesson_editor.h"
 
 namespace chainmail {
 namespace {
@@ -26,15 +27,18 @@ QPushButton* makeButton(const QString& text, const char* name, QAction& action) 
   return button;
 }
 
-constexpr int buttonMargins = 120;   // pixels around the buttons and their texts
-constexpr int narrowestButton = 80;  // pixels
+constexpr int buttonMargins = 80;  // pixels around the buttons and their texts
+constexpr int buttonPadding = 24;  // pixels beside the text of a button
+constexpr int widestName = 260;    // pixels that the button of the next lesson asks for
 
 QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 
-LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close)
+LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& back, QAction& next, QAction& following,
+                     QAction& close)
     : player_(player),
+      editor_(editor),
       backAction_(back),
       nextAction_(next),
       followingAction_(following),
@@ -57,7 +61,6 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   following_->setToolTip(QStringLiteral("Opens the next lesson"));
-  following_->setMinimumWidth(narrowestButton);  // else its text would keep the window wide
   leave_->setObjectName(QStringLiteral("lessonCloseButton"));
   leave_->setIcon(icon("close"));
   leave_->setAutoRaise(true);
@@ -90,12 +93,14 @@ void LessonBar::arrange() {
   column->setSpacing(4);
   column->addLayout(head);
   column->addWidget(text_);
+  column->addWidget(&editor_);
 }
 
 void LessonBar::listen() {
   connect(&player_, &LessonPlayer::openChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
+  connect(&editor_, &LessonEditor::editingChanged, this, &LessonBar::refresh);
   for (const QAction* action : {&backAction_, &nextAction_}) {
     connect(action, &QAction::changed, this, &LessonBar::showKeys);
   }
@@ -116,17 +121,23 @@ void LessonBar::showKeys() {
 
 void LessonBar::resizeEvent(QResizeEvent* event) {
   QFrame::resizeEvent(event);
-  fitFollowing();
-  showTitle();
-  keepHeight();
+  fit();
 }
 
 /// Texts are large in the lecture mode.
 void LessonBar::changeEvent(QEvent* event) {
   QFrame::changeEvent(event);
   if (event->type() == QEvent::FontChange && layout() != nullptr) {
+    fit();
+  }
+}
+
+/// Fits all texts into the width of the bar.
+void LessonBar::fit() {
+  if (player_.isOpen()) {
+    showStep();
     fitFollowing();
-    layout()->activate();
+    layout()->activate();  // gives the title its width
     showTitle();
     keepHeight();
   }
@@ -149,7 +160,7 @@ void LessonBar::keepHeight() {
 
 /// At the end of the last step, the buttons lead on instead of to a next step.
 void LessonBar::showButtons() {
-  const bool ended = player_.isLast() && !player_.plays();
+  const bool ended = isEnded();
   back_->setEnabled(backAction_.isEnabled());
   next_->setEnabled(nextAction_.isEnabled());
   next_->setVisible(!ended);
@@ -161,25 +172,37 @@ void LessonBar::showButtons() {
   fitFollowing();
 }
 
-/// Shortens the name of the next lesson if there is no room for it.
+/// Shortens the name of the next lesson if there is no room for it, but not below the width of a usual name: a long
+/// name in large letters must not keep the window wide.
 void LessonBar::fitFollowing() {
+  const QFontMetrics metrics = following_->fontMetrics();
+  const int whole = metrics.horizontalAdvance(followingAction_.text()) + buttonPadding;
   const int ofOthers = step_->sizeHint().width() + back_->sizeHint().width() + end_->sizeHint().width();
-  const int room = width() - ofOthers - buttonMargins;
-  following_->setText(following_->fontMetrics().elidedText(followingAction_.text(), Qt::ElideRight, room));
+  const int least = std::min(whole, widestName);
+  const int room = std::max(least, width() - ofOthers - buttonMargins);
+  following_->setMinimumWidth(least);
+  following_->setText(metrics.elidedText(followingAction_.text(), Qt::ElideRight, room - buttonPadding));
 }
 
-/// Shows the number of the step, and where the keys lead from the ends of the lesson.
+/// Returns the width that is left for the number of the step if the buttons show their whole texts (pixels).
+int LessonBar::roomForStep() const {
+  const int ofName = following_->fontMetrics().horizontalAdvance(followingAction_.text()) + buttonPadding;
+  const int ofOthers = isEnded() ? end_->sizeHint().width() + (followingAction_.isEnabled() ? ofName : 0)
+                                 : next_->sizeHint().width() + leave_->sizeHint().width();
+  return width() - back_->sizeHint().width() - ofOthers - buttonMargins;
+}
+
+/// Shows the number of the step, and, if there is room, where the keys lead from the ends of the lesson.
 void LessonBar::showStep() {
   const QString number = QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(player_.lesson().steps.size());
   const auto leading = [](const QAction& action, const QString& where) {
     const QString key = action.shortcut().toString(QKeySequence::NativeText);
-    return key.isEmpty() ? QString() : QStringLiteral(" · %1: %2").arg(key, where);
+    return key.isEmpty() || !action.isEnabled() ? QString() : QStringLiteral(" · %1: %2").arg(key, where);
   };
-  const bool ended = player_.isLast() && !player_.plays();
-  step_->setText(number + (ended && nextAction_.isEnabled() ? leading(nextAction_, QStringLiteral("next lesson"))
-                           : player_.step() == 0 && backAction_.isEnabled()
-                               ? leading(backAction_, QStringLiteral("lesson before"))
-                               : QString()));
+  const QString whole = number + (isEnded()             ? leading(nextAction_, QStringLiteral("next lesson"))
+                                  : player_.step() == 0 ? leading(backAction_, QStringLiteral("lesson before"))
+                                                        : QString());
+  step_->setText(step_->fontMetrics().horizontalAdvance(whole) <= roomForStep() ? whole : number);
 }
 
 /// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
@@ -200,11 +223,9 @@ void LessonBar::refresh() {
     return;
   }
   const QString caption = shown(player_.lesson().steps[player_.step()].text);
-  showStep();
+  text_->setVisible(!editor_.isEditing());
   showButtons();
-  layout()->activate();  // gives the title its width
-  showTitle();
-  keepHeight();
+  fit();
   if (text_->text() != caption) {
     text_->setText(caption);
     QAccessibleEvent alert(this, QAccessible::Alert);

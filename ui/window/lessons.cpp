@@ -17,6 +17,7 @@
 #include "panels/panel_area.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
+#include "window/lesson_editor.h"
 #include "window/main_window.h"
 #include "window/message_bar.h"
 #include "window/show_menu.h"
@@ -53,6 +54,7 @@ QStringList toolNames() { return {tools.begin(), tools.end()}; }
 Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
     : QObject(&window),
       window_(window),
+      propagation_(propagation),
       player_(window.document(), propagation),
       next_(
           add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
@@ -65,6 +67,7 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
       handle_(player_),
+      editor_(nullptr),
       bar_(nullptr) {
   next_->setIcon(icon("stepForward"));
   back_->setIcon(icon("stepBack"));
@@ -77,7 +80,8 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
     connect(&player_, change, this, &Lessons::adapt);
   }
-  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
+  editor_ = new LessonEditor(window.document(), player_, [this] { return look(); });
+  bar_ = new LessonBar(player_, *editor_, *back_, *next_, *following_, *close_);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
@@ -108,7 +112,11 @@ void Lessons::fill(QMenu& menu) {
   }
   lessons->addSeparator();
   lessons->addActions({next_, back_, following_, close_});
+  lessons->addSeparator();
+  editor_->fill(*lessons);
 }
+
+QAction& Lessons::newLesson() { return editor_->newLesson(); }
 
 void Lessons::openFirst() { open(lessonFiles().front().file); }
 
@@ -164,6 +172,7 @@ void Lessons::adapt() {
 
 void Lessons::start() {
   const bool atEnd = std::exchange(opensAtEnd_, false);
+  editor_->stop();
   if (player_.isOpen()) {
     warnOfUnknownNames();
     atEnd ? player_.goToEnd() : player_.start();
@@ -186,6 +195,21 @@ void Lessons::leave() {
 }
 
 // What the window shows at a step.
+
+/// Returns what the window shows now, for a step that the user writes.
+LessonStep Lessons::look() const {
+  LessonStep look;
+  look.colour = text(info(window_.colouring().mode()).name).toStdString();
+  look.show = window_.showMenu().chosen().toStdString();
+  if (propagation_.isShown()) {
+    look.dock = "propagation";
+    const PassPlayer* pass = propagation_.player(propagation_.chosen());
+    if (!propagation_.follows() && pass != nullptr) {
+      look.candidate = std::uint32_t(pass->step());
+    }
+  }
+  return look;
+}
 
 QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::fromStdString(player_.name(which)); }
 
