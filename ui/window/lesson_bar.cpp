@@ -184,12 +184,15 @@ void LessonBar::fitFollowing() {
   following_->setText(metrics.elidedText(followingAction_.text(), Qt::ElideRight, room - buttonPadding));
 }
 
-/// Returns the width that is left for the number of the step if the buttons show their whole texts (pixels).
+/// Returns the width that is left for the number of the step if its title and the buttons show their whole texts
+/// (pixels).
 int LessonBar::roomForStep() const {
+  const QString title = shown(player_.lesson().steps[player_.step()].title);
+  const int ofTitle = title_->fontMetrics().horizontalAdvance(title);
   const int ofName = following_->fontMetrics().horizontalAdvance(followingAction_.text()) + buttonPadding;
   const int ofOthers = isEnded() ? end_->sizeHint().width() + (followingAction_.isEnabled() ? ofName : 0)
                                  : next_->sizeHint().width() + leave_->sizeHint().width();
-  return width() - back_->sizeHint().width() - ofOthers - buttonMargins;
+  return width() - ofTitle - back_->sizeHint().width() - ofOthers - buttonMargins;
 }
 
 /// Shows the number of the step, and, if there is room, where the keys lead from the ends of the lesson.
