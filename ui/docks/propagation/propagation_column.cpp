@@ -65,6 +65,7 @@ void PropagationColumn::makeList() {
   list_->setTextElideMode(Qt::ElideNone);  // a number with missing digits would be another number
   list_->header()->setSectionResizeMode(QHeaderView::Fixed);
   list_->header()->setStretchLastSection(false);
+  list_->viewport()->installEventFilter(this);
   list_->header()->setSectionsMovable(false);
   list_->header()->setMinimumSectionSize(30);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& current) {
@@ -102,10 +103,12 @@ void PropagationColumn::changeEvent(QEvent* event) {
   }
 }
 
-void PropagationColumn::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  layout()->activate();  // gives the list its width
-  fitSections();
+/// The list has another width after a resize, and when its scroll bar appears.
+bool PropagationColumn::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == list_->viewport() && event->type() == QEvent::Resize) {
+    fitSections();
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void PropagationColumn::arrange() {
