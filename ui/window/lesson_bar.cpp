@@ -60,6 +60,19 @@ LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& 
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  describeButtons();
+  arrange();
+  listen();
+  showKeys();
+  hide();
+  followTheme(*this, [this] {
+    QPalette own;
+    own.setColor(QPalette::Window, colours::infoGround);
+    setPalette(own);
+  });
+}
+
+void LessonBar::describeButtons() {
   following_->setToolTip(QStringLiteral("Opens the next lesson"));
   leave_->setObjectName(QStringLiteral("lessonCloseButton"));
   leave_->setIcon(icon("close"));
@@ -70,15 +83,6 @@ LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& 
   for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
     button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
   }
-  arrange();
-  listen();
-  showKeys();
-  hide();
-  followTheme(*this, [this] {
-    QPalette own;
-    own.setColor(QPalette::Window, colours::infoGround);
-    setPalette(own);
-  });
 }
 
 /// The caption has the whole width in every step, so that its longest text decides on one height for the lesson.

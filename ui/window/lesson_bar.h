@@ -29,6 +29,7 @@ class LessonBar : public QFrame {
 
  private:
   void refresh();
+  void describeButtons();
   void arrange();
   void listen();
   void showTitle();
