@@ -79,7 +79,7 @@ void LessonBar::describeButtons() {
   leave_->setAutoRaise(true);
   leave_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Ignored);  // as high as the buttons that replace it
   leave_->setAccessibleName(QStringLiteral("Close lesson"));
-  connect(leave_, &QToolButton::clicked, &close, &QAction::trigger);
+  connect(leave_, &QToolButton::clicked, end_, &QPushButton::click);
   for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
     button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
   }
