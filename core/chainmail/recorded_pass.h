@@ -28,6 +28,7 @@ struct RecordedPass {
   MeshPointer mesh;
   Algorithm algorithm = Algorithm::natural_queue;
   std::uint64_t number = 0;       // index of the pass in its simulation, from 1
+  std::uint64_t in_drag = 0;      // index of the pass in its drag, from 1
   std::vector<ElementId> handle;  // ascending
   std::shared_ptr<const PassConditions> conditions;
   /// Positions of all elements before the pass, space_dimension coordinates each (mesh units). They may be about another

@@ -37,6 +37,10 @@ std::unique_ptr<RecordedPass> PassRecorder::last(std::uint64_t seen) const {
 
 void PassRecorder::begin(const Command& command, Simulation& simulation) {
   runs_ = on_ && may_be_pass(command);
+  passes_ = simulation.statistics().passes;
+  if (std::holds_alternative<commands::Grab>(command)) {
+    in_drag_ = 0;
+  }
   trace_.clear();
   simulation.set_trace(runs_ ? &trace_ : nullptr);
   if (changes_conditions(command)) {
@@ -45,7 +49,6 @@ void PassRecorder::begin(const Command& command, Simulation& simulation) {
   if (!runs_) {
     return;
   }
-  passes_ = simulation.statistics().passes;
   const std::lock_guard lock(mutex_);
   is_whole_ = false;
   try {
@@ -86,7 +89,11 @@ void PassRecorder::copy(const Simulation& simulation, ElementId first, ElementId
 
 void PassRecorder::end(Simulation& simulation) {
   simulation.set_trace(nullptr);
-  if (!runs_ || simulation.statistics().passes == passes_ || simulation.last_handle() == nullptr) {
+  if (simulation.statistics().passes == passes_ || simulation.last_handle() == nullptr) {
+    return;
+  }
+  ++in_drag_;
+  if (!runs_) {
     return;
   }
   try {
@@ -112,6 +119,7 @@ void PassRecorder::finish(const Simulation& simulation) {
 void PassRecorder::write(const Simulation& simulation) {
   record_.algorithm = simulation.statistics().algorithm;
   record_.number = simulation.statistics().passes;
+  record_.in_drag = in_drag_;
   const auto handle = simulation.last_handle()->elements();
   record_.handle.assign(handle.begin(), handle.end());
   record_.conditions = conditions_;

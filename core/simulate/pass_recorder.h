@@ -43,6 +43,7 @@ class PassRecorder {
   // Used only by the simulation's thread:
   bool runs_ = false;  // between begin and end of a command that may be a pass
   std::uint64_t passes_ = 0;
+  std::uint64_t in_drag_ = 0;  // number of passes since the last grab
   Trace trace_;
   ElementBlocks pending_;  // blocks that changed since record_.before was copied
   std::shared_ptr<const PassConditions> conditions_;

@@ -38,6 +38,10 @@ constexpr std::array left{Monkey::Left{"openFile", asks},
                           Monkey::Left{"saveMoves", asks},
                           Monkey::Left{"savePictures", asks},
                           Monkey::Left{"saveVideo", "asks where, and runs another program"},
+                          Monkey::Left{"savePassPictures", asks},
+                          Monkey::Left{"savePassVideo", "asks where, and runs another program"},
+                          Monkey::Left{"filmSize", "asks for a size, in a dialog that waits for an answer"},
+                          Monkey::Left{"pictureOwnSize", "asks for a size, in a dialog that waits for an answer"},
                           Monkey::Left{"quit", "closes the window"}};
 
 bool isLeft(const QAction& action) {

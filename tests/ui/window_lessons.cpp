@@ -3,7 +3,10 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
 #include <QPushButton>
+#include <QToolButton>
 #include <cmath>
 
 #include "common/colours.h"
@@ -149,6 +152,14 @@ class WindowLessons : public QObject {
   void theHandleIsMarkedAfterItsDrag();
   void figuresOfAWholePassSaySo();
   void theEndLeadsToTheNextLesson();
+  void pageDownLeadsThroughAllLessons();
+  void theNameOfTheNextLessonFitsANarrowBar();
+  void undoMovesTheCaption();
+  void aLessonIsWrittenInTheWindow();
+  void stepsAreOrderedAndRemoved();
+  void aLessonOfTheMenuIsEditedAsACopy();
+  void textsThatNoFileHoldsAreNotTaken();
+  void aStepNeedsTheMovesOfTheLesson();
   void theBarKeepsItsHeight();
   void theHintsAreHiddenDuringALesson();
   void theNextObjectHasTheColoursOfBefore();
@@ -376,6 +387,232 @@ void WindowLessons::theEndLeadsToTheNextLesson() {
   QVERIFY(bench.window.lessons().bar().isHidden());
 }
 
+void WindowLessons::pageDownLeadsThroughAllLessons() {
+  Workbench& bench = shared();
+  const auto title = [&] { return QString::fromStdString(player(bench).lesson().title); };
+  const auto number = [&] { return bench.find<QLabel>("lessonStep")->text(); };
+  const auto press = [&](Qt::Key key) {
+    QTest::keyClick(&bench.window, key);
+    bench.settle();
+    awaitStep(bench);
+  };
+  bench.window.resize(1500, 600);  // the bar has room for it
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());  // it is the first lesson
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  QCOMPARE(number(), QStringLiteral("Step 4 of 4 · PgDown: next lesson"));
+  press(Qt::Key_PageDown);
+  QCOMPARE(title(), QStringLiteral("The waiting list, step by step"));
+  QCOMPARE(player(bench).step(), std::size_t{0});
+  QCOMPARE(number(), QStringLiteral("Step 1 of 5 · PgUp: lesson before"));
+  press(Qt::Key_PageUp);
+  QCOMPARE(title(), QStringLiteral("Why order matters"));
+  QVERIFY(player(bench).isLast());  // as if nothing but the last key had been pressed
+  QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps.back().until);
+  open(bench, pathOf("face.chainmail"));
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  QVERIFY(!number().contains(QStringLiteral("next lesson")));
+  QVERIFY(!bench.find<QAction>("lessonNext")->isEnabled());
+  bench.window.resize(900, 600);
+}
+
+void WindowLessons::theNameOfTheNextLessonFitsANarrowBar() {
+  Workbench& bench = shared();
+  open(bench, pathOf("organ.chainmail"));
+  while (!player(bench).isLast()) {
+    next(bench);
+  }
+  const int least = bench.window.minimumSizeHint().width();
+  bench.trigger("lectureMode");
+  bench.window.showNormal();
+  bench.window.resize(900, 600);
+  bench.settle();
+  QVERIFY2(bench.window.width() <= 900, qPrintable(QString::number(bench.window.width())));
+  bench.trigger("lectureMode");
+  bench.window.resize(900, 600);
+  bench.settle();
+  QCOMPARE(bench.window.minimumSizeHint().width(), least);
+}
+
+void WindowLessons::undoMovesTheCaption() {
+  Workbench& bench = shared();
+  const auto caption = [&] { return bench.find<QLabel>("lessonText")->text(); };
+  const auto textOf = [&](std::size_t step) { return QString::fromStdString(player(bench).lesson().steps[step].text); };
+  const auto undo = [&] {
+    bench.trigger("undo");
+    bench.settle();
+  };
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  next(bench);
+  undo();  // all steps in a row are one step of undo
+  QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
+  QCOMPARE(caption(), textOf(0));
+  bench.trigger("redo");
+  bench.settle();
+  QCOMPARE(caption(), textOf(2));
+  disturb(bench);
+  QCOMPARE(caption(), textOf(2));
+  next(bench);
+  QCOMPARE(caption(), textOf(3));
+  undo();
+  QCOMPARE(caption(), textOf(2));  // the drag is still there
+  undo();
+  QCOMPARE(caption(), textOf(2));
+  undo();
+  QCOMPARE(caption(), textOf(0));
+  next(bench);
+  QCOMPARE(caption(), textOf(1));
+  QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps[1].until);
+}
+
+/// Types into a field, as a user does.
+template <class Field>
+void type(Workbench& bench, const char* name, const QString& text) {
+  auto* field = bench.find<Field>(name);
+  field->setFocus();
+  field->selectAll();
+  QTest::keyClicks(field, text);
+}
+
+void WindowLessons::aLessonIsWrittenInTheWindow() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("own.chainmail"));
+  Workbench& bench = shared();
+  auto* editor = bench.find<QWidget>("lessonEditor");
+  bench.trigger("colourBy-violation");
+  bench.trigger("lessonNew");
+  QVERIFY(player(bench).isOpen() && editor->isVisible());
+  QVERIFY(!bench.find<QLabel>("lessonText")->isVisible());
+  type<QLineEdit>(bench, "lessonTitleField", QStringLiteral("My lesson"));
+  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("At rest."));
+  disturb(bench);
+  bench.trigger("lessonAddStep");
+  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("A pull"));
+  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("The others follow."));
+  QTest::mouseClick(bench.find<QToolButton>("lessonDone"), Qt::LeftButton);
+  QVERIFY(!editor->isVisible());
+  QCOMPARE(bench.find<QLabel>("lessonText")->text(), QStringLiteral("The others follow."));
+  const State pulled = stateOf(bench);
+  back(bench);
+  QCOMPARE(bench.find<QLabel>("lessonText")->text(), QStringLiteral("At rest."));
+  QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
+  bench.window.sessions().savePath(path);
+  bench.settle();
+  shared();
+  open(bench, path);
+  const Lesson& lesson = player(bench).lesson();
+  QCOMPARE(lesson.title, std::string("My lesson"));
+  QCOMPARE(lesson.steps.size(), std::size_t{2});
+  QCOMPARE(lesson.steps[1].title, std::string("A pull"));
+  QCOMPARE(lesson.steps[0].colour, std::string("violation"));
+  QCOMPARE(player(bench).step(), std::size_t{0});
+  next(bench);
+  QVERIFY(stateOf(bench) == pulled);
+}
+
+void WindowLessons::stepsAreOrderedAndRemoved() {
+  Workbench& bench = shared();
+  const auto titles = [&] {
+    QStringList all;
+    for (const LessonStep& step : player(bench).lesson().steps) {
+      all << QString::fromStdString(step.title);
+    }
+    return all.join(QLatin1Char(' '));
+  };
+  bench.trigger("lessonNew");
+  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("A"));
+  bench.trigger("lessonAddStep");  // at the same position
+  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("B"));
+  disturb(bench);
+  bench.trigger("lessonAddStep");
+  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("C"));
+  QCOMPARE(titles(), QStringLiteral("A B C"));
+  QVERIFY(!bench.find<QAction>("lessonMoveLater")->isEnabled());
+  const std::size_t until = player(bench).lesson().steps[2].until;
+  bench.trigger("lessonMoveEarlier");
+  QCOMPARE(titles(), QStringLiteral("A C B"));
+  QCOMPARE(player(bench).step(), std::size_t{1});
+  QCOMPARE(player(bench).lesson().steps[2].until, until);  // positions never fall
+  QCOMPARE(player(bench).lesson().steps[1].until, std::size_t{0});
+  bench.trigger("undo");
+  QCOMPARE(titles(), QStringLiteral("A B C"));
+  bench.trigger("redo");
+  bench.trigger("lessonRemoveStep");
+  QCOMPARE(titles(), QStringLiteral("A B"));
+  bench.trigger("lessonRemoveStep");
+  QCOMPARE(titles(), QStringLiteral("B"));
+  bench.trigger("lessonRemoveStep");
+  QVERIFY(!player(bench).isOpen() && bench.window.lessons().bar().isHidden());
+  bench.trigger("undo");
+  QVERIFY(player(bench).isOpen());
+  QCOMPARE(titles(), QStringLiteral("B"));
+  bench.settle();
+}
+
+void WindowLessons::aLessonOfTheMenuIsEditedAsACopy() {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("copy.chainmail"));
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  QVERIFY(!bench.document().isModified());
+  bench.trigger("lessonEdit");
+  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("My words."));
+  QVERIFY(bench.document().isModified());
+  bench.trigger("undo");  // typing is one step
+  QCOMPARE(bench.document().undoStack().index(), 1);
+  QVERIFY(player(bench).lesson().steps[0].text != "My words.");
+  QCOMPARE(bench.find<QPlainTextEdit>("lessonCaptionField")->toPlainText(),
+           QString::fromStdString(player(bench).lesson().steps[0].text));
+  bench.trigger("redo");
+  bench.trigger("lessonEdit");
+  next(bench);
+  const State state = stateOf(bench);
+  back(bench);
+  bench.window.sessions().savePath(path);
+  bench.settle();
+  open(bench, path);
+  QCOMPARE(player(bench).lesson().steps[0].text, std::string("My words."));
+  next(bench);
+  QVERIFY(stateOf(bench) == state);
+}
+
+void WindowLessons::textsThatNoFileHoldsAreNotTaken() {
+  Workbench& bench = shared();
+  bench.trigger("lessonNew");
+  auto* field = bench.find<QLineEdit>("lessonStepTitleField");
+  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("Title"));
+  field->selectAll();
+  QTest::keyClick(field, Qt::Key_Delete);
+  QCOMPARE(player(bench).lesson().steps[0].title, std::string("Title"));
+  QTest::keyClick(field, Qt::Key_Return);
+  QCOMPARE(field->text(), QStringLiteral("Title"));
+  auto* caption = bench.find<QPlainTextEdit>("lessonCaptionField");
+  const std::string before = player(bench).lesson().steps[0].text;
+  caption->setPlainText(QString(5000, QLatin1Char('x')));
+  QCOMPARE(player(bench).lesson().steps[0].text, before);
+  bench.trigger("lessonEdit");
+}
+
+void WindowLessons::aStepNeedsTheMovesOfTheLesson() {
+  Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  disturb(bench);  // replaces the moves of the steps that follow
+  bench.trigger("lessonEdit");
+  const std::size_t steps = player(bench).lesson().steps.size();
+  bench.trigger("lessonAddStep");
+  QCOMPARE(player(bench).lesson().steps.size(), steps);
+  QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("not those of the lesson")),
+           qPrintable(bench.window.messages().sentence()));
+  bench.window.messages().clear();
+  bench.trigger("lessonEdit");
+}
+
 void WindowLessons::theBarKeepsItsHeight() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
@@ -502,7 +739,7 @@ void WindowLessons::aLessonReplacesNoWork() {
   for (int round = 0; round < 16; ++round) {
     player(bench).isLast() ? back(bench) : next(bench);
   }
-  while (bench.document().lesson()) {
+  while (bench.document().lesson().session) {
     QVERIFY(bench.document().undoStack().canUndo());
     bench.document().undo();
   }

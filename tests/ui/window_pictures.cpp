@@ -1,12 +1,18 @@
 // Tests pictures of the window and its parts, copied and saved, in a real window.
 
+#include <QCheckBox>
 #include <QClipboard>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
 #include <QPainter>
+#include <QSpinBox>
 #include <QSvgRenderer>
 
 #include "common/colours.h"
 #include "document/edits.h"
 #include "io/picture_actions.h"
+#include "io/picture_size.h"
 #include "io/pictures.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -208,6 +214,80 @@ class WindowPictures : public QObject {
     QImage empty(wider.size(), QImage::Format_RGB32);
     empty.fill(Qt::white);
     QCOMPARE(wider, empty);
+  }
+
+  /// On white, in the colours of the light theme, and without the boxes and buttons of the heads.
+  void aPictureOfThePanelsIsAFigure() {
+    Workbench bench;
+    bench.dragFar();
+    bench.trigger("colourBy-violation");
+    bench.settleFigures();
+    bench.trigger("pictureOfPanels");
+    const QString path = folder_.filePath(QStringLiteral("figure.png"));
+    pictures(bench).savePath(path);
+    bench.settle();
+    const QImage figure = plain(QImage(path));
+    auto& area = bench.window.area();
+    QCOMPARE(figure.size(), area.size() * bench.window.devicePixelRatioF());
+    auto& panel = bench.window.panel(0);
+    const auto within = [&](const QWidget& part) { return QRect(part.mapTo(&area, QPoint()), part.size()); };
+    const auto lit = [&](const QRect& part) { return drawn(figure.copy(part), QColor(Qt::white).rgb()); };
+    const QRect head = within(panel.head());
+    QVERIFY(lit(within(bench.view(0))) > 0.005);  // the object
+    QVERIFY(lit(within(panel.legend())) > 0.005);
+    QVERIFY(lit(head) > 0.005);
+    QCOMPARE(lit(QRect(head.right() - head.width() / 3, head.top(), head.width() / 3, head.height())), 0.0);
+    QCOMPARE(figure.pixelColor(head.topLeft() + QPoint(1, 1)), QColor(Qt::white));
+    QVERIFY(plain(area.grab().toImage()).pixelColor(head.topLeft() + QPoint(1, 1)) != QColor(Qt::white));
+  }
+
+  void aPictureHasTheWidthThatIsChosen() {
+    Workbench bench;
+    bench.trigger("pictureOfPanels");
+    const auto chooseSize = [&](double width, const QString& unit, int dpi) {
+      QTimer::singleShot(0, &bench.window, [&] {
+        auto* dialog = QApplication::activeModalWidget();
+        QVERIFY(dialog != nullptr);
+        dialog->findChild<QComboBox*>(QStringLiteral("pictureUnit"))->setCurrentText(unit);
+        dialog->findChild<QDoubleSpinBox*>(QStringLiteral("pictureWidth"))->setValue(width);
+        dialog->findChild<QSpinBox*>(QStringLiteral("pictureDpi"))->setValue(dpi);
+        qobject_cast<QDialog*>(dialog)->accept();
+      });
+      bench.trigger("pictureOwnSize");
+    };
+    chooseSize(1000, QStringLiteral("pixels"), 96);
+    const QString png = folder_.filePath(QStringLiteral("sized.png"));
+    pictures(bench).savePath(png);
+    bench.settle();
+    QCOMPARE(QImage(png).width(), 1000);
+    chooseSize(80, QStringLiteral("mm"), 300);
+    pictures(bench).savePath(png);
+    bench.settle();
+    QCOMPARE(QImage(png).width(), 945);  // 80 mm / 25.4 mm * 300
+    QCOMPARE(QImage(png).dotsPerMeterX(), 11811);
+    QVERIFY(bench.find<QAction>("pictureOwnSize")->text().contains(QStringLiteral("80 mm at 300 dpi")));
+    const QString svg = folder_.filePath(QStringLiteral("sized.svg"));
+    pictures(bench).savePath(svg);
+    bench.settle();
+    QFile file(svg);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QVERIFY(file.readAll().contains("width=\"80mm\""));
+    const Workbench again;
+    QVERIFY(again.window.findChild<QAction*>(QStringLiteral("pictureOwnSize"))->isChecked());
+  }
+
+  void theDialogOfTheSizeSaysHowManyPixels() {
+    PictureSizeDialog dialog(nullptr, QStringLiteral("Size"), {160, true, 300}, {1000, 500});
+    const auto text = [&] { return dialog.findChild<QLabel*>(QStringLiteral("picturePixels"))->text(); };
+    QCOMPARE(text(), QStringLiteral("1,890 × 945 pixels, 160.0 mm wide in print"));
+    auto* unit = dialog.findChild<QComboBox*>(QStringLiteral("pictureUnit"));
+    unit->setCurrentIndex(0);  // the same size in the other unit
+    QCOMPARE(dialog.chosen().width, 1890.0);
+    unit->setCurrentIndex(1);
+    QCOMPARE(dialog.chosen().width, 160.0);
+    dialog.findChild<QCheckBox*>(QStringLiteral("pictureAsOnScreen"))->setChecked(true);
+    QVERIFY(dialog.chosen().asOnScreen());
+    QCOMPARE(text().section(QLatin1Char(','), 0, 1), QStringLiteral("1,000 × 500 pixels"));
   }
 
   void drawingsOfPanelsSayWhatTheyShow() {

@@ -198,6 +198,59 @@ class WindowPropagation : public QObject {
     QTRY_COMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
   }
 
+  /// The numbers of elements are never shortened, also in many panels of a large mesh and with large texts.
+  void numbersInTheListsAreWhole_data() {
+    QTest::addColumn<bool>("lecture");
+    QTest::newRow("usual texts") << false;
+    QTest::newRow("large texts") << true;
+  }
+  void numbersInTheListsAreWhole() {
+    QFETCH(bool, lecture);
+    Workbench bench(generate({MeshKind::grid, {320, 320, 1}, 1, {}}));
+    bench.trigger("addPanel");
+    bench.trigger("addPanel");
+    QTest::keyClick(&bench.window, Qt::Key_O);
+    bench.settle();
+    if (lecture) {
+      bench.trigger("lectureMode");
+      bench.find<QDockWidget>("propagationDock")->show();
+    }
+    bench.settle();
+    for (int panel = 0; panel < bench.document().panels(); ++panel) {
+      auto* view = bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)));
+      QFont bold = view->font();
+      bold.setBold(true);
+      const QFontMetrics metrics(bold);
+      const int number = metrics.horizontalAdvance(QStringLiteral("102399"));
+      QVERIFY(view->columnWidth(0) >= number + view->iconSize().width() + 2 * 4);
+      QVERIFY(view->columnWidth(1) >= number + 2 * 4);
+      QVERIFY(view->columnWidth(2) >= metrics.horizontalAdvance(QStringLiteral("dropped")) + 2 * 4);
+      QCOMPARE(view->textElideMode(), Qt::ElideNone);
+      const int all = view->columnWidth(0) + view->columnWidth(1) + view->columnWidth(2);
+      QVERIFY(all <= view->viewport()->width() || view->horizontalScrollBarPolicy() != Qt::ScrollBarAlwaysOff);
+    }
+    if (lecture) {
+      bench.trigger("lectureMode");
+    }
+  }
+
+  void passesCountFromTheDrag() {
+    Workbench bench;
+    openAndDrag(bench);
+    openAnotherPass(bench);
+    const auto note = [&] { return bench.find<QLabel>("state1")->toolTip(); };
+    bench.settleFigures();
+    QTRY_VERIFY2(note().contains(QStringLiteral("pass 1")), qPrintable(note()));
+    bench.document().handle().grab(middle);
+    for (int i = 1; i <= 3; ++i) {
+      bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(i, 0, 0));
+      bench.settle();  // so that each is a separate pass
+    }
+    bench.document().handle().release();
+    bench.settleFigures();
+    QTRY_VERIFY2(note().contains(QStringLiteral("pass 3")), qPrintable(note()));
+  }
+
   void aPassThatComesLateJoinsTheSteps() {
     Workbench bench;
     openAndDrag(bench);

@@ -605,6 +605,49 @@ class WindowReplay : public QObject {
     QCOMPARE(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).size(), 7);
   }
 
+  void aFilmHasASizeOfItsOwn() {
+    Workbench bench;
+    workInFewMoves(bench);
+    const QTemporaryDir folder;
+    QSignalSpy saved(dock(bench), &ReplayDock::saved);
+    dock(bench)->setFilmSize({640, false, 96});
+    dock(bench)->saveFilm(folder.path());
+    QVERIFY(saved.wait(30'000));
+    QCOMPARE(QImage(folder.filePath(QStringLiteral("move-000001.png"))).width(), 640);
+    dock(bench)->setFilmSize({});
+    QVERIFY(bench.find<QAction>("filmSize")->text().contains(QStringLiteral("as on the screen")));
+  }
+
+  void aFilmShowsAPassCandidateByCandidate() {
+    Workbench bench;
+    const QTemporaryDir folder;
+    QSignalSpy failed(dock(bench), &ReplayDock::failed);
+    dock(bench)->savePass(folder.path());
+    QCOMPARE(failed.size(), 1);  // there is no pass
+    bench.trigger("showPropagation");
+    bench.document().handle().grab(31);
+    bench.document().handle().drag(bench.document().mesh()->rest_position(31) + Point(1.5, 1, 0));
+    bench.document().handle().release();
+    bench.settle();
+    QTRY_VERIFY(bench.find<QAction>("passBack")->isEnabled());
+    const int steps = std::max(bench.find<QSlider>("propagationStep0")->maximum(),
+                               bench.find<QSlider>("propagationStep1")->maximum());
+    QVERIFY(steps > 2);
+    QSignalSpy saved(dock(bench), &ReplayDock::saved);
+    dock(bench)->savePass(folder.path());
+    QVERIFY(saved.wait(60'000));
+    const QStringList names = QDir(folder.path()).entryList({QStringLiteral("*.png")}, QDir::Files, QDir::Name);
+    QCOMPARE(names.size(), qsizetype(steps) + 1);
+    const Scene scene(bench);
+    QImage before;
+    for (const QString& name : names) {
+      const QImage picture = scene.views_of(QImage(folder.filePath(name)));
+      QVERIFY2(picture != before, qPrintable(name));  // each candidate has an arrow
+      before = picture;
+    }
+    QVERIFY(bench.find<QAction>("passFollow")->isChecked());
+  }
+
   void aVideoShowsEveryMoveInItsOrder() {
     QVERIFY2(Film::canMakeVideos(), "ffmpeg was not found; install the package ffmpeg");
     Workbench bench;

@@ -5,15 +5,19 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenu>
+#include <QMenuBar>
 #include <QPainter>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeView>
 #include <cmath>
 #include <limits>
 
 #include "document/edits.h"
+#include "io/samples.h"
 #include "panels/algorithm_delegate.h"
 #include "panels/colour_selector.h"
 #include "panels/legend.h"
@@ -305,6 +309,106 @@ class WindowWords : public QObject {
     QVERIFY(bench.find<QDockWidget>("toolsDock")->isVisible());
     QTRY_COMPARE(bench.window.size(), size);
     QCOMPARE(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize(), letters);
+  }
+
+  void inLectureModeTheLastRowReadsEverything() {
+    Workbench bench;
+    bench.open(lessonsFolder() + QStringLiteral("/waiting-list.chainmail"));
+    auto* caption = bench.find<QLabel>("lessonText");
+    auto* alone = bench.find<QToolButton>("aloneButton0");
+    auto* list = bench.find<QTreeView>("waitingList0");
+    const int letters = caption->fontInfo().pixelSize(), ofList = list->fontInfo().pixelSize();
+    const QSize icons = alone->iconSize();
+    const QSize button = bench.find<QPushButton>("lessonNextButton")->sizeHint();
+    bench.trigger("lectureMode");
+    bench.settle();
+    constexpr int least = 24;  // pixels
+    for (const char* name : {"lessonText", "lessonStep", "lessonTitle", "readout", "lectureTool", "state0"}) {
+      QVERIFY2(bench.find<QLabel>(name)->fontInfo().pixelSize() >= least, name);
+    }
+    const Panel& panel = bench.window.panel(0);
+    QVERIFY(caption->fontInfo().pixelSize() >= panel.fontInfo().pixelSize());
+    QVERIFY(caption->height() >= caption->heightForWidth(caption->width()));  // nothing is cut off
+    QVERIFY(bench.find<ViolationLine>("violation0")->fontInfo().pixelSize() >= least);
+    QVERIFY(bench.find<Legend>("legend0")->fontInfo().pixelSize() >= least);
+    QVERIFY(list->fontInfo().pixelSize() >= least);
+    QVERIFY(alone->iconSize().width() > 1.5 * icons.width());
+    QVERIFY(bench.find<QPushButton>("lessonNextButton")->height() > button.height());
+    bench.trigger("addPanel");
+    bench.settle();
+    QVERIFY(bench.find<QToolButton>("aloneButton2")->iconSize() == alone->iconSize());
+    bench.trigger("removePanel");
+    bench.trigger("lectureMode");
+    bench.settle();
+    QCOMPARE(caption->fontInfo().pixelSize(), letters);
+    QCOMPARE(list->fontInfo().pixelSize(), ofList);
+    QCOMPARE(alone->iconSize(), icons);
+    QCOMPARE(bench.find<QPushButton>("lessonNextButton")->sizeHint(), button);
+  }
+
+  void inLectureModeLinksAreTwiceAsWide() {
+    Workbench bench(generate({MeshKind::grid, {2, 2, 1}, 1, {}}));
+    const auto wide = [&] {
+      const QImage picture = bench.view(0).grabFramebuffer();
+      const QPointF middle = (bench.view(0).viewPosition(0) + bench.view(0).viewPosition(1)) / 2;
+      const int x = int(middle.x()), y = int(middle.y());
+      int lit = 0;  // sum over the pixels across the link
+      for (int dy = -8; dy <= 8; ++dy) {
+        lit += std::abs(qGray(picture.pixel(x, y + dy)) - qGray(picture.pixel(x, y + 20)));
+      }
+      return lit;
+    };
+    const int usual = wide();
+    QVERIFY(usual > 0);
+    bench.trigger("lectureMode");
+    bench.settle();
+    QVERIFY2(wide() > 1.6 * usual, qPrintable(QStringLiteral("%1 after %2").arg(wide()).arg(usual)));
+    bench.trigger("lectureMode");
+    bench.settle();
+    QCOMPARE(wide(), usual);
+  }
+
+  void inLectureModeKeysWorkWithoutTheMenus() {
+    Workbench bench;
+    QVERIFY(bench.window.menuBar()->isVisible());
+    const QList<QAction*> actions = bench.window.actions();
+    QTest::keyClick(&bench.view(0), Qt::Key_F11);
+    bench.settle();
+    QVERIFY(!bench.window.menuBar()->isVisible());
+    QTest::keyClick(&bench.view(0), Qt::Key_P);
+    QVERIFY(bench.find<QAction>("toolPin")->isChecked());
+    QTest::keyClick(&bench.view(0), Qt::Key_I);
+    QVERIFY(bench.find<QAction>("showFigures")->isChecked());
+    QTest::keyClick(&bench.view(0), Qt::Key_N);  // a submenu has it
+    bench.settle();
+    QCOMPARE(bench.document().panels(), 3);
+    QTest::keyClick(&bench.view(0), Qt::Key_Escape);
+    bench.settle();
+    QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());
+    QVERIFY(bench.window.menuBar()->isVisible());
+    QCOMPARE(bench.window.actions(), actions);
+    QTest::keyClick(&bench.view(0), Qt::Key_F11);
+    QTest::keyClick(&bench.view(0), Qt::Key_F11);
+    bench.settle();
+    QVERIFY(bench.window.menuBar()->isVisible());
+  }
+
+  void aHintShowsWholePartsThatHaveRoom() {
+    Workbench bench;
+    auto* readout = bench.find<QLabel>("readout");
+    QTRY_VERIFY(readout->text().contains(QStringLiteral("Wheel")));
+    bench.trigger("lectureMode");
+    bench.window.showNormal();
+    bench.window.resize(900, 600);
+    bench.settle();
+    const QString text = readout->text();
+    QVERIFY2(readout->fontMetrics().horizontalAdvance(text) <= readout->width(), qPrintable(text));
+    QVERIFY(!text.contains(QStringLiteral("Wheel")));
+    bench.window.resize(1300, 600);
+    bench.settle();
+    QTRY_VERIFY2(readout->text().startsWith(QStringLiteral("Left: drag")), qPrintable(readout->text()));
+    QVERIFY(!readout->text().contains(QStringLiteral("Wheel")));
+    bench.trigger("lectureMode");
   }
 
   void aNarrowToolBarShowsIconsAndColourByStays_data() {

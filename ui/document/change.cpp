@@ -9,7 +9,6 @@ std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const Mes
   auto result = std::make_shared<DocumentObject>(mesh, object.name);
   result->unsplit = object.unsplit;
   result->file = object.file;
-  result->lesson = object.lesson;
   result->before = object.before;
   result->parts.cut(result->cuts, cuts);
   result->pins = std::move(pins);

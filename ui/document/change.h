@@ -12,6 +12,7 @@
 
 namespace chainmail {
 
+struct Lesson;
 struct Session;
 
 /// The settings that a lesson replaces while it is open.
@@ -35,8 +36,16 @@ struct DocumentObject {
   Cuts cuts;
   Parts parts;                                        // connected parts of the object with these cuts
   std::vector<ElementId> pins;                        // ascending
-  std::shared_ptr<const Session> lesson = {};         // the session that it was opened from, if that is a lesson
-  std::shared_ptr<const SettingsBefore> before = {};  // of a lesson
+  std::shared_ptr<const SettingsBefore> before = {};  // of a lesson that was opened
+};
+
+/// The lesson of an object, if it is one. Captions and step change alone, so that they are small.
+struct OpenLesson {
+  std::shared_ptr<const Session> session = {};  // the moves of the lesson; null: the object is no lesson
+  std::shared_ptr<const Lesson> captions = {};  // null if the session is
+  std::size_t step = 0;                         // index of the step to which the object was led last
+
+  bool operator==(const OpenLesson&) const = default;
 };
 
 /// Returns a copy of an object with another mesh, from before or after splits, and with these cuts and pins.
@@ -49,6 +58,7 @@ struct Contents {
   static constexpr int minPanels = 2, maxPanels = 4;
 
   std::shared_ptr<DocumentObject> object;
+  OpenLesson lesson;
   std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;

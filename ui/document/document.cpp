@@ -27,6 +27,7 @@ void replaceValues(Contents& present, const Contents& from, const Contents& to, 
     }
   };
   replace(&Contents::object);
+  replace(&Contents::lesson);
   replace(&Contents::softness);
   replace(&Contents::relaxation);
   replace(&Contents::elastic);
@@ -40,6 +41,9 @@ void replaceValues(Contents& present, const Contents& from, const Contents& to, 
 void emitSignals(Document& document, const Contents& from, const Contents& to, const std::vector<int>& panels) {
   if (from.object != to.object) {
     Application::guarded([&] { emit document.meshChanged(); });
+  }
+  if (from.lesson != to.lesson) {
+    Application::guarded([&] { emit document.lessonChanged(); });
   }
   if (from.softness != to.softness) {
     Application::guarded([&] { emit document.softnessChanged(); });

@@ -46,8 +46,8 @@ class Document : public QObject {
   const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
   const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
   const ElasticOptions& elastic() const { return contents_.elastic; }
-  /// The session of the object, if it is a lesson; otherwise null.
-  const std::shared_ptr<const Session>& lesson() const { return contents_.object->lesson; }
+  /// The lesson of the object; without a session if the object is none.
+  const OpenLesson& lesson() const { return contents_.lesson; }
 
   // Its parts.
 
@@ -95,6 +95,8 @@ class Document : public QObject {
   /// A panel was added or removed.
   void panelsChanged();
   void meshChanged();
+  /// Another lesson, other captions or another step of them belong to the object.
+  void lessonChanged();
   /// These links were cut, or restored if `cut` is false.
   void cutsChanged(const std::vector<LinkId>& links, bool cut);
   void softnessChanged();

@@ -9,6 +9,7 @@
 #include "common/held_memory.h"
 #include "common/text.h"
 #include "document/document.h"
+#include "document/lesson_steps.h"
 #include "files/session/session.h"
 #include "mesh/error.h"
 
@@ -73,6 +74,7 @@ Change meshChange(const Document& document, const MeshPointer& mesh, const QStri
   Change edit = document.change(text);
   takeOwnSettings(edit.after);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
+  edit.after.lesson = {};
   Softness kept = kept_for(*mesh, *edit.after.softness);
   kept.links = std::move(own);
   if (kept != *edit.after.softness) {
@@ -228,6 +230,14 @@ void resetObject(Document& document) {
   document.apply(std::move(edit));
 }
 
+void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture) {
+  if (lesson != document.lesson()) {
+    Change edit = document.change(text, gesture);
+    edit.after.lesson = lesson;
+    document.apply(std::move(edit));
+  }
+}
+
 void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                  OwnSoftness own) {
   Change edit = meshChange(document, mesh, name, text, std::move(own));
@@ -250,8 +260,10 @@ void restore(Document& document, const std::shared_ptr<const Session>& session, 
   auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
   object->parts.cut(object->cuts, session->cuts);
   object->pins = session->pins;
+  edit.after.lesson = {};
   if (!session->lesson.steps.empty()) {
-    object->lesson = session;
+    edit.after.lesson = {session, std::shared_ptr<const Lesson>(session, &session->lesson),
+                         stepAt(session->lesson, session->moves_done)};
     object->before = ownSettings(edit.after);
   }
   object->unsplit = first_mesh(*session);

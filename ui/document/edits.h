@@ -36,6 +36,9 @@ void cut(Document& document, const std::vector<LinkId>& links);
 void split(Document& document, const SplitPointer& split, const std::vector<LinkId>& cut = {});
 void resetObject(Document& document);
 
+/// Gives the object another lesson, other captions or another step of them; without a session, it has no lesson.
+void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture = 0);
+
 /// Opens another object: a new document, which has no file yet. `own` contains the softness of links that have their
 /// own. Throws Error if there is too little memory to work with it; nothing has changed then.
 void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,

@@ -19,12 +19,12 @@ LessonPlayer::LessonPlayer(Document& document, Propagation& propagation)
     : document_(document), propagation_(propagation) {
   clock_.setTimerType(Qt::PreciseTimer);
   connect(&clock_, &QTimer::timeout, this, &LessonPlayer::tick);
-  connect(&document, &Document::meshChanged, this, &LessonPlayer::adopt);
+  connect(&document, &Document::lessonChanged, this, &LessonPlayer::adopt);
 }
 
 const Lesson& LessonPlayer::lesson() const {
   static const Lesson none{{}, {LessonStep()}};
-  return session_ ? session_->lesson : none;
+  return session_ ? *captions_ : none;
 }
 
 const std::string& LessonPlayer::name(std::string LessonStep::*which) const {
@@ -36,32 +36,32 @@ const std::string& LessonPlayer::name(std::string LessonStep::*which) const {
   return steps[from].*which;
 }
 
-/// Takes over the lesson of a new object, or of one that an undo brought back.
+/// Takes over the lesson of a new object, its captions after an edit, and the step to which an undo returned.
 void LessonPlayer::adopt() {
   if (travels_) {
-    return;  // the moves of the lesson split the object
+    return;  // the player itself leads to another step
   }
   clock_.stop();
-  session_ = document_.lesson() == closed_ ? nullptr : document_.lesson();
-  step_ = session_ ? stepAt(document_.moves().history().position()) : 0;
+  const OpenLesson& lesson = document_.lesson();
+  const bool sameCaptions = isOpen() && lesson.session == session_ && lesson.captions == captions_;
+  session_ = lesson.session == closed_ ? nullptr : lesson.session;
+  captions_ = lesson.captions;
+  step_ = session_ ? std::min(lesson.step, captions_->steps.size() - 1) : 0;
+  position_ = document_.moves().history().position();
   dragged_.clear();
-  emit openChanged();
-}
-
-/// Returns the first of the steps that end at or just before a position in the moves.
-std::size_t LessonPlayer::stepAt(std::size_t position) const {
-  const auto& steps = lesson().steps;
-  std::size_t step = 0;
-  for (std::size_t i = 1; i < steps.size(); ++i) {
-    step = steps[i].until <= position && steps[i].until > steps[step].until ? i : step;
-  }
-  return step;
+  sameCaptions ? emit stepChanged() : emit openChanged();
 }
 
 void LessonPlayer::start() {
   const auto atRest = [](const auto& panel) { return panel.positions.is_at_rest(); };
   if (isOpen() && session_->moves_done == 0 && std::ranges::all_of(session_->panels, atRest)) {
     show(0, true);
+  }
+}
+
+void LessonPlayer::goToEnd() {
+  if (isOpen()) {
+    show(lesson().steps.size() - 1, false);
   }
 }
 
@@ -126,7 +126,7 @@ void LessonPlayer::goTo(std::size_t position, bool withPass) {
 
 void LessonPlayer::travel(std::size_t position) {
   const QScopedValueRollback guard(travels_, true);
-  document_.moves().goToInLesson(position, algorithms(step_));
+  document_.moves().goToInLesson(position, algorithms(step_), step_);
 }
 
 /// Returns the position at which the moves of the present step begin. A step without moves has those of the step
@@ -258,6 +258,7 @@ bool LessonPlayer::passesAreComplete() const {
 void LessonPlayer::end(bool complete) {
   clock_.stop();
   if (complete) {
+    document_.moves().noteLessonStep(step_);
     emit movesEnd(animated_);
   }
   emit playsChanged();

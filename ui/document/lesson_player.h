@@ -13,6 +13,7 @@ namespace chainmail {
 
 /// Leads through the lesson of a document, step by step. A step forward plays its recorded moves; a step back restores
 /// the state at the end of the step before, to the bit. Both start from the lesson's own state, whatever the user did.
+/// An undo also returns to the step that fits the object.
 class LessonPlayer : public QObject {
   Q_OBJECT
 
@@ -42,6 +43,8 @@ class LessonPlayer : public QObject {
   void next();
   /// Goes to the end of the step before.
   void back();
+  /// Goes to the end of the last step.
+  void goToEnd();
   void close();
 
  signals:
@@ -58,7 +61,6 @@ class LessonPlayer : public QObject {
 
  private:
   void adopt();
-  std::size_t stepAt(std::size_t position) const;
   void show(std::size_t step, bool animated);
   void tick();
   void playMoves();
@@ -76,6 +78,7 @@ class LessonPlayer : public QObject {
   Document& document_;
   Propagation& propagation_;
   std::shared_ptr<const Session> session_;  // of the lesson; null while none is open
+  std::shared_ptr<const Lesson> captions_;  // of the session
   std::shared_ptr<const Session> closed_;   // the lesson that the user closed
   std::size_t step_ = 0;
   std::size_t position_ = 0;        // in the recorded moves, while playing

@@ -39,7 +39,7 @@ void MovePlayer::open(const Session& session) {
   log.flush();  // to the history that is replaced below
   log.history().load(hasMoves ? session.moves : object);
   log.history().go_to(hasMoves ? session.moves_done : object.size());
-  lessonTimeline_ = history().timeline();
+  noteRecorded(&session);
   replayed_ = hasMoves && startsFromRest(session);
 }
 
@@ -125,14 +125,14 @@ void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, 
 }
 
 bool MovePlayer::recordsLesson() const {
-  return document_.lesson() && history().timeline() == lessonTimeline_ &&
-         history().length() >= document_.lesson()->moves.size();
+  return document_.lesson().session && document_.lesson().session.get() == lessonRecorded_ &&
+         history().timeline() == lessonTimeline_ && history().length() >= document_.lesson().session->moves.size();
 }
 
 /// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
 bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
   return recordsLesson() && replayed_ && !document_.handle().isActive() && !document_.relaxation().on &&
-         document_.elastic() == document_.lesson()->elastic &&
+         document_.elastic() == document_.lesson().session->elastic &&
          std::ranges::equal(algorithms, document_.runningAlgorithms());
 }
 
@@ -146,30 +146,40 @@ bool MovePlayer::onlyLessonMoved() const {
          document_.undoStack().command(clean)->id() == lessonGesture;
 }
 
-void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) {
-  if (!document_.lesson() || isInLesson(position, algorithms)) {
+void MovePlayer::noteRecorded(const Session* lesson) {
+  lessonRecorded_ = lesson;
+  lessonTimeline_ = history().timeline();
+}
+
+void MovePlayer::noteLessonRecorded() { noteRecorded(document_.lesson().session.get()); }
+
+void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
+
+void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step) {
+  if (!document_.lesson().session || isInLesson(position, algorithms)) {
     return;
   }
   endSweeps();
   const bool goesOn = followsLesson(algorithms);
   Change edit = document_.change(QStringLiteral("lesson"), lessonGesture);
   edit.after.relaxation.on = false;
-  edit.after.elastic = document_.lesson()->elastic;
+  edit.after.lesson.step = step;
+  edit.after.elastic = document_.lesson().session->elastic;
   std::ranges::copy(algorithms, edit.after.algorithms.begin());
-  const MeshPointer first = first_mesh(*document_.lesson());
-  if (first_mesh(document_.lesson()->moves) || first != document_.mesh()) {
+  const MeshPointer first = first_mesh(*document_.lesson().session);
+  if (first_mesh(document_.lesson().session->moves) || first != document_.mesh()) {
     MoveHistory moves;
-    moves.load(document_.lesson()->moves);
+    moves.load(document_.lesson().session->moves);
     replaceSplit(edit, moves.object(std::min(position, moves.length())), first);
   }
-  edit.carryOut = [this, position, goesOn, first, session = document_.lesson()] {
+  edit.carryOut = [this, position, goesOn, first, session = document_.lesson().session] {
     if (!goesOn) {
       noteDeparture();
     }
     if (!recordsLesson()) {
       document_.solvers().log().flush();
       document_.solvers().log().history().load(session->moves);
-      lessonTimeline_ = history().timeline();
+      noteRecorded(session.get());
     }
     travel(std::min(position, history().length()), first);
   };

@@ -35,10 +35,15 @@ class MovePlayer : public QObject {
   void load(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
 
   /// Brings the object to its state after the first `position` moves of its lesson, from rest, with these algorithms
-  /// (one per panel) and the lesson's options. Several calls in a row become one undo step.
-  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms);
+  /// (one per panel) and the lesson's options, on the way to the end of a step. Several calls in a row become one undo
+  /// step, which also restores the step.
+  void goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step);
+  /// Notes the step that the object is at the end of. It is no undo step, because a step may move nothing.
+  void noteLessonStep(std::size_t step);
   /// True if the object is in the state to which goToInLesson() leads with these arguments.
   bool isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const;
+  /// Notes that the recorded commands are the moves of the present lesson, which was made from them.
+  void noteLessonRecorded();
   /// True if the recorded commands begin with the lesson's moves.
   bool recordsLesson() const;
   /// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.
@@ -65,6 +70,7 @@ class MovePlayer : public QObject {
   void travel(std::size_t position, const MeshPointer& first);
   void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
+  void noteRecorded(const Session* lesson);
   bool followsLesson(const std::vector<Algorithm>& algorithms) const;
   void keepWaypoint(std::size_t position);
   void dropWaypoints();
@@ -72,10 +78,11 @@ class MovePlayer : public QObject {
   Document& document_;
   // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
   std::map<std::size_t, commands::StateId> waypoints_;
-  std::uint64_t waypointTimeline_ = 0;  // MoveHistory::timeline() of the waypoints
-  bool replayed_ = false;               // true if the solvers have done nothing since the last replay
-  std::uint64_t lessonTimeline_ = 0;    // MoveHistory::timeline() of the lesson's moves
-  std::uint64_t relaxationNoted_ = 0;   // number of passes when relaxation was last noted
+  std::uint64_t waypointTimeline_ = 0;       // MoveHistory::timeline() of the waypoints
+  bool replayed_ = false;                    // true if the solvers have done nothing since the last replay
+  std::uint64_t lessonTimeline_ = 0;         // MoveHistory::timeline() of the lesson's moves
+  const Session* lessonRecorded_ = nullptr;  // the lesson of this timeline, only to compare it
+  std::uint64_t relaxationNoted_ = 0;        // number of passes when relaxation was last noted
 };
 
 }  // namespace chainmail

@@ -54,6 +54,7 @@ class Propagation : public QObject {
   void setPlays(bool plays);
   /// Sets the speed in steps per second.
   void setSpeed(double speed) { speed_ = speed; }
+  double speed() const { return speed_; }
 
  signals:
   /// The passes, the step or a setting has changed.

@@ -25,7 +25,7 @@ SessionDraft::SessionDraft(Document& document, std::string layout) {
 /// A lesson keeps its captions. They belong to its own moves, which the user's moves may have replaced meanwhile. If
 /// the user has also split the object, the lesson's moves do not lead to it: the session is then the user's alone.
 void SessionDraft::takeLesson(const Document& document) {
-  const auto& lesson = document.lesson();
+  const auto& lesson = document.lesson().session;
   if (!lesson) {
     return;
   }
@@ -37,7 +37,7 @@ void SessionDraft::takeLesson(const Document& document) {
     session_.moves = lesson->moves;
     session_.moves_done = done;
   }
-  session_.lesson = lesson->lesson;
+  session_.lesson = *document.lesson().captions;
 }
 
 Session SessionDraft::finished(const Progress& progress) const {

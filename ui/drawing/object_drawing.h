@@ -30,6 +30,7 @@ class ObjectDrawing {
     QVector2D fog;  // distances at which fading with depth begins and ends; equal: no fading
     QColor background;
     float pixelRatio = 1;
+    float linkScale = 1;  // links are that many times as wide as usual
     DetailBudget::Detail detail = DetailBudget::Detail::complete;
     /// Largest number of links and faces to draw.
     std::size_t maxShapes = DetailBudget::maxAtRest;

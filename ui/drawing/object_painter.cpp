@@ -498,8 +498,10 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pix
   useRest(paint.options);
   links_.bind();
   if (count <= maxIndicesSmoothed) {
-    glLineWidth((byValues ? valuedWidth : 1) * scene.pixelRatio);
+    glLineWidth((byValues ? valuedWidth : 1) * scene.linkScale * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
+  } else if (scene.linkScale > 1) {
+    glLineWidth(scene.linkScale * scene.pixelRatio);
   }
   glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_LINE_SMOOTH);
@@ -577,7 +579,7 @@ void ObjectPainter::drawLinks(const Scene& scene, std::span<const LinkId> links,
       positions.insert(positions.end(), at, at + mesh_->space_dimension);
     }
   }
-  glLineWidth(litWidth * scene.pixelRatio);
+  glLineWidth(litWidth * scene.linkScale * scene.pixelRatio);
   drawOwn(scene, positions, GL_LINES, colour, Shading::plain, 1);
   glLineWidth(1);
 }
@@ -642,7 +644,7 @@ void ObjectPainter::drawInSpace(const Scene& scene, std::span<const QVector3D> p
   program_->setUniformValue("to_view", scene.toView);
   const bool lines = shape == Shape::segments;
   if (lines) {
-    glLineWidth(width * scene.pixelRatio);
+    glLineWidth(width * scene.linkScale * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
   }
   glDrawArrays(lines ? GL_LINES : GL_TRIANGLES, 0, GLsizei(positions.size()));
@@ -674,7 +676,7 @@ void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   program_->enableAttributeArray(1);
   program_->setAttributeBuffer(1, GL_FLOAT, int(positions.size_bytes()), 1);
   program_->setUniformValue("point_size", width * scene.pixelRatio);
-  glLineWidth(lines ? width * scene.pixelRatio : 1);
+  glLineWidth(lines ? width * scene.linkScale * scene.pixelRatio : 1);
   glDrawArrays(lines ? GL_LINES : GL_POINTS, 0, GLsizei(positions.size()));
   glLineWidth(1);
   glDisable(GL_DEPTH_TEST);

@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 #include <QWidget>
+#include <numeric>
 
 #include "common/as_path.h"
 #include "common/write_bytes.h"
@@ -19,6 +20,7 @@ namespace chainmail {
 namespace {
 
 constexpr int pollMilliseconds = 4;
+constexpr int labelMilliseconds = 150;          // until the heads of the panels name the candidate
 constexpr int maxWaiting = 4;                   // pictures not encoded yet
 constexpr qint64 maxUnsent = 64 * 1024 * 1024;  // bytes that ffmpeg has not read yet
 
@@ -37,7 +39,8 @@ void writePicture(const QImage& picture, const QString& path) {
 
 }  // namespace
 
-Film::Film(Document& document, QWidget& scene) : document_(document), scene_(scene) {
+Film::Film(Document& document, Propagation& propagation, QWidget& scene)
+    : document_(document), propagation_(propagation), scene_(scene) {
   wait_.setInterval(pollMilliseconds);
   connect(&wait_, &QTimer::timeout, this, &Film::takeNext);
   connect(&ffmpeg_, &QProcess::finished, this, [this] { endVideo(); });
@@ -67,9 +70,8 @@ std::size_t Film::picturesIn(const QString& folder) {
 
 void Film::begin(const QString& path) {
   const MoveHistory& history = document_.moves().history();
-  path_ = path;
-  video_ = !QFileInfo(path).isDir();
-  earlier_ = video_ ? 0 : picturesIn(path);
+  ofPass_ = false;
+  perSecond_ = picturesPerSecond;
   positions_ = {0};
   for (std::size_t i = 0; i < history.length(); ++i) {
     if (std::holds_alternative<commands::Drag>(history.at(i))) {
@@ -79,6 +81,26 @@ void Film::begin(const QString& path) {
   if (positions_.back() != history.length()) {
     positions_.push_back(history.length());
   }
+  start(path);
+}
+
+void Film::beginPass(const QString& path) {
+  if (!propagation_.isShown() || !propagation_.hasPass()) {
+    emit failed(QStringLiteral("There is no pass to save: open the Propagation dock (O) and drag an element"));
+    return;
+  }
+  ofPass_ = true;
+  perSecond_ = propagation_.speed();
+  propagation_.setPlays(false);
+  positions_.resize(propagation_.stepCount() + 1);
+  std::iota(positions_.begin(), positions_.end(), std::size_t{0});
+  start(path);
+}
+
+void Film::start(const QString& path) {
+  path_ = path;
+  video_ = !QFileInfo(path).isDir();
+  earlier_ = video_ ? 0 : picturesIn(path);
   folder_ = std::make_unique<QTemporaryDir>((video_ ? QFileInfo(path).absolutePath() : path) +
                                             QStringLiteral("/.film-XXXXXX"));
   if (!folder_->isValid()) {
@@ -88,17 +110,26 @@ void Film::begin(const QString& path) {
   next_ = 0;
   size_ = {};
   unwritten_ = stopped_ = false;
-  before_ = history.position();
+  before_ = document_.moves().history().position();
   running_ = true;
   emit changed();
-  document_.moves().goTo(positions_.front());
+  showNext();
   wait_.start();
+}
+
+void Film::showNext() {
+  sinceShown_.start();
+  ofPass_ ? propagation_.goTo(positions_[next_]) : document_.moves().goTo(positions_[next_]);
 }
 
 /// Takes a picture when the panels show the move, then starts the next move.
 void Film::takeNext() {
   const bool behind = video_ ? ffmpeg_.bytesToWrite() > maxUnsent : waiting_ >= maxWaiting;
-  if (!document_.solvers().settled() || behind) {
+  if (ofPass_ && propagation_.follows()) {
+    fail(QStringLiteral("%1: the object has left the pass before the film was complete; save it again").arg(path_));
+    return;
+  }
+  if (!document_.solvers().settled() || behind || (ofPass_ && sinceShown_.elapsed() < labelMilliseconds)) {
     return;
   }
   take();
@@ -107,7 +138,7 @@ void Film::takeNext() {
   }
   emit progressed(int(next_), int(positions_.size()));
   if (next_ < positions_.size()) {
-    document_.moves().goTo(positions_[next_]);
+    showNext();
   } else {
     wait_.stop();
     finish();
@@ -115,7 +146,7 @@ void Film::takeNext() {
 }
 
 void Film::take() {
-  QImage picture = pictureOf(scene_);
+  QImage picture = pictureOf(scene_, width_ > 0 ? width_ / (scene_.width() * scene_.devicePixelRatioF()) : 1);
   if (size_.isEmpty()) {
     size_ = QSize(picture.width() & ~1, picture.height() & ~1);  // most codecs need even sizes
     if (video_) {
@@ -157,7 +188,7 @@ void Film::startVideo(QSize size) {
   ffmpeg_.start(ffmpegPath(), {QStringLiteral("-y"), QStringLiteral("-f"), QStringLiteral("rawvideo"),
                                QStringLiteral("-pixel_format"), QStringLiteral("bgr0"), QStringLiteral("-video_size"),
                                QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
-                               QStringLiteral("-framerate"), QString::number(picturesPerSecond), QStringLiteral("-i"),
+                               QStringLiteral("-framerate"), QString::number(perSecond_), QStringLiteral("-i"),
                                QStringLiteral("-"), QStringLiteral("-pix_fmt"), QStringLiteral("yuv420p"), made});
 }
 
@@ -258,7 +289,11 @@ void Film::end() {
   wait_.stop();
   stopWriters();
   folder_.reset();
-  document_.moves().goTo(before_);
+  if (ofPass_) {
+    propagation_.setFollows(true);
+  } else {
+    document_.moves().goTo(before_);
+  }
   emit changed();
 }
 

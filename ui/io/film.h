@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <QObject>
 #include <QProcess>
@@ -11,19 +12,21 @@
 
 #include "common/task_thread.h"
 #include "document/document.h"
+#include "document/propagation.h"
 
 namespace chainmail {
 
-/// Plays all recorded moves and takes a picture of the panels after each move. Writes numbered PNG files into a folder,
-/// or a video if ffmpeg is installed. The window stays usable. An incomplete film is deleted. In a folder, the pictures
-/// of an earlier film are replaced, and those that the new one does not have are removed.
+/// Plays all recorded moves, or the candidates of the last pass, and takes a picture of the panels after each of them.
+/// Writes numbered PNG files into a folder, or a video if ffmpeg is installed. The window stays usable. An incomplete
+/// film is deleted. In a folder, the pictures of an earlier film are replaced, and those that the new one does not have
+/// are removed.
 class Film : public QObject {
   Q_OBJECT
 
  public:
   static constexpr int picturesPerSecond = 60;
 
-  Film(Document& document, QWidget& scene);
+  Film(Document& document, Propagation& propagation, QWidget& scene);
   ~Film() override;
 
   static bool canMakeVideos();
@@ -33,6 +36,11 @@ class Film : public QObject {
   bool running() const { return running_; }
   /// Starts a film: pictures if the path is a folder, else a video in the format of its extension.
   void begin(const QString& path);
+  /// The same of the pass that the propagation shows, with a picture before the first candidate and after each one. A
+  /// video has the speed of the slow motion.
+  void beginPass(const QString& path);
+  /// Sets the width of the pictures in pixels; 0: as on the screen.
+  void setWidth(int pixels) { width_ = pixels; }
   void cancel();
 
  signals:
@@ -43,6 +51,8 @@ class Film : public QObject {
   void failed(const QString& sentence);
 
  private:
+  void start(const QString& path);
+  void showNext();
   void takeNext();
   void take();
   void savePicture(const QImage& picture);
@@ -60,13 +70,18 @@ class Film : public QObject {
   void end();
 
   Document& document_;
+  Propagation& propagation_;
   QWidget& scene_;
+  int width_ = 0;         // see setWidth()
+  bool ofPass_ = false;   // true if the pictures are those of a pass
+  double perSecond_ = 0;  // pictures of a video
+  QElapsedTimer sinceShown_;
   QTimer wait_;
   bool running_ = false;
   bool video_ = false;
   QString path_;
   std::size_t earlier_ = 0;             // pictures of an earlier film in this folder at the beginning
-  std::vector<std::size_t> positions_;  // position in the recorded commands, per picture
+  std::vector<std::size_t> positions_;  // position in the recorded commands, or the candidate of the pass, per picture
   std::size_t next_ = 0;
   QSize size_;
   std::size_t before_ = 0;                 // position in the recorded commands before the film

@@ -16,9 +16,13 @@ namespace chainmail {
 namespace {
 
 constexpr std::array scales{1, 2, 4};
+constexpr PictureSize pageWidth{160, true, 300};  // of the text of a page
+constexpr int ownSize = 0;                        // in place of a scale
+constexpr double inchesPerMetre = 1 / 0.0254;
 
 QString subjectKey() { return QStringLiteral("picture/of"); }
 QString scaleKey() { return QStringLiteral("picture/scale"); }
+QString sizeKey() { return QStringLiteral("picture/size"); }
 QString transparentKey() { return QStringLiteral("picture/transparent"); }
 
 }  // namespace
@@ -29,7 +33,12 @@ PictureActions::PictureActions(QWidget& window, Document& document, PanelArea& a
       document_(document),
       area_(area),
       jobs_(jobs),
-      scales_(new QActionGroup(this)) {}
+      scales_(new QActionGroup(this)),
+      size_(PictureSize::remembered(sizeKey())) {
+  if (size_.asOnScreen()) {
+    size_ = pageWidth;
+  }
+}
 
 void PictureActions::fill(QMenu& menu) {
   auto* pictures = menu.addMenu(QStringLiteral("&Picture"));
@@ -97,8 +106,32 @@ void PictureActions::fillScales(QMenu& menu) {
     action->setChecked(times == last || times == scales.front());
     menu.addAction(action);
   }
+  fillOwnSize(menu);
   connect(scales_, &QActionGroup::triggered, this,
           [](const QAction* chosen) { QSettings().setValue(scaleKey(), chosen->data()); });
+}
+
+void PictureActions::fillOwnSize(QMenu& menu) {
+  ownSize_ = scales_->addAction(QString());
+  ownSize_->setObjectName(QStringLiteral("pictureOwnSize"));
+  ownSize_->setStatusTip(QStringLiteral("Asks for the width of pictures, in pixels or mm, and for dots per inch"));
+  ownSize_->setCheckable(true);
+  ownSize_->setData(ownSize);
+  ownSize_->setChecked(QSettings().value(scaleKey(), scales.front()).toInt() == ownSize);
+  menu.addAction(ownSize_);
+  connect(ownSize_, &QAction::triggered, this, &PictureActions::askForSize);
+  showOwnSize();
+}
+
+void PictureActions::showOwnSize() { ownSize_->setText(QStringLiteral("&Own size: %1…").arg(size_.inWords())); }
+
+void PictureActions::askForSize() {
+  PictureSizeDialog dialog(&window_, QStringLiteral("Size of pictures"), size_, shownSubject().size());
+  if (dialog.exec() == QDialog::Accepted) {
+    size_ = dialog.chosen();
+    size_.remember(sizeKey());
+    showOwnSize();
+  }
 }
 
 void PictureActions::fillTransparent(QMenu& menu) {
@@ -134,26 +167,51 @@ Panel& PictureActions::shownPanel() const {
   return panel;
 }
 
+QWidget& PictureActions::shownSubject() const {
+  switch (subject().what) {
+    case What::window:
+      return window_;
+    case What::panels:
+      return area_;
+    case What::panel:
+      return shownPanel();
+    default:
+      return shownPanel().view();
+  }
+}
+
+/// Returns how many times as many pixels per side as on the screen a picture has.
+double PictureActions::scaleFor(const QWidget& drawn) const {
+  const int scale = scales_->checkedAction()->data().toInt();
+  return scale != ownSize     ? scale
+         : size_.asOnScreen() ? 1
+                              : size_.pixels() / (drawn.width() * drawn.devicePixelRatioF());
+}
+
+/// Returns the picture of the subject: the window and the object as on the screen, panels as figures.
 QImage PictureActions::picture() const {
-  const What what = subject().what;
-  QWidget& drawn = what == What::window   ? window_
-                   : what == What::panels ? static_cast<QWidget&>(area_)
-                   : what == What::panel  ? static_cast<QWidget&>(shownPanel())
-                                          : shownPanel().view();
-  return pictureOf(drawn, scales_->checkedAction()->data().toDouble(), transparent_->isChecked());
+  QWidget& drawn = shownSubject();
+  const double scale = scaleFor(drawn);
+  const bool transparent = transparent_->isChecked();
+  QImage picture = subject().what == What::panels  ? figureOf(area_, scale, transparent)
+                   : subject().what == What::panel ? figureOf(shownPanel(), scale, transparent)
+                                                   : pictureOf(drawn, scale, transparent);
+  if (ownSize_->isChecked()) {
+    picture.setDotsPerMeterX(qRound(size_.dpi * inchesPerMetre));
+    picture.setDotsPerMeterY(picture.dotsPerMeterX());
+  }
+  return picture;
 }
 
 /// Returns the drawing of the subject. A drawing of the window shows the panels only, as docks have no vector drawing.
 Drawing PictureActions::drawing() const {
   const bool transparent = transparent_->isChecked();
-  switch (subject().what) {
-    case What::panel:
-      return drawingOf(shownPanel(), transparent);
-    case What::object:
-      return drawingOf(shownPanel().view(), transparent);
-    default:
-      return drawingOf(area_, transparent);
-  }
+  const What what = subject().what;
+  Drawing drawing = what == What::panel    ? drawingOf(shownPanel(), transparent)
+                    : what == What::object ? drawingOf(shownPanel().view(), transparent)
+                                           : drawingOf(area_, transparent);
+  drawing.millimetres = ownSize_->isChecked() ? size_.millimetres() : 0;
+  return drawing;
 }
 
 void PictureActions::copy() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/jobs.h"
+#include "io/picture_size.h"
 #include "io/pictures.h"
 #include "panels/panel_area.h"
 
@@ -12,7 +13,7 @@ class QActionGroup;
 
 namespace chainmail {
 
-/// The Picture submenu of the File menu: subject, scale and background of pictures. Copies pictures, or saves them as
+/// The Picture submenu of the File menu: subject, size and background of pictures. Copies pictures, or saves them as
 /// PNG, SVG or PDF. The choices are stored.
 class PictureActions : public QObject {
   Q_OBJECT
@@ -44,9 +45,14 @@ class PictureActions : public QObject {
   void addSubject(QMenu& menu, What what, int panel, const QString& text, const QString& tip);
   void fillScales(QMenu& menu);
   void fillTransparent(QMenu& menu);
+  void fillOwnSize(QMenu& menu);
+  void askForSize();
+  void showOwnSize();
   void followPanels();
   void save();
   const Subject& subject() const;
+  QWidget& shownSubject() const;
+  double scaleFor(const QWidget& drawn) const;
   Panel& shownPanel() const;
   QImage picture() const;
   Drawing drawing() const;
@@ -57,6 +63,8 @@ class PictureActions : public QObject {
   Jobs& jobs_;
   std::vector<Subject> subjects_;
   QActionGroup* scales_;
+  QAction* ownSize_ = nullptr;
+  PictureSize size_;
   QAction* transparent_ = nullptr;
 };
 

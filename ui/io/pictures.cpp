@@ -3,8 +3,11 @@
 #include <QBuffer>
 #include <QPainter>
 #include <QPdfWriter>
+#include <QRegularExpression>
 #include <QSvgGenerator>
 #include <QWidget>
+#include <functional>
+#include <optional>
 
 #include "common/colours.h"
 #include "common/write_bytes.h"
@@ -17,6 +20,17 @@ namespace {
 
 constexpr int dotsPerInch = 96;  // logical pixels
 constexpr double pointsPerPixel = 72.0 / dotsPerInch;
+constexpr double millimetresPerInch = 25.4;
+
+/// Throws Error if there is no memory for the picture.
+QImage emptyPicture(QSize size, double pixelRatio) {
+  QImage image((QSizeF(size) * pixelRatio).toSize(), QImage::Format_ARGB32_Premultiplied);
+  if (image.isNull()) {
+    throw Error("picture", "there is not enough memory for so many pixels", "choose a smaller scale");
+  }
+  image.setDevicePixelRatio(pixelRatio);
+  return image;
+}
 
 /// Returns the region of a widget inside `root` that siblings above it or above its parents cover, in the coordinates
 /// of the widget.
@@ -52,6 +66,34 @@ Drawing drawingOf(QSize size, bool transparent, const std::function<void(QPainte
   return drawing;
 }
 
+/// Draws a figure with views in pixels: a surface of many faces would be too large as vector graphics.
+QImage figureOf(const QWidget& widget, double scale, bool transparent,
+                const std::function<void(QPainter&, const QColor&, double)>& draw) {
+  const colours::OnGround light(colours::Ground::light);
+  const double pixelRatio = widget.devicePixelRatioF() * scale;
+  QImage image = emptyPicture(widget.size(), pixelRatio);
+  image.fill(transparent ? Qt::transparent : Qt::white);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::TextAntialiasing);
+  draw(painter, transparent ? QColor(Qt::transparent) : QColor(Qt::white), pixelRatio);
+  return image;
+}
+
+void drawPanels(QPainter& painter, PanelArea& area, const QColor& ground, std::optional<double> pixelRatio) {
+  for (const int one : area.inSight()) {
+    Panel& panel = *area.panels()[std::size_t(one)];
+    painter.save();
+    painter.translate(panel.mapTo(&area, QPoint()));
+    panel.drawIn(painter, ground, pixelRatio);
+    painter.restore();
+  }
+}
+
+/// Returns the width on paper (mm).
+double millimetresOf(const Drawing& drawing) {
+  return drawing.millimetres > 0 ? drawing.millimetres : drawing.size.width() * millimetresPerInch / dotsPerInch;
+}
+
 QByteArray asSvg(const Drawing& drawing) {
   QBuffer buffer;
   QSvgGenerator svg;
@@ -61,7 +103,21 @@ QByteArray asSvg(const Drawing& drawing) {
   svg.setViewBox(QRect(QPoint(), drawing.size));
   svg.setTitle(drawing.title);
   QPainter(&svg).drawPicture(0, 0, drawing.picture);
-  return buffer.data();
+  if (drawing.millimetres == 0) {
+    return buffer.data();
+  }
+  // The generator takes only whole dots per inch.
+  static const QRegularExpression size(QStringLiteral(R"(width="[^"]*mm" height="[^"]*mm")"));
+  QString text = QString::fromUtf8(buffer.data());
+  const qsizetype at = text.indexOf(size);
+  if (at < 0) {
+    return buffer.data();
+  }
+  const double height = drawing.millimetres * drawing.size.height() / drawing.size.width();
+  return text
+      .replace(at, size.match(text).capturedLength(),
+               QStringLiteral(R"(width="%1mm" height="%2mm")").arg(drawing.millimetres).arg(height))
+      .toUtf8();
 }
 
 QByteArray asPdf(const Drawing& drawing) {
@@ -71,8 +127,12 @@ QByteArray asPdf(const Drawing& drawing) {
     QPdfWriter pdf(&buffer);
     pdf.setTitle(drawing.title);
     pdf.setResolution(dotsPerInch);
-    pdf.setPageLayout({QPageSize(QSizeF(drawing.size) * pointsPerPixel, QPageSize::Point), QPageLayout::Portrait, {}});
-    QPainter(&pdf).drawPicture(0, 0, drawing.picture);
+    const double larger = millimetresOf(drawing) / millimetresPerInch * dotsPerInch / drawing.size.width();
+    pdf.setPageLayout(
+        {QPageSize(QSizeF(drawing.size) * larger * pointsPerPixel, QPageSize::Point), QPageLayout::Portrait, {}});
+    QPainter painter(&pdf);
+    painter.scale(larger, larger);
+    painter.drawPicture(0, 0, drawing.picture);
   }
   return buffer.data();
 }
@@ -81,11 +141,7 @@ QByteArray asPdf(const Drawing& drawing) {
 
 QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   const double pixelRatio = widget.devicePixelRatioF() * scale;
-  QImage image((QSizeF(widget.size()) * pixelRatio).toSize(), QImage::Format_ARGB32_Premultiplied);
-  if (image.isNull()) {
-    throw Error("picture", "there is not enough memory for so many pixels", "choose a smaller scale");
-  }
-  image.setDevicePixelRatio(pixelRatio);
+  QImage image = emptyPicture(widget.size(), pixelRatio);
   image.fill(Qt::transparent);
   widget.render(&image, {}, {},
                 transparent ? QWidget::DrawChildren : QWidget::DrawChildren | QWidget::DrawWindowBackground);
@@ -103,16 +159,21 @@ QImage pictureOf(QWidget& widget, double scale, bool transparent) {
   return image;
 }
 
-Drawing drawingOf(PanelArea& area, bool transparent) {
-  return drawingOf(area.size(), transparent, [&](QPainter& painter, const QColor& ground) {
-    for (const int one : area.inSight()) {
-      Panel& panel = *area.panels()[std::size_t(one)];
-      painter.save();
-      painter.translate(panel.mapTo(&area, QPoint()));
-      panel.drawIn(painter, ground);
-      painter.restore();
-    }
+QImage figureOf(PanelArea& area, double scale, bool transparent) {
+  return figureOf(area, scale, transparent, [&](QPainter& painter, const QColor& ground, double pixelRatio) {
+    drawPanels(painter, area, ground, pixelRatio);
   });
+}
+
+QImage figureOf(Panel& panel, double scale, bool transparent) {
+  return figureOf(panel, scale, transparent, [&](QPainter& painter, const QColor& ground, double pixelRatio) {
+    panel.drawIn(painter, ground, pixelRatio);
+  });
+}
+
+Drawing drawingOf(PanelArea& area, bool transparent) {
+  return drawingOf(area.size(), transparent,
+                   [&](QPainter& painter, const QColor& ground) { drawPanels(painter, area, ground, std::nullopt); });
 }
 
 Drawing drawingOf(Panel& panel, bool transparent) {

@@ -17,11 +17,17 @@ class View;
 /// memory or the graphics card.
 QImage pictureOf(QWidget& widget, double scale = 1, bool transparent = false);
 
+/// Returns a picture of all visible panels, or of one, as a figure for a paper or a slide: on white, without buttons
+/// and boxes. Otherwise like pictureOf().
+QImage figureOf(PanelArea& area, double scale, bool transparent);
+QImage figureOf(Panel& panel, double scale, bool transparent);
+
 /// A vector drawing for print. Its size is the size on the screen, in logical pixels.
 struct Drawing {
   QPicture picture;
   QSize size;
   QString title;
+  double millimetres = 0;  // width on paper; 0: that of the screen
 };
 /// Returns the drawing of all visible panels, of one panel, or of its object only; transparent: without a background.
 Drawing drawingOf(PanelArea& area, bool transparent);

@@ -24,7 +24,10 @@ void drawText(QPainter& painter, QRect& line, const QString& text) {
   line.setLeft(line.left() + painter.fontMetrics().horizontalAdvance(text) + gap);
 }
 
-QRect barIn(QRect line, int width) { return {line.left(), line.center().y() - barHeight / 2, width, barHeight}; }
+QRect barIn(QRect line, int width) {
+  const int height = std::max(barHeight, line.height() / 2);  // texts are large in the lecture mode
+  return {line.left(), line.center().y() - height / 2, width, height};
+}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include "panels/panel.h"
 
-#include <QApplication>
 #include <QPainter>
 #include <QTextDocument>
 #include <QVBoxLayout>
@@ -119,15 +118,6 @@ void Panel::showFigures(bool on) {
   refresh();
 }
 
-void Panel::enlargeTexts(double factor) {
-  QFont larger = font();
-  larger.setPointSizeF(factor * QApplication::font().pointSizeF());
-  for (QWidget* part : {static_cast<QWidget*>(head_), static_cast<QWidget*>(legend_), static_cast<QWidget*>(violation_),
-                        static_cast<QWidget*>(statistics_)}) {
-    part->setFont(larger);
-  }
-}
-
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
   const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
@@ -218,14 +208,16 @@ QStringList Panel::states(const Statistics& statistics) const {
   return states + view_->notes();
 }
 
-void Panel::drawIn(QPainter& painter, const QColor& ground) {
+void Panel::drawIn(QPainter& painter, const QColor& ground, std::optional<double> pixelRatio) {
   painter.fillRect(rect(), ground);
   painter.setFont(font());
   drawAt(painter, head_->geometry(), [&] { drawHead(painter); });
   if (legend_->isVisibleTo(this)) {
     drawAt(painter, legend_->geometry(), [&] { legend_->draw(painter); });
   }
-  drawAt(painter, view_->geometry(), [&] { view_->drawIn(painter, ground); });
+  drawAt(painter, view_->geometry(), [&] {
+    pixelRatio ? painter.drawImage(QPoint(), view_->picture(*pixelRatio, true)) : view_->drawIn(painter, ground);
+  });
   drawAt(painter, violation_->geometry(), [&] {
     painter.setPen(QColor(ink));
     painter.drawText(QRect(QPoint(), violation_->size()), Qt::AlignLeft | Qt::AlignVCenter, violation_->sentence());
@@ -235,17 +227,22 @@ void Panel::drawIn(QPainter& painter, const QColor& ground) {
   }
 }
 
-/// Draws the letter of the panel and the name of its algorithm.
+/// Draws the colour and the letter of the panel and the name of its algorithm.
 void Panel::drawHead(QPainter& painter) const {
-  const QRect line = QRect(QPoint(), head_->size()).adjusted(printMargin, 0, -printMargin, 0);
+  const QRect whole = QRect(QPoint(), head_->size()).adjusted(printMargin, 0, -printMargin, 0);
+  const int swatch = fontMetrics().ascent();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(panelColour(document_, panel_)));
+  painter.drawEllipse(QRect(whole.left(), whole.center().y() - swatch / 2, swatch, swatch));
+  const QRect line = whole.adjusted(swatch + printMargin, 0, 0, 0);
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  painter.setPen(QColor(panelColour(document_, panel_)));
+  painter.setPen(QColor(ink));
   QRect letter;
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, panelName(panel_), &letter);
   painter.setFont(font());
-  painter.setPen(QColor(ink));
   painter.drawText(line.adjusted(letter.width() + printMargin, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
                    text(info(document_.algorithm(panel_)).label));
 }

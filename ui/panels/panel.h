@@ -3,6 +3,7 @@
 #include <QFrame>
 #include <QLabel>
 #include <QTimer>
+#include <optional>
 
 #include "panels/legend.h"
 #include "panels/panel_head.h"
@@ -26,12 +27,11 @@ class Panel : public QFrame {
   Legend& legend() { return *legend_; }
   /// Shows or hides the figures of the last pass below the sentence.
   void showFigures(bool on);
-  /// Enlarges the texts around the view by a factor.
-  void enlargeTexts(double factor);
   /// Draws an overlay over the object and shows its notes in the head.
   void addOverlay(Overlay& overlay) { view_->addOverlay(overlay); }
-  /// Draws the panel as vector graphics, in logical pixels and without its buttons.
-  void drawIn(QPainter& painter, const QColor& ground);
+  /// Draws the panel as a figure, in logical pixels: texts, colour swatch and legend, without buttons and boxes. The
+  /// object is drawn as vector graphics, or, with `pixelRatio`, as a picture of that many pixels per logical pixel.
+  void drawIn(QPainter& painter, const QColor& ground, std::optional<double> pixelRatio = std::nullopt);
   /// Repaints after an overlay has changed, and updates figures and legend.
   void refresh();
 

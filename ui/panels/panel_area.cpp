@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "common/text_scale.h"
 #include "common/up_axis.h"
 #include "drawing/mesh_levels.h"
 #include "panels/panel.h"
@@ -14,11 +15,10 @@ namespace {
 
 constexpr int panelsPerRow = 2;
 constexpr int handleWidth = 3;
-constexpr int panelRest = 90;  // height of a panel's head and figures, approximately (pixels)
+constexpr int panelRest = 90;  // height of a panel's head and figures at the usual size of texts (pixels)
 // Panels change between next to each other and above each other if that shows the object larger by this factor.
 constexpr double maxBetter = 1.3;
-constexpr double lectureTexts = 1.6;  // times the usual size
-constexpr int equalSize = 10'000;     // the splitter scales it to the available space
+constexpr int equalSize = 10'000;  // the splitter scales it to the available space
 
 QSplitter* makeSplitter(Qt::Orientation orientation) {
   auto* splitter = new QSplitter(orientation);
@@ -107,8 +107,7 @@ void PanelArea::addPanel() {
   panel->view().setDrawOptions(drawOptions_);
   panel->head().setActions(headActions_);
   panel->showFigures(figures_);
-  panel->enlargeTexts(lecture_ ? lectureTexts : 1);
-  panel->view().setRing(lecture_);
+  panel->view().setLecture(lecture_);
   listenTo(*panel, number);
 }
 
@@ -183,8 +182,7 @@ void PanelArea::setFigures(bool on) {
 void PanelArea::setLecture(bool on) {
   lecture_ = on;
   for (Panel* panel : panels_) {
-    panel->enlargeTexts(on ? lectureTexts : 1);
-    panel->view().setRing(on);
+    panel->view().setLecture(on);
   }
 }
 
@@ -384,8 +382,9 @@ bool PanelArea::stacksPanels(int shown) const {
   const double up = spatial ? size.y() : mesh.space_dimension == 2 ? size[mesh.axes[1]] : 0;
   const double around = std::max(0.0, std::min(across, 0.25 * across));  // a turned object is higher than its side
   const double high = std::max(spatial ? up + around : up, 1e-9 * across);
-  const double rowWidth = width(), columnHeight = std::max(1, height() - 2 * panelRest);
-  const double beside = std::min(rowWidth / 2 / across, (columnHeight + panelRest) / high);
+  const double rowWidth = width(), rest = scaled(panelRest, *this);
+  const double columnHeight = std::max(1.0, height() - 2 * rest);
+  const double beside = std::min(rowWidth / 2 / across, (columnHeight + rest) / high);
   const double above = std::min(rowWidth / across, columnHeight / 2 / high);
   return above > (stacked_ ? 1 / maxBetter : maxBetter) * beside;
 }

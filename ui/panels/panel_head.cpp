@@ -9,6 +9,7 @@
 #include "common/icons.h"
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "common/text_scale.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"
@@ -20,6 +21,7 @@ namespace chainmail {
 namespace {
 
 constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
+constexpr int swatchSize = 10;        // pixels, at the usual size of texts
 constexpr int listMargin = 30;        // pixels, for the scroll bar and the frame of the list
 
 QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
@@ -30,6 +32,7 @@ PanelHead::PanelHead(Document& document, View& view, int panel)
     : document_(document),
       panel_(panel),
       selector_(new QComboBox),
+      swatch_(new QLabel),
       state_(new QLabel),
       alone_(makeAloneButton()),
       pin_(new QToolButton),
@@ -107,7 +110,27 @@ void PanelHead::showAlgorithm() {
     items->item(i)->setData(explanation, AlgorithmDelegate::explanationRole);
   }
   selector_->setCurrentIndex(selector_->findData(int(document_.algorithm(panel_))));
-  selector_->view()->setMinimumWidth(selector_->view()->sizeHintForColumn(0) + listMargin);
+  fitList();
+}
+
+void PanelHead::fitList() { selector_->view()->setMinimumWidth(selector_->view()->sizeHintForColumn(0) + listMargin); }
+
+/// Shows the colour of the panel as a disc that grows with the texts.
+void PanelHead::fitSwatch() {
+  const int size = scaled(swatchSize, *this);
+  swatch_->setFixedSize(size, size);
+  swatch_->setStyleSheet(QStringLiteral("background:%1; border-radius:%2px")
+                             .arg(QColor(panelColour(document_, panel_)).name())
+                             .arg(size / 2));
+}
+
+void PanelHead::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) {
+    fitList();
+    fitSwatch();
+    fitState();
+  }
 }
 
 QToolButton* PanelHead::makeAloneButton() {
@@ -127,17 +150,11 @@ void PanelHead::arrange(View& view) {
   QFont bold = name->font();
   bold.setBold(true);
   name->setFont(bold);
-  auto* swatch = new QLabel;
-  swatch->setFixedSize(10, 10);
-  const auto colour = [this, swatch] {
-    swatch->setStyleSheet(
-        QStringLiteral("background:%1; border-radius:5px").arg(QColor(panelColour(document_, panel_)).name()));
-  };
-  followTheme(*swatch, colour);
-  connect(&document_, &Document::algorithmChanged, swatch, colour);
+  followTheme(*swatch_, [this] { fitSwatch(); });
+  connect(&document_, &Document::algorithmChanged, swatch_, [this] { fitSwatch(); });
   row_->setContentsMargins(8, 6, 4, 6);
   row_->setSpacing(8);
-  row_->addWidget(swatch);
+  row_->addWidget(swatch_);
   row_->addWidget(name);
   row_->addWidget(selector_);
   row_->addWidget(pin_);

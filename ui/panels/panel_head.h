@@ -36,11 +36,14 @@ class PanelHead : public QWidget {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void changeEvent(QEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
   void fillSelector();
   void fitState();
+  void fitList();
+  void fitSwatch();
   void showAlgorithm();
   void arrange(View& view);
   QToolButton* makeAloneButton();
@@ -49,6 +52,7 @@ class PanelHead : public QWidget {
   Document& document_;
   int panel_;
   QComboBox* selector_;
+  QLabel* swatch_;
   QLabel* state_;
   QToolButton* alone_;
   QToolButton* pin_;

@@ -31,6 +31,7 @@ constexpr int hoverMilliseconds = 16;
 constexpr std::chrono::milliseconds boxMilliseconds(4);
 constexpr int stillMilliseconds = 50;
 constexpr double ringRadius = 24, ringWidth = 3;  // pixels
+constexpr float lectureLinks = 2;                 // times the usual width
 constexpr double zoomPerNotch = 1.2;
 constexpr std::size_t maxOutlinePoints = 200'000;  // of larger objects, some elements or boxes are the outline
 constexpr double arrowMargin = 34, arrowLength = 26, arrowHead = 9;  // pixels
@@ -200,8 +201,8 @@ void View::setGhost(const Ghost& ghost) {
   update();
 }
 
-void View::setRing(bool on) {
-  ring_ = on;
+void View::setLecture(bool on) {
+  lecture_ = on;
   update();
 }
 
@@ -365,7 +366,7 @@ void View::mouseMoveEvent(QMouseEvent* event) {
   links_.point(panel_);
   const QPointF travel = event->position() - cursor_;
   cursor_ = event->position();
-  if (ring_) {
+  if (lecture_) {
     update();
   }
   if (event->buttons() == Qt::NoButton) {
@@ -416,7 +417,7 @@ void View::mouseReleaseEvent(QMouseEvent* event) {
 void View::leaveEvent(QEvent* event) {
   QOpenGLWidget::leaveEvent(event);
   hover_.stop();
-  if (ring_) {
+  if (lecture_) {
     update();
   }
   if (tool_ != nullptr) {
@@ -586,6 +587,7 @@ ObjectDrawing::Scene View::scene(double pixelRatio, const QColor& ground, Detail
   scene.size = QSizeF(size()) * pixelRatio;
   scene.background = ground;
   scene.pixelRatio = float(pixelRatio);
+  scene.linkScale = lecture_ ? lectureLinks : 1;
   scene.detail = detail;
   scene.maxShapes = detail == DetailBudget::Detail::quick ? budget_.maxShapes() : DetailBudget::maxAtRest;
   scene.hidesMarks = search_.showsSolid() && ghostFrame() == nullptr;
@@ -784,7 +786,7 @@ void View::drawCube() {
 }
 
 void View::drawRing() {
-  if (ring_ && underMouse() && painterReady_) {
+  if (lecture_ && underMouse() && painterReady_) {
     painter_.paintOver(scene(devicePixelRatioF(), colours::background, detail_), [this](QPainter& painter) {
       painter.setRenderHint(QPainter::Antialiasing);
       painter.setBrush(Qt::NoBrush);

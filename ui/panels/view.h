@@ -60,8 +60,8 @@ class View : public QOpenGLWidget {
   /// Sets the parts of the object that are drawn.
   void setDrawOptions(const DrawOptions& options);
   void setGhost(const Ghost& ghost);
-  /// Marks the cursor with a ring.
-  void setRing(bool on);
+  /// Marks the cursor with a ring and draws links twice as wide, for an audience.
+  void setLecture(bool on);
   const Ghost& ghost() const { return ghost_; }
 
   /// Looks through another camera and does not change that camera.
@@ -207,7 +207,7 @@ class View : public QOpenGLWidget {
   std::size_t quickShapes_ = 0;  // in a quick picture that is not on the screen yet
   QTimer hover_;                 // limits the search for the element under the cursor to once per frame
   QPointF cursor_;
-  bool ring_ = false;  // true if a ring marks the cursor
+  bool lecture_ = false;  // see setLecture()
   bool fitPending_ = true;
   bool cubePressed_ = false;  // true if the left button was pressed on the orientation cube
   bool painterReady_ = false;

@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <QTextDocument>
+#include <algorithm>
 
 #include "common/text.h"
 #include "document/element_facts.h"
@@ -53,7 +54,21 @@ void ElementReadout::updateText() {
   setText(element && !measured  ? describe(*element)
           : holdsMany()         ? describeHandle()
           : measurement_.from() ? measurement_.sentence()
-                                : hint_);
+                                : fittingHint());
+}
+
+void ElementReadout::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  updateText();
+}
+
+/// Returns as many parts of the hint as there is room for.
+QString ElementReadout::fittingHint() const {
+  QString fitting = hint_;
+  while (!fitting.isEmpty() && !hasRoomFor(fitting)) {
+    fitting = fitting.left(std::max<qsizetype>(0, fitting.lastIndexOf(QChar(0xb7)))).trimmed();  // a middle dot
+  }
+  return fitting;
 }
 
 bool ElementReadout::holdsMany() const {

@@ -19,7 +19,11 @@ class ElementReadout : public QLabel {
 
   void setHint(const QString& hint);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  QString fittingHint() const;
   void updateText();
   QString describe(ElementId element) const;
   bool hasRoomFor(const QString& text) const;

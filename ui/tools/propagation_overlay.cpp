@@ -120,7 +120,7 @@ QString PropagationOverlay::note(int panel) const {
     return {};
   }
   const QLocale locale;
-  QString note = QStringLiteral("pass %1").arg(locale.toString(qulonglong(player->pass().number)));
+  QString note = QStringLiteral("pass %1").arg(locale.toString(qulonglong(player->pass().in_drag)));
   if (!propagation_.follows()) {
     note += QStringLiteral(", candidate %1 of %2")
                 .arg(locale.toString(qulonglong(player->step())), locale.toString(qulonglong(player->stepCount())));

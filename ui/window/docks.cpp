@@ -111,7 +111,7 @@ QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
 }
 
 QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs), parts);
+  auto* dock = connectFiles(new ReplayDock(parts.document, parts.propagation, parts.area, parts.jobs), parts);
   parts.objectMenu.addMenu(&dock->menu());
   return dock;
 }

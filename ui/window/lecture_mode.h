@@ -1,10 +1,13 @@
 #pragma once
 
+#include <QAbstractButton>
 #include <QActionGroup>
 #include <QJsonArray>
 #include <QLabel>
 #include <QMainWindow>
+#include <QPointer>
 #include <QRect>
+#include <utility>
 #include <vector>
 
 namespace chainmail {
@@ -12,9 +15,10 @@ namespace chainmail {
 class PanelArea;
 class Propagation;
 
-/// Shows only the panels, on the whole screen, with large texts and a ring at the cursor, for an audience. The
-/// propagation that is shown stays, without its dock. The status bar names the tool and the way out. Afterwards, docks,
-/// bars and the window are as before.
+/// Shows only the panels and an open lesson, on the whole screen, for an audience: all texts and icons are large, links
+/// are wide, and a ring marks the cursor. The keys of the hidden menus work. The propagation that is shown stays,
+/// without its dock. The status bar names the tool and the way out. Afterwards, docks, bars and the window are as
+/// before.
 class LectureMode : public QObject {
   Q_OBJECT
 
@@ -35,6 +39,11 @@ class LectureMode : public QObject {
   void enter();
   void restore();
   void nameTool();
+  void enlargeTexts();
+  void enlargeIcons();
+  void shrink();
+  void hideMenus();
+  void showMenus();
 
   QMainWindow& window_;
   PanelArea& area_;
@@ -48,6 +57,10 @@ class LectureMode : public QObject {
   QByteArray layout_, geometry_;
   QRect at_;  // of the window before
   QJsonArray places_;
+  QFont font_;
+  std::vector<std::pair<QPointer<QAbstractButton>, QSize>> icons_;  // buttons with large icons, and the size before
+  bool hadMenus_ = false;
+  std::vector<QPointer<QAction>> lent_;  // actions of the menus that the window has meanwhile
 };
 
 }  // namespace chainmail

@@ -7,6 +7,7 @@
 
 #include "common/colours.h"
 #include "common/icons.h"
+#include "window/lesson_editor.h"
 
 namespace chainmail {
 namespace {
@@ -26,12 +27,18 @@ QPushButton* makeButton(const QString& text, const char* name, QAction& action) 
   return button;
 }
 
+constexpr int buttonMargins = 80;  // pixels around the buttons and their texts
+constexpr int buttonPadding = 24;  // pixels beside the text of a button
+constexpr int widestName = 260;    // pixels that the button of the next lesson asks for
+
 QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 
-LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close)
+LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& back, QAction& next, QAction& following,
+                     QAction& close)
     : player_(player),
+      editor_(editor),
       backAction_(back),
       nextAction_(next),
       followingAction_(following),
@@ -53,16 +60,7 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  leave_->setObjectName(QStringLiteral("lessonCloseButton"));
-  leave_->setIcon(icon("close"));
-  leave_->setAutoRaise(true);
-  leave_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Ignored);  // as high as the buttons that replace it
-  leave_->setAccessibleName(QStringLiteral("Close lesson"));
-  connect(leave_, &QToolButton::clicked, &close, &QAction::trigger);
-  for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
-    button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
-  }
-  following_->setToolTip(QStringLiteral("Opens the next lesson"));
+  describeButtons();
   arrange();
   listen();
   showKeys();
@@ -72,6 +70,19 @@ LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, Q
     own.setColor(QPalette::Window, colours::infoGround);
     setPalette(own);
   });
+}
+
+void LessonBar::describeButtons() {
+  following_->setToolTip(QStringLiteral("Opens the next lesson"));
+  leave_->setObjectName(QStringLiteral("lessonCloseButton"));
+  leave_->setIcon(icon("close"));
+  leave_->setAutoRaise(true);
+  leave_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Ignored);  // as high as the buttons that replace it
+  leave_->setAccessibleName(QStringLiteral("Close lesson"));
+  connect(leave_, &QToolButton::clicked, end_, &QPushButton::click);
+  for (QWidget* button : {static_cast<QWidget*>(leave_), static_cast<QWidget*>(end_)}) {
+    button->setToolTip(QStringLiteral("Closes the lesson; the object stays as it is"));
+  }
 }
 
 /// The caption has the whole width in every step, so that its longest text decides on one height for the lesson.
@@ -86,12 +97,14 @@ void LessonBar::arrange() {
   column->setSpacing(4);
   column->addLayout(head);
   column->addWidget(text_);
+  column->addWidget(&editor_);
 }
 
 void LessonBar::listen() {
   connect(&player_, &LessonPlayer::openChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
+  connect(&editor_, &LessonEditor::editingChanged, this, &LessonBar::refresh);
   for (const QAction* action : {&backAction_, &nextAction_}) {
     connect(action, &QAction::changed, this, &LessonBar::showKeys);
   }
@@ -102,14 +115,36 @@ void LessonBar::showKeys() {
     const QString key = action.shortcut().toString(QKeySequence::NativeText);
     return key.isEmpty() ? what : QStringLiteral("%1 (%2)").arg(what, key);
   };
-  back_->setToolTip(tip(QStringLiteral("Restores the end of the step before"), backAction_));
+  back_->setToolTip(tip(
+      QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"), backAction_));
   next_->setToolTip(tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
+  if (player_.isOpen()) {
+    showStep();
+  }
 }
 
 void LessonBar::resizeEvent(QResizeEvent* event) {
   QFrame::resizeEvent(event);
-  showTitle();
-  keepHeight();
+  fit();
+}
+
+/// Texts are large in the lecture mode.
+void LessonBar::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  if (event->type() == QEvent::FontChange && layout() != nullptr) {
+    fit();
+  }
+}
+
+/// Fits all texts into the width of the bar.
+void LessonBar::fit() {
+  if (player_.isOpen()) {
+    showStep();
+    fitFollowing();
+    layout()->activate();  // gives the title its width
+    showTitle();
+    keepHeight();
+  }
 }
 
 /// Reserves the height of the longest caption of the lesson, so that the views keep their size from step to step.
@@ -129,14 +164,52 @@ void LessonBar::keepHeight() {
 
 /// At the end of the last step, the buttons lead on instead of to a next step.
 void LessonBar::showButtons() {
-  const bool ended = player_.isLast() && !player_.plays();
+  const bool ended = isEnded();
   back_->setEnabled(backAction_.isEnabled());
   next_->setEnabled(nextAction_.isEnabled());
   next_->setVisible(!ended);
   leave_->setVisible(!ended);
-  following_->setText(followingAction_.text());
+  following_->setToolTip(
+      QStringLiteral("Opens the next lesson, '%1'").arg(followingAction_.text().section(QStringLiteral(": "), 1)));
   following_->setVisible(ended && followingAction_.isEnabled());
   end_->setVisible(ended);
+  fitFollowing();
+}
+
+/// Shortens the name of the next lesson if there is no room for it, but not below the width of a usual name: a long
+/// name in large letters must not keep the window wide.
+void LessonBar::fitFollowing() {
+  const QFontMetrics metrics = following_->fontMetrics();
+  const int whole = metrics.horizontalAdvance(followingAction_.text()) + buttonPadding;
+  const int ofOthers = step_->sizeHint().width() + back_->sizeHint().width() + end_->sizeHint().width();
+  const int least = std::min(whole, widestName);
+  const int room = std::max(least, width() - ofOthers - buttonMargins);
+  following_->setMinimumWidth(least);
+  following_->setText(metrics.elidedText(followingAction_.text(), Qt::ElideRight, room - buttonPadding));
+}
+
+/// Returns the width that is left for the number of the step if its title and the buttons show their whole texts
+/// (pixels).
+int LessonBar::roomForStep() const {
+  const QString title = shown(player_.lesson().steps[player_.step()].title);
+  const int ofTitle = title_->fontMetrics().horizontalAdvance(title);
+  const int ofName = following_->fontMetrics().horizontalAdvance(followingAction_.text()) + buttonPadding;
+  const int ofOthers = isEnded() ? end_->sizeHint().width() + (followingAction_.isEnabled() ? ofName : 0)
+                                 : next_->sizeHint().width() + leave_->sizeHint().width();
+  return width() - ofTitle - back_->sizeHint().width() - ofOthers - buttonMargins;
+}
+
+/// Shows the number of the step, and, if there is room, where the keys lead from the ends of the lesson.
+void LessonBar::showStep() {
+  const QString number = QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(player_.lesson().steps.size());
+  const auto leading = [](const QAction& action, const QString& where) {
+    const QString key = action.shortcut().toString(QKeySequence::NativeText);
+    return key.isEmpty() || !action.isEnabled() ? QString() : QStringLiteral(" · %1: %2").arg(key, where);
+  };
+  const QString whole = number + (isEnded()             ? leading(nextAction_, QStringLiteral("next lesson"))
+                                  : player_.step() == 0 ? leading(backAction_, QStringLiteral("lesson before"))
+                                                        : QString());
+  step_->setText(step_->fontMetrics().horizontalAdvance(whole) <= roomForStep() ? whole : number);
 }
 
 /// Shows the titles of the lesson and of the step, or of the step alone where there is no room for both.
@@ -156,14 +229,10 @@ void LessonBar::refresh() {
   if (!player_.isOpen()) {
     return;
   }
-  const Lesson& lesson = player_.lesson();
-  const LessonStep& step = lesson.steps[player_.step()];
-  const QString caption = shown(step.text);
-  step_->setText(QStringLiteral("Step %1 of %2").arg(player_.step() + 1).arg(lesson.steps.size()));
+  const QString caption = shown(player_.lesson().steps[player_.step()].text);
+  text_->setVisible(!editor_.isEditing());
   showButtons();
-  layout()->activate();  // gives the title its width
-  showTitle();
-  keepHeight();
+  fit();
   if (text_->text() != caption) {
     text_->setText(caption);
     QAccessibleEvent alert(this, QAccessible::Alert);

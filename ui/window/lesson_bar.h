@@ -11,28 +11,39 @@ class QAction;
 
 namespace chainmail {
 
+class LessonEditor;
+
 /// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close. At the
-/// end, Next gives way to the name of the next lesson.
+/// end, Next gives way to the name of the next lesson. While the user writes a lesson, the editor replaces the caption.
 class LessonBar : public QFrame {
   Q_OBJECT
 
  public:
-  /// The buttons trigger the actions.
-  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close);
+  /// The buttons trigger the actions. The bar owns the editor.
+  LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& back, QAction& next, QAction& following,
+            QAction& close);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void refresh();
+  void describeButtons();
   void arrange();
   void listen();
   void showTitle();
   void showButtons();
   void keepHeight();
   void showKeys();
+  void showStep();
+  int roomForStep() const;
+  bool isEnded() const { return player_.isLast() && !player_.plays(); }
+  void fit();
+  void fitFollowing();
 
   const LessonPlayer& player_;
+  LessonEditor& editor_;
   QAction &backAction_, &nextAction_, &followingAction_;
   QLabel *title_, *text_, *step_;
   QPushButton *back_, *next_, *following_, *end_;

@@ -17,6 +17,7 @@
 #include "panels/panel_area.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
+#include "window/lesson_editor.h"
 #include "window/main_window.h"
 #include "window/message_bar.h"
 #include "window/show_menu.h"
@@ -53,29 +54,34 @@ QStringList toolNames() { return {tools.begin(), tools.end()}; }
 Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
     : QObject(&window),
       window_(window),
+      propagation_(propagation),
       player_(window.document(), propagation),
-      next_(add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
-                QStringLiteral("Plays the next step of the lesson; during a step, goes to its end"))),
+      next_(
+          add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
+              QStringLiteral("Plays the next step of the lesson; during a step, goes to its end; after the last step, "
+                             "opens the next lesson"))),
       back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
-                QStringLiteral("Restores the end of the step before"))),
+                QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"))),
       following_(add("lessonFollowing", QStringLiteral("Next l&esson"), {},
                      QStringLiteral("Opens the lesson after the present one"))),
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
       handle_(player_),
+      editor_(nullptr),
       bar_(nullptr) {
   next_->setIcon(icon("stepForward"));
   back_->setIcon(icon("stepBack"));
   close_->setIcon(icon("close"));
-  connect(next_, &QAction::triggered, &player_, &LessonPlayer::next);
-  connect(back_, &QAction::triggered, &player_, &LessonPlayer::back);
+  connect(next_, &QAction::triggered, this, &Lessons::goOn);
+  connect(back_, &QAction::triggered, this, &Lessons::goBack);
   connect(following_, &QAction::triggered, this, &Lessons::openFollowing);
   connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
   // In this order: the bar reads the actions.
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
     connect(&player_, change, this, &Lessons::adapt);
   }
-  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
+  editor_ = new LessonEditor(window.document(), player_, [this] { return look(); });
+  bar_ = new LessonBar(player_, *editor_, *back_, *next_, *following_, *close_);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
@@ -106,22 +112,40 @@ void Lessons::fill(QMenu& menu) {
   }
   lessons->addSeparator();
   lessons->addActions({next_, back_, following_, close_});
+  lessons->addSeparator();
+  editor_->fill(*lessons);
 }
+
+QAction& Lessons::newLesson() { return editor_->newLesson(); }
 
 void Lessons::openFirst() { open(lessonFiles().front().file); }
 
-/// Returns the bundled lesson after the present one; null if there is none.
-const LessonFile* Lessons::following() const {
+/// Returns the bundled lesson that is so many places after the present one; null if there is none.
+const LessonFile* Lessons::neighbour(int steps) const {
   const auto files = lessonFiles();
   const auto isPresent = [this](const LessonFile& one) { return player_.lesson().title == one.title; };
   const auto present = std::ranges::find_if(files, isPresent);
-  return !player_.isOpen() || present == files.end() || std::next(present) == files.end() ? nullptr
-                                                                                          : &*std::next(present);
+  const std::ptrdiff_t wanted = present - files.begin() + steps;
+  const bool exists = present != files.end() && wanted >= 0 && wanted < std::ssize(files);
+  return player_.isOpen() && exists ? &files[std::size_t(wanted)] : nullptr;
 }
 
 void Lessons::openFollowing() {
-  if (const LessonFile* next = following()) {
+  if (const LessonFile* next = neighbour(1)) {
     open(next->file);
+  }
+}
+
+void Lessons::goOn() { player_.isLast() && !player_.plays() ? openFollowing() : player_.next(); }
+
+/// From the first step, leads to the end of the lesson before, like the pages of a talk.
+void Lessons::goBack() {
+  const LessonFile* before = neighbour(-1);
+  if (player_.step() > 0 || before == nullptr) {
+    player_.back();
+  } else {
+    opensAtEnd_ = true;
+    open(before->file);
   }
 }
 
@@ -137,9 +161,9 @@ void Lessons::open(const char* file) {
 
 void Lessons::adapt() {
   const bool open = player_.isOpen();
-  next_->setEnabled(open && (!player_.isLast() || player_.plays()));
-  back_->setEnabled(open && player_.step() > 0);
-  const LessonFile* next = following();
+  const LessonFile* next = neighbour(1);
+  next_->setEnabled(open && (!player_.isLast() || player_.plays() || next != nullptr));
+  back_->setEnabled(open && (player_.step() > 0 || neighbour(-1) != nullptr));
   following_->setText(next != nullptr ? QStringLiteral("Next lesson: %1").arg(QString::fromUtf8(next->title))
                                       : QStringLiteral("Next lesson"));
   following_->setEnabled(next != nullptr);
@@ -147,9 +171,11 @@ void Lessons::adapt() {
 }
 
 void Lessons::start() {
+  const bool atEnd = std::exchange(opensAtEnd_, false);
+  editor_->stop();
   if (player_.isOpen()) {
     warnOfUnknownNames();
-    player_.start();
+    atEnd ? player_.goToEnd() : player_.start();
   }
 }
 
@@ -162,13 +188,28 @@ void Lessons::leave() {
     return;
   }
   chooseDock({});
-  if (!window_.document().lesson() && colourBefore_) {
+  if (!window_.document().lesson().session && colourBefore_) {
     window_.colouring().setMode(*std::exchange(colourBefore_, {}));
     window_.showMenu().forgetShown();
   }
 }
 
 // What the window shows at a step.
+
+/// Returns what the window shows now, for a step that the user writes.
+LessonStep Lessons::look() const {
+  LessonStep look;
+  look.colour = text(info(window_.colouring().mode()).name).toStdString();
+  look.show = window_.showMenu().chosen().toStdString();
+  if (propagation_.isShown()) {
+    look.dock = "propagation";
+    const PassPlayer* pass = propagation_.player(propagation_.chosen());
+    if (!propagation_.follows() && pass != nullptr) {
+      look.candidate = std::uint32_t(pass->step());
+    }
+  }
+  return look;
+}
 
 QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::fromStdString(player_.name(which)); }
 

@@ -14,6 +14,7 @@ class QMenu;
 namespace chainmail {
 
 class LessonBar;
+class LessonEditor;
 class MainWindow;
 class Sessions;
 struct LessonFile;
@@ -30,6 +31,8 @@ class Lessons : public QObject {
   /// Returns the bar. The window places and owns it.
   LessonBar& bar() { return *bar_; }
   LessonPlayer& player() { return player_; }
+  /// Makes a lesson from the recorded moves, for menus.
+  QAction& newLesson();
   /// Opens the first lesson.
   void openFirst();
 
@@ -40,7 +43,9 @@ class Lessons : public QObject {
  private:
   void open(const char* file);
   void openFollowing();
-  const LessonFile* following() const;
+  const LessonFile* neighbour(int steps) const;
+  void goOn();
+  void goBack();
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
   void start();
   void leave();
@@ -48,6 +53,7 @@ class Lessons : public QObject {
   void showStep();
   void fitBefore();
   void fitAfter(bool playedOneByOne);
+  LessonStep look() const;
   void warnOfUnknownNames();
   QString nameOf(std::string LessonStep::*which) const;
   void chooseDock(const QString& name);
@@ -55,9 +61,12 @@ class Lessons : public QObject {
   QAction* tool(const QString& name) const;
 
   MainWindow& window_;
+  Propagation& propagation_;
   LessonPlayer player_;
   QAction *next_, *back_, *following_, *close_;
   LessonHandle handle_;
+  bool opensAtEnd_ = false;  // true while a lesson is opened to show its last step
+  LessonEditor* editor_;     // owned by the bar
   LessonBar* bar_;
   QString dock_;                            // name of the dock that the lesson has opened
   std::optional<ColourMode> colourBefore_;  // what coloured the object before the lesson

@@ -19,6 +19,7 @@
 
 #include "common/application.h"
 #include "common/icons.h"
+#include "docks/replay/replay_dock.h"
 #include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/mesh_repair.h"
@@ -438,6 +439,7 @@ void MainWindow::makeDocks() {
                                              propagation_, propagationOverlay_, *toolActions_, cutTool_, selectTool_,
                                              *editMenu_, *objectMenu_, *viewMenu_, showMenu_->menu(),
                                              [this](const QString& sentence) { showStatus(sentence); }});
+  docks_->get<ReplayDock>().menu().addAction(&lessons_->newLesson());
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 

@@ -1,11 +1,15 @@
 #include "docks/propagation/propagation_column.h"
 
+#include <QEvent>
 #include <QHeaderView>
 #include <QLocale>
+#include <QStyle>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "common/panel_names.h"
 #include "common/text.h"
+#include "common/text_scale.h"
 #include "document/panel_colour.h"
 
 namespace chainmail {
@@ -57,14 +61,11 @@ void PropagationColumn::makeList() {
   list_->setUniformRowHeights(true);
   list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
   list_->setMinimumHeight(smallestList);
-  list_->setIconSize({swatchSize, swatchSize});
-  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setAllColumnsShowFocus(true);
+  list_->setTextElideMode(Qt::ElideNone);  // a number with missing digits would be another number
   list_->header()->setSectionResizeMode(QHeaderView::Fixed);
-  list_->header()->setSectionResizeMode(WaitingListModel::what, QHeaderView::Stretch);
-  for (const int column : {WaitingListModel::element, WaitingListModel::sponsor}) {
-    list_->header()->resizeSection(column, list_->header()->sectionSizeHint(column) + cellMargin);
-  }
+  list_->header()->setStretchLastSection(false);
+  list_->viewport()->installEventFilter(this);
   list_->header()->setSectionsMovable(false);
   list_->header()->setMinimumSectionSize(30);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& current) {
@@ -72,6 +73,42 @@ void PropagationColumn::makeList() {
       document_.highlight().set({*element, false, {}});
     }
   });
+}
+
+/// Makes each section as wide as its longest text. Where there is no room for all, the list scrolls.
+void PropagationColumn::fitSections() {
+  const int swatch = scaled(swatchSize, *this);
+  list_->setIconSize({swatch, swatch});
+  QFont bold = font();
+  bold.setBold(true);
+  const QFontMetrics metrics(bold);
+  const int margins = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, list_) + 1) + 2 * cellMargin;
+  const int number = metrics.horizontalAdvance(QString::number(document_.mesh()->element_count()));
+  const auto fitted = [&](int column, int content) {
+    return std::max(list_->header()->sectionSizeHint(column) + cellMargin, content + margins);
+  };
+  const int ofElement = fitted(WaitingListModel::element, swatch + cellMargin + number);
+  const int ofSponsor = fitted(WaitingListModel::sponsor, number);
+  const int ofState = fitted(WaitingListModel::what, metrics.horizontalAdvance(WaitingListModel::longestState()));
+  list_->header()->resizeSection(WaitingListModel::element, ofElement);
+  list_->header()->resizeSection(WaitingListModel::sponsor, ofSponsor);
+  list_->header()->resizeSection(WaitingListModel::what,
+                                 std::max(ofState, list_->viewport()->width() - ofElement - ofSponsor));
+}
+
+void PropagationColumn::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) {
+    fitSections();
+  }
+}
+
+/// The list has another width after a resize, and when its scroll bar appears.
+bool PropagationColumn::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == list_->viewport() && event->type() == QEvent::Resize) {
+    fitSections();
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void PropagationColumn::arrange() {
@@ -109,6 +146,7 @@ void PropagationColumn::refresh() {
   choice_->setVisible(!propagation_.together());
   choice_->setChecked(propagation_.chosen() == panel_);
   model_.show(player, propagation_.stepCount());
+  fitSections();
   const QSignalBlocker block(slider_);
   slider_->setEnabled(player != nullptr && player->stepCount() > 0);
   slider_->setRange(0, player != nullptr ? int(player->stepCount()) : 0);

@@ -20,7 +20,12 @@ class PropagationColumn : public QWidget {
   /// Shows the current step of the pass.
   void refresh();
 
+ protected:
+  void changeEvent(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
+  void fitSections();
   void makeList();
   void arrange();
   QString describe(const PassPlayer& player) const;

@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::array speeds{1, 2, 5, 10, 30, 100, 1000, 10'000};  // steps per second
 constexpr int usualSpeed = 5;
-constexpr int smallWindow = 1200;  // width (pixels) below which the lists of the panels are below each other
+// Width (pixels) below which the lists of the panels are below each other: a dock takes up to a quarter of it.
+constexpr int smallWindow = 1760;
 
 }  // namespace
 

@@ -17,6 +17,8 @@ class WaitingListModel : public QAbstractTableModel {
 
   /// `highest` is the highest step of the colour scale, as in the views.
   void show(const PassPlayer* player, std::size_t highest);
+  /// Returns the longest text of the column `what`.
+  static QString longestState() { return QStringLiteral("dropped"); }
   /// Returns the element of a row.
   std::optional<ElementId> elementAt(int row) const;
   /// Number of waiting candidates.

@@ -25,16 +25,18 @@ namespace {
 constexpr int movesRefreshMilliseconds = 50;
 constexpr int standardSpeed = 60;  // moves per second, the rate at which drags are sampled
 
+QString filmSizeKey() { return QStringLiteral("film/size"); }
 QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
 
 bool isMove(const Command& command) { return std::holds_alternative<commands::Drag>(command); }
 
 }  // namespace
 
-ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
+ReplayDock::ReplayDock(Document& document, Propagation& propagation, QWidget& scene, Jobs& jobs)
     : document_(document),
+      scene_(scene),
       jobs_(jobs),
-      film_(document, scene),
+      film_(document, propagation, scene),
       menu_(new QMenu(QStringLiteral("&Record and replay"), this)),
       slider_(new QSlider(Qt::Horizontal)),
       position_(new QLabel),
@@ -105,12 +107,30 @@ void ReplayDock::makeActions() {
   menu_->addSeparator();
   pictures_ = add("savePictures", QStringLiteral("Save as p&ictures…"), "picture", {},
                   QStringLiteral("Saves a numbered picture of the panels after every move into a folder"),
-                  [this] { askWhereFilm(false); });
+                  [this] { askWhereFilm(false, false); });
   video_ = add("saveVideo", QStringLiteral("Save as &video…"), "movie", {},
                Film::canMakeVideos()
                    ? QStringLiteral("Saves a video of the panels: one picture per move, 60 pictures per second")
                    : QStringLiteral("Not available: install ffmpeg to save videos"),
-               [this] { askWhereFilm(true); });
+               [this] { askWhereFilm(true, false); });
+  makePassActions();
+}
+
+void ReplayDock::makePassActions() {
+  menu_->addSeparator();
+  passPictures_ = add("savePassPictures", QStringLiteral("Save pass as pic&tures…"), "picture", {},
+                      QStringLiteral("Saves a numbered picture of the panels after each candidate of the pass that the "
+                                     "Propagation dock shows"),
+                      [this] { askWhereFilm(false, true); });
+  passVideo_ = add("savePassVideo", QStringLiteral("Save pass as vi&deo…"), "movie", {},
+                   Film::canMakeVideos()
+                       ? QStringLiteral("Saves a video of the pass, candidate by candidate, at the speed of the slow "
+                                        "motion")
+                       : QStringLiteral("Not available: install ffmpeg to save videos"),
+                   [this] { askWhereFilm(true, true); });
+  filmSize_ = add("filmSize", QString(), "screenshot", {},
+                  QStringLiteral("Asks for the width of the pictures and videos"), [this] { askFilmSize(); });
+  setFilmSize(PictureSize::remembered(filmSizeKey()));
 }
 
 // The slider and the state.
@@ -151,6 +171,9 @@ void ReplayDock::showMoves() {
   for (QAction* action : {play_, save_, pictures_}) {
     action->setEnabled(some && !filming);
   }
+  filmSize_->setEnabled(!filming);
+  passPictures_->setEnabled(!filming);
+  passVideo_->setEnabled(!filming && Film::canMakeVideos());
   video_->setEnabled(some && !filming && Film::canMakeVideos());
   slider_->setEnabled(some && !filming);
   filmBar_->setVisible(filming);
@@ -315,15 +338,29 @@ void ReplayDock::askWhereMoves() {
   }
 }
 
-void ReplayDock::askWhereFilm(bool video) {
+void ReplayDock::askWhereFilm(bool video, bool ofPass) {
+  const QString name = asFileName(document_.name()) + (ofPass ? QStringLiteral("-pass") : QStringLiteral("-moves"));
   const QString path =
-      video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")},
-                       asFileName(document_.name()) + QStringLiteral("-moves"))
+      video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")}, name)
             : askFolder(*window(), QStringLiteral("Save pictures into a folder"));
   const std::size_t earlier = video || path.isEmpty() ? 0 : Film::picturesIn(path);
   if (!path.isEmpty() && (earlier == 0 || askBeforeReplacingFilm(*window(), path, earlier))) {
-    saveFilm(path);
+    ofPass ? savePass(path) : saveFilm(path);
   }
+}
+
+void ReplayDock::askFilmSize() {
+  PictureSizeDialog dialog(window(), QStringLiteral("Size of films"), size_, scene_.size());
+  if (dialog.exec() == QDialog::Accepted) {
+    setFilmSize(dialog.chosen());
+    size_.remember(filmSizeKey());
+  }
+}
+
+void ReplayDock::setFilmSize(const PictureSize& size) {
+  size_ = size;
+  film_.setWidth(size.pixels());
+  filmSize_->setText(QStringLiteral("Si&ze of films: %1…").arg(size.inWords()));
 }
 
 void ReplayDock::openMoves(const QString& path) {
@@ -359,6 +396,11 @@ void ReplayDock::saveMoves(const QString& path) {
 void ReplayDock::saveFilm(const QString& path) {
   setPlaying(false);
   film_.begin(path);
+}
+
+void ReplayDock::savePass(const QString& path) {
+  setPlaying(false);
+  film_.beginPass(path);
 }
 
 }  // namespace chainmail

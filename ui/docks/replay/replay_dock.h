@@ -10,6 +10,7 @@
 #include "common/jobs.h"
 #include "document/document.h"
 #include "io/film.h"
+#include "io/picture_size.h"
 
 class QAction;
 class QProgressBar;
@@ -24,7 +25,7 @@ class ReplayDock : public QDockWidget {
 
  public:
   /// Films show `scene`; `jobs` reads and writes recorded moves.
-  ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
+  ReplayDock(Document& document, Propagation& propagation, QWidget& scene, Jobs& jobs);
 
   /// Returns the actions of the dock, for the menu bar.
   QMenu& menu() { return *menu_; }
@@ -34,6 +35,10 @@ class ReplayDock : public QDockWidget {
   void saveMoves(const QString& path);
   /// Films all moves: as pictures if the path is a folder, else as a video.
   void saveFilm(const QString& path);
+  /// Films the candidates of the pass that the propagation shows.
+  void savePass(const QString& path);
+  /// Sets the size of the pictures in films.
+  void setFilmSize(const PictureSize& size);
 
  signals:
   void failed(const QString& sentence);
@@ -41,6 +46,7 @@ class ReplayDock : public QDockWidget {
 
  private:
   void makeActions();
+  void makePassActions();
   QAction* add(const char* name, const QString& text, const char* icon, const QKeySequence& key, const QString& help,
                std::function<void()> act);
   void arrange();
@@ -59,13 +65,17 @@ class ReplayDock : public QDockWidget {
   void playOn();
   void askForMoves();
   void askWhereMoves();
-  void askWhereFilm(bool video);
+  void askWhereFilm(bool video, bool ofPass);
+  void askFilmSize();
 
   Document& document_;
+  QWidget& scene_;
   Jobs& jobs_;
   Film film_;
   QMenu* menu_;
-  QAction *first_, *back_, *play_, *forward_, *last_, *save_, *pictures_, *video_;
+  QAction *first_, *back_, *play_, *forward_, *last_, *save_, *pictures_, *video_, *passPictures_, *passVideo_,
+      *filmSize_;
+  PictureSize size_;  // of films; a width of 0: as on the screen
   QSlider* slider_;
   QLabel* position_;
   QComboBox* speed_;
