@@ -94,7 +94,7 @@ class ColourMap : public QObject {
       const QColor valid = neutral.on(ground);
       QVERIFY(colour_vision::leastDistance(colour_map::at(0, ground), valid) >= 50);
       for (int i = 0; i <= 100; ++i) {
-        QVERIFY(colour_vision::leastDistance(colour_map::at(i / 100.0, ground), valid) >= 22);
+        QVERIFY(colour_vision::leastDistance(colour_map::at(i / 100.0, ground), valid) >= 21);
       }
     }
   }

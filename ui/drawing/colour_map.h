@@ -10,7 +10,7 @@
 /// with the ground grows with the number. So people with any kind of colour vision see the same order, also in grey
 /// prints. The maps end like viridis (Smith and van der Walt 2015): at its bright end on a dark ground, at its dark end
 /// on a light one. They begin at a blue, which all eyes tell apart from the grey of neutral values, and stay away from
-/// that grey: by at least 22 in CIELAB (CIE 1976), also for eyes without red or green cones as Machado et al. (2009)
+/// that grey: by at least 21 in CIELAB (CIE 1976), also for eyes without red or green cones as Machado et al. (2009)
 /// simulate them. Between the control points, the map is linear in sRGB.
 namespace chainmail::colour_map {
 

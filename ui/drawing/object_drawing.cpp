@@ -11,7 +11,7 @@ constexpr double pixelsBetweenMarks = 9;
 constexpr float planeFaceOpacity = 0.12F;
 // Edges on a surface are invisible below the first length and fully visible above the second (pixels).
 constexpr double shortestEdge = 4, longEdge = 14;
-constexpr float edgeOpacity = 0.55F;
+constexpr float edgeOpacity = 0.62F;  // a contrast of 3 to the faces
 // Links without a surface stay visible however short they are: many of them are next to each other.
 constexpr double faintestLinks = 0.45;
 // Widths of links that are coloured by values, as fractions of their length in the view, with limits in pixels.
@@ -51,10 +51,15 @@ QColor ObjectDrawing::ownColour(const Mesh& mesh, const Paint& paint) {
 }
 
 QColor ObjectDrawing::linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
-  const bool solid = isSolid(mesh, paint.options);
-  QColor colour = solid ? colours::edge(ownColour(mesh, paint)) : paint.colour;
-  colour.setAlphaF(solid ? edgeOpacity * float(std::max(0.1, shareOfLongEdge(mesh, pixelsPerUnit)))
-                         : shareOfLink(mesh, pixelsPerUnit));
+  if (!isSolid(mesh, paint.options)) {
+    QColor colour = paint.colour;
+    colour.setAlphaF(shareOfLink(mesh, pixelsPerUnit));
+    return colour;
+  }
+  QColor colour = colours::edge(ownColour(mesh, paint));
+  // Next to values on the faces, short edges would darken these.
+  const double least = facesByValues(&mesh, paint) ? 0 : 0.1;
+  colour.setAlphaF(edgeOpacity * float(std::max(least, shareOfLongEdge(mesh, pixelsPerUnit))));
   return colour;
 }
 

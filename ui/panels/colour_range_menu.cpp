@@ -100,8 +100,8 @@ void ColourRangeMenu::addFields() {
   row->addWidget(new QLabel(QStringLiteral("to")));
   row->addWidget(highest_);
   auto* action = new QWidgetAction(this);
-  action->setObjectName(QStringLiteral("colourRangeFields"));
   action->setText(QStringLiteral("Ends of the fixed range"));
+  action->setStatusTip(QStringLiteral("The values at the two ends of the colours"));
   action->setDefaultWidget(fields);
   addAction(action);
 }

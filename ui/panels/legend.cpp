@@ -15,7 +15,8 @@ namespace chainmail {
 namespace {
 
 constexpr int legendMargin = 8;  // pixels, the same as in the other lines of a panel
-constexpr int gap = 6;           // pixels between the bar and its numbers
+constexpr int topMargin = 3;
+constexpr int gap = 6;  // pixels between the bar and its numbers
 constexpr int barHeight = 10;
 constexpr int widestBar = 360;
 constexpr int tickLength = 2;
@@ -62,10 +63,10 @@ QRect barIn(QRect line, int width) { return {line.left(), line.center().y() - ba
 Legend::Legend() { fit(); }
 
 /// Three lines of text: title, map, and numbers.
-int Legend::wholeHeight() const { return 3 * fontMetrics().height() + 6; }
+int Legend::wholeHeight() const { return topMargin + 3 * fontMetrics().height() + 6; }
 
 void Legend::fit() {
-  setFixedHeight(part_ == Part::title ? fontMetrics().height() + 3 : wholeHeight());
+  setFixedHeight(part_ == Part::title ? topMargin + fontMetrics().height() + 3 : wholeHeight());
   setVisible(wanted_ && part_ != Part::nothing);
 }
 
@@ -135,7 +136,7 @@ void Legend::paintEvent(QPaintEvent* /*event*/) {
 }
 
 void Legend::draw(QPainter& painter) const {
-  QRect line(legendMargin, 0, width() - 2 * legendMargin, fontMetrics().height());
+  QRect line(legendMargin, topMargin, width() - 2 * legendMargin, fontMetrics().height());
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                    fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
   line.translate(0, fontMetrics().height() + 2);
