@@ -16,8 +16,11 @@ namespace {
 
 /// The table. To add an algorithm, add a constant to `enum class Algorithm` and an entry here, in its family.
 ///
-/// Shapes differ, so that marks can be told apart without colour. The colours start from those of Okabe and Ito (2008).
-/// Any two differ by at least 24 (CIE 1976), also after the window has adapted them to text on a dark or light ground.
+/// Shapes differ, so that marks can be told apart without colour. The colours are the outcome of a search near those of
+/// Okabe and Ito (2008). After the window has adapted them to text on a dark or light ground, any two differ by at
+/// least 24 in CIELAB (CIE 1976), and by at least 9.5 for eyes without red or green cones, as Machado et al. (2009)
+/// simulate them. Generalized ChainMail and linear FEM, which lessons compare, differ by at least 24 for these eyes,
+/// too. The test window_comfort measures it.
 std::vector<AlgorithmInfo> make_table() {
   return {
       {.algorithm = Algorithm::generalized,
@@ -25,7 +28,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Generalized ChainMail",
        .source = "Li and Brodlie 2003; Dean 2004, 3.1",
        .summary = "candidates enter at the front of the list, all are admitted",
-       .style = {"M-.9-.9H.9V.9H-.9Z", "#d55e00"},  // square
+       .style = {"M-.9-.9H.9V.9H-.9Z", "#f76b20"},  // square
        .make = make_generalized,
        .history = follow_list<FrontList>},
       {.algorithm = Algorithm::spiral,
@@ -33,7 +36,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Spiral",
        .source = "Dean 2004, 3.2",
        .summary = "candidates enter at the back of the list, all are admitted",
-       .style = {"M0-1.2L1.15.85H-1.15Z", "#2fb4cf"},  // triangle
+       .style = {"M0-1.2L1.15.85H-1.15Z", "#58b6dc"},  // triangle
        .make = make_list_method<SpiralList>,
        .history = follow_list<SpiralList>},
       {.algorithm = Algorithm::natural_queue,
@@ -41,7 +44,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Natural Queue ChainMail",
        .source = "Dean 2004, 4.1",
        .summary = "candidates enter at the back, only those not yet updated are admitted",
-       .style = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#1f64d6"},  // circle
+       .style = {"M-1 0A1 1 0 1 0 1 0A1 1 0 1 0-1 0Z", "#006ce5"},  // circle
        .make = make_natural_queue,
        .history = follow_natural_queue},
       {.algorithm = Algorithm::enhanced,
@@ -49,7 +52,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Enhanced ChainMail",
        .source = "Schill et al. 1998",
        .summary = "the candidate with the largest violation is taken first",
-       .style = {"M0 1.2L1.15-.85H-1.15Z", "#009e73"},  // triangle on its tip
+       .style = {"M0 1.2L1.15-.85H-1.15Z", "#569585"},  // triangle on its tip
        .make = make_list_method<EnhancedList>,
        .history = follow_list<EnhancedList>},
       {.algorithm = Algorithm::chainmail_3d,
@@ -58,7 +61,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "3D ChainMail",
        .source = "Frisken-Gibson 1997; Dean 2004, 2.1",
        .summary = "one list per direction, on grids and blocks only",
-       .style = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#d667c0"},  // cross
+       .style = {"M-.4-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1V-.4H-.4Z", "#ff7ad6"},  // cross
        .make = make_list_method<DirectionLists>,
        .history = follow_list<DirectionLists>,
        .needs_grid = true},
@@ -76,7 +79,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Linear FEM",
        .source = "Bro-Nielsen and Cotin 1996",
        .summary = "linear elasticity on the cells, for small deformations",
-       .style = {"M-1.2-.55H1.2V.55H-1.2Z", "#8a9a00"},  // bar
+       .style = {"M-1.2-.55H1.2V.55H-1.2Z", "#07935b"},  // bar
        .make = make_elastic_method<ElasticMethod::linear_fem>,
        .elastic = ElasticMethod::linear_fem,
        .needs_pins = true},
@@ -86,7 +89,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Bonet and Wood 1997",
        .summary = "nonlinear elasticity on the cells: the reference solution",
        .style = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
-                 "#d99400"},  // star
+                 "#b99445"},  // star
        .make = make_elastic_method<ElasticMethod::neo_hookean>,
        .elastic = ElasticMethod::neo_hookean,
        .needs_pins = true},
@@ -96,7 +99,7 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "James and Pai 1999",
        .summary = "linear elasticity on a closed surface of triangles",
        .style = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
-                 "#a0254f"},  // diagonal cross
+                 "#803d71"},  // diagonal cross
        .make = make_elastic_method<ElasticMethod::boundary>,
        .elastic = ElasticMethod::boundary,
        .needs_pins = true},
@@ -105,7 +108,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Free-form deformation",
        .source = "Sederberg and Parry 1986; Hsu et al. 1992",
        .summary = "a lattice of control points deforms space",
-       .style = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#7d55d8"},  // hexagon
+       .style = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#c559ff"},  // hexagon
        .make = make_elastic_method<ElasticMethod::free_form>,
        .elastic = ElasticMethod::free_form,
        .has_control_points = true},
@@ -114,7 +117,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Corotational FEM",
        .source = "Mueller and Gross 2004; Sifakis and Barbic 2012",
        .summary = "linear elasticity on the cells, in frames that turn with them",
-       .style = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#ff4d55"},  // two squares that overlap
+       .style = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#de3867"},  // two squares that overlap
        .make = make_elastic_method<ElasticMethod::corotational>,
        .elastic = ElasticMethod::corotational,
        .needs_pins = true},
@@ -123,7 +126,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "ARAP",
        .source = "Sorkine and Alexa 2007; Chao et al. 2010",
        .summary = "every part turns as a rigid body would, as far as the others let it",
-       .style = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#784b3c"},  // pentagon
+       .style = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#7f3826"},  // pentagon
        .make = make_elastic_method<ElasticMethod::arap>,
        .elastic = ElasticMethod::arap,
        .needs_pins = true},
@@ -132,7 +135,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "XPBD",
        .source = "Macklin et al. 2016",
        .summary = "springs and volumes as constraints that give way, solved one after another",
-       .style = {"M-1.2-.9H1.2L.35.9H-.35Z", "#b400e1"},  // trapezium
+       .style = {"M-1.2-.9H1.2L.35.9H-.35Z", "#ea00e2"},  // trapezium
        .make = make_elastic_method<ElasticMethod::xpbd>,
        .elastic = ElasticMethod::xpbd,
        .needs_pins = true,
@@ -142,7 +145,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Projective Dynamics",
        .source = "Bouaziz et al. 2014",
        .summary = "springs and turning cells, with one matrix for all iterations",
-       .style = {"M-1 1V-1L1 1Z", "#5fd35f"},  // right triangle
+       .style = {"M-1 1V-1L1 1Z", "#399f00"},  // right triangle
        .make = make_elastic_method<ElasticMethod::projective>,
        .elastic = ElasticMethod::projective,
        .needs_pins = true,

@@ -22,16 +22,24 @@ uniform sampler3D volume;
 uniform vec3 texture_scale, texture_offset; // from rest positions to positions in the texture, 0 to 1
 uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
-uniform float threshold; // values whose magnitude is at most this are neutral
+uniform float threshold; // values that differ from `centre` by at most this are neutral
+uniform float centre;
+uniform bool logarithmic; // equal ratios of values are equally far apart
+uniform int first_value;  // of the drawn links, in link_values
 uniform vec4 neutral;
 
 out vec4 fragment;
 
 vec4 mapped(float value) {
-  if (abs(value) <= threshold) {
+  if (abs(value - centre) <= threshold) {
     return neutral;
   }
-  float share = range.y > range.x ? clamp((value - range.x) / (range.y - range.x), 0.0, 1.0) : 0.0;
+  vec2 ends = range;
+  if (logarithmic) {
+    value = log(max(value, range.x));
+    ends = log(range);
+  }
+  float share = ends.y > ends.x ? clamp((value - ends.x) / (ends.y - ends.x), 0.0, 1.0) : 0.0;
   int from = min(int(share * 5.0), 4);
   return vec4(mix(stops[from], stops[from + 1], share * 5.0 - float(from)), 1.0);
 }
@@ -77,7 +85,7 @@ void main() {
 #if COLOURED_BY == 1
   vec4 result = mapped(value_here);
 #elif COLOURED_BY == 2
-  vec4 result = mapped(texelFetch(link_values, gl_PrimitiveID).r);
+  vec4 result = mapped(texelFetch(link_values, first_value + gl_PrimitiveID).r);
 #elif COLOURED_BY == 3
   vec4 result = texture(picture, (rest_here * texture_scale + texture_offset).xy);
 #elif COLOURED_BY == 4

@@ -1,10 +1,11 @@
-// Tests the colour map: its ends, its lightness, and the colours of differences.
+// Tests the colour map: its ends, its lightness, the colours of differences, and what all eyes tell apart.
 
 #include "drawing/colour_map.h"
 
 #include <QTest>
 #include <cmath>
 
+#include "colour_vision.h"
 #include "common/colours.h"
 #include "drawing/colour_values.h"
 #include "mesh/generate.h"
@@ -72,6 +73,60 @@ class ColourMap : public QObject {
         before = lightness(below);
       }
     }
+  }
+
+  /// 3 is the contrast of marks (WCAG 2.1, 1.4.11).
+  void everyLinkStandsOutFromTheGround() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const QColor behind = colours::background.on(ground);
+      QVERIFY(colours::contrast(neutral.on(ground), behind) >= 3);
+      for (const Stops& stops : {colour_map::stops(ground), colour_map::differenceStops(ground)}) {
+        for (const auto& [red, green, blue] : stops) {
+          QVERIFY(colours::contrast(QColor(red, green, blue), behind) >= 3);
+        }
+      }
+    }
+  }
+
+  /// The scale of violation begins at a hue that all eyes tell apart from the grey of valid links.
+  void allEyesTellViolatedLinksFromValidOnes() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const QColor valid = neutral.on(ground);
+      QVERIFY(colour_vision::leastDistance(colour_map::at(0, ground), valid) >= 50);
+      for (int i = 0; i <= 100; ++i) {
+        QVERIFY(colour_vision::leastDistance(colour_map::at(i / 100.0, ground), valid) >= 21);
+      }
+    }
+  }
+
+  void noColourOfTheScaleIsThatOfPins() {
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const QColor pin = colours::pinned.on(ground);
+      QVERIFY(colour_vision::leastDistance(colour_map::at(1, ground), pin) >= 28);
+      for (int i = 0; i <= 100; ++i) {
+        QVERIFY(colour_vision::leastDistance(colour_map::at(i / 100.0, ground), pin) >= 19);
+      }
+      QVERIFY(colour_vision::leastDistance(neutral.on(ground), pin) >= 15);
+    }
+  }
+
+  void aLogarithmicScaleHasEqualRatiosEquallyFarApart() {
+    ColourScale scale;
+    scale.lowest = 0.001F;
+    scale.highest = 10;
+    scale.logarithmic = true;
+    QVERIFY(std::abs(shareOf(0.1F, scale) - 0.5) < 1e-6);
+    QCOMPARE(shareOf(0, scale), 0.0);
+    QCOMPARE(shareOf(20, scale), 1.0);
+    scale.logarithmic = false;
+    QVERIFY(std::abs(shareOf(0.1F, scale) - 0.0099) < 1e-4);
+  }
+
+  /// Values around 1, such as lengths divided by rest lengths.
+  void neutralValuesAreThoseNearTheCentre() {
+    ColourScale scale{0.5F, 1.5F, 0.01F, 1, true};
+    QVERIFY(scale.isNeutral(1.005F) && !scale.isNeutral(0) && !scale.isNeutral(1.02F));
+    QCOMPARE(shareOf(1, scale), 0.5);
   }
 };
 

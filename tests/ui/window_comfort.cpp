@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "colour_vision.h"
 #include "common/icons.h"
 #include "common/plot_painting.h"
 #include "common/theme.h"
@@ -14,6 +15,7 @@
 #include "document/panel_colour.h"
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
+#include "drawing/object_drawing.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -90,6 +92,60 @@ class WindowComfort : public QObject {
         QVERIFY(contrastOf(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
       }
     }
+  }
+
+  /// Also if the window adapts them to the ground, and for eyes without red or green cones. See the table of
+  /// algorithms.
+  void allEyesTellAlgorithmsApart() {
+    using colour_vision::distance, colour_vision::leastDistance;
+    double usual = 1000, any = 1000;
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const auto all = every_algorithm();
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const QColor one = algorithmColour(all[i].algorithm).on(ground);
+          const QColor other = algorithmColour(all[j].algorithm).on(ground);
+          usual = std::min(usual, distance(one, other));
+          any = std::min(any, leastDistance(one, other));
+        }
+      }
+      QVERIFY(leastDistance(algorithmColour(Algorithm::generalized).on(ground),
+                            algorithmColour(Algorithm::linear_fem).on(ground)) >= 24);
+    }
+    QVERIFY2(usual >= 24, qPrintable(QString::number(usual)));
+    QVERIFY2(any >= 9.5, qPrintable(QString::number(any)));
+  }
+
+  /// Unlit, and with links that are long in the view. In space, links are edges of faces; in a plane, lines.
+  void linksOfEveryAlgorithmStandOut() {
+    const auto cloth = generate({MeshKind::cloth, {3, 3, 1}, 1, 3}),
+               grid = generate({MeshKind::grid, {3, 3, 1}, 1, {}});
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      applyGround(ground);
+      for (const AlgorithmInfo& one : every_algorithm()) {
+        const ObjectDrawing::Paint paint{algorithmColour(one.algorithm), nullptr, {}};
+        const QColor face = ObjectDrawing::faceColour(*cloth, paint),
+                     edge = ObjectDrawing::linkColour(*cloth, paint, 20);
+        const auto over = [&](float of, float on) { return edge.alphaF() * of + (1 - edge.alphaF()) * on; };
+        const QColor seen = QColor::fromRgbF(over(edge.redF(), face.redF()), over(edge.greenF(), face.greenF()),
+                                             over(edge.blueF(), face.blueF()));
+        QVERIFY2(contrastOf(seen, face) >= ofMarks, qPrintable(QString::fromUtf8(one.name.data())));
+        QVERIFY(contrastOf(ObjectDrawing::linkColour(*grid, paint, 20), colours::background) >= ofMarks);
+      }
+    }
+  }
+
+  /// Many short links would cover an object, but those of a line have no neighbours.
+  void shortLinksAreFainter() {
+    const auto opacity = [](const MeshPointer& mesh, double pixels) {
+      return ObjectDrawing::linkColour(*mesh, {QColor(Qt::white), nullptr, {}}, pixels).alphaF();
+    };
+    for (const auto& mesh :
+         {generate({MeshKind::cloth, {3, 3, 1}, 1, 3}), generate({MeshKind::grid, {3, 3, 1}, 1, {}})}) {
+      QVERIFY(opacity(mesh, 5) < 0.75F * opacity(mesh, 20));
+    }
+    const auto line = generate({MeshKind::line, {5, 1, 1}, 1, {}});
+    QCOMPARE(opacity(line, 2), 1.0F);
   }
 
   /// The style's own have a contrast of 2.7.

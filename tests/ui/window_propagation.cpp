@@ -268,6 +268,8 @@ class WindowPropagation : public QObject {
     Workbench bench;
     openAndDrag(bench, Point(1.5, 1, 0));
     QTRY_VERIFY(bench.window.panel(1).legend().title().contains(QStringLiteral("Order of update")));
+    const auto* box = bench.find<QComboBox>("colourBy");
+    QTRY_VERIFY(box->placeholderText().contains(QStringLiteral("Order of update")) && box->currentIndex() == -1);
     bench.trigger("passFirst");
     bench.trigger("passForward");
     bench.document().highlight().set({});
@@ -278,7 +280,8 @@ class WindowPropagation : public QObject {
     bench.trigger("showPropagation");  // closing the dock restores the normal views
     edits::resetObject(bench.document());
     bench.settle();
-    QTRY_VERIFY(!bench.window.panel(1).legend().isVisible());
+    QTRY_VERIFY(!bench.window.panel(1).legend().isWanted());
+    QTRY_COMPARE(box->currentText(), QStringLiteral("Plain"));
     bench.document().highlight().set({});
     QVERIFY(bench.distanceFromColour(1, bench.place(1, 22), colours::stronger(panelColour(bench.document(), 1))) <
             alike);

@@ -41,7 +41,7 @@ class Colour {
 // Views.
 inline constexpr Colour background(0xff15191f, 0xfff8f9fb);
 inline constexpr Colour marked(0xffffffff, 0xff101418);
-inline constexpr Colour pinned(0xfff0e442, 0xff6a5a00);
+inline constexpr Colour pinned(0xff56e8ff, 0xff006a78);  // unlike all colours of the colour map
 inline constexpr Colour selected(0xfff5a6d0, 0xffb02a80);
 inline constexpr Colour focus(0xff56b4e9, 0xff0068a8);  // the frame of the view with the keyboard focus
 inline constexpr Colour lit(0xfff05030, 0xffcc2200);

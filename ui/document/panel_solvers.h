@@ -57,6 +57,8 @@ class PanelSolvers : public QObject {
 
   /// True while all solvers have carried out all posted commands.
   bool idle() const;
+  /// True while a solver has carried out all commands that were sent to it.
+  bool idle(int panel) const { return solvers_[std::size_t(panel)]->idle(); }
   /// True while idle() and all frames are up to date. While relaxation runs, this is true only for short moments.
   bool settled() const;
   /// Call this when the window closes. Waits up to `patience` for posted moves, then skips the rest.

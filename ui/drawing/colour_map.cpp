@@ -7,13 +7,12 @@ namespace chainmail::colour_map {
 
 namespace {
 
-constexpr Stops onDark{
-    {{100, 92, 186}, {60, 119, 175}, {33, 145, 140}, {53, 183, 121}, {143, 215, 68}, {253, 231, 37}}};
-constexpr Stops onLight{{{31, 154, 138}, {36, 126, 142}, {46, 98, 142}, {61, 70, 136}, {72, 36, 117}, {58, 0, 72}}};
+constexpr Stops onDark{{{72, 92, 232}, {60, 136, 208}, {36, 170, 205}, {80, 200, 140}, {165, 224, 84}, {253, 231, 37}}};
+constexpr Stops onLight{{{50, 135, 240}, {60, 108, 215}, {66, 80, 186}, {72, 52, 152}, {72, 24, 115}, {52, 0, 66}}};
 constexpr Stops differenceOnDark{
-    {{150, 215, 255}, {72, 140, 205}, {52, 78, 108}, {108, 78, 46}, {205, 125, 35}, {255, 205, 120}}};
+    {{150, 190, 255}, {84, 146, 222}, {58, 108, 180}, {165, 92, 30}, {218, 134, 44}, {246, 186, 104}}};
 constexpr Stops differenceOnLight{
-    {{0, 45, 105}, {25, 95, 165}, {120, 152, 185}, {185, 145, 105}, {160, 82, 10}, {88, 38, 0}}};
+    {{0, 40, 100}, {20, 85, 155}, {62, 125, 190}, {190, 108, 40}, {150, 72, 5}, {88, 38, 0}}};
 
 }  // namespace
 
@@ -37,12 +36,16 @@ QColor at(double share, const Stops& all) {
 
 const Stops& stopsOf(const ColourScale& scale) { return scale.diverging ? differenceStops() : stops(); }
 
+double shareOf(float value, const ColourScale& scale) {
+  const auto along = [&](float one) {
+    return scale.logarithmic ? std::log(double(std::max(one, scale.lowest))) : double(one);
+  };
+  const double range = along(scale.highest) - along(scale.lowest);
+  return range > 0 ? std::clamp((along(value) - along(scale.lowest)) / range, 0.0, 1.0) : 0;
+}
+
 QColor of(float value, const ColourScale& scale) {
-  if (std::abs(value) <= scale.threshold) {
-    return neutral;
-  }
-  const float range = scale.highest - scale.lowest;
-  return at(range > 0 ? double((value - scale.lowest) / range) : 0, stopsOf(scale));
+  return scale.isNeutral(value) ? QColor(neutral) : at(shareOf(value, scale), stopsOf(scale));
 }
 
 }  // namespace chainmail::colour_map

@@ -25,7 +25,7 @@ struct Lighting {
                                                       : Lighting{0.46F, 0.16F, 0.42F, -0.30F, 0.10F};
   }
   /// Returns weaker light without highlights, so that colours which stand for values read the same as in the legend.
-  static Lighting ofValues() { return {0.70F, 0.08F, 0.26F, 0, 0}; }
+  static Lighting ofValues() { return {0.80F, 0.08F, 0.26F, 0, 0}; }
 
   QVector4D shares() const { return {everywhere, sky, key, edge}; }
 

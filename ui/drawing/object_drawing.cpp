@@ -11,8 +11,22 @@ constexpr double pixelsBetweenMarks = 9;
 constexpr float planeFaceOpacity = 0.12F;
 // Edges on a surface are invisible below the first length and fully visible above the second (pixels).
 constexpr double shortestEdge = 4, longEdge = 14;
-constexpr float edgeOpacity = 0.55F;
+constexpr float edgeOpacity = 0.62F;  // a contrast of 3 to the faces
+// Links without a surface stay visible however short they are: many of them are next to each other.
+constexpr double faintestLinks = 0.45;
+// Widths of links that are coloured by values, as fractions of their length in the view, with limits in pixels.
+constexpr double shareOfLength = 0.2, shareOfStressed = 0.35, thinnest = 1, thinnestStressed = 2, thickest = 3.5;
 constexpr float linksFade = 0.75F, solidFade = 0.3F;
+
+/// Returns 0 for edges too short to be seen, 1 for long ones.
+double shareOfLongEdge(const Mesh& mesh, double pixelsPerUnit) {
+  return std::clamp((mesh.mean_link_length * pixelsPerUnit - shortestEdge) / (longEdge - shortestEdge), 0.0, 1.0);
+}
+
+/// Returns the opacity of links without a surface. Those of a line stay opaque: none is next to them.
+float shareOfLink(const Mesh& mesh, double pixelsPerUnit) {
+  return mesh.space_dimension == 1 ? 1 : float(std::max(faintestLinks, shareOfLongEdge(mesh, pixelsPerUnit)));
+}
 
 }  // namespace
 
@@ -38,13 +52,31 @@ QColor ObjectDrawing::ownColour(const Mesh& mesh, const Paint& paint) {
 
 QColor ObjectDrawing::linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
   if (!isSolid(mesh, paint.options)) {
-    return paint.colour;
+    QColor colour = paint.colour;
+    colour.setAlphaF(shareOfLink(mesh, pixelsPerUnit));
+    return colour;
   }
   QColor colour = colours::edge(ownColour(mesh, paint));
-  const double pixels = mesh.mean_link_length * pixelsPerUnit;
-  const double share = std::clamp((pixels - shortestEdge) / (longEdge - shortestEdge), 0.1, 1.0);
-  colour.setAlphaF(edgeOpacity * float(share));
+  // Next to values on the faces, short edges would darken these.
+  const double least = facesByValues(&mesh, paint) ? 0 : 0.1;
+  colour.setAlphaF(edgeOpacity * float(std::max(least, shareOfLongEdge(mesh, pixelsPerUnit))));
   return colour;
+}
+
+QColor ObjectDrawing::neutralColour(const Mesh& mesh, double pixelsPerUnit) {
+  QColor colour = colour_map::neutral;
+  colour.setAlphaF(shareOfLink(mesh, pixelsPerUnit));
+  return colour;
+}
+
+float ObjectDrawing::linkWidth(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
+  const double pixels = mesh.mean_link_length * pixelsPerUnit;
+  return stressesLinks(&mesh, paint) ? float(std::clamp(shareOfLength * pixels, thinnest, double(valuedWidth)))
+                                     : valuedWidth;
+}
+
+float ObjectDrawing::stressedWidth(const Mesh& mesh, double pixelsPerUnit) {
+  return float(std::clamp(shareOfStressed * mesh.mean_link_length * pixelsPerUnit, thinnestStressed, thickest));
 }
 
 bool ObjectDrawing::distinguishesEdges(const Mesh& mesh, double pixelsPerUnit) {

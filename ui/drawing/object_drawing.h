@@ -98,8 +98,17 @@ class ObjectDrawing {
   /// Returns the colour of fully lit faces. Next to links, faces in a plane are almost transparent. Faces are grey if
   /// values colour the links.
   static QColor faceColour(const Mesh& mesh, const Paint& paint);
-  /// Returns the colour of the links; on surfaces, thin dark edges that are fainter the shorter they are.
+  /// Returns the colour of the links, which are fainter the shorter they are; on surfaces, thin dark edges.
   static QColor linkColour(const Mesh& mesh, const Paint& paint, double pixelsPerUnit);
+  /// Returns the colour of links whose values are neutral. Like all links, they are fainter the shorter they are.
+  static QColor neutralColour(const Mesh& mesh, double pixelsPerUnit);
+  /// True if links whose values are not neutral are drawn again: thicker, and over all others.
+  static bool stressesLinks(const Mesh* mesh, const Paint& paint) {
+    return valuesFit(mesh, paint) && paint.values->ofLinks && paint.scale.threshold >= 0;
+  }
+  /// Returns the width of links that are coloured by values, and of those that are drawn again (logical pixels).
+  static float linkWidth(const Mesh& mesh, const Paint& paint, double pixelsPerUnit);
+  static float stressedWidth(const Mesh& mesh, double pixelsPerUnit);
   /// True if the links on a surface are long enough in the view to be distinguished.
   static bool distinguishesEdges(const Mesh& mesh, double pixelsPerUnit);
   /// Returns the light on the faces of a surface.
@@ -119,9 +128,13 @@ class ObjectDrawing {
     return paint.values != nullptr && paint.values->mesh.get() == mesh;
   }
   static QColor ownColour(const Mesh& mesh, const Paint& paint);
+  /// Returns one value per element, which may colour faces: empty if links are coloured only.
+  static const std::vector<float>& elementValues(const ColourValues& values) {
+    return values.ofLinks ? values.atElements : values.values;
+  }
   /// True if the values of the elements colour the faces. In a plane, this requires that links are hidden.
   static bool facesByValues(const Mesh* mesh, const Paint& paint) {
-    return valuesFit(mesh, paint) && !paint.values->ofLinks && !showsPicture(*mesh) &&
+    return valuesFit(mesh, paint) && !elementValues(*paint.values).empty() && !showsPicture(*mesh) &&
            (!paint.options.links || isSolid(*mesh, paint.options));
   }
   /// True if values colour the links.

@@ -24,6 +24,8 @@ constexpr std::size_t maxRingsPainted = 50'000;
 // Valued shapes are drawn nearer to the eye by this fraction of the object's depth, so that faces next to them do not
 // hide parts of them.
 constexpr float valuedLift = 0.04F;
+// The same for links that are drawn again over the others.
+constexpr float stressedLift = 0.01F;
 // The same for marks, so that the surface around a marked element does not hide its mark.
 constexpr float markLift = 0.03F;
 constexpr float hiddenOpacity = 0.3F;  // of marks behind the surface
@@ -224,37 +226,47 @@ void ObjectPainter::use(const Scene& scene, QColor colour, Shading shading, int 
 }
 
 /// Same as use(), for the object coloured by its values: elements read them as an attribute, links from a texture.
-void ObjectPainter::useValues(const Scene& scene, const Paint& paint, Shading shading) {
-  const bool ofLinks = paint.values->ofLinks;
+void ObjectPainter::useValues(const Scene& scene, const Paint& paint, Shading shading, bool ofLinks) {
   positions_.bind();
   use(scene, paint.colour, shading, mesh_->space_dimension, ofLinks ? Colouring::links : Colouring::elements);
   if (paint.values->number != valuesNumber_) {
-    uploadValues(*paint.values);
+    uploadValues(paint);
   }
-  useMap(paint.scale);
+  useMap(paint.scale, colour_map::neutral);
   if (ofLinks) {
+    program_->setUniformValue("first_value", 0);
     glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   } else {
-    values_.bind();
+    elementValues_.bind();
     program_->enableAttributeArray(1);
     program_->setAttributeBuffer(1, GL_FLOAT, 0, 1);
   }
 }
 
-/// Sends one value per link that is drawn, or per element.
-void ObjectPainter::uploadValues(const ColourValues& values) {
-  valuesNumber_ = values.number;
-  if (!values.ofLinks) {
-    upload(values_, values.values);
+/// Sends one value per element, or per link that is drawn, and those of the stressed links again.
+void ObjectPainter::uploadValues(const Paint& paint) {
+  valuesNumber_ = paint.values->number;
+  upload(elementValues_, elementValues(*paint.values));
+  if (!paint.values->ofLinks) {
     return;
   }
-  upload(values_, parts_.valuesOf(drawnLinks_, values));
+  auto values = parts_.valuesOf(drawnLinks_.numbers, *paint.values);
+  std::vector<ElementId> ends;
+  for (std::size_t i = 0; stressesLinks(mesh_.get(), paint) && i < drawnLinks_.numbers.size(); ++i) {
+    if (!paint.scale.isNeutral(values[i])) {
+      ends.insert(ends.end(), {drawnLinks_.ends[2 * i], drawnLinks_.ends[2 * i + 1]});
+      const float value = values[i];
+      values.push_back(value);
+    }
+  }
+  stressedIndices_ = upload(stressed_, ends);
+  upload(values_, values);
   glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
 }
 
 /// Sets the colour map of a program that colours by values.
-void ObjectPainter::useMap(const ColourScale& scale) {
+void ObjectPainter::useMap(const ColourScale& scale, QColor neutral) {
   const auto& map = colour_map::stopsOf(scale);
   std::array<QVector3D, std::tuple_size_v<colour_map::Stops>> stops;
   std::transform(map.begin(), map.end(), stops.begin(),
@@ -262,7 +274,9 @@ void ObjectPainter::useMap(const ColourScale& scale) {
   program_->setUniformValueArray("stops", stops.data(), int(stops.size()));
   program_->setUniformValue("range", QVector2D(scale.lowest, scale.highest));
   program_->setUniformValue("threshold", scale.threshold);
-  program_->setUniformValue("neutral", QColor(colour_map::neutral));
+  program_->setUniformValue("centre", scale.centre);
+  program_->setUniformValue("logarithmic", scale.logarithmic);
+  program_->setUniformValue("neutral", neutral);
 }
 
 /// Passes rest positions to the program in use if a section or a picture needs them, and turns the section on.
@@ -364,9 +378,8 @@ ObjectPainter::Drawn ObjectPainter::drawnNow(const Scene& scene, const Paint& pa
 }
 
 void ObjectPainter::sendParts() {
-  auto drawn = parts_.links();
-  drawnLinks_ = std::move(drawn.numbers);
-  upload(links_, drawn.ends);
+  drawnLinks_ = parts_.links();
+  upload(links_, drawnLinks_.ends);
   faceIndices_ = upload(faces_, parts_.faces());
   freshIndices_ = upload(fresh_, parts_.freshFaces());
   valuesNumber_ = 0;
@@ -405,7 +418,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   const bool pictured = showsPicture(*mesh_);
   const Shading shading = !spatial ? Shading::plane : pictured ? Shading::plain : Shading::lit;
   if (facesByValues(mesh_.get(), paint)) {
-    useValues(scene, paint, shading);
+    useValues(scene, paint, shading, false);
   } else {
     use(scene, faceColour(*mesh_, paint), shading, mesh_->space_dimension,
         pictured ? Colouring::picture : Colouring::one);
@@ -484,21 +497,44 @@ void ObjectPainter::drawCap(const Scene& scene) {
 }
 
 void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
-  const auto count = GLsizei(2 * drawnLinks_.size());
+  const auto count = GLsizei(drawnLinks_.ends.size());
   if (count == 0) {
     return;
   }
   positions_.bind();
   const bool byValues = linksByValues(mesh_.get(), paint);
   if (byValues) {
-    useValues(scene, paint, Shading::plain);
+    useValues(scene, paint, Shading::plain, paint.values->ofLinks);
+    program_->setUniformValue("neutral", neutralColour(*mesh_, pixelsPerUnit));
   } else {
     use(scene, linkColour(*mesh_, paint, pixelsPerUnit), Shading::plain, mesh_->space_dimension);
   }
   useRest(paint.options);
-  links_.bind();
+  drawLines(scene, links_, count, byValues ? linkWidth(*mesh_, paint, pixelsPerUnit) : 1);
+  if (stressesLinks(mesh_.get(), paint)) {
+    drawStressed(scene, paint, pixelsPerUnit);
+  }
+}
+
+/// Draws the links whose values are not neutral again: thicker, and on a surface a little nearer to the eye.
+void ObjectPainter::drawStressed(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
+  useValues(scene, paint, Shading::plain, true);
+  if (stressedIndices_ == 0) {
+    return;
+  }
+  if (isSolid(*mesh_, paint.options)) {
+    program_->setUniformValue("to_clip", liftedClip(scene, stressedLift));
+  }
+  program_->setUniformValue("first_value", int(drawnLinks_.numbers.size()));
+  useRest(paint.options);
+  drawLines(scene, stressed_, stressedIndices_, stressedWidth(*mesh_, pixelsPerUnit));
+}
+
+/// Draws links with the program in use; smooth and `width` logical pixels wide, unless there are very many.
+void ObjectPainter::drawLines(const Scene& scene, QOpenGLBuffer& ends, GLsizei count, float width) {
+  ends.bind();
   if (count <= maxIndicesSmoothed) {
-    glLineWidth((byValues ? valuedWidth : 1) * scene.linkScale * scene.pixelRatio);
+    glLineWidth(width * scene.linkScale * scene.pixelRatio);
     glEnable(GL_LINE_SMOOTH);
   } else if (scene.linkScale > 1) {
     glLineWidth(scene.linkScale * scene.pixelRatio);
@@ -512,7 +548,7 @@ void ObjectPainter::drawEveryElement(const Scene& scene, const Paint& paint) {
   const bool byValues = valuesFit(paint);
   positions_.bind();
   if (byValues && !paint.values->ofLinks) {
-    useValues(scene, paint, Shading::disc);
+    useValues(scene, paint, Shading::disc, false);
   } else {
     use(scene, byValues ? QColor(colour_map::neutral) : colours::stronger(paint.colour), Shading::disc,
         mesh_->space_dimension);
@@ -672,7 +708,7 @@ void ObjectPainter::drawValued(const Scene& scene, std::span<const QVector3D> po
   use(over, {}, lines ? Shading::plain : shape == Shape::discs ? Shading::disc : Shading::ring, 3, Colouring::elements);
   program_->setUniformValue("to_view", scene.toView);
   program_->setUniformValue("to_clip", liftedClip(scene, valuedLift));
-  useMap(scale);
+  useMap(scale, colour_map::neutral);
   program_->enableAttributeArray(1);
   program_->setAttributeBuffer(1, GL_FLOAT, int(positions.size_bytes()), 1);
   program_->setUniformValue("point_size", width * scene.pixelRatio);

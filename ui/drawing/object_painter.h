@@ -54,7 +54,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   unsigned step() const { return parts_.step(); }
   bool leavesLinksOut() const { return parts_.leavesLinksOut(); }
   /// Number of links and faces in the last picture of the object.
-  std::size_t shapes() const { return std::size_t(faceIndices_ + freshIndices_) / 3 + drawnLinks_.size(); }
+  std::size_t shapes() const { return std::size_t(faceIndices_ + freshIndices_) / 3 + drawnLinks_.numbers.size(); }
   /// Returns true if a complete picture was drawn, not only copied, since the last call.
   bool takeLayerDrawn() { return std::exchange(layerDrawn_, false); }
 
@@ -91,16 +91,16 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
     bool operator==(const Drawn&) const = default;
   };
 
-  std::array<QOpenGLBuffer*, 12> buffers() {
-    return {&positions_, &scratch_, &links_, &faces_,        &fresh_,   &selected_,
-            &values_,    &rest_,    &cap_,   &capPositions_, &capRest_, &normals_};
+  std::array<QOpenGLBuffer*, 14> buffers() {
+    return {&positions_, &scratch_, &links_,        &faces_,   &fresh_,   &selected_,      &values_,
+            &rest_,      &cap_,     &capPositions_, &capRest_, &normals_, &elementValues_, &stressed_};
   }
   void uploadPositions(const Frame& frame);
 
   void use(const Scene& scene, QColor colour, Shading shading, int dimension, Colouring colouring = Colouring::one);
-  void useValues(const Scene& scene, const Paint& paint, Shading shading);
-  void uploadValues(const ColourValues& values);
-  void useMap(const ColourScale& scale);
+  void useValues(const Scene& scene, const Paint& paint, Shading shading, bool ofLinks);
+  void uploadValues(const Paint& paint);
+  void useMap(const ColourScale& scale, QColor neutral);
   void useRest(const DrawOptions& options);
   void useTexture();
   bool valuesFit(const Paint& paint) const { return ObjectDrawing::valuesFit(mesh_.get(), paint); }
@@ -115,6 +115,8 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void useNormals();
   void drawCap(const Scene& scene);
   void drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawStressed(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawLines(const Scene& scene, QOpenGLBuffer& ends, GLsizei count, float width);
   void drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw);
   void drawEveryElement(const Scene& scene, const Paint& paint);
   void drawOwn(const Scene& scene, std::span<const float> positions, GLenum mode, QColor colour, Shading shading,
@@ -146,8 +148,10 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer fresh_{QOpenGLBuffer::IndexBuffer};     // the faces that cuts have made visible
   QOpenGLBuffer normals_{QOpenGLBuffer::VertexBuffer};  // one per element
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
-  QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};
-  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};  // rest positions of restMesh_, for sections and pictures
+  QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};  // of the drawn links, then of the stressed ones among them
+  QOpenGLBuffer elementValues_{QOpenGLBuffer::VertexBuffer};
+  QOpenGLBuffer stressed_{QOpenGLBuffer::IndexBuffer};  // see stressesLinks
+  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};     // rest positions of restMesh_, for sections and pictures
   MeshPointer restMesh_;
   QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // the face of a section, which has points of its own
   QOpenGLBuffer capPositions_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
@@ -163,7 +167,8 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   MeshPointer mesh_;
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
-  std::vector<std::uint32_t> drawnLinks_;  // the numbers of the links in links_
+  DrawnLinks drawnLinks_;  // the links in links_
+  GLsizei stressedIndices_ = 0;
   GLsizei faceIndices_ = 0, freshIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
   std::uint64_t partsNumber_ = 0;  // grows when the drawn parts or the section change
   float frontSign_ = 0;            // see ObjectDrawing::frontSign

@@ -9,8 +9,8 @@
 
 namespace chainmail {
 
-/// Returns the matrix that maps the coordinates of frames on the axes of the mesh (1 to 3) to all three coordinates. The
-/// other coordinates are constant.
+/// Returns the matrix that maps the coordinates of frames on the axes of the mesh (1 to 3) to all three coordinates.
+/// The other coordinates are constant.
 QMatrix4x4 meshToWorld(const Mesh& mesh);
 
 /// A rectangle in a view (logical pixels); empty by default.

@@ -261,7 +261,7 @@ QColor VectorPainter::colourOf(const Scene& scene, const Paint& paint, std::span
     face = texelsOf(*mesh.texture,
                     {mesh.rest_position(corners[0]), mesh.rest_position(corners[1]), mesh.rest_position(corners[2])});
   } else if (facesByValues(&mesh, paint)) {
-    const auto& values = paint.values->values;
+    const auto& values = elementValues(*paint.values);
     face = colour_map::of((values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3, paint.scale);
   }
   if (mesh.space_dimension < 3) {
@@ -297,8 +297,8 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint, double pixe
   const bool byValues = linksByValues(&mesh, paint);
   const QColor colour = linkColour(mesh, paint, pixelsPerUnit);
   const DrawnLinks links = parts_.links();
-  const auto values =
-      byValues && paint.values->ofLinks ? parts_.valuesOf(links.numbers, *paint.values) : std::vector<float>();
+  const bool ofLinks = valuesFit(&mesh, paint) && paint.values->ofLinks;
+  const auto values = ofLinks ? parts_.valuesOf(links.numbers, *paint.values) : std::vector<float>();
   for (std::size_t i = 0; i < links.numbers.size(); ++i) {
     const ElementId a = links.ends[2 * i], b = links.ends[2 * i + 1];
     const auto [first, last] = shown(a, b, paint.options);
@@ -307,15 +307,29 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint, double pixe
     }
     const auto along = [&](float share) { return inSpace(a) + share * (inSpace(b) - inSpace(a)); };
     const std::array ends{along(first), along(last)};
-    if (!byValues) {
+    if (ofLinks && (byValues || !paint.scale.isNeutral(values[i]))) {
+      addLinkOfValue(scene, ends, values[i], paint, pixelsPerUnit);
+    } else if (!byValues) {
       add(scene, ends, colour, 1, Mark::disc, liftOfLines * float(mesh.mean_link_length));
-    } else if (paint.values->ofLinks) {
-      addLink(scene, ends, {values[i], values[i]}, paint.scale, valuedWidth);
     } else {
       const float from = paint.values->values[a], to = paint.values->values[b];
       addLink(scene, ends, {std::lerp(from, to, first), std::lerp(from, to, last)}, paint.scale, valuedWidth);
     }
   }
+}
+
+/// Adds a link with a value of its own. One that is not neutral is thicker and over the others: next to a surface only
+/// over those that are equally far from the eye.
+void VectorPainter::addLinkOfValue(const Scene& scene, const std::array<QVector3D, 2>& ends, float value,
+                                   const Paint& paint, double pixelsPerUnit) {
+  const Mesh& mesh = *frame_->mesh;
+  const bool stresses = stressesLinks(&mesh, paint), stressed = stresses && !paint.scale.isNeutral(value);
+  const float near = liftOfLines * float(mesh.mean_link_length);
+  const float over = isSolid(mesh, paint.options) ? 2 * near : near + scene.fog.y() - scene.fog.x();
+  add(scene, ends,
+      paint.scale.isNeutral(value) ? neutralColour(mesh, pixelsPerUnit) : colour_map::of(value, paint.scale),
+      stressed ? stressedWidth(mesh, pixelsPerUnit) : linkWidth(mesh, paint, pixelsPerUnit), Mark::disc,
+      stressed ? over + near : near);
 }
 
 /// Adds a link in pieces of one colour each. Their number grows with the difference between the values at its ends.

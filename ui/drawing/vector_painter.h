@@ -72,6 +72,8 @@ class VectorPainter : public ObjectDrawing {
   void addLinks(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void addLink(const Scene& scene, const std::array<QVector3D, 2>& ends, const std::array<float, 2>& values,
                const ColourScale& scale, float width);
+  void addLinkOfValue(const Scene& scene, const std::array<QVector3D, 2>& ends, float value, const Paint& paint,
+                      double pixelsPerUnit);
   void addElements(const Scene& scene, const Paint& paint);
   /// Draws all pieces that were added, from back to front.
   void flush();

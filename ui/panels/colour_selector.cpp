@@ -7,7 +7,6 @@ namespace chainmail {
 ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
   setObjectName(QStringLiteral("colourBy"));
   setAccessibleName(QStringLiteral("Colour by"));
-  setToolTip(QStringLiteral("The quantity that the colours of all panels show"));
   for (const ColourModeInfo& info : colourModes()) {
     addItem(text(info.label), int(info.mode));
     auto* action = actions_->addAction(text(info.label));
@@ -28,8 +27,19 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
 
 void ColourSelector::showMode() {
   const int index = findData(int(colouring_.mode()));
-  setCurrentIndex(index);
   actions_->actions().at(index)->setChecked(true);
+  // While nothing is selected, the box shows its placeholder.
+  setPlaceholderText(overlay_);
+  setCurrentIndex(overlay_.isEmpty() ? index : -1);
+  setToolTip(overlay_.isEmpty()
+                 ? QStringLiteral("The quantity that the colours of all panels show")
+                 : QStringLiteral("%1: the colours of a dock that is open. When it is closed, they show: %2")
+                       .arg(overlay_, text(info(colouring_.mode()).label)));
+}
+
+void ColourSelector::showOverlay(const QString& title) {
+  overlay_ = title;
+  showMode();
 }
 
 }  // namespace chainmail

@@ -14,11 +14,14 @@ class ColourSelector : public QComboBox {
  public:
   explicit ColourSelector(Colouring& colouring);
   QList<QAction*> menuActions() const { return actions_->actions(); }
+  /// Says that an overlay colours the objects instead, with its title; empty: none does.
+  void showOverlay(const QString& title);
 
  private:
   void showMode();
 
   Colouring& colouring_;
+  QString overlay_;
   QActionGroup* actions_;
 };
 

@@ -20,12 +20,15 @@ constexpr int sliceMilliseconds = 4;  // per panel and interval; drawing and dra
 constexpr std::size_t valuesPerClockCheck = 4096;
 // In rest lengths, as in the figures below the panels. Smaller violations are rounding errors.
 constexpr float violationThreshold = 1e-4F;
+constexpr float logarithmicSpan = 1000;  // of a logarithmic scale whose lowest value is not positive
 
 constexpr std::array modeInfos{
     ColourModeInfo{ColourMode::plain, "plain", "Plain", "", ""},
-    ColourModeInfo{ColourMode::compression, "compression", "Compression of links", "Compression", "of rest length"},
-    ColourModeInfo{ColourMode::stretch, "stretch", "Stretch of links", "Stretch", "of rest length"},
-    ColourModeInfo{ColourMode::shear, "shear", "Shear of links", "Shear", "of length along the other axes"},
+    ColourModeInfo{ColourMode::compression, "compression", "Limit of compression", "Limit of compression",
+                   "of rest length"},
+    ColourModeInfo{ColourMode::stretch, "stretch", "Limit of stretch", "Limit of stretch", "of rest length"},
+    ColourModeInfo{ColourMode::shear, "shear", "Limit of shear", "Limit of shear", "of length along the other axes"},
+    ColourModeInfo{ColourMode::length, "length", "Length / rest length", "Length of links, live", "of rest length"},
     ColourModeInfo{ColourMode::violation, "violation", "Violation of links", "Violation, live", "rest lengths"},
     ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
@@ -40,6 +43,14 @@ bool isOfSoftness(ColourMode mode) {
   return mode == ColourMode::compression || mode == ColourMode::stretch || mode == ColourMode::shear;
 }
 
+/// True if a panel's values depend on its own frame alone.
+bool followsFrame(ColourMode mode) {
+  return mode == ColourMode::length || mode == ColourMode::violation || mode == ColourMode::physicsError;
+}
+
+/// True if the values of links also colour the faces of objects in space.
+bool coloursFaces(ColourMode mode) { return mode == ColourMode::violation || mode == ColourMode::violationDifference; }
+
 }  // namespace
 
 // Modes
@@ -49,6 +60,8 @@ std::span<const ColourModeInfo> colourModes() { return modeInfos; }
 const ColourModeInfo& info(ColourMode mode) {
   return *std::find_if(modeInfos.begin(), modeInfos.end(), [mode](auto& one) { return one.mode == mode; });
 }
+
+bool isDiverging(ColourMode mode) { return mode == ColourMode::length || mode == ColourMode::violationDifference; }
 
 bool comparesPanels(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::violationDifference; }
 
@@ -98,10 +111,18 @@ void Colouring::setSharesScale(bool shares) {
   }
 }
 
+void Colouring::setRange(ColourMode mode, const ColourRange& range) {
+  if (range != ranges_[std::size_t(mode)]) {
+    ranges_[std::size_t(mode)] = range;
+    updateScales();
+    emit modeChanged();  // for the legends
+  }
+}
+
 // Changes
 
 void Colouring::receiveFrame(int panel) {
-  if (mode_ == ColourMode::violation || mode_ == ColourMode::physicsError) {
+  if (followsFrame(mode_)) {
     works_[panel].outdated = true;
   } else if (comparesPanels(mode_)) {
     for (Work& work : works_) {
@@ -172,6 +193,7 @@ bool Colouring::start(int panel) {
   work.building.mesh = document_.mesh();
   work.building.ofLinks = !isOfElements(mode_);
   work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
+  work.building.atElements.assign(coloursFaces(mode_) && mesh.space_dimension == 3 ? mesh.element_count() : 0, 0);
   work.building.lowest = std::numeric_limits<float>::max();
   work.building.highest = 0;
   work.softness = document_.wholeSoftness();
@@ -243,14 +265,26 @@ void Colouring::advance(int panel) {
       const float one = counts ? value(panel, work.next) : 0;
       building.values[work.next] = one;
       if (counts) {
-        work.squares += double(one) * double(one);
-        building.lowest = std::min(building.lowest, one);
-        building.highest = std::max(building.highest, one);
+        take(work, work.next, one);
       }
     }
   }
   if (work.next == building.values.size()) {
     finish(work);
+  }
+}
+
+/// Takes a value into the range, the sum, and the values of the faces.
+void Colouring::take(Work& work, std::size_t i, float value) const {
+  ColourValues& building = work.building;
+  work.squares += double(value) * double(value);
+  building.lowest = std::min(building.lowest, value);
+  building.highest = std::max(building.highest, value);
+  if (!building.atElements.empty()) {
+    for (const ElementId end : building.mesh->links[i]) {
+      float& largest = building.atElements[end];
+      largest = std::abs(value) > std::abs(largest) ? value : largest;
+    }
   }
 }
 
@@ -273,6 +307,8 @@ float Colouring::value(int panel, std::size_t i) const {
       return float(work.softness->of(LinkId(i)).stretch);
     case ColourMode::shear:
       return float(work.softness->of(LinkId(i)).shear);
+    case ColourMode::length:
+      return length(work, panel, LinkId(i));
     case ColourMode::violation:
       return violation(work, panel, LinkId(i));
     case ColourMode::physicsError:
@@ -294,6 +330,23 @@ float Colouring::violation(const Work& work, int panel, LinkId link) const {
   const Mesh& mesh = *work.building.mesh;
   const PositionView positions = work.copies[panel].space.view(work.copies[panel].positions);
   return float(link_violation(mesh, *work.softness, positions, link));
+}
+
+/// Returns the length of a link as a fraction of its rest length. A link without a rest length counts as one of mean
+/// length, as for the violation.
+float Colouring::length(const Work& work, int panel, LinkId link) const {
+  const Mesh& mesh = *work.building.mesh;
+  const auto [a, b] = mesh.links[link];
+  double squared = 0, atRest = 0;
+  for (std::size_t k = 0; k < std::size_t(mesh.space_dimension); ++k) {
+    const std::size_t from = a * std::size_t(mesh.space_dimension) + k, to = b * std::size_t(mesh.space_dimension) + k;
+    const auto& positions = work.copies[panel].positions;
+    squared += std::pow(double(positions[to]) - double(positions[from]), 2);
+    atRest += std::pow(mesh.rest[to] - mesh.rest[from], 2);
+  }
+  return float(atRest > 0                  ? std::sqrt(squared / atRest)
+               : mesh.mean_link_length > 0 ? 1 + std::sqrt(squared) / mesh.mean_link_length
+                                           : 1);
 }
 
 float Colouring::distance(const Work& work, int panel, int other, ElementId element) const {
@@ -337,7 +390,7 @@ void Colouring::updateScales() {
     }
   }
   for (ColourScale& scale : scales) {
-    scale = finished(sharesScale_ ? all : scale);
+    scale = ranged(finished(sharesScale_ ? all : scale));
   }
   if (scales != scales_) {
     scales_ = scales;
@@ -350,6 +403,13 @@ ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
     scale.highest = std::max(scale.highest, violationThreshold);
+  } else if (mode_ == ColourMode::length && scale.known()) {
+    scale.diverging = true;
+    scale.centre = 1;
+    scale.threshold = violationThreshold;
+    const float off = std::max({1 - scale.lowest, scale.highest - 1, violationThreshold});
+    scale.lowest = 1 - off;
+    scale.highest = 1 + off;
   } else if (mode_ == ColourMode::distance || (mode_ == ColourMode::physicsError && scale.known())) {
     scale.lowest = 0;
   } else if (mode_ == ColourMode::violationDifference && scale.known()) {
@@ -359,6 +419,31 @@ ColourScale Colouring::finished(ColourScale scale) const {
     scale.lowest = -scale.highest;
   }
   return scale;
+}
+
+/// Returns `scale` with the range that the user has chosen. A logarithmic scale begins at the threshold, or at a
+/// thousandth of the highest value.
+ColourScale Colouring::ranged(ColourScale scale) const {
+  if (!scale.known()) {
+    return scale;
+  }
+  if (range().kind == ColourRange::Kind::fixed) {
+    scale.lowest = float(range().lowest);
+    scale.highest = float(range().highest);
+    if (scale.diverging) {  // both sides are equally long
+      const float off = std::max(std::abs(scale.lowest - scale.centre), std::abs(scale.highest - scale.centre));
+      scale.lowest = scale.centre - off;
+      scale.highest = scale.centre + off;
+    }
+  } else if (range().kind == ColourRange::Kind::logarithmic && !scale.diverging && scale.highest > 0) {
+    scale.logarithmic = true;
+    scale.lowest = scale.lowest > 0 ? scale.lowest : scale.highest / logarithmicSpan;
+  }
+  return scale;
+}
+
+QString Colouring::title() const {
+  return QStringLiteral("%1 (%2)").arg(text(info(mode_).title), text(info(mode_).unit));
 }
 
 QString Colouring::title(int panel) const {

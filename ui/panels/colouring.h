@@ -11,10 +11,21 @@
 #include "document/background_reference.h"
 #include "document/document.h"
 #include "drawing/colour_values.h"
+#include "panels/colour_range.h"
 
 namespace chainmail {
 
-enum class ColourMode { plain, compression, stretch, shear, violation, distance, violationDifference, physicsError };
+enum class ColourMode {
+  plain,
+  compression,
+  stretch,
+  shear,
+  length,
+  violation,
+  distance,
+  violationDifference,
+  physicsError
+};
 
 /// The names of a mode: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
 struct ColourModeInfo {
@@ -25,6 +36,8 @@ std::span<const ColourModeInfo> colourModes();
 const ColourModeInfo& info(ColourMode mode);
 /// True if the values of a panel also depend on another panel's object.
 bool comparesPanels(ColourMode mode);
+/// True if the middle of a mode's scale is a neutral value, and not its beginning.
+bool isDiverging(ColourMode mode);
 
 /// Computes the values that colour the objects of the panels. It computes only for panels that are painted, only after
 /// a change, and in short time slices. So the colours of a large mesh may lag behind, but the window stays responsive.
@@ -42,6 +55,11 @@ class Colouring : public QObject {
   /// True if all panels share one scale, so that a colour means the same value in each.
   bool sharesScale() const { return sharesScale_; }
   void setSharesScale(bool shares);
+  /// The range of the scale in the current mode.
+  const ColourRange& range() const { return ranges_[std::size_t(mode_)]; }
+  /// Sets the range of the current mode, or of any mode. It must be valid.
+  void setRange(const ColourRange& range) { setRange(mode_, range); }
+  void setRange(ColourMode mode, const ColourRange& range);
 
   /// Call this when a panel is painted. Returns the values of its newest frame, or those of a slightly older frame
   /// while the new ones are computed. Returns null in plain mode and before the first values are ready.
@@ -51,6 +69,10 @@ class Colouring : public QObject {
   ColourScale scale(int panel) const { return scales_[panel]; }
   /// The title of a panel's legend.
   QString title(int panel) const;
+  /// True if the panels' titles differ.
+  bool hasTitlesOfPanels() const { return comparesPanels(mode_) || mode_ == ColourMode::physicsError; }
+  /// The title of a legend for all panels.
+  QString title() const;
 
  signals:
   void modeChanged();
@@ -92,11 +114,14 @@ class Colouring : public QObject {
   void finish(Work& work);
 
   float value(int panel, std::size_t i) const;
+  void take(Work& work, std::size_t i, float value) const;
   float violation(const Work& work, int panel, LinkId link) const;
+  float length(const Work& work, int panel, LinkId link) const;
   float distance(const Work& work, int panel, int other, ElementId element) const;
   float physicsError(const Work& work, int panel, ElementId element) const;
 
   void updateScales();
+  ColourScale ranged(ColourScale scale) const;
   ColourScale finished(ColourScale scale) const;
   QString errorText(const Work& work) const;
 
@@ -107,6 +132,7 @@ class Colouring : public QObject {
   std::array<ColourScale, Document::maxPanels> scales_;
   int reference_ = 0;
   bool sharesScale_ = true;
+  std::array<ColourRange, std::size_t(ColourMode::physicsError) + 1> ranges_;  // by mode
   std::uint64_t number_ = 0;
   QTimer timer_;
 };

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QTextDocument>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "common/colours.h"
@@ -18,7 +19,8 @@ namespace chainmail {
 namespace {
 
 constexpr int refreshMilliseconds = 100;
-constexpr int printMargin = 8;  // pixels, the same as on the screen
+constexpr int lateMilliseconds = 300;  // a solver that works for longer without a frame is said to work
+constexpr int printMargin = 8;         // pixels, the same as on the screen
 const colours::Colour& ink = colours::marked;
 
 /// Draws a part of the panel, in coordinates of that part.
@@ -43,7 +45,8 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
       view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
       head_(new PanelHead(document, *view_, panel)),
       legend_(new Legend),
-      refresh_(this) {
+      refresh_(this),
+      late_(this) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
   violation_->setObjectName(QStringLiteral("violation%1").arg(panel));
@@ -76,10 +79,15 @@ void Panel::listen() {
   refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
   connect(&document_.solvers(), &PanelSolvers::frameReady, this, [this](int ready) {
-    if (ready == panel_ && !refresh_.isActive()) {
+    if (ready == panel_) {
+      busy_.invalidate();
+      answered_ = true;
+    }
+    if (!refresh_.isActive()) {  // also for other panels: the bar is relative to the worst of them
       refresh_.start();
     }
   });
+  followWork();
   connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
   connect(view_, &View::resized, &refresh_, qOverload<>(&QTimer::start));
   connect(view_, &View::ghostChanged, &refresh_, qOverload<>(&QTimer::start));
@@ -91,6 +99,81 @@ void Panel::listen() {
       refresh_.start();
     }
   });
+}
+
+/// Looks whether the solver works each time it may have begun, and while it does.
+void Panel::followWork() {
+  late_.setSingleShot(true);
+  late_.setInterval(lateMilliseconds);
+  connect(&late_, &QTimer::timeout, this, &Panel::showStatistics);
+  const auto look = [this] {
+    if (!late_.isActive()) {
+      late_.start();
+    }
+  };
+  const auto prepares = [this, look] {
+    answered_ = false;
+    look();
+  };
+  connect(&document_, &Document::pinsChanged, this, prepares);
+  connect(&document_, &Document::cutsChanged, this, prepares);
+  connect(&document_, &Document::meshChanged, this, prepares);
+  connect(&document_, &Document::algorithmChanged, this, prepares);
+  connect(&document_.moves(), &MovePlayer::changed, this, look);
+  connect(&document_.highlight(), &Highlight::changed, this, [this, look] {
+    const bool grabbed = document_.highlight().marks().grabbed;
+    answered_ = answered_ && (grabbed_ || !grabbed);
+    grabbed_ = grabbed;
+    if (grabbed) {
+      look();
+    }
+  });
+}
+
+/// Returns what the solver has been doing for a while without a new frame; usually empty.
+QString Panel::work(const Statistics& statistics) {
+  if (document_.solvers().idle(panel_)) {
+    busy_.invalidate();
+    return {};
+  }
+  if (!busy_.isValid()) {
+    busy_.start();
+  }
+  if (!late_.isActive()) {
+    late_.start();
+  }
+  if (busy_.elapsed() < lateMilliseconds / 2 || statistics.relaxing) {
+    return {};
+  }
+  return answered_ ? QStringLiteral("Computing…") : QStringLiteral("Preparing…");
+}
+
+/// True if the panel's object is not at rest, however it came there: a session may bring positions without moves.
+bool Panel::hasMoved(const Statistics& statistics) {
+  const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
+  if (statistics.passes > 0 || document_.cuts().count() > 0 || history.passes(history.position()) > 0) {
+    return true;
+  }
+  const Frame& frame = *document_.solvers().frame(panel_);
+  if (frame.number != movedNumber_ || frame.series != movedSeries_) {
+    movedNumber_ = frame.number;
+    movedSeries_ = frame.series;
+    moved_ = !std::ranges::equal(frame.positions, frame.mesh->rest,
+                                 [](float now, double rest) { return now == float(rest); });
+  }
+  return moved_;
+}
+
+/// Returns the RMS violation of the panel where it is largest.
+double Panel::worstViolation() const {
+  double worst = 0;
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    if (document_.solvers().frame(panel) != nullptr) {
+      const double rms = document_.solvers().statistics(panel).violation.rms;
+      worst = std::isfinite(rms) ? std::max(worst, rms) : worst;
+    }
+  }
+  return worst;
 }
 
 void Panel::refresh() {
@@ -106,11 +189,17 @@ void Panel::showStatistics() {
   } else {
     legend_->follow(colouring_, panel_);
   }
+  emit legendChanged();
   if (document_.solvers().frame(panel_) != nullptr) {
     const Statistics& statistics = document_.solvers().statistics(panel_);
     update(statistics);
     head_->showState(states(statistics).join(QStringLiteral(" · ")));
   }
+}
+
+QString Panel::overlayTitle() const {
+  const auto legend = view_->overlayLegend();
+  return legend ? legend->title : QString();
 }
 
 void Panel::showFigures(bool on) {
@@ -120,14 +209,18 @@ void Panel::showFigures(bool on) {
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
 void Panel::update(const Statistics& statistics) {
-  const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
-  const bool hasMoved = statistics.passes > 0 || document_.cuts().count() > 0 || history.passes(history.position()) > 0;
-  violation_->show(statistics, hasMoved, view_->isInMidPass());
-  const QString help = QStringLiteral(
-      "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is\n"
-      "the share of links above 1e-4 rest lengths.\n"
-      "During a drag it covers the links that the pass touched, at rest all links. While the\n"
-      "Propagation dock shows a candidate, it is the violation after the whole pass.");
+  const double worst = worstViolation();
+  violation_->show(statistics, {hasMoved(statistics), view_->isInMidPass(), work(statistics), worst});
+  const QString help =
+      QStringLiteral(
+          "The bar is as long as the RMS violation, which weighs how many links are violated and by how\n"
+          "much. A full bar is %1 rest lengths: the worst panel, but at least 0.1.\n"
+          "Violation: how far links lie outside their valid regions, in rest lengths. The last figure is\n"
+          "the share of links above 1e-4 rest lengths.\n")
+          .arg(shownNumber(ViolationLine::fullAt(worst), 'g', 2)) +
+      QStringLiteral(
+          "During a drag it covers the links that the pass touched, at rest all links. While the\n"
+          "Propagation dock shows a candidate, it is the violation after the whole pass.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   statistics_->setText(describe(statistics, false));
   violation_->setToolTip(QStringLiteral("%1\n\n%2\n\n%3").arg(violation_->sentence(), inWords(statistics), help));
@@ -212,12 +305,13 @@ void Panel::drawIn(QPainter& painter, const QColor& ground, std::optional<double
   painter.fillRect(rect(), ground);
   painter.setFont(font());
   drawAt(painter, head_->geometry(), [&] { drawHead(painter); });
-  if (legend_->isVisibleTo(this)) {
-    drawAt(painter, legend_->geometry(), [&] { legend_->draw(painter); });
-  }
   drawAt(painter, view_->geometry(), [&] {
     pixelRatio ? painter.drawImage(QPoint(), view_->picture(*pixelRatio, true)) : view_->drawIn(painter, ground);
   });
+  if (legend_->isWanted()) {  // also if the window has one legend for all panels, because a drawing may be of one panel
+    const QPoint at = legend_->isVisibleTo(this) ? legend_->pos() : view_->pos();
+    drawAt(painter, QRect(at, QSize(width(), legend_->wholeHeight())), [&] { legend_->draw(painter); });
+  }
   drawAt(painter, violation_->geometry(), [&] {
     painter.setPen(QColor(ink));
     painter.drawText(QRect(QPoint(), violation_->size()), Qt::AlignLeft | Qt::AlignVCenter, violation_->sentence());

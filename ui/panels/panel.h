@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFrame>
 #include <QLabel>
 #include <QTimer>
@@ -25,6 +26,8 @@ class Panel : public QFrame {
   PanelHead& head() { return *head_; }
   QComboBox& selector() { return head_->selector(); }
   Legend& legend() { return *legend_; }
+  /// Returns the title of the overlay that colours the object; empty if there is none.
+  QString overlayTitle() const;
   /// Shows or hides the figures of the last pass below the sentence.
   void showFigures(bool on);
   /// Draws an overlay over the object and shows its notes in the head.
@@ -35,10 +38,18 @@ class Panel : public QFrame {
   /// Repaints after an overlay has changed, and updates figures and legend.
   void refresh();
 
+ signals:
+  /// The legend may have changed.
+  void legendChanged();
+
  private:
   void arrange();
   void listen();
   void showStatistics();
+  void followWork();
+  QString work(const Statistics& statistics);
+  bool hasMoved(const Statistics& statistics);
+  double worstViolation() const;
   void update(const Statistics& statistics);
   QString describe(const Statistics& statistics, bool briefly) const;
   static QString inWords(const Statistics& statistics);
@@ -57,7 +68,14 @@ class Panel : public QFrame {
   View* view_;
   PanelHead* head_;
   Legend* legend_;
-  QTimer refresh_;  // limits how often the figures change, so that they can be read
+  QTimer refresh_;         // limits how often the figures change, so that they can be read
+  QTimer late_;            // looks again while the solver works
+  QElapsedTimer busy_;     // runs since the solver has been working without a new frame
+  bool answered_ = false;  // true if a frame came since the algorithm, the object or the handle changed
+  bool grabbed_ = false;
+  // The result of hasMoved() for a frame.
+  std::uint64_t movedNumber_ = 0, movedSeries_ = 0;
+  bool moved_ = false;
 };
 
 }  // namespace chainmail

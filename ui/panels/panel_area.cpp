@@ -8,6 +8,7 @@
 #include "common/text_scale.h"
 #include "common/up_axis.h"
 #include "drawing/mesh_levels.h"
+#include "panels/legend.h"
 #include "panels/panel.h"
 
 namespace chainmail {
@@ -40,12 +41,16 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
       links_(colouring, this),
       camera_(std::make_shared<Camera>()),
       levels_(std::make_shared<MeshLevels>()),
+      legend_(new Legend),
       column_(makeSplitter(Qt::Vertical)),
       rows_{makeSplitter(Qt::Horizontal), makeSplitter(Qt::Horizontal)},
       refit_(this) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(column_);
+  layout->setSpacing(0);
+  layout->addWidget(legend_);
+  layout->addWidget(column_, 1);
+  legend_->setObjectName(QStringLiteral("legendOfAll"));
   for (QSplitter* row : rows_) {
     column_->addWidget(row);
   }
@@ -124,6 +129,7 @@ void PanelArea::listenTo(Panel& panel, int number) {
       }
     }
   });
+  connect(&panel, &Panel::legendChanged, this, &PanelArea::shareLegend);
   connect(&panel.head(), &PanelHead::pinWanted, this, &PanelArea::pinWanted);
   connect(&panel.head(), &PanelHead::aloneToggled, this,
           [this, number] { setAlone(alone_ == number ? std::nullopt : std::optional(number)); });
@@ -183,6 +189,9 @@ void PanelArea::setLecture(bool on) {
   lecture_ = on;
   for (Panel* panel : panels_) {
     panel->view().setLecture(on);
+  }
+  if (!panels_.empty()) {
+    legend_->setFont(panels_.front()->legend().font());
   }
 }
 
@@ -295,6 +304,28 @@ void PanelArea::linkCameras(bool linked) {
   }
 }
 
+QString PanelArea::overlayTitle() const { return panels_[std::size_t(inSight().front())]->overlayTitle(); }
+
+/// Shows one legend above all visible panels if they share a scale. If their titles differ, they show these alone.
+void PanelArea::shareLegend() {
+  std::vector<Legend*> all;
+  for (const int panel : inSight()) {
+    all.push_back(&panels_[std::size_t(panel)]->legend());
+  }
+  const Legend& first = *all.front();
+  const bool shares =
+      all.size() > 1 && std::ranges::all_of(all, [&](const Legend* one) { return first.sharesScaleWith(*one); });
+  const bool oneTitle = !overlayTitle().isEmpty() || !colouring_.hasTitlesOfPanels();
+  for (Legend* one : all) {
+    one->setPart(!shares ? Legend::Part::whole : oneTitle ? Legend::Part::nothing : Legend::Part::title);
+  }
+  legend_->setPart(shares ? Legend::Part::whole : Legend::Part::nothing);
+  legend_->take(first, oneTitle ? first.title() : colouring_.title());
+  if (const QString title = overlayTitle(); title != std::exchange(overlayTitle_, title)) {
+    emit overlayTitleChanged();
+  }
+}
+
 std::vector<int> PanelArea::inSight() const {
   std::vector<int> visible = alone_ ? std::vector{*alone_} : order_;
   std::erase_if(visible, [this](int panel) { return !alone_ && !isShown(panel); });
@@ -338,6 +369,7 @@ void PanelArea::arrange() {
   for (QSplitter* splitter : {rows_[0], rows_[1], column_}) {
     shareEqually(*splitter);
   }
+  shareLegend();
   emit arranged();
 }
 

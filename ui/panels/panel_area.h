@@ -13,6 +13,7 @@
 
 namespace chainmail {
 
+class Legend;
 class MeshLevels;
 class Overlay;
 class Panel;
@@ -27,6 +28,10 @@ class PanelArea : public QWidget {
   PanelArea(Document& document, Colouring& colouring);
 
   PanelLinks& links() { return links_; }
+  /// The legend above all panels, visible while they share one scale.
+  Legend& legend() { return *legend_; }
+  /// Returns the title of the overlay that colours the objects instead of the values; empty if there is none.
+  QString overlayTitle() const;
   /// All panels, by number.
   const std::vector<Panel*>& panels() const { return panels_; }
   void setTool(Tool& tool);
@@ -79,6 +84,8 @@ class PanelArea : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  signals:
+  /// The title of the overlay that colours the objects has changed.
+  void overlayTitleChanged();
   void failed(const QString& sentence);
   /// A panel was added after the first ones.
   void added(Panel* panel);
@@ -102,6 +109,7 @@ class PanelArea : public QWidget {
   void turnUp(Camera::Up up);
   void fitAgain();
   void followObject();
+  void shareLegend();
   bool stacksPanels(int shown) const;
 
   Document& document_;
@@ -115,6 +123,8 @@ class PanelArea : public QWidget {
   Tool* tool_ = nullptr;
   std::vector<Overlay*> overlays_;
   QList<QAction*> headActions_;
+  Legend* legend_;
+  QString overlayTitle_;
   QSplitter* column_;
   std::array<QSplitter*, 2> rows_;
   std::vector<Panel*> panels_;

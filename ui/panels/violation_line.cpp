@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include "common/colours.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int shareWidth = 44, shareHeight = 10, shareMargin = 8;  // pixels
 constexpr double leastShown = 0.04;  // a smaller share is drawn as this fraction of the bar
+constexpr double leastFull = 0.1;    // rest lengths; see fullAt()
 
 /// Returns a number with two digits, or without decimals.
 QString rounded(double value) {
@@ -46,9 +48,9 @@ QString violationInWords(const Statistics& statistics, bool hasMoved) {
   }
   if (violation.fraction == 0) {
     return !hasMoved ? QStringLiteral("Nothing has moved yet")
-           : whole   ? QStringLiteral("No link is violated")
-           : sampled ? QStringLiteral("No link in a sample of the touched links is violated")
-                     : QStringLiteral("No touched link is violated");
+           : whole   ? QStringLiteral("All links are valid")
+           : sampled ? QStringLiteral("All links in a sample of the touched links are valid")
+                     : QStringLiteral("All touched links are valid");
   }
   const QString share = QStringLiteral("%1 of %2violated, ")
                             .arg(percentage(violation.fraction), whole     ? QStringLiteral("links ")
@@ -69,10 +71,21 @@ ViolationLine::ViolationLine() : sentence_(new QLabel) {
   followTheme(*this, [this] { update(); });
 }
 
-void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool inMidPass) {
+double ViolationLine::fullAt(double worst) { return std::isfinite(worst) ? std::max(worst, leastFull) : leastFull; }
+
+void ViolationLine::show(const Statistics& statistics, const State& state) {
   const Violation& violation = statistics.violation;
-  share_ = hasMoved ? violation.fraction : 0;
-  words_ = brief_ = violationInWords(statistics, hasMoved);
+  const bool inMidPass = state.inMidPass;
+  const double share = violation.rms / fullAt(state.worst);
+  share_ = !state.hasMoved || violation.fraction == 0 ? 0 : std::isfinite(share) ? std::min(share, 1.0) : 1;
+  words_ = brief_ = violationInWords(statistics, state.hasMoved);
+  if (!state.work.isEmpty()) {
+    share_ = -1;
+    words_ = brief_ = state.work;
+    fitWords();
+    update();
+    return;
+  }
   const bool isViolated = statistics.remark.empty() && violation.fraction > 0;
   if (isViolated) {
     brief_ = QStringLiteral("%1 violated").arg(percentage(violation.fraction));
@@ -82,8 +95,7 @@ void ViolationLine::show(const Statistics& statistics, bool hasMoved, bool inMid
   }
   if (inMidPass) {
     words_ = afterThePass(words_);
-    brief_ =
-        afterThePass(statistics.remark.empty() && violation.fraction == 0 ? QStringLiteral("none violated") : brief_);
+    brief_ = afterThePass(statistics.remark.empty() && violation.fraction == 0 ? QStringLiteral("all valid") : brief_);
   }
   fitWords();
   update();
@@ -106,7 +118,7 @@ void ViolationLine::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
   const QRectF bar(0, (height() - shareHeight) / 2.0, shareWidth, shareHeight);
-  painter.setBrush(QColor(colours::inside));
+  painter.setBrush(share_ < 0 ? palette().color(QPalette::Mid) : QColor(colours::inside));
   painter.drawRoundedRect(bar, 3, 3);
   if (share_ > 0) {
     painter.setClipRect(QRectF(bar.topLeft(), QSizeF(std::max(leastShown, share_) * shareWidth, shareHeight)));

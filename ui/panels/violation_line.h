@@ -7,17 +7,28 @@
 
 namespace chainmail {
 
-/// A bar and a sentence that say how many links of a panel are violated, and by how much.
+/// A bar and a sentence that say how many links of a panel are violated, and by how much. The bar weighs both: its
+/// length is the RMS violation. Many small violations may weigh less than a few large ones.
 class ViolationLine : public QWidget {
   Q_OBJECT
 
  public:
   ViolationLine();
 
-  /// Shows the figures of the last pass. `inMidPass`: the panel shows the object before the end of that pass.
-  void show(const Statistics& statistics, bool hasMoved, bool inMidPass);
+  /// What a panel shows beside its figures.
+  struct State {
+    bool hasMoved = true;    // false: the object is at rest
+    bool inMidPass = false;  // true if the panel shows the object before the end of the pass
+    QString work = {};       // what the solver has been doing for a while, if it is late; its figures are old then
+    double worst = 0;        // RMS violation of the panel where it is largest; see fullAt()
+  };
+  /// Shows the figures of the last pass.
+  void show(const Statistics& statistics, const State& state);
+  /// Returns the RMS violation (rest lengths) at which the bar is full: that of the worst panel, but at least 0.1, so
+  /// that tiny violations do not look large.
+  static double fullAt(double worst);
   const QString& sentence() const { return words_; }
-  /// Fraction of the violated links; negative while there is none to show.
+  /// Length of the bar, from 0 to 1; negative while there is nothing to show.
   double share() const { return share_; }
 
  protected:

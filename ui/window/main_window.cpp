@@ -33,6 +33,7 @@
 #include "io/sheets.h"
 #include "io/volume_bar.h"
 #include "io/volumes.h"
+#include "panels/colour_range_menu.h"
 #include "panels/colour_selector.h"
 #include "panels/panel.h"
 #include "tools/element_readout.h"
@@ -106,6 +107,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       lecture_(new LectureMode(*this, *area_, propagation_, *toolActions_, help_->hints(), layoutVersion)),
       lessons_(new Lessons(*this, propagation_, *sessions_)),
       colourBy_(new ColourSelector(colouring_)),
+      colourRange_(new ColourRangeMenu(colouring_, this)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
   arrange();
   listen();
@@ -174,6 +176,7 @@ void MainWindow::listen() {
   connect(&controlPoints_, &ControlPoints::changed, area_, &PanelArea::refresh);
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
+  connect(area_, &PanelArea::overlayTitleChanged, this, [this] { colourBy_->showOverlay(area_->overlayTitle()); });
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
   connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(pinLayers_->foot()); });
   connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setDrawOptions(showMenu_->drawOptions()); });
@@ -369,6 +372,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   cameraActions_->fillSides(menu);
   showMenu_->fill(menu);
   menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
+  menu.addMenu(colourRange_);
   addFigures(menu);
   menu.addSeparator();
   menu.addAction(&lecture_->action());

@@ -23,6 +23,7 @@ class QToolBar;
 namespace chainmail {
 
 class CameraActions;
+class ColourRangeMenu;
 class ColourSelector;
 class Docks;
 class ElementReadout;
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
   Panel& panel(int which) { return *area_->panels()[std::size_t(which)]; }
   Colouring& colouring() { return colouring_; }
   ShowMenu& showMenu() { return *showMenu_; }
+  ColourRangeMenu& colourRange() { return *colourRange_; }
   const Docks& docks() const { return *docks_; }
   MessageBar& messages() { return *messages_; }
   Jobs& jobs() { return jobs_; }
@@ -133,6 +135,7 @@ class MainWindow : public QMainWindow {
   QAction *undo_ = nullptr, *redo_ = nullptr;
   QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
+  ColourRangeMenu* colourRange_;
   QToolBar* bar_ = nullptr;
   int widthWithNames_ = 0;  // of the tool bar (pixels)
   bool closesWhenSaved_ = false;

@@ -62,6 +62,7 @@ constexpr std::array submenuIcons{ActionIcon{"Open recent", "history"},
                                   ActionIcon{"Panels", "panels"},
                                   ActionIcon{"Compare with", "difference"},
                                   ActionIcon{"Colour by", "colour"},
+                                  ActionIcon{"Colour range", "colour"},
                                   ActionIcon{"Theme", "theme"},
                                   ActionIcon{"Rates over time", "frameRate"},
                                   ActionIcon{"Softness presets", "preset"}};

@@ -8,6 +8,7 @@
 
 #include "common/text.h"
 #include "docks/section_dock.h"
+#include "panels/colour_range_menu.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
 #include "window/docks.h"
@@ -108,6 +109,7 @@ std::string layoutOf(MainWindow& window) {
   const QJsonObject layout{{QStringLiteral("cameras"), cameras},
                            {QStringLiteral("linked"), window.area().links().cameras()},
                            {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
+                           {QStringLiteral("colourRange"), window.colourRange().toJson()},
                            {QStringLiteral("show"), window.showMenu().chosen()},
                            {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
                            {QStringLiteral("docks"), window.dockPlaces()},
@@ -121,6 +123,7 @@ void applyLayout(MainWindow& window, const std::string& json) {
   window.showMenu().show(layout[QStringLiteral("show")].toString());
   window.docks().get<SectionDock>().take(layout[QStringLiteral("section")].toObject());
   takeColours(window, layout[QStringLiteral("colour")].toString());
+  window.colourRange().take(layout[QStringLiteral("colourRange")].toObject());
   takeCameras(window, layout);
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QActionGroup>
+#include <QJsonObject>
+#include <QMenu>
+
+#include "common/number_field.h"
+#include "panels/colouring.h"
+
+namespace chainmail {
+
+/// The View menu's choice of the range of the colours: automatic, logarithmic, or fixed between two numbers. Each
+/// colour mode has its own choice, because modes have other units. The choice is stored.
+class ColourRangeMenu : public QMenu {
+  Q_OBJECT
+
+ public:
+  ColourRangeMenu(Colouring& colouring, QWidget* parent);
+
+  /// The range of the current mode for a session, and back. Ignores a range that is not valid.
+  QJsonObject toJson() const;
+  void take(const QJsonObject& json);
+
+ private:
+  void addKind(ColourRange::Kind kind, const QString& text, const char* name, const QString& tip);
+  void addFields();
+  NumberField* makeField(const QString& label, const char* name);
+  void choose(const ColourRange& range);
+  void chooseKind(ColourRange::Kind kind);
+  void show();
+  void restore();
+
+  Colouring& colouring_;
+  QActionGroup* kinds_;
+  NumberField* lowest_;
+  NumberField* highest_;
+};
+
+}  // namespace chainmail
