@@ -264,6 +264,11 @@ void View::lookFromAxis(int axis, bool positive) {
   emit sideChosen();
 }
 
+void View::centreOn(ElementId element) {
+  camera_->centreOn(asVector(position(element)));
+  announceCamera();
+}
+
 void View::setParallel(bool parallel) {
   camera_->setParallel(parallel);
   announceCamera();
@@ -376,8 +381,7 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
   }
   cursor_ = event->position();
   if (const auto element = search_.elementAt(cursor_)) {
-    camera_->centreOn(asVector(position(*element)));
-    announceCamera();
+    centreOn(*element);
   }
 }
 

@@ -16,6 +16,8 @@ class ReportTable : public QTableWidget {
  public:
   ReportTable();
   void show(const report::DragResult& drag);
+  /// Width at which no column is cut (pixels).
+  int fullWidth() const;
 
  private:
   void showColumn(const report::DragResult& drag, int column);
