@@ -17,7 +17,9 @@ constexpr float linksFade = 0.75F, solidFade = 0.3F;
 }  // namespace
 
 bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
-  return mesh.element_count() <= maxElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
+  // Without links, marks are all that there is to see.
+  return mesh.link_count() == 0 ||
+         (mesh.element_count() <= maxElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks);
 }
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {

@@ -3,6 +3,7 @@
 #include <QGuiApplication>
 #include <QHeaderView>
 #include <QScrollBar>
+#include <algorithm>
 #include <limits>
 
 #include "common/plot_painting.h"
@@ -13,7 +14,10 @@
 namespace chainmail {
 namespace {
 
-constexpr int tableMarkSize = 13;  // logical pixels
+// In logical pixels.
+constexpr int tableMarkSize = 13;
+constexpr int headMargin = 14;     // both sides of the text of a header
+constexpr int sortMarkWidth = 15;  // on each side, so that the text stays in the middle
 
 /// A cell that is sorted by its number, not by its text. Cells without a number come last.
 class FigureItem : public QTableWidgetItem {
@@ -108,7 +112,21 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   horizontalHeader()->setHighlightSections(false);
   sortByColumn(1, Qt::AscendingOrder);  // the fastest first
   copyByKeys(*this);
-  resizeColumnsToContents();
+  connect(horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, &ReportTable::fitColumns);
+  fitColumns();
+}
+
+/// Makes the columns as narrow as their texts. Qt would make room for the mark of sorting in all of them.
+void ReportTable::fitColumns() {
+  const QFontMetrics letters = horizontalHeader()->fontMetrics();
+  for (int column = 0; column < columnCount(); ++column) {
+    int head = 0;
+    for (const QString& line : horizontalHeaderItem(column)->text().split(QLatin1Char('\n'))) {
+      head = std::max(head, letters.horizontalAdvance(line));
+    }
+    const int mark = column == horizontalHeader()->sortIndicatorSection() ? 2 * sortMarkWidth : 0;
+    setColumnWidth(column, std::max(head + headMargin + mark, sizeHintForColumn(column)));
+  }
 }
 
 int ReportTable::fullWidth() const {
@@ -134,7 +152,7 @@ void ReportTable::show(const report::DragResult& drag) {
     showColumn(drag, int(i));
   }
   setSortingEnabled(true);
-  resizeColumnsToContents();
+  fitColumns();
 }
 
 void ReportTable::showColumn(const report::DragResult& drag, int column) {

@@ -20,6 +20,7 @@ class ReportTable : public QTableWidget {
   int fullWidth() const;
 
  private:
+  void fitColumns();
   void showColumn(const report::DragResult& drag, int column);
 };
 
