@@ -13,15 +13,11 @@
 #include "io/sessions.h"
 #include "mesh/failure.h"
 #include "version/version.h"
+#include "window/about_dialog.h"
 #include "window/main_window.h"
 #include "window/startup.h"
 
 namespace {
-
-constexpr const char* licence =
-    "MIT licence. Linked libraries: Qt 6 (LGPL-3), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), zlib and nlohmann/json "
-    "(MIT).\n"
-    "It starts chainmail-import, which is under the GPL, as a separate program.";
 
 int fail(const QString& sentence) {
   std::fprintf(stderr, "workbench: %s\n", qPrintable(sentence));
@@ -68,7 +64,7 @@ int run(int argc, char** argv) {
     return fail(parser.errorText().remove(QLatin1Char('.')) + QStringLiteral("; see workbench --help"));
   }
   if (parser.isSet(QStringLiteral("version"))) {
-    std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), licence);
+    std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), qPrintable(chainmail::licenceInWords()));
     return 0;
   }
   if (parser.isSet(QStringLiteral("help")) || parser.isSet(QStringLiteral("help-all"))) {

@@ -29,6 +29,7 @@ Command add_generate(CLI::App& root);
 Command add_convert(CLI::App& root);
 Command add_fill(CLI::App& root);
 Command add_repair(CLI::App& root);
+Command add_simplify(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
 /// `command_line` is shown in the report.

@@ -99,17 +99,10 @@ void run(int argc, char** argv) {
   root.set_version_flag("--version", version_in_words("chainmail") + licence, "Print version and licence, and exit");
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
-  const std::vector<Command> commands{add_generate(root),
-                                      add_convert(root),
-                                      add_fill(root),
-                                      add_repair(root),
-                                      add_info(root),
-                                      add_deform(root),
-                                      add_compare(root, as_typed(argc, argv)),
-                                      add_calibrate(root),
-                                      add_ramp(root),
-                                      add_thumbnail(root),
-                                      add_completion(root)};
+  const std::vector<Command> commands{
+      add_generate(root),  add_convert(root), add_fill(root),      add_repair(root),
+      add_simplify(root),  add_info(root),    add_deform(root),    add_compare(root, as_typed(argc, argv)),
+      add_calibrate(root), add_ramp(root),    add_thumbnail(root), add_completion(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
@@ -132,8 +125,8 @@ void run(int argc, char** argv) {
     }
   }
   throw Error("command", "no command was given",
-              "use generate, convert, fill, repair, info, deform, compare, calibrate, ramp or thumbnail; see chainmail "
-              "--help");
+              "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate, ramp or thumbnail; see "
+              "chainmail --help");
 }
 
 }  // namespace chainmail::command_line

@@ -4,7 +4,6 @@
 #include <array>
 #include <string>
 
-#include "elastic/limits.h"
 #include "elastic/methods.h"
 #include "elastic/shells.h"
 #include "mesh/error.h"
@@ -13,7 +12,7 @@ namespace chainmail {
 namespace {
 
 // Largest number of elements by space dimension, for acceptable time and memory of a factorization (measured).
-constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, max_fem_elements};
+constexpr std::array<std::uint64_t, 4> linear_limit{0, 1'000'000, 150'000, 30'000};
 constexpr std::array<std::uint64_t, 4> nonlinear_limit{0, 100'000, 20'000, 6'000};
 constexpr std::array<std::uint64_t, 4> edge_limit{0, 1'000'000, 150'000, 100'000};
 constexpr std::uint64_t boundary_limit = 2'800;        // triangles; takes 28 s and 560 MB
@@ -66,26 +65,27 @@ void check_boundary(const Mesh& mesh) {
   }
 }
 
-/// One method: its check of an object, and its maker. To add a method, add a constant to ElasticMethod and an entry
-/// here.
+/// One method: its check of an object, the largest number of elements of a solid that this accepts (0: any), and its
+/// maker. To add a method, add a constant to ElasticMethod and an entry here.
 struct MethodEntry {
   ElasticMethod method;
+  std::uint64_t most_in_solids;
   void (*check)(const Mesh& mesh);
   std::unique_ptr<ElasticSolver> (*make)(const ElasticProblem& problem, const Progress& progress);
 };
 constexpr std::array methods{
-    MethodEntry{ElasticMethod::linear_fem, [](const Mesh& mesh) { check_fem("linear FEM", mesh, linear_limit); },
-                make_linear_fem},
-    MethodEntry{ElasticMethod::neo_hookean,
+    MethodEntry{ElasticMethod::linear_fem, linear_limit[3],
+                [](const Mesh& mesh) { check_fem("linear FEM", mesh, linear_limit); }, make_linear_fem},
+    MethodEntry{ElasticMethod::neo_hookean, nonlinear_limit[3],
                 [](const Mesh& mesh) { check_fem("neo-Hookean FEM", mesh, nonlinear_limit); }, make_neo_hookean},
-    MethodEntry{ElasticMethod::boundary, check_boundary, make_boundary_elements},
-    MethodEntry{ElasticMethod::free_form, [](const Mesh&) {}, make_free_form},
-    MethodEntry{ElasticMethod::corotational,
+    MethodEntry{ElasticMethod::boundary, boundary_inner_limit, check_boundary, make_boundary_elements},
+    MethodEntry{ElasticMethod::free_form, 0, [](const Mesh&) {}, make_free_form},
+    MethodEntry{ElasticMethod::corotational, nonlinear_limit[3],
                 [](const Mesh& mesh) { check_fem("corotational FEM", mesh, nonlinear_limit); }, make_corotational},
-    MethodEntry{ElasticMethod::arap, [](const Mesh& mesh) { check_cells("ARAP", mesh); }, make_arap},
-    MethodEntry{ElasticMethod::xpbd, [](const Mesh& mesh) { check_cells("XPBD", mesh); }, make_xpbd},
-    MethodEntry{ElasticMethod::projective, [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); },
-                make_projective},
+    MethodEntry{ElasticMethod::arap, edge_limit[3], [](const Mesh& mesh) { check_cells("ARAP", mesh); }, make_arap},
+    MethodEntry{ElasticMethod::xpbd, edge_limit[3], [](const Mesh& mesh) { check_cells("XPBD", mesh); }, make_xpbd},
+    MethodEntry{ElasticMethod::projective, edge_limit[3],
+                [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); }, make_projective},
 };
 
 const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(methods, method, &MethodEntry::method); }
@@ -124,6 +124,11 @@ void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cell
   if (elements_of_cells > boundary_inner_limit) {
     refuse_size("BEM", elements_of_cells, boundary_inner_limit, "elements, if they are volumes");
   }
+}
+
+std::optional<std::uint64_t> max_solid_elements(ElasticMethod method) {
+  const std::uint64_t most = entry_of(method).most_in_solids;
+  return most > 0 ? std::optional(most) : std::nullopt;
 }
 
 void check(ElasticMethod method, const Mesh& mesh) { entry_of(method).check(mesh); }

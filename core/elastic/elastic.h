@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -94,6 +96,8 @@ class ElasticSolver {
 bool fits(ElasticMethod method, const Mesh& mesh);
 /// Throws Error, with the reason and a remedy, if it does not.
 void check(ElasticMethod method, const Mesh& mesh);
+/// Returns the largest number of elements of a solid in space that a method works on; none if there is no limit.
+std::optional<std::uint64_t> max_solid_elements(ElasticMethod method);
 
 /// Throws Error if the memory of a solver has another size than one of the same problem.
 void check_memory(std::span<const double> memory, std::size_t size);

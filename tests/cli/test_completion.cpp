@@ -49,6 +49,7 @@ struct Typed {
 };
 constexpr Typed lines[]{{"chainmail de", "deform"},
                         {"chainmail deform --algorithm natur", "natural-queue"},
+                        {"chainmail simplify --elem", "--elements"},
                         {"chainmail compare --again", "--against"},
                         {"chainmail compare --against phy", "physics"},
                         {"chainmail generate tetr", "tetra"},

@@ -9,8 +9,8 @@ namespace chainmail::test_convert {
 
 using namespace chainmail::test;
 
-/// Tests `chainmail convert`, which writes other formats, `chainmail fill`, which converts surfaces to volumes, and
-/// `chainmail repair`.
+/// Tests `chainmail convert`, which writes other formats, `chainmail fill`, which converts surfaces to volumes,
+/// `chainmail simplify` and `chainmail repair`.
 class ConvertCommandTest : public QObject {
   Q_OBJECT
 
@@ -19,6 +19,7 @@ class ConvertCommandTest : public QObject {
   void what_was_left_out_is_noted();
   void a_volume_is_taken_as_asked();
   void a_closed_surface_is_filled();
+  void a_surface_is_simplified();
   void a_mesh_is_repaired();
   void points_within_a_tolerance_are_one();
   void what_a_format_does_not_hold_is_said();
@@ -86,6 +87,20 @@ void ConvertCommandTest::a_closed_surface_is_filled() {
   const auto outcome = program.run("fill a.off --edge 1 -o a.msh");
   QVERIFY2(outcome.code == 0, outcome.error);
   QVERIFY(read_mesh(program.path("a.msh").toStdString())->tetrahedra.size() > 1);
+}
+
+/// 41 elements are left of 81, all 32 at the border among them.
+void ConvertCommandTest::a_surface_is_simplified() {
+  const Program program;
+  QCOMPARE(program.run("generate cloth 9x9 -o cloth.obj").code, 0);
+  const auto outcome = program.run("simplify cloth.obj --elements 41 -o a.obj");
+  QVERIFY2(outcome.code == 0, outcome.error);
+  QCOMPARE(outcome.out + outcome.error, QByteArray());
+  const auto mesh = read_mesh(program.path("a.obj").toStdString());
+  QCOMPARE(mesh->element_count(), 41U);
+  QCOMPARE(mesh->box[1], Point(8, 8, 0));
+  QCOMPARE(program.run("simplify cloth.obj --elements 41 --output b.obj").code, 0);
+  QCOMPARE(program.read("b.obj"), program.read("a.obj"));
 }
 
 void ConvertCommandTest::a_mesh_is_repaired() {
@@ -177,13 +192,15 @@ void ConvertCommandTest::the_file_that_was_read_is_not_replaced() {
   QFETCH(QString, input);
   QFETCH(QString, output);
   Program program;
-  const QByteArray text = "# mine\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n";
+  const QByteArray text =
+      "# mine\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 0.5 0.5 0\n"
+      "f 1 3 5\nf 3 2 5\nf 2 1 5\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   program.write("a.obj", text);
   program.standardInput = program.path("a.obj");
   std::filesystem::create_symlink("a.obj", program.path("symbolic.obj").toStdString());
   std::filesystem::create_hard_link(program.path("a.obj").toStdString(), program.path("hard.obj").toStdString());
-  for (const char* command : {"convert", "repair"}) {
-    const auto outcome = program.run(QStringList{command, input, "-o", output});
+  for (const char* command : {"convert", "repair", "simplify --elements 4"}) {
+    const auto outcome = program.run(QString(command).split(' ') + QStringList{input, "-o", output});
     QCOMPARE(outcome.code, 2);
     QVERIFY2(is_one_sentence(outcome), outcome.error);
     QVERIFY2(outcome.error.contains(": it is an input, and this output would replace it; "), outcome.error);
@@ -220,6 +237,15 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
                                 << "b.obj: ";
   QTest::newRow("repair nothing") << "repair a.off --fins -o b.obj"
                                   << "--fins: there is no such option; ";
+  QTest::newRow("simplified to nothing") << "simplify a.off --elements 3 -o a.msh"
+                                         << "--elements: '3' is not a whole number in range; use 4 to ";
+  QTest::newRow("simplified to more") << "simplify a.off --elements 9 -o a.msh"
+                                      << "--elements: the surface has 4, so 9 are not fewer; use a finer surface";
+  QTest::newRow("border too long") << "simplify strip.off --elements 5 -o a.msh"
+                                   << "strip.off: the 6 elements at its borders and non-manifold edges stay, so it "
+                                      "cannot have 5; use a surface with more elements inside";
+  QTest::newRow("simplified, but to what") << "simplify a.off -o a.msh"
+                                           << "--elements: it is missing; ";
   QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"
                         << "--edge: it must be a number above 0; ";
 }
@@ -231,11 +257,13 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file() {
   program.write("a.off", tetrahedron);
   program.write("a.mha", volume);
   program.write("open.off", "OFF\n3 1 0\n0 0 0\n3 0 0\n0 3 0\n3 0 1 2\n");
+  program.write("strip.off",
+                "OFF\n6 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n3 0 1 2\n3 1 3 2\n3 2 3 4\n3 3 5 4\n");
   const auto outcome = program.run(arguments.split(' '));
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + sentence), outcome.error);
-  QCOMPARE(program.files(), (QStringList{"a.mha", "a.off", "open.off"}));
+  QCOMPARE(program.files(), (QStringList{"a.mha", "a.off", "open.off", "strip.off"}));
 }
 
 CHAINMAIL_TEST(ConvertCommandTest)

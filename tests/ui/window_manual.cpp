@@ -1,12 +1,17 @@
 // Tests the manual in a real window, and the links of all pages for users.
 
+#include <QClipboard>
 #include <QDesktopServices>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDir>
 #include <QFile>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollBar>
+#include <QSet>
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextTable>
@@ -257,30 +262,67 @@ class WindowManual : public QObject {
     QCOMPARE(browser.opened, QList<QUrl>{QUrl(QStringLiteral("https://example.org/page"))});
   }
 
-  void aPageIsSearched() {
+  void allPagesAreSearched() {
     Manual bench;
     bench.manual->open(QStringLiteral("tour.md"));
     QTest::keyClick(bench.page, Qt::Key_F, Qt::ControlModifier);
     QVERIFY(bench.search->hasFocus());
     QTest::keyClicks(bench.search, QStringLiteral("ffmpeg"));
     QCOMPARE(bench.page->textCursor().selectedText(), QStringLiteral("ffmpeg"));
+    QCOMPARE(bench.file(), QStringLiteral("tour.md"));  // the nearest match
     QVERIFY(bench.page->verticalScrollBar()->value() > 0);
-    const auto* answer = bench.manual->findChild<QLabel*>(QStringLiteral("manualAnswer"));
-    const int only = bench.page->textCursor().position();
-    QTest::keyClick(bench.search, Qt::Key_Return);  // goes to the first match again
-    QVERIFY(answer->text().isEmpty());
-    QCOMPARE(bench.page->textCursor().position(), only);
-    bench.search->setText(QStringLiteral("panel"));
-    QTest::keyClick(bench.search, Qt::Key_Return);
-    const int second = bench.page->textCursor().position();
-    QTest::keyClick(bench.search, Qt::Key_Return);
-    QVERIFY(bench.page->textCursor().position() > second);
+    const auto* results = bench.manual->findChild<QListWidget*>(QStringLiteral("manualResults"));
+    QVERIFY(results->isVisible());
+    bench.search->setText(QStringLiteral("tetrahedra"));
+    QSet<QString> pages;
+    const int count = results->count();
+    QVERIFY(count > 3);
+    for (int i = 0; i < count; ++i) {
+      QCOMPARE(bench.page->textCursor().selectedText().toLower(), QStringLiteral("tetrahedra"));
+      QVERIFY(results->currentItem()->text().contains(QStringLiteral("tetrahedra"), Qt::CaseInsensitive));
+      QCOMPARE(bench.listed(), bench.file());
+      pages << bench.file();
+      QTest::keyClick(bench.search, Qt::Key_Return);
+    }
+    QVERIFY(pages.size() > 1);
+    const int row = results->currentRow();
+    bench.press("manualNext");
+    QCOMPARE(results->currentRow(), (row + 1) % count);
     QTest::keyClick(bench.search, Qt::Key_Return, Qt::ShiftModifier);
-    QCOMPARE(bench.page->textCursor().position(), second);
+    QCOMPARE(results->currentRow(), row);
+    bench.press("manualPrevious");
+    QCOMPARE(results->currentRow(), (row + count - 1) % count);
+  }
+
+  void whatIsNotFoundIsSaid() {
+    Manual bench;
+    const auto* answer = bench.manual->findChild<QLabel*>(QStringLiteral("manualAnswer"));
+    const auto* results = bench.manual->findChild<QListWidget*>(QStringLiteral("manualResults"));
     bench.search->setText(QStringLiteral("no such words"));
-    QCOMPARE(answer->text(), QStringLiteral("Not found on this page"));
-    bench.search->clear();
-    QVERIFY(answer->text().isEmpty());
+    QCOMPARE(answer->text(), QStringLiteral("Not found in the manual"));
+    QVERIFY(!results->isVisible());
+    bench.search->setText(QStringLiteral("ffmpeg"));
+    QVERIFY2(answer->text().startsWith(QStringLiteral("1 of ")), qPrintable(answer->text()));
+    bench.list->setCurrentRow(5);  // a page that the reader chooses ends the search
+    QVERIFY(bench.search->text().isEmpty() && answer->text().isEmpty() && !results->isVisible());
+  }
+
+  void aboutIsTextThatCanBeCopied() {
+    Workbench bench;
+    bench.trigger("showAbout");
+    auto* dialog = bench.find<QDialog>("aboutDialog");
+    QVERIFY(dialog->isVisible());
+    bench.find<QPushButton>("aboutCopy")->click();
+    const QString text = QApplication::clipboard()->text();
+    for (const QString& part : {QStringLiteral("ChainMail workbench "), QStringLiteral("MIT licence"),
+                                QStringLiteral("Qt: ") + QLatin1String(qVersion()), QStringLiteral("OpenGL: "),
+                                QStringLiteral("Renderer: ")}) {
+      QVERIFY2(text.contains(part), qPrintable(text));
+    }
+    QVERIFY(!text.contains(QStringLiteral("not available")));
+    QVERIFY(!text.contains(QStringLiteral("Renderer: ,")));
+    dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Close)->click();
+    QVERIFY(!dialog->isVisible());
   }
 
   void theWheelZooms() {

@@ -295,13 +295,99 @@ class WindowOpen : public QObject {
     bench.open(fineSphere());
     bench.trigger("fillSurface");
     auto* size = bench.find<QDoubleSpinBox>("fillSize");
-    const QString result = bench.find<QLabel>("fillResult")->text();
     QVERIFY(size->value() > 1.1 * bench.document().mesh()->mean_link_length);
     QVERIFY(bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
-    QVERIFY2(!result.contains(QStringLiteral("too many for linear FEM")), qPrintable(result));
+    const auto* limits = bench.find<QLabel>("fillDetails");
+    QCOMPARE(
+        limits->text(),
+        QStringLiteral("Few enough for Linear FEM (30,000), ARAP, XPBD, Projective Dynamics (100,000). Too many for "
+                       "BEM (5,000), Neo-Hookean FEM, Corotational FEM (6,000)"));
     size->setValue(bench.document().mesh()->mean_link_length);
-    QVERIFY(bench.find<QLabel>("fillResult")->text().contains(QStringLiteral("too many for linear FEM")));
+    QVERIFY2(limits->text().endsWith(QStringLiteral("Corotational FEM (6,000), Linear FEM (30,000)")),
+             qPrintable(limits->text()));
     QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
+  }
+
+  void aRefusedLengthSaysWhyAndWhatToDo() {
+    Workbench bench;
+    bench.open(fineSphere(240, 440));
+    bench.trigger("fillSurface");
+    auto* size = bench.find<QDoubleSpinBox>("fillSize");
+    size->setValue(size->minimum());
+    QVERIFY(!bench.find<QPushButton>("fillAgree")->isEnabled());
+    QCOMPARE(bench.find<QLabel>("fillDetails")->text(),
+             QStringLiteral("More than 2,000,000 elements would take minutes and could not be dragged: choose longer "
+                            "edges"));
+    size->setValue(size->maximum());
+    QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
+  }
+
+  void aSurfaceIsSimplified() {
+    Workbench bench;
+    const auto* simplify = bench.find<QAction>("simplifySurface");
+    QVERIFY(!simplify->isEnabled());  // a grid has no faces
+    bench.open(sourceFile("meshes/torus.obj"));
+    const MeshPointer torus = bench.document().mesh();
+    QVERIFY(simplify->isEnabled());
+    bench.trigger("simplifySurface");
+    auto* elements = bench.find<QSpinBox>("simplifyElements");
+    QCOMPARE(elements->value(), 96);
+    QCOMPARE(elements->maximum(), 383);
+    QCOMPARE(bench.find<QLabel>("simplifyAbout")->text(), QStringLiteral("Simplify torus.obj: 384 elements"));
+    const QString edges = bench.find<QLabel>("simplifyResult")->text();
+    elements->setValue(100);
+    QVERIFY(bench.find<QLabel>("simplifyResult")->text() != edges);
+    QTest::keyClick(elements, Qt::Key_Return);
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), 100U);
+    QCOMPARE(bench.document().name(), QStringLiteral("torus.obj"));
+    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("simplify to 100 elements"));
+    QVERIFY(!bench.find<QFrame>("simplifyBar")->isVisible());
+    QVERIFY(!bench.find<QFrame>("fillBar")->isVisible());
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), torus);
+  }
+
+  void whatCannotBeSimplifiedIsASentence() {
+    Workbench bench;
+    const MeshPointer cloth = generate({MeshKind::cloth, {9, 9, 1}, 1, {}});
+    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
+    bench.trigger("simplifySurface");
+    bench.find<QSpinBox>("simplifyElements")->setValue(20);
+    bench.find<QPushButton>("simplifyAgree")->click();
+    bench.settle();
+    QCOMPARE(messages(bench).sentence(),
+             QStringLiteral("cloth: the 32 elements at its borders and non-manifold edges stay, so it cannot have 20; "
+                            "choose 33 or more"));
+    QCOMPARE(bench.document().mesh(), cloth);
+  }
+
+  void aSurfaceThatIsTooFineIsSimplifiedBeforeItIsFilled() {
+    Workbench bench;
+    bench.open(sourceFile("meshes/sphere.obj"));
+    bench.trigger("fillSurface");
+    QVERIFY(!bench.find<QPushButton>("fillSimplify")->isVisible());
+    bench.open(fineSphere(140, 250));  // 34,750 elements, more than linear FEM takes without any inside
+    bench.trigger("fillSurface");
+    QVERIFY(bench.find<QLabel>("fillAbout")
+                ->text()
+                .endsWith(QStringLiteral(
+                    "The surface is too fine for linear FEM (at most 30,000 elements): simplify it first")));
+    QCOMPARE(bench.window.focusWidget()->objectName(), QStringLiteral("fillSimplify"));
+    bench.find<QPushButton>("fillSimplify")->click();
+    QVERIFY(!bench.find<QFrame>("fillBar")->isVisible());
+    bench.find<QPushButton>("simplifyAgree")->click();
+    bench.settle();
+    QVERIFY(bench.document().mesh()->element_count() < 10'000);
+    QVERIFY(bench.find<QFrame>("fillBar")->isVisible());
+    QVERIFY2(bench.find<QLabel>("fillDetails")->text().startsWith(QStringLiteral("Few enough for Linear FEM (30,000)")),
+             qPrintable(bench.find<QLabel>("fillDetails")->text()));
+    bench.find<QPushButton>("fillAgree")->click();
+    bench.settle();
+    QVERIFY(bench.document().mesh()->has_cells());
+    const auto count = bench.document().mesh()->element_count();
+    QVERIFY2(count > 10'000 && count < 30'000, qPrintable(QString::number(count)));
   }
 
   void anOpenSurfaceSaysWhereItIsOpen() {
@@ -323,9 +409,8 @@ class WindowOpen : public QObject {
   }
 
  private:
-  /// Writes a closed sphere of 9,400 elements, so fine that linear FEM cannot take its volume.
-  QString fineSphere() const {
-    constexpr int rings = 72, around = 132;
+  /// Writes a closed sphere, of 9,400 elements by default: so fine that linear FEM cannot take its volume.
+  QString fineSphere(int rings = 72, int around = 132) const {
     QString path = folder_.filePath(QStringLiteral("fine.off"));
     QFile file(path);
     if (!file.open(QIODevice::WriteOnly)) {
@@ -340,7 +425,7 @@ class WindowOpen : public QObject {
             << '\n';
       }
     }
-    const auto at = [](int ring, int i) { return 2 + (ring - 1) * around + i % around; };
+    const auto at = [around](int ring, int i) { return 2 + (ring - 1) * around + i % around; };
     for (int i = 0; i < around; ++i) {
       out << "3 0 " << at(1, i) << ' ' << at(1, i + 1) << '\n';
       out << "3 1 " << at(rings - 1, i + 1) << ' ' << at(rings - 1, i) << '\n';

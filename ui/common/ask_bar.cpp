@@ -9,7 +9,11 @@
 namespace chainmail {
 
 AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
-    : fields_(new QHBoxLayout), about_(new QLabel), result_(new QLabel), agree_(new QPushButton(agree)) {
+    : fields_(new QHBoxLayout),
+      about_(new QLabel),
+      result_(new QLabel),
+      details_(new QLabel),
+      agree_(new QPushButton(agree)) {
   setObjectName(name + QStringLiteral("Bar"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
@@ -17,12 +21,16 @@ AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
   about_->setTextFormat(Qt::PlainText);
   about_->setWordWrap(true);
   result_->setObjectName(name + QStringLiteral("Result"));
+  details_->setObjectName(name + QStringLiteral("Details"));
+  details_->setTextFormat(Qt::PlainText);
+  details_->setWordWrap(true);
+  details_->hide();
   agree_->setObjectName(name + QStringLiteral("Agree"));
   agree_->setToolTip(help);
   auto* leave = new QPushButton(QStringLiteral("&Cancel"));
   leave->setObjectName(name + QStringLiteral("Cancel"));
   leave->setToolTip(QStringLiteral("Closes this bar; the object does not change"));
-  // Two rows: the bar must not make the window wider than the screen.
+  // Several rows: the bar must not make the window wider than the screen.
   auto* words = new QHBoxLayout;
   words->addWidget(about_, 1);
   words->addWidget(result_);
@@ -32,6 +40,7 @@ AskBar::AskBar(const QString& name, const QString& agree, const QString& help)
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(10, 4, 6, 4);
   rows->addLayout(words);
+  rows->addWidget(details_);
   rows->addLayout(fields_);
   connect(agree_, &QPushButton::clicked, this, &AskBar::agree);
   connect(leave, &QPushButton::clicked, this, &QWidget::hide);
@@ -66,6 +75,11 @@ void AskBar::setAgree(const QString& text) { agree_->setText(text); }
 void AskBar::showResult(const QString& result, bool possible) {
   result_->setText(result);
   agree_->setEnabled(possible);
+}
+
+void AskBar::showDetails(const QString& details) {
+  details_->setText(details);
+  details_->setVisible(!details.isEmpty());
 }
 
 void AskBar::agree() {

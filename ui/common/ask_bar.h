@@ -29,6 +29,8 @@ class AskBar : public QFrame {
   void setAgree(const QString& text);
   /// Shows the expected result of the current inputs. Disables the button if `possible` is false.
   void showResult(const QString& result, bool possible = true);
+  /// Shows a longer text below the others, which may break lines; none if it is empty.
+  void showDetails(const QString& details);
 
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
@@ -39,6 +41,7 @@ class AskBar : public QFrame {
   QHBoxLayout* fields_;
   QLabel* about_;
   QLabel* result_;
+  QLabel* details_;
   QPushButton* agree_;
 };
 

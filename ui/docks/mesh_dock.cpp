@@ -159,9 +159,9 @@ void MeshDock::build() {
 void MeshDock::describe() {
   const Mesh& mesh = *document_.mesh();
   const QLocale locale;
-  QString what = QStringLiteral("<b>%1</b><br>%2 elements, %3 links")
-                     .arg(document_.name().toHtmlEscaped(), locale.toString(mesh.element_count()),
-                          locale.toString(mesh.link_count()));
+  QString what = QStringLiteral("<b>%1</b><br>%2, %3")
+                     .arg(document_.name().toHtmlEscaped(), counted(mesh.element_count(), QStringLiteral("element")),
+                          counted(mesh.link_count(), QStringLiteral("link")));
   if (document_.cuts().count() != 0) {
     what += QStringLiteral(", %1 cut").arg(locale.toString(document_.cuts().count()));
   }

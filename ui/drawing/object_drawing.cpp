@@ -31,7 +31,9 @@ float shareOfLink(const Mesh& mesh, double pixelsPerUnit) {
 }  // namespace
 
 bool ObjectDrawing::marksElements(const Mesh& mesh, double pixelsPerUnit) {
-  return mesh.element_count() <= maxElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks;
+  // Without links, marks are all that there is to see.
+  return mesh.link_count() == 0 ||
+         (mesh.element_count() <= maxElementsMarked && mesh.mean_link_length * pixelsPerUnit >= pixelsBetweenMarks);
 }
 
 QColor ObjectDrawing::faceColour(const Mesh& mesh, const Paint& paint) {

@@ -89,7 +89,7 @@ class ObjectDrawing {
   static constexpr float elementSize = 4.5F;
   static constexpr float smallestRing = 6;  // the hole of a smaller ring is not visible
 
-  /// Returns true if every element gets a mark: there are few, and they are far enough apart.
+  /// Returns true if every element gets a mark: there are no links, or few elements that are far enough apart.
   static bool marksElements(const Mesh& mesh, double pixelsPerUnit);
   /// True if the object is drawn as a surface in space, which is lit and hides everything behind it.
   static bool isSolid(const Mesh& mesh, const DrawOptions& options) {

@@ -245,9 +245,10 @@ QString Panel::inWords(const Statistics& statistics) {
 QString Panel::describePass(const Statistics& statistics, bool briefly) {
   const QLocale locale;
   const bool solved = !info(statistics.algorithm).has_steps();
-  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> elements")
+  const QLatin1String several(statistics.last_pass.checked == 1 ? "" : "s");
+  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> element") + several
                           : briefly ? QStringLiteral("<b>%2</b> checked")
-                                    : QStringLiteral("<b>%2</b> links checked");
+                                    : QStringLiteral("<b>%2</b> link") + several + QStringLiteral(" checked");
   return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b>") +
           (briefly ? QString() : QStringLiteral(" per pass")))
       .arg(locale.toString(qulonglong(statistics.last_pass.moved)),

@@ -11,6 +11,7 @@
 #include <QVector4D>
 #include <QWheelEvent>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -251,8 +252,14 @@ std::vector<QVector3D> View::outline(bool atRest) const {
   return points;
 }
 
+/// A single place has no size that the camera could fit, so it gets some room around it (mesh units).
 void View::frame(std::span<const QVector3D> points) {
-  camera_->frame(points, size());
+  const QVector3D half(0.5F, 0.5F, 0.5F);
+  if (!points.empty() && std::ranges::all_of(points, [&](const QVector3D& point) { return point == points.front(); })) {
+    camera_->frame(std::array{points.front() - half, points.front() + half}, size());
+  } else {
+    camera_->frame(points, size());
+  }
   announceCamera();
 }
 
@@ -279,6 +286,11 @@ void View::lookFromAxis(int axis, bool positive) {
   camera_->lookFromAxis(axis, positive);
   announceCamera();
   emit sideChosen();
+}
+
+void View::centreOn(ElementId element) {
+  camera_->centreOn(asVector(space().into(position(element))));
+  announceCamera();
 }
 
 void View::setParallel(bool parallel) {
@@ -399,8 +411,7 @@ void View::mouseDoubleClickEvent(QMouseEvent* event) {
   }
   cursor_ = event->position();
   if (const auto element = search_.elementAt(cursor_)) {
-    camera_->centreOn(asVector(space().into(position(*element))));
-    announceCamera();
+    centreOn(*element);
   }
 }
 

@@ -84,6 +84,8 @@ class View : public QOpenGLWidget {
   /// See Camera.
   void lookFrom(double yaw, double pitch);
   void lookFromAxis(int axis, bool positive);
+  /// Moves the camera so that an element is in the middle.
+  void centreOn(ElementId element);
   void setParallel(bool parallel);
 
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.

@@ -4,11 +4,14 @@
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "common/text.h"
 #include "document/edits.h"
 #include "drawing/prepared_levels.h"
-#include "elastic/limits.h"
 #include "files/mesh/fill.h"
+#include "files/repair/simplify.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 namespace {
@@ -21,7 +24,7 @@ constexpr int sliderSteps = 200;  // on either side of the middle
 // Largest number of elements. More would take minutes, and would be too many for dragging.
 constexpr double maxElements = 2e6;
 
-// Share of the limit of linear FEM that the coarser edges aim at, because the number of elements is an estimate.
+// Share of the limit of linear FEM that is offered, because the number of elements is an estimate.
 constexpr double aimedShare = 0.8;
 
 /// Returns a number rounded to two significant digits.
@@ -39,6 +42,25 @@ double enclosedVolume(const Mesh& mesh) {
   return std::abs(sum);
 }
 
+/// Largest number of elements of a solid that linear FEM takes.
+double femLimit() { return double(max_solid_elements(ElasticMethod::linear_fem).value_or(element_limit)); }
+
+/// Returns 'BEM (5,000), ARAP, XPBD (100,000)': the methods whose limits are (not) below a number of elements.
+QString methodsWithLimits(double elements, bool exceeded) {
+  std::map<std::uint64_t, QStringList> byLimit;
+  for (const AlgorithmInfo& one : elastic_algorithms()) {
+    const auto most = max_solid_elements(*one.elastic);
+    if (most && (elements > double(*most)) == exceeded) {
+      byLimit[*most] << text(one.label);
+    }
+  }
+  QStringList all;
+  for (const auto& [most, names] : byLimit) {
+    all << QStringLiteral("%1 (%L2)").arg(names.join(QStringLiteral(", "))).arg(most);
+  }
+  return all.join(QStringLiteral(", "));
+}
+
 bool isSurfaceInSpace(const Mesh& mesh) { return mesh.object_dimension == 2 && mesh.space_dimension == 3; }
 
 }  // namespace
@@ -49,7 +71,8 @@ Filling::Filling(Document& document, Jobs& jobs)
       document_(document),
       jobs_(jobs),
       size_(new QDoubleSpinBox),
-      slider_(new QSlider(Qt::Horizontal)) {
+      slider_(new QSlider(Qt::Horizontal)),
+      simplify_(new QPushButton(QStringLiteral("&Simplify first…"))) {
   makeFields();
   connect(slider_, &QSlider::valueChanged, this, [this](int place) {
     size_->setValue(document_.mesh()->mean_link_length * std::pow(widest, double(place) / sliderSteps));
@@ -71,6 +94,15 @@ void Filling::makeFields() {
   slider_->setMinimumWidth(60);
   addField(QStringLiteral("&Edges of"), size_);
   addField({}, slider_);
+  simplify_->setObjectName(QStringLiteral("fillSimplify"));
+  simplify_->setToolTip(QStringLiteral(
+      "Asks for a number of elements and makes the surface coarser, as one undo step; then asks again for "
+      "the edge length"));
+  addAnswer(simplify_);
+  connect(simplify_, &QPushButton::clicked, this, [this] {
+    hide();
+    emit simplifyRequested(suitedElements());
+  });
 }
 
 void Filling::fill(QMenu& menu) {
@@ -100,22 +132,51 @@ void Filling::askSize() {
     size_->setValue(offered);
   }
   describe();
-  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) +
-          (offered > mean ? QStringLiteral(". The edges offered are coarser than the surface: linear FEM takes at most "
-                                           "%L1 elements")
-                                .arg(max_fem_elements)
-                          : QString()),
-      size_);
+  const bool isTooFine = elementsAt(mean) > aimedShare * femLimit();
+  simplify_->setVisible(isTooFine);
+  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) + (isTooFine ? adviceAt(offered) : QString()),
+      isHopeless() ? static_cast<QWidget*>(simplify_) : size_);
 }
+
+/// Returns what to do about a surface that is too fine.
+QString Filling::adviceAt(double offered) const {
+  if (isHopeless()) {
+    return QStringLiteral(". The surface is too fine for linear FEM (at most %L1 elements): simplify it first")
+        .arg(qulonglong(femLimit()));
+  }
+  return offered > document_.mesh()->mean_link_length
+             ? QStringLiteral(
+                   ". The edges offered are coarser than the surface, for linear FEM (at most %L1 elements). "
+                   "If you simplify it first, they are as long as those of the surface")
+                   .arg(qulonglong(femLimit()))
+             : QString();
+}
+
+/// True if the longest edges are too short for linear FEM.
+bool Filling::isHopeless() const { return elementsAt(size_->maximum()) > femLimit(); }
 
 /// Returns the mean link length of the surface, or longer edges if linear FEM could not take so many elements.
 double Filling::offeredSize() const {
   const double mean = document_.mesh()->mean_link_length;
-  const double inside = aimedShare * double(max_fem_elements) - double(document_.mesh()->element_count());
-  if (elementsAt(mean) <= aimedShare * double(max_fem_elements) || inside <= 0) {
+  const double inside = aimedShare * femLimit() - double(document_.mesh()->element_count());
+  if (elementsAt(mean) <= aimedShare * femLimit()) {
     return mean;
   }
-  return std::min(widest * mean, std::cbrt(points_per_cube * volume_ / inside));
+  return inside <= 0 ? widest * mean : std::min(widest * mean, std::cbrt(points_per_cube * volume_ / inside));
+}
+
+/// Returns the number of elements of a coarser surface that linear FEM takes when it is filled with edges of the length
+/// of its own: that grows with the root of the area that each element stands for.
+int Filling::suitedElements() const {
+  const Mesh& mesh = *document_.mesh();
+  const double count = mesh.element_count(), inside = elementsAt(mesh.mean_link_length) - count;
+  const auto filled = [&](double coarse) { return coarse + inside * std::pow(coarse / count, 1.5); };
+  double low = 0, high = count;
+  while (high - low > 1) {
+    const double middle = (low + high) / 2;
+    (filled(middle) < aimedShare * femLimit() ? low : high) = middle;
+  }
+  return int(roughly(std::max(low, double(fewest_simplified))));
 }
 
 /// Returns the estimated number of elements for an edge length.
@@ -129,11 +190,24 @@ void Filling::describe() {
   slider_->setValue(
       int(std::lround(sliderSteps * std::log(size / document_.mesh()->mean_link_length) / std::log(widest))));
   const double elements = elementsAt(size);
-  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))) +
-                 (elements > double(max_fem_elements)
-                      ? QStringLiteral(", too many for linear FEM (at most %L1)").arg(max_fem_elements)
-                      : QString()),
-             elements < maxElements);
+  showResult(QStringLiteral("about %L1 elements").arg(qlonglong(roughly(elements))), elements < maxElements);
+  showDetails(elements < maxElements ? limitsAt(elements) : refusalAt(size));
+}
+
+/// Returns which methods take a number of elements, with their limits. ChainMail has none.
+QString Filling::limitsAt(double elements) {
+  const QString enough = methodsWithLimits(elements, false), few = methodsWithLimits(elements, true);
+  return (enough.isEmpty() ? QStringLiteral("Only methods without a limit take so many, such as ChainMail")
+                           : QStringLiteral("Few enough for %1").arg(enough)) +
+         (few.isEmpty() ? QString() : QStringLiteral(". Too many for %1").arg(few));
+}
+
+/// Returns why an edge length is refused, and what to do.
+QString Filling::refusalAt(double size) const {
+  const bool longerHelp = size < size_->maximum() && elementsAt(size_->maximum()) < maxElements;
+  return QStringLiteral("More than %L1 elements would take minutes and could not be dragged: %2")
+      .arg(qlonglong(maxElements))
+      .arg(longerHelp ? QStringLiteral("choose longer edges") : QStringLiteral("simplify the surface first"));
 }
 
 void Filling::start() {

@@ -2,6 +2,7 @@
 
 #include <QDoubleSpinBox>
 #include <QMenu>
+#include <QPushButton>
 #include <QSlider>
 
 #include "common/ask_bar.h"
@@ -18,11 +19,21 @@ class Filling : public AskBar {
   Filling(Document& document, Jobs& jobs);
 
   void fill(QMenu& menu);
+  /// Asks for the edge length.
+  void askSize();
+
+ signals:
+  /// The surface should get about so many elements before it is filled.
+  void simplifyRequested(int elements);
 
  private:
   void makeFields();
-  void askSize();
   void describe();
+  QString adviceAt(double offered) const;
+  bool isHopeless() const;
+  static QString limitsAt(double elements);
+  QString refusalAt(double size) const;
+  int suitedElements() const;
   double offeredSize() const;
   double elementsAt(double size) const;
   void adapt();
@@ -32,6 +43,7 @@ class Filling : public AskBar {
   Jobs& jobs_;
   QDoubleSpinBox* size_;
   QSlider* slider_;
+  QPushButton* simplify_;
   QAction* action_ = nullptr;
   double volume_ = 0;  // enclosed by the surface (mesh units cubed)
 };

@@ -184,6 +184,7 @@ const std::array entries{
               .inViewMenu = true,
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
+              .floating = true,
               .make = makeReport},
     DockEntry{.id = "sizeTestDock",
               .action = "showSizeTest",
@@ -285,6 +286,7 @@ Docks::Docks(const DockParts& parts) : window_(parts.window), sizes_(std::make_u
   for (const DockEntry& entry : entries) {
     add(entry, parts);
   }
+  letFloat();
 }
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
@@ -309,6 +311,15 @@ void Docks::place(const DockEntry& entry, QDockWidget& dock) const {
     window_.tabifyDockWidget(byId(entry.tabbedWith), &dock);
   }
   dock.setVisible(entry.visible);
+}
+
+/// Acts after all docks have their places: another dock may be behind the same tab.
+void Docks::letFloat() const {
+  for (std::size_t i = 0; i < docks_.size(); ++i) {
+    if (entries[i].floating) {
+      docks_[i]->setFloating(true);
+    }
+  }
 }
 
 QDockWidget* Docks::byId(const char* id) const {
@@ -337,6 +348,7 @@ void Docks::reset() const {
     for (std::size_t i = 0; i < docks_.size(); ++i) {
       place(entries[i], *docks_[i]);
     }
+    letFloat();
   }
   resize();
 }

@@ -61,6 +61,7 @@ struct DockEntry {
   Qt::DockWidgetArea area;
   const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
   bool visible = true;               // visible at the first start
+  bool floating = false;             // a window of its own until the user docks it
   /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
   QDockWidget* (*make)(const DockParts& parts, const Docks& made);
 };
@@ -96,6 +97,7 @@ class Docks {
  private:
   void add(const DockEntry& entry, const DockParts& parts);
   void place(const DockEntry& entry, QDockWidget& dock) const;
+  void letFloat() const;
   QDockWidget* byId(const char* id) const;
 
   QMainWindow& window_;

@@ -29,6 +29,10 @@ void HelpMenu::fill(QMenu& menu) {
   auto* again = menu.addAction(QStringLiteral("Show &hints"), hints_, &Hints::present);
   again->setObjectName(QStringLiteral("showHints"));
   again->setStatusTip(QStringLiteral("Shows the three hints of the first start below the views"));
+  menu.addSeparator();
+  auto* about = menu.addAction(QStringLiteral("&About ChainMail workbench"), this, &HelpMenu::showAbout);
+  about->setObjectName(QStringLiteral("showAbout"));
+  about->setStatusTip(QStringLiteral("Shows version, licences, Qt and OpenGL as text that can be copied"));
 }
 
 bool HelpMenu::welcome() {
@@ -48,6 +52,15 @@ void HelpMenu::showManual() {
   manual_->show();
   manual_->raise();
   manual_->activateWindow();
+}
+
+void HelpMenu::showAbout() {
+  if (about_ == nullptr) {
+    about_ = new AboutDialog(&window_);
+  }
+  about_->show();
+  about_->raise();
+  about_->activateWindow();
 }
 
 void HelpMenu::showShortcuts() {

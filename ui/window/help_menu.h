@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QObject>
 
+#include "window/about_dialog.h"
 #include "window/example_drag.h"
 #include "window/hints.h"
 #include "window/manual_window.h"
@@ -33,11 +34,13 @@ class HelpMenu : public QObject {
  private:
   void showManual();
   void showShortcuts();
+  void showAbout();
 
   QMainWindow& window_;
   Shortcuts shortcuts_;
   ManualWindow* manual_ = nullptr;     // made on first use
   ShortcutsDialog* dialog_ = nullptr;  // made on first use
+  AboutDialog* about_ = nullptr;       // made on first use
   ExampleDrag example_;
   Hints* hints_;
 };

@@ -36,10 +36,12 @@
 #include "panels/colour_range_menu.h"
 #include "panels/colour_selector.h"
 #include "panels/panel.h"
+#include "tools/element_menu.h"
 #include "tools/element_readout.h"
 #include "tools/filling.h"
 #include "tools/pin_bar.h"
 #include "tools/pin_layers.h"
+#include "tools/simplifying.h"
 #include "window/camera_actions.h"
 #include "window/dock_layout.h"
 #include "window/docks.h"
@@ -100,6 +102,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       pinLayers_(new PinLayers(document_, this)),
       pinBar_(new PinBar(document_, *pinLayers_)),
       filling_(new Filling(document_, jobs_)),
+      simplifying_(new Simplifying(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
@@ -151,6 +154,7 @@ void MainWindow::arrange() {
   column->addWidget(&files_->volumes().bar());
   column->addWidget(&files_->repair().bar());
   column->addWidget(filling_);
+  column->addWidget(simplifying_);
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
   column->addWidget(&lessons_->bar());
@@ -192,6 +196,13 @@ void MainWindow::listen() {
     }
     setWindowModified(document_.isModified());
   });
+  auto* elementMenu = new ElementMenu(document_, this);
+  for (Panel* panel : area_->panels()) {
+    elementMenu->follow(panel->view());
+  }
+  connect(area_, &PanelArea::added, elementMenu, [elementMenu](Panel* panel) { elementMenu->follow(panel->view()); });
+  connect(filling_, &Filling::simplifyRequested, simplifying_, &Simplifying::askBeforeFilling);
+  connect(simplifying_, &Simplifying::readyToFill, filling_, &Filling::askSize);
   connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
   connect(lessons_, &Lessons::openChanged, &help_->hints(), &Hints::setAside);
 }
@@ -349,6 +360,7 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
   unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
   menu.addMenu(&pinLayers_->menu());
   files_->repair().fill(menu);
+  simplifying_->fill(menu);
   filling_->fill(menu);
   const auto adapt = [this] { unpinAll_->setEnabled(!document_.pins().empty()); };
   connect(&document_, &Document::pinsChanged, unpinAll_, adapt);

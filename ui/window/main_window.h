@@ -39,6 +39,7 @@ class PinBar;
 class PinLayers;
 class Sessions;
 class ShowMenu;
+class Simplifying;
 
 /// The workbench's window: panels, docks, tools, menus and bars, connected to one document.
 class MainWindow : public QMainWindow {
@@ -126,6 +127,7 @@ class MainWindow : public QMainWindow {
   PinLayers* pinLayers_;
   PinBar* pinBar_;
   Filling* filling_;
+  Simplifying* simplifying_;
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;

@@ -11,6 +11,7 @@
 #include <QTextTable>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <array>
 
 #include "common/colours.h"
@@ -21,7 +22,9 @@ namespace {
 
 constexpr QSize preferredSize(1100, 720);
 constexpr int listWidth = 170;
+constexpr int resultsHeight = 300;
 constexpr int searchWidth = 220;
+constexpr std::size_t mostMatches = 500;
 constexpr int pageMargin = 18;
 constexpr int cellPadding = 4;
 constexpr int codeIndent = 12;
@@ -209,14 +212,17 @@ ManualWindow::ManualWindow(QWidget* parent)
       back_(makeButton("manualBack", "left", QStringLiteral("Previous page (Alt+Left)"))),
       forward_(makeButton("manualForward", "right", QStringLiteral("Next page (Alt+Right)"))),
       search_(new QLineEdit),
-      answer_(new QLabel) {
+      answer_(new QLabel),
+      results_(new QListWidget),
+      previous_(makeButton("manualPrevious", "up", QStringLiteral("Previous match (Shift+F3)"))),
+      next_(makeButton("manualNext", "down", QStringLiteral("Next match (F3)"))) {
   setObjectName(QStringLiteral("manualWindow"));
   setWindowTitle(QStringLiteral("ChainMail manual"));
   resize(preferredSize);
   list_->setObjectName(QStringLiteral("manualPages"));
   list_->setAccessibleName(QStringLiteral("Pages of the manual"));
   auto* split = new QSplitter;
-  split->addWidget(list_);
+  split->addWidget(makeLists());
   split->addWidget(makePageArea());
   split->setSizes({listWidth, preferredSize.width() - listWidth});
   split->setStretchFactor(1, 1);
@@ -239,6 +245,26 @@ QStringList ManualWindow::pages() {
 
 void ManualWindow::open(const QString& page) { page_->setSource(urlOf(page)); }
 
+/// Puts the matches of a search below the pages.
+QWidget* ManualWindow::makeLists() {
+  results_->setObjectName(QStringLiteral("manualResults"));
+  results_->setAccessibleName(QStringLiteral("Matches in the manual"));
+  results_->setWordWrap(true);
+  results_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  results_->hide();
+  connect(results_, &QListWidget::currentRowChanged, this, [this](int row) {
+    if (row >= 0) {
+      goTo(std::size_t(row));
+    }
+  });
+  auto* lists = new QSplitter(Qt::Vertical);
+  lists->addWidget(list_);
+  lists->addWidget(results_);
+  lists->setSizes({preferredSize.height() - resultsHeight, resultsHeight});
+  lists->setChildrenCollapsible(false);
+  return lists;
+}
+
 QWidget* ManualWindow::makePageArea() {
   auto* area = new QWidget;
   auto* column = new QVBoxLayout(area);
@@ -252,10 +278,10 @@ QWidget* ManualWindow::makePageArea() {
 
 QHBoxLayout* ManualWindow::makeBar() {
   search_->setObjectName(QStringLiteral("manualSearch"));
-  search_->setPlaceholderText(QStringLiteral("Search this page"));
+  search_->setPlaceholderText(QStringLiteral("Search the manual"));
   search_->setAccessibleName(search_->placeholderText());
   search_->setToolTip(
-      QStringLiteral("Searches the page (Ctrl+F); Enter shows the next match, Shift+Enter the previous one"));
+      QStringLiteral("Searches all pages (Ctrl+F); Enter shows the next match, Shift+Enter the previous one"));
   search_->setClearButtonEnabled(true);
   search_->addAction(icon("search"), QLineEdit::LeadingPosition);
   search_->setFixedWidth(searchWidth);
@@ -267,6 +293,10 @@ QHBoxLayout* ManualWindow::makeBar() {
   bar->addStretch(1);
   bar->addWidget(answer_);
   bar->addWidget(search_);
+  bar->addWidget(previous_);
+  bar->addWidget(next_);
+  connect(previous_, &QToolButton::clicked, this, [this] { goOn(-1); });
+  connect(next_, &QToolButton::clicked, this, [this] { goOn(1); });
   connect(back_, &QToolButton::clicked, page_, &QTextBrowser::backward);
   connect(forward_, &QToolButton::clicked, page_, &QTextBrowser::forward);
   connect(page_, &QTextBrowser::backwardAvailable, back_, &QWidget::setEnabled);
@@ -274,6 +304,7 @@ QHBoxLayout* ManualWindow::makeBar() {
   connect(search_, &QLineEdit::textChanged, this, &ManualWindow::search);
   back_->setEnabled(false);
   forward_->setEnabled(false);
+  showResults();
   return bar;
 }
 
@@ -303,9 +334,11 @@ void ManualWindow::addKeys() {
   add(QKeySequence::ZoomOut, this, [this] { page_->zoomOut(); });
   add(Qt::CTRL | Qt::Key_0, this, [this] { resetZoom(); });
   for (const auto enter : {Qt::Key_Return, Qt::Key_Enter}) {
-    add(enter, search_, [this] { searchOn({}); });
-    add(Qt::SHIFT | enter, search_, [this] { searchOn(QTextDocument::FindBackward); });
+    add(enter, search_, [this] { goOn(1); });
+    add(Qt::SHIFT | enter, search_, [this] { goOn(-1); });
   }
+  add(QKeySequence::FindNext, this, [this] { goOn(1); });
+  add(QKeySequence::FindPrevious, this, [this] { goOn(-1); });
   add(Qt::Key_Escape, search_, [this] { page_->setFocus(); });
 }
 
@@ -313,31 +346,85 @@ void ManualWindow::addKeys() {
 void ManualWindow::showCurrent(const QUrl& url) {
   const QSignalBlocker block(list_);
   list_->setCurrentRow(int(pages().indexOf(url.fileName())));
-  search_->clear();
+  if (!goesToMatch_) {
+    search_->clear();
+  }
 }
 
-/// Searches while the user types. The search starts at the current match, so that it stays while it still matches.
+/// Searches while the user types, and shows the first match from the present position on.
 void ManualWindow::search(const QString& words) {
-  QTextCursor from = page_->textCursor();
-  from.setPosition(from.selectionStart());
-  page_->setTextCursor(from);
-  answer_->clear();
-  if (!words.isEmpty()) {
-    searchOn({});
+  if (index_ == nullptr) {
+    index_ = std::make_unique<ManualIndex>(pages());
+  }
+  matches_ = words.isEmpty() ? std::vector<ManualMatch>() : index_->find(words, mostMatches);
+  current_.reset();
+  showResults();
+  if (!matches_.empty()) {
+    goTo(firstFromHere());
+  } else if (!words.isEmpty()) {
+    answer_->setText(QStringLiteral("Not found in the manual"));
   }
 }
 
-/// Shows the next match. After the last match, continues with the first one.
-void ManualWindow::searchOn(QTextDocument::FindFlags direction) {
-  const QTextCursor before = page_->textCursor();
-  bool found = page_->find(search_->text(), direction);
-  if (!found) {
-    page_->moveCursor(direction.testFlag(QTextDocument::FindBackward) ? QTextCursor::End : QTextCursor::Start);
-    found = page_->find(search_->text(), direction);
+/// Lists the matches, each with its page.
+void ManualWindow::showResults() {
+  const QSignalBlocker block(results_);
+  results_->clear();
+  for (const ManualMatch& match : matches_) {
+    results_->addItem(QStringLiteral("%1: %2").arg(titleOf(match.page), match.context));
   }
-  answer_->setText(found || search_->text().isEmpty() ? QString() : QStringLiteral("Not found on this page"));
-  if (!found) {
-    page_->setTextCursor(before);
+  results_->setVisible(!matches_.empty());
+  previous_->setEnabled(!matches_.empty());
+  next_->setEnabled(!matches_.empty());
+  answer_->clear();
+}
+
+/// Returns the first match that is on the present page and not before the cursor, or on a later page; else the first
+/// one of all.
+std::size_t ManualWindow::firstFromHere() const {
+  const int here = int(pages().indexOf(page_->source().fileName()));
+  int before = 0;  // matches on this page that end before the cursor
+  const int cursor = page_->textCursor().selectionStart();
+  QTextCursor at = page_->document()->find(search_->text(), 0);
+  for (; !at.isNull() && at.selectionStart() < cursor; at = page_->document()->find(search_->text(), at)) {
+    ++before;
+  }
+  const auto found = std::ranges::find_if(matches_, [&](const ManualMatch& one) {
+    const int page = int(pages().indexOf(one.page));
+    return page > here || (page == here && one.nth >= before);
+  });
+  return found == matches_.end() ? 0 : std::size_t(found - matches_.begin());
+}
+
+void ManualWindow::goTo(std::size_t match) {
+  current_ = match;
+  const ManualMatch& one = matches_[match];
+  if (page_->source().fileName() != one.page) {
+    goesToMatch_ = true;
+    open(one.page);
+    goesToMatch_ = false;
+  }
+  QTextCursor at = page_->document()->find(search_->text(), 0);
+  for (int i = 0; i < one.nth && !at.isNull(); ++i) {
+    at = page_->document()->find(search_->text(), at);
+  }
+  if (!at.isNull()) {
+    page_->setTextCursor(at);
+    page_->ensureCursorVisible();
+  }
+  const QSignalBlocker block(results_);
+  results_->setCurrentRow(int(match));
+  answer_->setText(QStringLiteral("%L1 of %2%L3")
+                       .arg(match + 1)
+                       .arg(matches_.size() == mostMatches ? QStringLiteral("more than ") : QString())
+                       .arg(matches_.size()));
+}
+
+/// Shows the next match (1) or the previous one (-1). After the last match of the manual, continues with the first one.
+void ManualWindow::goOn(int step) {
+  if (!matches_.empty()) {
+    const std::size_t count = matches_.size();
+    goTo((current_.value_or(0) + count + std::size_t(step + int(count))) % count);
   }
 }
 

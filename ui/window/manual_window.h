@@ -6,6 +6,11 @@
 #include <QStringList>
 #include <QTextBrowser>
 #include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "window/manual_index.h"
 
 class QHBoxLayout;
 class QToolButton;
@@ -31,8 +36,12 @@ class ManualWindow : public QWidget {
   void fillList();
   void addKeys();
   void showCurrent(const QUrl& url);
+  QWidget* makeLists();
   void search(const QString& words);
-  void searchOn(QTextDocument::FindFlags direction);
+  void showResults();
+  std::size_t firstFromHere() const;
+  void goTo(std::size_t match);
+  void goOn(int step);
   void resetZoom();
 
   QListWidget* list_;
@@ -40,7 +49,14 @@ class ManualWindow : public QWidget {
   QToolButton* back_;
   QToolButton* forward_;
   QLineEdit* search_;
-  QLabel* answer_;  // result of the search
+  QLabel* answer_;        // result of the search
+  QListWidget* results_;  // hidden while nothing is searched
+  QToolButton* previous_;
+  QToolButton* next_;
+  std::unique_ptr<ManualIndex> index_;  // made on the first search
+  std::vector<ManualMatch> matches_;
+  std::optional<std::size_t> current_;  // index of the match that is shown
+  bool goesToMatch_ = false;            // true while the search opens a page
 };
 
 }  // namespace chainmail

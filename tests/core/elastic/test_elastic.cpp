@@ -35,6 +35,7 @@ class ElasticTest : public QObject {
   void small_moves_are_linear();
   void the_hand_and_the_pins_are_where_they_are();
   void options_out_of_range_are_refused();
+  void limits_of_solids_are_those_of_the_checks();
 };
 
 namespace {
@@ -446,6 +447,29 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
     }
     solver->reset();
     QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return one == 0; }));
+  }
+}
+
+/// The check refuses a solid above the limit that the table states, and names that limit.
+void ElasticTest::limits_of_solids_are_those_of_the_checks() {
+  const auto small = make_mesh(MeshKind::tetra, {3, 3, 3}), large = make_mesh(MeshKind::tetra, {47, 47, 46});
+  const auto sentence = [&](ElasticMethod method) {
+    try {
+      check(method, *large);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const auto method :
+       {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::boundary, ElasticMethod::corotational,
+        ElasticMethod::arap, ElasticMethod::xpbd, ElasticMethod::projective, ElasticMethod::free_form}) {
+    check(method, *small);
+    const auto most = max_solid_elements(method);
+    QCOMPARE(most.has_value(), method != ElasticMethod::free_form);
+    QCOMPARE(sentence(method).find("it is limited to " + std::to_string(most.value_or(0)) + " elements") !=
+                 std::string::npos,
+             most.has_value());
   }
 }
 

@@ -1,6 +1,8 @@
 #include "docks/report/report_dock.h"
 
+#include <QAction>
 #include <QLabel>
+#include <QScreen>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -12,6 +14,8 @@ namespace {
 constexpr int reportControlsWidth = 230;
 constexpr int smallestReportHeight = 300;
 constexpr double shareOfWindow = 0.6;  // height of the dock in the window, so that plot and table are readable at once
+constexpr double shareAlone = 0.8;     // the same as a window of its own
+constexpr int besideControls = 24;     // margins and spacing (pixels)
 constexpr int reportProgressSteps = 1000;
 constexpr int reportProgressMilliseconds = 150;
 
@@ -90,6 +94,11 @@ QWidget* ReportDock::makeEmptyPage() {
 }
 
 void ReportDock::listen() {
+  connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (shown) {
+      openedByUser();
+    }
+  });
   connect(run_, &QPushButton::clicked, this, &ReportDock::start);
   connect(cancel_, &QPushButton::clicked, this, &ReportDock::cancel);
   connect(choices_, &ReportChoices::changed, this, &ReportDock::showState);
@@ -99,12 +108,45 @@ void ReportDock::listen() {
   connect(thread_, &ReportThread::finished, this, [this](const ReportThread::Result& result) {
     results_->show(result);
     pages_->setCurrentWidget(results_);
+    fitTable();
     showState();
   });
   connect(thread_, &ReportThread::failed, this, [this](const QString& sentence) {
     showState();
     emit failed(sentence);
   });
+}
+
+/// A dock without results begins to make them: whoever opens it wants to see some.
+void ReportDock::openedByUser() {
+  if (isFloating() && !isPlaced_) {
+    placeOverWindow();
+  }
+  if (pages_->currentWidget() != results_ && !thread_->running() && choices_->complete()) {
+    start();
+  }
+}
+
+/// Makes a window of its own so wide that no column of the table is cut, as far as the screen allows.
+void ReportDock::fitTable() {
+  if (isFloating()) {
+    const QRect room = screen()->availableGeometry();
+    const int beside = width() - results_->width();
+    resize(std::min(std::max(width(), beside + results_->tableWidth()), room.width()), height());
+    move(std::max(room.left(), std::min(x(), room.right() + 1 - width())), y());
+  }
+}
+
+void ReportDock::placeOverWindow() {
+  isPlaced_ = true;
+  const QRect main = parentWidget()->frameGeometry(), room = screen()->availableGeometry();
+  QRect place(QPoint(), QSize(reportControlsWidth + results_->tableWidth() + besideControls,
+                              std::max(smallestReportHeight, int(shareAlone * main.height())))
+                            .boundedTo(room.size()));
+  place.moveCenter(main.center());
+  place.moveTopLeft({std::clamp(place.left(), room.left(), room.right() + 1 - place.width()),
+                     std::clamp(place.top(), room.top(), room.bottom() + 1 - place.height())});
+  setGeometry(place);
 }
 
 void ReportDock::start() {

@@ -30,6 +30,9 @@ class ReportDock : public QDockWidget {
   void listen();
   void start();
   void cancel();
+  void openedByUser();
+  void fitTable();
+  void placeOverWindow();
   void showState();
   void showProgress(double fraction, const QString& text);
   void fillBar(int value, const QString& format);
@@ -43,6 +46,7 @@ class ReportDock : public QDockWidget {
   QStackedWidget* pages_;
   QElapsedTimer sinceShown_;  // since progress was last shown
   QString textShown_;
+  bool isPlaced_ = false;  // true after it was placed over the window, from where the user may move it
 };
 
 }  // namespace chainmail

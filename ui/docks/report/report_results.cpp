@@ -23,6 +23,7 @@
 namespace chainmail {
 namespace {
 
+constexpr int narrowestPlot = 420;    // beside a table whose columns are not cut (pixels)
 constexpr double widestColumn = 2.4;  // ratio of width to height up to which the table is below the plot
 
 /// Writes the three files, or none of them.
@@ -99,9 +100,13 @@ ReportResults::ReportResults()
   followTheme(*this, [this] { showDrag(); });  // the marks depend on the theme
 }
 
+int ReportResults::tableWidth() const { return table_->fullWidth(); }
+
 /// Sets the table beside the plot where there is room for both, otherwise below it.
 void ReportResults::resizeEvent(QResizeEvent* event) {
-  split_->setOrientation(event->size().width() > widestColumn * event->size().height() ? Qt::Horizontal : Qt::Vertical);
+  const QSize size = event->size();
+  const bool isWide = size.width() > widestColumn * size.height() && size.width() > tableWidth() + narrowestPlot;
+  split_->setOrientation(isWide ? Qt::Horizontal : Qt::Vertical);
   QWidget::resizeEvent(event);
 }
 

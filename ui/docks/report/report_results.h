@@ -21,6 +21,8 @@ class ReportResults : public QWidget {
  public:
   ReportResults();
   void show(const ReportThread::Result& result);
+  /// Width at which no column of the table is cut (pixels).
+  int tableWidth() const;
   /// Writes the three files of the report into a folder.
   void saveTo(const QString& folder);
   /// Writes the plot shown as SVG, PDF or PNG, by the extension.

@@ -2,6 +2,8 @@
 
 #include <QGuiApplication>
 #include <QHeaderView>
+#include <QScrollBar>
+#include <algorithm>
 #include <limits>
 
 #include "common/plot_painting.h"
@@ -12,7 +14,10 @@
 namespace chainmail {
 namespace {
 
-constexpr int tableMarkSize = 13;  // logical pixels
+// In logical pixels.
+constexpr int tableMarkSize = 13;
+constexpr int headMargin = 14;     // both sides of the text of a header
+constexpr int sortMarkWidth = 15;  // on each side, so that the text stays in the middle
 
 /// A cell that is sorted by its number, not by its text. Cells without a number come last.
 class FigureItem : public QTableWidgetItem {
@@ -47,24 +52,24 @@ std::optional<double> of(const std::optional<Distance>& distance) {
 }
 
 constexpr std::array columns{
-    Column{"Time\n(ms per move)", "Median over the repetitions: a pass and its relaxation",
+    Column{"Time\n(ms per\nmove)", "Median over the repetitions: a pass and its relaxation",
            [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"Max violation\n(rest lengths)", "Largest violation of a link, in its rest lengths",
+    Column{"Max\nviolation\n(rest\nlengths)", "Largest violation of a link, in its rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.max); }},
-    Column{"RMS violation\n(rest lengths)", "Root mean square of the violation over all links, in rest lengths",
+    Column{"RMS\nviolation\n(rest\nlengths)", "Root mean square of the violation over all links, in rest lengths",
            [](auto& one) { return std::optional(one.errors.violation.rms); }},
-    Column{"Violated links\n(%)", "Share of the links with a violation above 1e-4",
+    Column{"Violated\nlinks\n(%)", "Share of the links with a violation above 1e-4",
            [](auto& one) { return std::optional(one.errors.violation.fraction); },
            [](auto& one) { return report::percent(one.errors.violation.fraction); }},
-    Column{"Max to Exact\n(mean rest lengths)",
+    Column{"Max to\nExact\n(mean rest\nlengths)",
            "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
-    Column{"RMS to Exact\n(mean rest lengths)",
+    Column{"RMS to\nExact\n(mean rest\nlengths)",
            "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
            [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"Energy\n(ratio to Exact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
+    Column{"Energy\n(ratio to\nExact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
            [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"Quartiles\n(ms per move)", "Lower and upper quartile of the repetitions (ms per move)",
+    Column{"Quartiles\n(ms per\nmove)", "Lower and upper quartile of the repetitions (ms per move)",
            [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
            [](auto& one) {
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
@@ -73,7 +78,7 @@ constexpr std::array columns{
     Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
            [](auto& one) { return report::thousands(one.moved); }},
-    Column{"Float to double\n(mean rest lengths)",
+    Column{"Float to\ndouble\n(mean rest\nlengths)",
            "Largest distance between the contestant in float and in double, in mean rest lengths",
            [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
 };
@@ -107,6 +112,25 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   horizontalHeader()->setHighlightSections(false);
   sortByColumn(1, Qt::AscendingOrder);  // the fastest first
   copyByKeys(*this);
+  connect(horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, &ReportTable::fitColumns);
+  fitColumns();
+}
+
+/// Makes the columns as narrow as their texts. Qt would make room for the mark of sorting in all of them.
+void ReportTable::fitColumns() {
+  const QFontMetrics letters = horizontalHeader()->fontMetrics();
+  for (int column = 0; column < columnCount(); ++column) {
+    int head = 0;
+    for (const QString& line : horizontalHeaderItem(column)->text().split(QLatin1Char('\n'))) {
+      head = std::max(head, letters.horizontalAdvance(line));
+    }
+    const int mark = column == horizontalHeader()->sortIndicatorSection() ? 2 * sortMarkWidth : 0;
+    setColumnWidth(column, std::max(head + headMargin + mark, sizeHintForColumn(column)));
+  }
+}
+
+int ReportTable::fullWidth() const {
+  return horizontalHeader()->length() + verticalScrollBar()->sizeHint().width() + 2 * frameWidth();
 }
 
 void ReportTable::show(const report::DragResult& drag) {
@@ -128,7 +152,7 @@ void ReportTable::show(const report::DragResult& drag) {
     showColumn(drag, int(i));
   }
   setSortingEnabled(true);
-  resizeColumnsToContents();
+  fitColumns();
 }
 
 void ReportTable::showColumn(const report::DragResult& drag, int column) {

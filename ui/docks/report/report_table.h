@@ -16,8 +16,11 @@ class ReportTable : public QTableWidget {
  public:
   ReportTable();
   void show(const report::DragResult& drag);
+  /// Width at which no column is cut (pixels).
+  int fullWidth() const;
 
  private:
+  void fitColumns();
   void showColumn(const report::DragResult& drag, int column);
 };
 

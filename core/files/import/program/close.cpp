@@ -1,7 +1,4 @@
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/utility.h>
 
@@ -13,14 +10,12 @@
 #include <vector>
 
 #include "files/import/program/given_surface.h"
+#include "files/import/program/oriented_surface.h"
 #include "files/import/program/tasks.h"
 
 namespace chainmail::import {
 namespace {
 
-using PatchKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Halfedges = CGAL::Surface_mesh<PatchKernel::Point_3>;
-using Halfedge = Halfedges::Halfedge_index;
 using EdgeEnds = std::array<ElementId, 2>;
 
 // The time grows faster than the square of this number.
@@ -28,44 +23,21 @@ constexpr std::size_t max_hole_edges = 10'000;
 
 EdgeEnds ends(ElementId a, ElementId b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A surface as halfedges. They need faces with one orientation and at most two at an edge: where that is not so, the
-/// surface is taken apart, with copies of elements.
-class OrientedSurface {
+/// A surface whose holes are closed.
+class HoledSurface : public OrientedSurface {
  public:
-  explicit OrientedSurface(const MeshParts& parts) : count_(parts.rest.size()) {
-    std::vector<PatchKernel::Point_3> points;
-    for (const Point& p : parts.rest) {
-      points.emplace_back(p.x(), p.y(), p.z());
-    }
-    std::vector<std::vector<std::size_t>> faces;
-    for (const auto& t : parts.triangles) {
-      faces.push_back({t.begin(), t.end()});
-    }
-    CGAL::Polygon_mesh_processing::orient_polygon_soup(points, faces);
-    find_originals(parts, points, faces);
-    for (const auto& point : points) {
-      halfedges_.add_vertex(point);
-    }
-    for (const auto& face : faces) {
-      using Vertex = Halfedges::Vertex_index;
-      halfedges_.add_face(Vertex(std::uint32_t(face[0])), Vertex(std::uint32_t(face[1])),
-                          Vertex(std::uint32_t(face[2])));
-    }
-    faces_ = halfedges_.number_of_faces();
-  }
-
-  Halfedges& halfedges() { return halfedges_; }
+  explicit HoledSurface(const MeshParts& parts) : OrientedSurface(parts), faces_(halfedges().number_of_faces()) {}
 
   /// Returns one halfedge of each border whose edges are all among these. A border that visits copies of one element
   /// is left out: its patch could join them.
   std::vector<Halfedge> borders(const std::set<EdgeEnds>& edges) const {
     std::vector<Halfedge> found;
-    std::vector<bool> seen(halfedges_.num_halfedges(), false);
-    for (const Halfedge start : halfedges_.halfedges()) {
-      if (!halfedges_.is_border(start) || seen[start]) {
+    std::vector<bool> seen(halfedges().num_halfedges(), false);
+    for (const Halfedge start : halfedges().halfedges()) {
+      if (!halfedges().is_border(start) || seen[start]) {
         continue;
       }
-      for (const Halfedge one : CGAL::halfedges_around_face(start, halfedges_)) {
+      for (const Halfedge one : CGAL::halfedges_around_face(start, halfedges())) {
         seen[one] = true;
       }
       const auto around = edges_at(start);
@@ -80,8 +52,8 @@ class OrientedSurface {
   /// Returns the edges of the border at a halfedge.
   std::vector<EdgeEnds> edges_at(Halfedge border) const {
     std::vector<EdgeEnds> edges;
-    for (const Halfedge one : CGAL::halfedges_around_face(border, halfedges_)) {
-      edges.push_back(ends(original_[halfedges_.source(one)], original_[halfedges_.target(one)]));
+    for (const Halfedge one : CGAL::halfedges_around_face(border, halfedges())) {
+      edges.push_back(ends(originals()[halfedges().source(one)], originals()[halfedges().target(one)]));
     }
     return edges;
   }
@@ -90,17 +62,17 @@ class OrientedSurface {
   ImportedMesh patches(const MeshParts& parts) const {
     ImportedMesh mesh;
     mesh.parts.rest = parts.rest;
-    std::vector<ElementId> ids = original_;
-    for (auto v = Halfedges::size_type(original_.size()); v < halfedges_.number_of_vertices(); ++v) {
-      const auto& point = halfedges_.point(Halfedges::Vertex_index(v));
+    std::vector<ElementId> ids = originals();
+    for (auto v = Halfedges::size_type(originals().size()); v < halfedges().number_of_vertices(); ++v) {
+      const auto& point = halfedges().point(Halfedges::Vertex_index(v));
       ids.push_back(ElementId(mesh.parts.rest.size()));
       mesh.parts.rest.emplace_back(point.x(), point.y(), point.z());
     }
-    for (const auto face : halfedges_.faces()) {
+    for (const auto face : halfedges().faces()) {
       if (face >= faces_) {
         std::array<ElementId, 3> corners{};
         std::size_t i = 0;
-        for (const auto vertex : CGAL::vertices_around_face(halfedges_.halfedge(face), halfedges_)) {
+        for (const auto vertex : CGAL::vertices_around_face(halfedges().halfedge(face), halfedges())) {
           corners[i++] = ids[vertex];
         }
         mesh.parts.triangles.push_back(corners);
@@ -112,32 +84,12 @@ class OrientedSurface {
  private:
   bool visits_each_once(Halfedge border) const {
     std::set<ElementId> visited;
-    const auto around = CGAL::halfedges_around_face(border, halfedges_);
+    const auto around = CGAL::halfedges_around_face(border, halfedges());
     return std::all_of(around.begin(), around.end(),
-                       [&](Halfedge one) { return visited.insert(original_[halfedges_.target(one)]).second; });
+                       [&](Halfedge one) { return visited.insert(originals()[halfedges().target(one)]).second; });
   }
 
-  /// Finds the element that each point is a copy of: in each face, it has the position of one corner.
-  void find_originals(const MeshParts& parts, const std::vector<PatchKernel::Point_3>& points,
-                      const std::vector<std::vector<std::size_t>>& faces) {
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      original_.push_back(ElementId(p));
-    }
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      for (const std::size_t corner : faces[f]) {
-        if (corner >= count_) {
-          const auto& all = parts.triangles[f];
-          original_[corner] =
-              *std::find_if(all.begin(), all.end(), [&](ElementId e) { return points[e] == points[corner]; });
-        }
-      }
-    }
-  }
-
-  std::size_t count_;
-  Halfedges halfedges_;
-  std::vector<ElementId> original_;  // of each point, which may be a copy
-  std::size_t faces_ = 0;            // of the surface itself
+  std::size_t faces_;  // of the surface itself
 };
 
 using ElementLoop = std::vector<ElementId>;
@@ -204,7 +156,7 @@ ElementLoop directed(ElementLoop hole, const MeshParts& parts) {
 
 /// Closes a hole whose border meets another hole or a non-manifold edge, with triangles between its elements only.
 void close_alone(const ElementLoop& hole, const MeshParts& given, std::vector<std::array<ElementId, 3>>& triangles) {
-  std::vector<PatchKernel::Point_3> points;
+  std::vector<SurfaceKernel::Point_3> points;
   for (const ElementId e : hole) {
     points.emplace_back(given.rest[e].x(), given.rest[e].y(), given.rest[e].z());
   }
@@ -217,7 +169,7 @@ void close_alone(const ElementLoop& hole, const MeshParts& given, std::vector<st
 
 /// Returns the patches of all holes that can be closed.
 ImportedMesh closed(const MeshParts& given, const std::vector<ElementLoop>& holes, const Report& report) {
-  OrientedSurface surface(given);
+  HoledSurface surface(given);
   std::set<EdgeEnds> open = edges_around(holes);
   const auto borders = surface.borders(open);
   for (std::size_t i = 0; i < borders.size(); ++i) {

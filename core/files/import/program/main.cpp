@@ -96,6 +96,10 @@ const std::map<std::string, Task>& tasks() {
        [](const auto& path, const auto& arguments) {
          return Imported(fill_surface(path, std::strtod(arguments.at(0).c_str(), nullptr), report_share));
        }},
+      {"simplify",
+       [](const auto& path, const auto& arguments) {
+         return Imported(simplify_surface(path, std::strtoull(arguments.at(0).c_str(), nullptr, 10), report_share));
+       }},
       {"close", [](const auto& path, const auto&) { return Imported(close_surface(path, report_share)); }},
   };
   return all;

@@ -38,4 +38,9 @@ ImportedMesh fill_surface(const std::filesystem::path& path, double size, const 
 /// hole can be closed.
 ImportedMesh close_surface(const std::filesystem::path& path, const Report& report);
 
+/// Collapses edges of a surface, in a file as encode_imported writes it, by CGAL, until `elements` are left. All points
+/// must be corners of its triangles. Those at its borders and non-manifold edges stay. Refuses if it cannot have so
+/// few.
+ImportedMesh simplify_surface(const std::filesystem::path& path, std::size_t elements, const Report& report);
+
 }  // namespace chainmail::import
