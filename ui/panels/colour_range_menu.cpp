@@ -61,7 +61,7 @@ std::optional<ColourRange> rangeOf(const QJsonObject& json) {
 }  // namespace
 
 ColourRangeMenu::ColourRangeMenu(Colouring& colouring, QWidget* parent)
-    : QMenu(QStringLiteral("Colour &range"), parent),
+    : QMenu(QStringLiteral("Colo&ur range"), parent),
       colouring_(colouring),
       kinds_(new QActionGroup(this)),
       lowest_(makeField(QStringLiteral("Lowest value"), "colourRangeLowest")),
@@ -101,7 +101,9 @@ void ColourRangeMenu::addFields() {
   row->addWidget(highest_);
   auto* action = new QWidgetAction(this);
   action->setText(QStringLiteral("Ends of the fixed range"));
-  action->setStatusTip(QStringLiteral("The values at the two ends of the colours"));
+  action->setObjectName(QStringLiteral("colourRangeFields"));
+  action->setStatusTip(QStringLiteral("Fixes the range between these values"));
+  connect(action, &QAction::triggered, this, [this] { chooseKind(Kind::fixed); });  // by keys
   action->setDefaultWidget(fields);
   addAction(action);
 }
@@ -110,6 +112,7 @@ NumberField* ColourRangeMenu::makeField(const QString& label, const char* name) 
   auto* field = new NumberField(label);
   field->setObjectName(QLatin1String(name));
   field->setAccessibleName(label);
+  field->setToolTip(QStringLiteral("%1 of the fixed range, which has the colour at the end of the legend").arg(label));
   field->setDecimals(decimals);
   field->setRange(-ColourRange::limit, ColourRange::limit);
   field->setKeyboardTracking(false);
