@@ -51,6 +51,14 @@ PropagationColumn::PropagationColumn(Document& document, Propagation& propagatio
     refresh();  // keeps the button checked
   });
   connect(slider_, &QSlider::valueChanged, this, [this](int step) { propagation_.setStep(panel_, std::size_t(step)); });
+  followTheme(*title_, [this] { showTitle(); });
+}
+
+/// Shows the panel in its colour, which depends on the theme.
+void PropagationColumn::showTitle() {
+  title_->setText(QStringLiteral("<span style='color:%1'>●</span> <b>%2</b> %3")
+                      .arg(QColor(panelColour(document_, panel_)).name(), panelName(panel_),
+                           text(info(document_.algorithm(panel_)).label)));
 }
 
 void PropagationColumn::makeList() {
@@ -140,9 +148,7 @@ QString PropagationColumn::describe(const PassPlayer& player) const {
 
 void PropagationColumn::refresh() {
   const PassPlayer* player = propagation_.player(panel_);
-  title_->setText(QStringLiteral("<span style='color:%1'>●</span> <b>%2</b> %3")
-                      .arg(QColor(panelColour(document_, panel_)).name(), panelName(panel_),
-                           text(info(document_.algorithm(panel_)).label)));
+  showTitle();
   choice_->setVisible(!propagation_.together());
   choice_->setChecked(propagation_.chosen() == panel_);
   model_.show(player, propagation_.stepCount());

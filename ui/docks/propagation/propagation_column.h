@@ -26,6 +26,7 @@ class PropagationColumn : public QWidget {
 
  private:
   void fitSections();
+  void showTitle();
   void makeList();
   void arrange();
   QString describe(const PassPlayer& player) const;
