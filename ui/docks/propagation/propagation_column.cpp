@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/colours.h"
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "common/text_scale.h"
