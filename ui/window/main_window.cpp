@@ -375,7 +375,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   addFigures(menu);
   menu.addSeparator();
   menu.addAction(&lecture_->action());
-  auto* reset = menu.addAction(QStringLiteral("&Reset layout"), this, &MainWindow::resetLayout);
+  auto* reset = menu.addAction(QStringLiteral("Reset la&yout"), this, &MainWindow::resetLayout);
   reset->setObjectName(QStringLiteral("resetLayout"));
   reset->setStatusTip(QStringLiteral("Shows, hides and places the docks and the tool bar as at the first start"));
   (new ThemeMenu(this))->fill(menu);
