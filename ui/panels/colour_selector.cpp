@@ -29,7 +29,7 @@ void ColourSelector::showMode() {
   const int index = findData(int(colouring_.mode()));
   actions_->actions().at(index)->setChecked(true);
   // While nothing is selected, the box shows its placeholder.
-  setPlaceholderText(overlay_);
+  setPlaceholderText(overlay_.section(QStringLiteral(" ("), 0, 0));  // without the unit
   setCurrentIndex(overlay_.isEmpty() ? index : -1);
   setToolTip(overlay_.isEmpty()
                  ? QStringLiteral("The quantity that the colours of all panels show")

@@ -47,7 +47,7 @@ ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent),
 }
 
 void ShowMenu::fill(QMenu& menu) {
-  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("Sho&w"));
+  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("S&how"));
   menu_->setToolTipsVisible(true);
   auto* group = new QActionGroup(this);
   for (const Choice& one : choices) {
