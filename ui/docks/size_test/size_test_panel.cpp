@@ -33,7 +33,7 @@ SizeTestPanel::SizeTestPanel(const SizeTestContestant& contestant, const Softnes
 void SizeTestPanel::arrange() {
   auto* swatch = new QLabel;
   swatch->setFixedSize(10, 10);
-  followTheme(*swatch, [swatch, colour = contestant_.colour] {
+  followTheme(*this, [swatch, colour = contestant_.colour] {
     swatch->setStyleSheet(QStringLiteral("background:%1; border-radius:5px").arg(QColor(colour).name()));
   });
   auto* head = new QHBoxLayout;
