@@ -150,7 +150,7 @@ void PanelHead::arrange(View& view) {
   QFont bold = name->font();
   bold.setBold(true);
   name->setFont(bold);
-  followTheme(*swatch_, [this] { fitSwatch(); });
+  followTheme(*this, [this] { fitSwatch(); });  // its style sheet hides changes of the palette from the swatch
   connect(&document_, &Document::algorithmChanged, swatch_, [this] { fitSwatch(); });
   row_->setContentsMargins(8, 6, 4, 6);
   row_->setSpacing(8);
