@@ -7,6 +7,7 @@
 
 #include "chainmail/recorded_pass.h"
 #include "mesh/element_blocks.h"
+#include "simulate/frame_space.h"
 #include "simulate/simulation.h"
 
 namespace chainmail {
