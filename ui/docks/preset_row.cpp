@@ -5,6 +5,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QStandardItemModel>
+#include <QStyleOption>
 #include <algorithm>
 
 #include "common/ask_where.h"
@@ -17,6 +18,16 @@
 namespace chainmail {
 namespace {
 
+/// A button with a menu, but without the arrow of one: its text says as much. A style sheet would hide changes of the
+/// theme from it.
+class PlainMenuButton : public QToolButton {
+ protected:
+  void initStyleOption(QStyleOptionToolButton* option) const override {
+    QToolButton::initStyleOption(option);
+    option->features.setFlag(QStyleOptionToolButton::HasMenu, false);
+  }
+};
+
 QString presetFilter() { return QStringLiteral("Softness presets (*.json)"); }
 
 }  // namespace
@@ -26,7 +37,7 @@ PresetRow::PresetRow(Document& document)
       fields_(new QStackedLayout),
       field_(new QComboBox),
       name_(new QLineEdit),
-      more_(new QToolButton),
+      more_(new PlainMenuButton),
       menu_(new QMenu(QStringLiteral("Softness &presets"), this)) {
   menu_->setIcon(icon("preset"));
   arrange();
@@ -63,7 +74,6 @@ void PresetRow::arrange() {
   more_->setPopupMode(QToolButton::InstantPopup);
   more_->setMenu(menu_);
   more_->setFocusPolicy(Qt::TabFocus);
-  more_->setStyleSheet(QStringLiteral("QToolButton::menu-indicator{image:none}"));
   menu_->setToolTipsVisible(true);
   for (QObject* one : std::initializer_list<QObject*>{field_, name_}) {
     one->installEventFilter(this);
