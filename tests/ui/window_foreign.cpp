@@ -287,6 +287,7 @@ class WindowForeign : public QObject {
                             "tools/element_readout.cpp",
                             "window/hints.cpp",
                             "window/lecture_mode.cpp",
+                            "window/manual_index.cpp",
                             "window/manual_window.h",
                             "window/manual_window.cpp"};
     static const QRegularExpression rich(

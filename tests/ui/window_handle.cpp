@@ -424,7 +424,7 @@ class WindowHandle : public QObject {
     QTest::mouseRelease(&view, Qt::LeftButton, {}, at.toPoint());
     bench.settle();
     const QPointF after = view.viewPosition(squareMiddle);  // the view may have been fitted to the object
-    const double radiusAfter = std::max(40.0, std::sqrt(2.0) * linkPixels(bench, 1) + 16);
+    const double radiusAfter = std::max(40.0, QLineF(after, view.viewPosition(square.front())).length() + 16);
     QVERIFY(bench.distanceFromColour(1, after + QPointF(radiusAfter, 0), colours::selected) < 100);
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("drag of 9 elements"));
     bench.document().undo();

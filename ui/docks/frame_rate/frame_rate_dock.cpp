@@ -10,7 +10,6 @@
 #include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "common/panel_names.h"
-#include "common/parameter_row.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
 #include "files/text/outputs.h"
@@ -62,7 +61,6 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
   column->addWidget(figures_);
   column->addWidget(makeControls());
   column->addWidget(plot_, 1);
-  content->setMinimumWidth(dockWidth);
   setWidget(new DockScroll(content));
   clock_.start();
   timer_.setInterval(refreshMilliseconds);

@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QLocale>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -39,7 +40,7 @@ void RateFigures::addHead(QGridLayout& grid) {
     auto* label = new QLabel(text);
     label->setAlignment(Qt::AlignRight);
     label->setToolTip(help);
-    label->setMinimumWidth(rateWidths[std::size_t(column)]);
+    label->setMinimumWidth(std::max(rateWidths[std::size_t(column)], label->minimumSizeHint().width()));
     grid.addWidget(label, 0, column);
     grid.setColumnStretch(column, 1);
   };
