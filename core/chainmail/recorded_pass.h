@@ -31,8 +31,8 @@ struct RecordedPass {
   std::uint64_t in_drag = 0;      // index of the pass in its drag, from 1
   std::vector<ElementId> handle;  // ascending
   std::shared_ptr<const PassConditions> conditions;
-  /// Positions of all elements before the pass, space_dimension coordinates each (mesh units). They may be about another
-  /// point than the origin, because an object far from it would lose digits.
+  /// Positions of all elements before the pass, space_dimension coordinates each (mesh units). They may be about
+  /// another point than the origin, because an object far from it would lose digits.
   std::vector<float> before;
   Trace trace;
   /// Positions after the pass: the elements of the handle, then the element of each row of the trace (mesh units).

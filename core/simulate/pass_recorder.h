@@ -37,7 +37,7 @@ class PassRecorder {
 
   std::atomic<bool> on_ = false;
   mutable std::mutex mutex_;  // guards the two below
-  FrameSpace space_;    // of the recorded mesh
+  FrameSpace space_;          // of the recorded mesh
   RecordedPass record_;       // `before` holds the positions at the beginning of the last pass
   bool is_whole_ = false;
 

@@ -5,9 +5,9 @@
 
 namespace chainmail {
 
-/// A spin box that also accepts numbers such as 1e3 and 0,5. If a number is outside its range, it keeps the former value
-/// and explains its limits in a sentence. It neither shows nor accepts separators of thousands: 1,234 could mean two
-/// numbers.
+/// A spin box that also accepts numbers such as 1e3 and 0,5. If a number is outside its range, it keeps the former
+/// value and explains its limits in a sentence. It neither shows nor accepts separators of thousands: 1,234 could mean
+/// two numbers.
 class NumberField : public QDoubleSpinBox {
   Q_OBJECT
 
