@@ -38,14 +38,18 @@ std::vector<double> roundValues(const ColourScale& scale) {
   if (scale.diverging) {
     values.push_back(double(scale.centre));
   }
+  if (!std::isfinite(lowest) || !std::isfinite(highest)) {
+    return values;
+  }
   if (scale.logarithmic) {
-    for (double power = std::ceil(std::log10(lowest)); power <= std::log10(highest); ++power) {
+    const int last = int(std::floor(std::log10(highest)));
+    for (int power = int(std::ceil(std::log10(lowest))); power <= last; ++power) {
       values.push_back(std::pow(10, power));
     }
     return values;
   }
   const double least = (highest - lowest) / mostSteps;
-  if (!std::isfinite(least) || !(least > 0)) {
+  if (!(least > 0)) {
     return values;
   }
   const double power = std::pow(10, std::floor(std::log10(least)));

@@ -27,7 +27,7 @@ QString openGl() {
   const auto word = [&context](GLenum name) {
     return QString::fromLatin1(reinterpret_cast<const char*>(context.functions()->glGetString(name)));
   };
-  const QString text =
+  QString text =
       QStringLiteral("OpenGL: %1\nRenderer: %2, %3").arg(word(GL_VERSION), word(GL_RENDERER), word(GL_VENDOR));
   context.doneCurrent();
   return text;
