@@ -45,7 +45,7 @@ RelaxationDock::RelaxationDock(Document& document)
       "root:\n1 far away, 0.001 close, 0 at the equilibrium. The object sleeps below 0.0001."));
   refresh_.setSingleShot(true);
   refresh_.setInterval(residualMilliseconds);
-  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);  // leaves the height to other docks
+  content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // leaves the height to other docks
   setWidget(new DockScroll(content));
   connect(on_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
   connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { edits::setRelaxation(document_, chosen()); });

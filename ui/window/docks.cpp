@@ -33,7 +33,7 @@ namespace chainmail {
 namespace {
 
 // Heights in pixels: the table of selected links fits on a screen with 900 pixels.
-const QList<int> stiffnessAndRateHeights{400, 270};
+constexpr int stiffnessHeight = 400, rateHeight = 270;
 
 /// Reports the errors of a dock and the files that it saves.
 template <typename Dock>
@@ -354,7 +354,9 @@ void Docks::reset() const {
 }
 
 void Docks::resize() const {
-  window_.resizeDocks({&get<StiffnessDock>(), &get<FrameRateDock>()}, stiffnessAndRateHeights, Qt::Vertical);
+  auto& relaxation = get<RelaxationDock>();
+  window_.resizeDocks({&get<StiffnessDock>(), &relaxation, &get<FrameRateDock>()},
+                      {stiffnessHeight, relaxation.sizeHint().height(), rateHeight}, Qt::Vertical);
   window_.resizeDocks({&get<MeshDock>()}, {1}, Qt::Horizontal);  // as narrow as possible
 }
 
