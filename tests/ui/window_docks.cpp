@@ -168,6 +168,25 @@ class WindowDocks : public QObject {
     QCOMPARE(of(bench, name), standard);
   }
 
+  void theRareNumbersAreFoldedAwayAndSaidWhenChanged() {
+    QSettings().remove(QStringLiteral("folds"));
+    {
+      Workbench bench;
+      auto* button = bench.find<QToolButton>("stiffnessAdvanced");
+      auto* lateral = bench.find<QDoubleSpinBox>("lateralSpin");
+      QVERIFY(bench.find<QDoubleSpinBox>("stretchSpin")->isVisible() && !lateral->isVisible());
+      lateral->setValue(0.5);
+      QVERIFY2(button->text().contains(QStringLiteral("changed")), qPrintable(button->text()));
+      bench.document().undoStack().undo();
+      QVERIFY(!button->text().contains(QStringLiteral("changed")));
+      button->click();
+      QVERIFY(lateral->isVisible());
+    }
+    Workbench again;
+    QVERIFY(again.find<QDoubleSpinBox>("lateralSpin")->isVisible());  // remembered
+    QSettings().remove(QStringLiteral("folds"));
+  }
+
   void energy() {
     Workbench bench;
     auto* field = bench.find<QComboBox>("energy");

@@ -12,6 +12,8 @@
 
 namespace chainmail {
 
+class Fold;
+
 /// Softness of all links: its numbers, each with a reset button, the axes of valid regions, the kind of energy, and
 /// presets; below, softness of the selected links.
 class StiffnessDock : public QDockWidget {
@@ -23,7 +25,7 @@ class StiffnessDock : public QDockWidget {
 
  private:
   void showSoftness();
-  void addRow(const SoftnessNumber& number);
+  void addRow(const SoftnessNumber& number, QVBoxLayout& column);
   void addFrame();
   void addEnergy();
   void showFrame();
@@ -31,6 +33,7 @@ class StiffnessDock : public QDockWidget {
   Document& document_;
   QVBoxLayout* column_;
   PresetRow* presets_;
+  Fold* advanced_;                   // the axes of valid regions, the energy and its numbers
   std::vector<ParameterRow*> rows_;  // in the order of softness_numbers
   QComboBox* frame_;
   QLabel* frameNote_;
