@@ -10,8 +10,9 @@
 namespace chainmail {
 namespace {
 
-constexpr double buttonRadius = 3;  // pixels, at a button's corners
-constexpr int extensionWidth = 24;  // pixels, of the button that opens the rest of a tool bar
+constexpr double buttonRadius = 3;     // pixels, at a button's corners
+constexpr float borderOpacity = 0.4F;  // of the border of a floating dock
+constexpr int extensionWidth = 24;     // pixels, of the button that opens the rest of a tool bar
 
 }  // namespace
 
@@ -28,6 +29,13 @@ void WorkbenchStyle::polish(QWidget* widget) {
 
 void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                                    const QWidget* widget) const {
+  if (element == PE_FrameDockWidget) {
+    QColor border = option->palette.color(QPalette::WindowText);
+    border.setAlphaF(borderOpacity);
+    painter->setPen(border);
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    return;
+  }
   if (element != PE_PanelButtonTool || !option->state.testFlag(State_On)) {
     QProxyStyle::drawPrimitive(element, option, painter, widget);
     return;
@@ -37,6 +45,20 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
   painter->setPen(QColor(colours::checkedEdge));
   painter->setBrush(QColor(colours::checked));
   painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), buttonRadius, buttonRadius);
+  painter->restore();
+}
+
+void WorkbenchStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                                 const QWidget* widget) const {
+  if (element != CE_DockWidgetTitle) {
+    QProxyStyle::drawControl(element, option, painter, widget);
+    return;
+  }
+  painter->save();
+  QFont bold = painter->font();
+  bold.setBold(true);
+  painter->setFont(bold);
+  QProxyStyle::drawControl(element, option, painter, widget);
   painter->restore();
 }
 

@@ -4,8 +4,9 @@
 
 namespace chainmail {
 
-/// The Fusion style with four changes: checked tool buttons look different from unchecked ones, combo boxes open lists,
-/// the button that opens the rest of a tool bar is large enough to see, and labels show plain text.
+/// The Fusion style with some changes: checked tool buttons look different from unchecked ones, combo boxes open lists,
+/// the button that opens the rest of a tool bar is large enough to see, labels show plain text, and docks have bold
+/// titles, and a border while they float.
 ///
 /// A style sheet would do the same, but Qt 6.4 visits all widgets to change one, and crashes if a widget is deleted
 /// meanwhile.
@@ -20,6 +21,8 @@ class WorkbenchStyle : public QProxyStyle {
   using QProxyStyle::polish;
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override;
+  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                   const QWidget* widget) const override;
   /// Draws the button that opens the rest of a tool bar, and those of docks, like our other icons: Fusion's are small
   /// and have little contrast.
   QIcon standardIcon(StandardPixmap picture, const QStyleOption* option, const QWidget* widget) const override;

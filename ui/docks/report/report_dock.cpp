@@ -85,12 +85,11 @@ QWidget* ReportDock::makeControls() {
 }
 
 QWidget* ReportDock::makeEmptyPage() {
-  auto* empty =
-      new QLabel(QStringLiteral("Press Run to compare the time and the error of each algorithm on this object."));
-  empty->setObjectName(QStringLiteral("reportEmpty"));
-  empty->setAlignment(Qt::AlignCenter);
-  empty->setWordWrap(true);
-  return empty;
+  empty_ = new QLabel;
+  empty_->setObjectName(QStringLiteral("reportEmpty"));
+  empty_->setAlignment(Qt::AlignCenter);
+  empty_->setWordWrap(true);
+  return empty_;
 }
 
 void ReportDock::listen() {
@@ -166,6 +165,9 @@ void ReportDock::showState() {
   cancel_->setEnabled(running);
   choices_->setEnabled(!running);
   progress_->setEnabled(running);
+  empty_->setText(running ? QStringLiteral("Comparing the time and the error of each algorithm on this object…")
+                          : QStringLiteral("Press Run to compare the time and the error of each algorithm on this "
+                                           "object."));
   if (!running) {
     fillBar(0, QStringLiteral("ready"));
   }

@@ -2,6 +2,7 @@
 
 #include <QDockWidget>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStackedWidget>
@@ -44,6 +45,7 @@ class ReportDock : public QDockWidget {
   QPushButton* cancel_;
   QProgressBar* progress_;
   QStackedWidget* pages_;
+  QLabel* empty_ = nullptr;   // the page before the first results
   QElapsedTimer sinceShown_;  // since progress was last shown
   QString textShown_;
   bool isPlaced_ = false;  // true after it was placed over the window, from where the user may move it
