@@ -151,7 +151,7 @@ void Body::copy_positions(std::span<double> out) const {
 StoredPositions Body::stored_positions() const {
   inner::Body& body = impl_->body();
   if (body.stores_displacements()) {
-    throw Error("stored positions", "the method of the body stores displacements from rest, not positions",
+    throw Error("stored positions", "the body stores displacements from rest, not positions",
                 "use positions(), which copies");
   }
   if (body.region_axes().is_turned()) {
@@ -167,7 +167,7 @@ bool Body::keeps_stored_positions(std::string_view method) const {
   const inner::Body& body = impl_->body();
   const AlgorithmInfo& next = info(algorithm_of(method));
   const bool works_in_axes = next.family() == Family::chainmail;
-  return next.from_rest == body.stores_displacements() &&
+  return inner::stores_displacements(next, body) == body.stores_displacements() &&
          (works_in_axes == body.works_in_axes() || !body.softness().axes.is_turned());
 }
 

@@ -30,9 +30,6 @@ struct Deformer::Impl {
   const Solver& solver() const { return *Access::impl(body).solver; }
   void set_algorithm(Algorithm next) {
     solver().set_algorithm(next);
-    // A copied body may store positions the other way.
-    solver().body().work_in_axes(info(next).family() == Family::chainmail);
-    solver().body().store_displacements(info(next).from_rest);
     algorithm = next;
   }
   template <class Move>

@@ -455,13 +455,14 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   const RegionAxes axes = body().region_axes();
+  const bool stored_displacements = body().stores_displacements();
   solver_->set_algorithm(command.algorithm);
   note_axes(axes);
   const Algorithm before = std::exchange(algorithm_, command.algorithm);
   if (before == algorithm_) {
     return;
   }
-  if (info(before).from_rest != info(algorithm_).from_rest && (!away_.empty() || body().region_axes().is_turned())) {
+  if (stored_displacements != body().stores_displacements() && (!away_.empty() || body().region_axes().is_turned())) {
     note_rounding();  // by converting between displacements and positions
   }
   statistics_.algorithm = algorithm_;
@@ -690,7 +691,7 @@ void Simulation::take_positions(const Snapshot& positions) {
   changed_.insert(unkept_);
   last_kept_ = positions;
   unkept_.clear();
-  if (positions.from_rest != info(algorithm_).from_rest ||
+  if (positions.from_rest != body().stores_displacements() ||
       positions.axes.rotation() != body().region_axes().rotation()) {
     unkept_ = away_;  // the positions have been converted and rounded
   }

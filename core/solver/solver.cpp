@@ -10,26 +10,28 @@
 
 namespace chainmail {
 
+bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body) {
+  return algorithm.from_rest || (body.precision() == Precision::single_precision && is_far(body.mesh()));
+}
+
 Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
     : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
   store_for(algorithm_);
 }
 
-/// Stores positions as the algorithm and the precision need them: far from the origin, positions in single precision
-/// are too coarse, but displacements are not. Valid regions lie along their own axes: so does the ChainMail family. All
-/// others have no such axes, or have their own.
+/// Stores positions as the algorithm needs them. Valid regions lie along their own axes: so does the ChainMail
+/// family. All others have no such axes, or have their own.
 void Solver::store_for(const AlgorithmInfo& algorithm) {
   body_.work_in_axes(algorithm.family() == Family::chainmail);
-  body_.store_displacements(algorithm.from_rest ||
-                            (body_.precision() == Precision::single_precision && is_far(body_.mesh())));
+  body_.store_displacements(stores_displacements(algorithm, body_));
 }
 
 void Solver::set_algorithm(Algorithm algorithm) {
   check(algorithm, body_.mesh());
+  store_for(info(algorithm));  // also for the same algorithm: a copied body may store positions the other way
   if (algorithm == algorithm_.algorithm) {
     return;
   }
-  store_for(info(algorithm));
   algorithm_ = info(algorithm);
   method_.reset();
 }

@@ -31,6 +31,10 @@ struct SolverMemory {
 /// Throws Error if an element does not exist or a number is out of its range.
 void check(const SolverMemory& memory, const Body& body);
 
+/// True if a body stores displacements from rest for an algorithm: for some always, and for all in single precision if
+/// the object lies far from the origin, where positions are too coarse.
+bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
+
 /// Deforms one object with one algorithm: a body, the method that answers its moves, and relaxation. The algorithm may
 /// change between passes and continues from the current positions.
 class Solver {

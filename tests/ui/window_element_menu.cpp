@@ -62,6 +62,20 @@ class WindowElementMenu : public QObject {
     QVERIFY2(offset.manhattanLength() < 4, qPrintable(QString::number(offset.manhattanLength())));
   }
 
+  /// A background job may replace the object while the menu is open.
+  void anotherObjectClosesItAndItsActionsDoNothing() {
+    Workbench bench;
+    rightClick(bench, 62);
+    QVERIFY(menuOf(bench).isVisible());
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {3, 3, 1}, 1, {}}), QStringLiteral("small"),
+                       QStringLiteral("open"));
+    QTRY_VERIFY(!menuOf(bench).isVisible());
+    bench.settle();
+    bench.trigger("elementMenuPart");
+    bench.trigger("elementMenuPin");
+    QVERIFY(bench.document().selection().elements().empty() && bench.document().pins().empty());
+  }
+
   void itsPartEndsAtCuts() {
     Workbench bench;
     const Mesh& mesh = *bench.document().mesh();

@@ -288,6 +288,7 @@ class WindowPictures : public QObject {
     dialog.findChild<QCheckBox*>(QStringLiteral("pictureAsOnScreen"))->setChecked(true);
     QVERIFY(dialog.chosen().asOnScreen());
     QCOMPARE(text().section(QLatin1Char(','), 0, 1), QStringLiteral("1,000 × 500 pixels"));
+    QCOMPARE(PictureSize({2000, true, 1200}).pixels(), PictureSize::mostPixels);  // not 94,488
   }
 
   void drawingsOfPanelsSayWhatTheyShow() {

@@ -7,6 +7,7 @@
 #include "document/edits.h"
 #include "folders.h"
 #include "io/pictures.h"
+#include "panels/violation_line.h"
 #include "window.h"
 
 namespace chainmail::window_views {
@@ -172,6 +173,7 @@ class WindowViews : public QObject {
     QTest::addColumn<QStringList>("actions");
     for (const auto& [name, actions] :
          {std::pair("violation", QStringList{QStringLiteral("colourBy-violation")}),
+          std::pair("length", QStringList{QStringLiteral("colourBy-length")}),
           std::pair("regions", QStringList{QStringLiteral("showValidRegions")}),
           std::pair("tree", QStringList{QStringLiteral("showPropagation"), QStringLiteral("passLast")}),
           std::pair("section", QStringList{QStringLiteral("section")})}) {
@@ -191,8 +193,16 @@ class WindowViews : public QObject {
     QVERIFY2(share <= maxDifferent, qPrintable(QString::number(share)));
   }
 
+  void anObjectFarAwayHasNotMovedAtFirst() {
+    Workbench bench(lying(1, 4.5e6));
+    bench.settleFigures();
+    const auto* line = bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"));
+    QTRY_COMPARE(line->sentence(), QStringLiteral("Nothing has moved yet"));
+  }
+
  private:
-  static QImage dragged(double size, double x, const QStringList& actions) {
+  /// Returns an object of this size around a point that lies so far from the origin.
+  static MeshPointer lying(double size, double x) {
     const Point middle(x, -x / 2, x / 3);
     const auto whole = generate({MeshKind::tetra, {6, 4, 3}, 1, {}});
     MeshParts parts;
@@ -203,7 +213,10 @@ class WindowViews : public QObject {
     }
     parts.links = whole->links;
     parts.tetrahedra = whole->tetrahedra;
-    Workbench bench(build_mesh(std::move(parts)));
+    return build_mesh(std::move(parts));
+  }
+  static QImage dragged(double size, double x, const QStringList& actions) {
+    Workbench bench(lying(size, x));
     bench.document().selection().set({31});
     for (const QString& action : actions) {
       bench.trigger(action.toUtf8().constData());

@@ -13,6 +13,7 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -253,7 +254,13 @@ class WindowWords : public QObject {
     auto* shown = bench.find<ViolationLine>("violation0");
     bench.settleFigures();
     std::promise<void> goesOn;
-    bench.document().solvers().ask(0, [wait = goesOn.get_future().share()](const Simulation&) { wait.wait(); });
+    std::atomic<bool> waits = false;
+    bench.document().solvers().ask(0, [&waits, wait = goesOn.get_future().share()](const Simulation&) {
+      waits = true;
+      wait.wait();
+    });
+    QTRY_VERIFY(waits);
+    QCoreApplication::processEvents();  // frames of before have come
     bench.document().highlight().set({ElementId{31}, true, {}});  // a handle, whose first move takes long
     QTRY_COMPARE(shown->sentence(), QStringLiteral("Preparing…"));
     goesOn.set_value();

@@ -13,11 +13,9 @@ namespace {
 
 /// Returns the share of the screen's width that the content of a dock may ask for. The two columns with panels between
 /// them, or three docks at the bottom beside the right column, fit on a screen of 1024 pixels.
-double largestShare(const QWidget* dock) {
+double largestShare(QWidget* dock) {
   const auto* window = dock != nullptr ? qobject_cast<const QMainWindow*>(dock->parentWidget()) : nullptr;
-  const auto area = window != nullptr
-                        ? window->dockWidgetArea(const_cast<QDockWidget*>(qobject_cast<const QDockWidget*>(dock)))
-                        : Qt::NoDockWidgetArea;
+  const auto area = window != nullptr ? window->dockWidgetArea(qobject_cast<QDockWidget*>(dock)) : Qt::NoDockWidgetArea;
   return area == Qt::LeftDockWidgetArea ? 0.25 : area == Qt::RightDockWidgetArea ? 0.275 : 0.23;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int lessonTitleGesture = std::numeric_limits<int>::max() - 10;
 constexpr int titleGesture = lessonTitleGesture - 1, textGesture = lessonTitleGesture - 2;
 
-constexpr const char* firstCaption = "Write here what the reader shall see.";
+constexpr const char* firstCaption = "Write here what the reader should see.";
 
 bool canBeRead(const std::string& text, std::size_t longest) { return !text.empty() && text.size() <= longest; }
 

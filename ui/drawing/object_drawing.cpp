@@ -15,7 +15,7 @@ constexpr float edgeOpacity = 0.62F;  // a contrast of 3 to the faces
 // Links without a surface stay visible however short they are: many of them are next to each other.
 constexpr double faintestLinks = 0.45;
 // Widths of links that are coloured by values, as fractions of their length in the view, with limits in pixels.
-constexpr double shareOfLength = 0.2, shareOfStressed = 0.35, thinnest = 1, thinnestStressed = 2, thickest = 3.5;
+constexpr double shareOfLength = 0.2, shareOfThick = 0.35, thinnest = 1, thinnestThick = 2, thickest = 3.5;
 constexpr float linksFade = 0.75F, solidFade = 0.3F;
 
 /// Returns 0 for edges too short to be seen, 1 for long ones.
@@ -73,12 +73,12 @@ QColor ObjectDrawing::neutralColour(const Mesh& mesh, double pixelsPerUnit) {
 
 float ObjectDrawing::linkWidth(const Mesh& mesh, const Paint& paint, double pixelsPerUnit) {
   const double pixels = mesh.mean_link_length * pixelsPerUnit;
-  return stressesLinks(&mesh, paint) ? float(std::clamp(shareOfLength * pixels, thinnest, double(valuedWidth)))
+  return thickensLinks(&mesh, paint) ? float(std::clamp(shareOfLength * pixels, thinnest, double(valuedWidth)))
                                      : valuedWidth;
 }
 
-float ObjectDrawing::stressedWidth(const Mesh& mesh, double pixelsPerUnit) {
-  return float(std::clamp(shareOfStressed * mesh.mean_link_length * pixelsPerUnit, thinnestStressed, thickest));
+float ObjectDrawing::thickWidth(const Mesh& mesh, double pixelsPerUnit) {
+  return float(std::clamp(shareOfThick * mesh.mean_link_length * pixelsPerUnit, thinnestThick, thickest));
 }
 
 bool ObjectDrawing::distinguishesEdges(const Mesh& mesh, double pixelsPerUnit) {

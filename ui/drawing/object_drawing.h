@@ -103,12 +103,12 @@ class ObjectDrawing {
   /// Returns the colour of links whose values are neutral. Like all links, they are fainter the shorter they are.
   static QColor neutralColour(const Mesh& mesh, double pixelsPerUnit);
   /// True if links whose values are not neutral are drawn again: thicker, and over all others.
-  static bool stressesLinks(const Mesh* mesh, const Paint& paint) {
+  static bool thickensLinks(const Mesh* mesh, const Paint& paint) {
     return valuesFit(mesh, paint) && paint.values->ofLinks && paint.scale.threshold >= 0;
   }
   /// Returns the width of links that are coloured by values, and of those that are drawn again (logical pixels).
   static float linkWidth(const Mesh& mesh, const Paint& paint, double pixelsPerUnit);
-  static float stressedWidth(const Mesh& mesh, double pixelsPerUnit);
+  static float thickWidth(const Mesh& mesh, double pixelsPerUnit);
   /// True if the links on a surface are long enough in the view to be distinguished.
   static bool distinguishesEdges(const Mesh& mesh, double pixelsPerUnit);
   /// Returns the light on the faces of a surface.

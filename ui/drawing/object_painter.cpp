@@ -25,7 +25,7 @@ constexpr std::size_t maxRingsPainted = 50'000;
 // hide parts of them.
 constexpr float valuedLift = 0.04F;
 // The same for links that are drawn again over the others.
-constexpr float stressedLift = 0.01F;
+constexpr float thickLift = 0.01F;
 // The same for marks, so that the surface around a marked element does not hide its mark.
 constexpr float markLift = 0.03F;
 constexpr float hiddenOpacity = 0.3F;  // of marks behind the surface
@@ -243,7 +243,7 @@ void ObjectPainter::useValues(const Scene& scene, const Paint& paint, Shading sh
   }
 }
 
-/// Sends one value per element, or per link that is drawn, and those of the stressed links again.
+/// Sends one value per element, or per link that is drawn, and those of the thick links again.
 void ObjectPainter::uploadValues(const Paint& paint) {
   valuesNumber_ = paint.values->number;
   upload(elementValues_, elementValues(*paint.values));
@@ -252,14 +252,14 @@ void ObjectPainter::uploadValues(const Paint& paint) {
   }
   auto values = parts_.valuesOf(drawnLinks_.numbers, *paint.values);
   std::vector<ElementId> ends;
-  for (std::size_t i = 0; stressesLinks(mesh_.get(), paint) && i < drawnLinks_.numbers.size(); ++i) {
+  for (std::size_t i = 0; thickensLinks(mesh_.get(), paint) && i < drawnLinks_.numbers.size(); ++i) {
     if (!paint.scale.isNeutral(values[i])) {
       ends.insert(ends.end(), {drawnLinks_.ends[2 * i], drawnLinks_.ends[2 * i + 1]});
       const float value = values[i];
       values.push_back(value);
     }
   }
-  stressedIndices_ = upload(stressed_, ends);
+  thickIndices_ = upload(thickLinks_, ends);
   upload(values_, values);
   glBindTexture(GL_TEXTURE_BUFFER, valuesTexture_);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, values_.bufferId());
@@ -511,23 +511,23 @@ void ObjectPainter::drawWires(const Scene& scene, const Paint& paint, double pix
   }
   useRest(paint.options);
   drawLines(scene, links_, count, byValues ? linkWidth(*mesh_, paint, pixelsPerUnit) : 1);
-  if (stressesLinks(mesh_.get(), paint)) {
-    drawStressed(scene, paint, pixelsPerUnit);
+  if (thickensLinks(mesh_.get(), paint)) {
+    drawThickLinks(scene, paint, pixelsPerUnit);
   }
 }
 
 /// Draws the links whose values are not neutral again: thicker, and on a surface a little nearer to the eye.
-void ObjectPainter::drawStressed(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
+void ObjectPainter::drawThickLinks(const Scene& scene, const Paint& paint, double pixelsPerUnit) {
   useValues(scene, paint, Shading::plain, true);
-  if (stressedIndices_ == 0) {
+  if (thickIndices_ == 0) {
     return;
   }
   if (isSolid(*mesh_, paint.options)) {
-    program_->setUniformValue("to_clip", liftedClip(scene, stressedLift));
+    program_->setUniformValue("to_clip", liftedClip(scene, thickLift));
   }
   program_->setUniformValue("first_value", int(drawnLinks_.numbers.size()));
   useRest(paint.options);
-  drawLines(scene, stressed_, stressedIndices_, stressedWidth(*mesh_, pixelsPerUnit));
+  drawLines(scene, thickLinks_, thickIndices_, thickWidth(*mesh_, pixelsPerUnit));
 }
 
 /// Draws links with the program in use; smooth and `width` logical pixels wide, unless there are very many.

@@ -93,7 +93,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
 
   std::array<QOpenGLBuffer*, 14> buffers() {
     return {&positions_, &scratch_, &links_,        &faces_,   &fresh_,   &selected_,      &values_,
-            &rest_,      &cap_,     &capPositions_, &capRest_, &normals_, &elementValues_, &stressed_};
+            &rest_,      &cap_,     &capPositions_, &capRest_, &normals_, &elementValues_, &thickLinks_};
   }
   void uploadPositions(const Frame& frame);
 
@@ -115,7 +115,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   void useNormals();
   void drawCap(const Scene& scene);
   void drawWires(const Scene& scene, const Paint& paint, double pixelsPerUnit);
-  void drawStressed(const Scene& scene, const Paint& paint, double pixelsPerUnit);
+  void drawThickLinks(const Scene& scene, const Paint& paint, double pixelsPerUnit);
   void drawLines(const Scene& scene, QOpenGLBuffer& ends, GLsizei count, float width);
   void drawMarked(const Scene& scene, QColor colour, const std::function<void(QColor)>& draw);
   void drawEveryElement(const Scene& scene, const Paint& paint);
@@ -148,10 +148,10 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   QOpenGLBuffer fresh_{QOpenGLBuffer::IndexBuffer};     // the faces that cuts have made visible
   QOpenGLBuffer normals_{QOpenGLBuffer::VertexBuffer};  // one per element
   QOpenGLBuffer selected_{QOpenGLBuffer::IndexBuffer};
-  QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};  // of the drawn links, then of the stressed ones among them
+  QOpenGLBuffer values_{QOpenGLBuffer::VertexBuffer};  // of the drawn links, then of the thick ones among them
   QOpenGLBuffer elementValues_{QOpenGLBuffer::VertexBuffer};
-  QOpenGLBuffer stressed_{QOpenGLBuffer::IndexBuffer};  // see stressesLinks
-  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};     // rest positions of restMesh_, for sections and pictures
+  QOpenGLBuffer thickLinks_{QOpenGLBuffer::IndexBuffer};  // see thickensLinks
+  QOpenGLBuffer rest_{QOpenGLBuffer::VertexBuffer};       // rest positions of restMesh_, for sections and pictures
   MeshPointer restMesh_;
   QOpenGLBuffer cap_{QOpenGLBuffer::IndexBuffer};  // the face of a section, which has points of its own
   QOpenGLBuffer capPositions_{QOpenGLBuffer::VertexBuffer}, capRest_{QOpenGLBuffer::VertexBuffer};
@@ -168,7 +168,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   const Frame* frame_ = nullptr;
   std::uint64_t frameNumber_ = 0, frameSeries_ = 0;
   DrawnLinks drawnLinks_;  // the links in links_
-  GLsizei stressedIndices_ = 0;
+  GLsizei thickIndices_ = 0;
   GLsizei faceIndices_ = 0, freshIndices_ = 0, selectedIndices_ = 0, capIndices_ = 0;
   std::uint64_t partsNumber_ = 0;  // grows when the drawn parts or the section change
   float frontSign_ = 0;            // see ObjectDrawing::frontSign

@@ -323,13 +323,13 @@ void VectorPainter::addLinks(const Scene& scene, const Paint& paint, double pixe
 void VectorPainter::addLinkOfValue(const Scene& scene, const std::array<QVector3D, 2>& ends, float value,
                                    const Paint& paint, double pixelsPerUnit) {
   const Mesh& mesh = *frame_->mesh;
-  const bool stresses = stressesLinks(&mesh, paint), stressed = stresses && !paint.scale.isNeutral(value);
+  const bool thickens = thickensLinks(&mesh, paint), thick = thickens && !paint.scale.isNeutral(value);
   const float near = liftOfLines * float(mesh.mean_link_length);
   const float over = isSolid(mesh, paint.options) ? 2 * near : near + scene.fog.y() - scene.fog.x();
   add(scene, ends,
       paint.scale.isNeutral(value) ? neutralColour(mesh, pixelsPerUnit) : colour_map::of(value, paint.scale),
-      stressed ? stressedWidth(mesh, pixelsPerUnit) : linkWidth(mesh, paint, pixelsPerUnit), Mark::disc,
-      stressed ? over + near : near);
+      thick ? thickWidth(mesh, pixelsPerUnit) : linkWidth(mesh, paint, pixelsPerUnit), Mark::disc,
+      thick ? over + near : near);
 }
 
 /// Adds a link in pieces of one colour each. Their number grows with the difference between the values at its ends.

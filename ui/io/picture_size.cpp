@@ -12,10 +12,12 @@
 #include <QSpinBox>
 #include <algorithm>
 
+#include "common/number_field.h"
+
 namespace chainmail {
 namespace {
 
-constexpr int leastPixels = 100, mostPixels = 16'000;
+constexpr int leastPixels = 100;
 constexpr int leastMillimetres = 10, mostMillimetres = 2'000;
 constexpr int leastDpi = 36, mostDpi = 1'200;
 
@@ -38,7 +40,7 @@ PictureSize PictureSize::remembered(const QString& key) {
   const double width = settings.value(key + QStringLiteral("/width"), size.width).toDouble();
   size.width = width == 0           ? 0
                : size.inMillimetres ? std::clamp<double>(width, leastMillimetres, mostMillimetres)
-                                    : std::clamp<double>(width, leastPixels, mostPixels);
+                                    : std::clamp<double>(width, leastPixels, PictureSize::mostPixels);
   size.dpi = std::clamp(settings.value(key + QStringLiteral("/dpi"), size.dpi).toInt(), leastDpi, mostDpi);
   return size;
 }
@@ -53,7 +55,7 @@ void PictureSize::remember(const QString& key) const {
 PictureSizeDialog::PictureSizeDialog(QWidget* parent, const QString& title, const PictureSize& size, QSize shape)
     : QDialog(parent),
       shape_(shape),
-      width_(new QDoubleSpinBox),
+      width_(new NumberField(QStringLiteral("Width"))),
       unit_(new QComboBox),
       dpi_(new QSpinBox),
       asOnScreen_(new QCheckBox(QStringLiteral("&As on the screen"))),
@@ -120,7 +122,8 @@ void PictureSizeDialog::takeUnit() {
 
 void PictureSizeDialog::setUnit(bool inMillimetres) {
   width_->setDecimals(inMillimetres ? 1 : 0);
-  width_->setRange(inMillimetres ? leastMillimetres : leastPixels, inMillimetres ? mostMillimetres : mostPixels);
+  width_->setRange(inMillimetres ? leastMillimetres : leastPixels,
+                   inMillimetres ? mostMillimetres : PictureSize::mostPixels);
 }
 
 void PictureSizeDialog::describe() {

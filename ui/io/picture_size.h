@@ -2,6 +2,7 @@
 
 #include <QDialog>
 #include <QSize>
+#include <algorithm>
 
 class QCheckBox;
 class QComboBox;
@@ -13,7 +14,8 @@ namespace chainmail {
 
 /// The size of a picture that the user has chosen: a width in pixels or millimetres, and dots per inch for print.
 struct PictureSize {
-  static constexpr int usualDpi = 96;  // of a screen
+  static constexpr int usualDpi = 96;        // of a screen
+  static constexpr int mostPixels = 12'000;  // a poster of A0 with 300 dpi has 9,933
   static constexpr double millimetresPerInch = 25.4;
 
   double width = 0;  // 0: as on the screen
@@ -21,8 +23,10 @@ struct PictureSize {
   int dpi = usualDpi;
 
   bool asOnScreen() const { return width == 0; }
-  /// Width in pixels.
-  int pixels() const { return inMillimetres ? qRound(width / millimetresPerInch * dpi) : qRound(width); }
+  /// Width in pixels, at most mostPixels: a wide print gets fewer dots per inch.
+  int pixels() const {
+    return qRound(std::min<double>(inMillimetres ? width / millimetresPerInch * dpi : width, mostPixels));
+  }
   /// Width in millimetres when it is printed.
   double millimetres() const { return inMillimetres ? width : width * millimetresPerInch / dpi; }
   /// Returns the size in words, such as '160 mm at 300 dpi' or 'as on the screen'.

@@ -75,9 +75,9 @@ ColourRangeMenu::ColourRangeMenu(Colouring& colouring, QWidget* parent)
   addKind(Kind::fixed, QStringLiteral("&Fixed"), "colourRange-fixed",
           QStringLiteral("Between the two numbers below, so that a colour means the same value at any time"));
   addFields();
-  connect(&colouring, &Colouring::modeChanged, this, &ColourRangeMenu::show);
+  connect(&colouring, &Colouring::modeChanged, this, &ColourRangeMenu::showRange);
   restore();
-  show();
+  showRange();
 }
 
 void ColourRangeMenu::addKind(Kind kind, const QString& text, const char* name, const QString& tip) {
@@ -141,11 +141,11 @@ void ColourRangeMenu::choose(const ColourRange& range) {
     QSettings().setValue(keyOf(colouring_.mode()),
                          QString::fromUtf8(QJsonDocument(jsonOf(range)).toJson(QJsonDocument::Compact)));
   }
-  show();
+  showRange();
 }
 
 /// Shows the range of the current mode.
-void ColourRangeMenu::show() {
+void ColourRangeMenu::showRange() {
   const ColourRange& range = colouring_.range();
   for (QAction* action : kinds_->actions()) {
     action->setChecked(action->data().toInt() == int(range.kind));
@@ -178,7 +178,7 @@ QJsonObject ColourRangeMenu::toJson() const { return jsonOf(colouring_.range());
 void ColourRangeMenu::take(const QJsonObject& json) {
   if (const auto range = rangeOf(json)) {
     colouring_.setRange(*range);
-    show();
+    showRange();
   }
 }
 

@@ -27,7 +27,7 @@ class ColourRangeMenu : public QMenu {
   NumberField* makeField(const QString& label, const char* name);
   void choose(const ColourRange& range);
   void chooseKind(ColourRange::Kind kind);
-  void show();
+  void showRange();
   void restore();
 
   Colouring& colouring_;

@@ -336,17 +336,11 @@ float Colouring::violation(const Work& work, int panel, LinkId link) const {
 /// length, as for the violation.
 float Colouring::length(const Work& work, int panel, LinkId link) const {
   const Mesh& mesh = *work.building.mesh;
+  const PositionView positions = work.copies[panel].space.view(work.copies[panel].positions);
   const auto [a, b] = mesh.links[link];
-  double squared = 0, atRest = 0;
-  for (std::size_t k = 0; k < std::size_t(mesh.space_dimension); ++k) {
-    const std::size_t from = a * std::size_t(mesh.space_dimension) + k, to = b * std::size_t(mesh.space_dimension) + k;
-    const auto& positions = work.copies[panel].positions;
-    squared += std::pow(double(positions[to]) - double(positions[from]), 2);
-    atRest += std::pow(mesh.rest[to] - mesh.rest[from], 2);
-  }
-  return float(atRest > 0                  ? std::sqrt(squared / atRest)
-               : mesh.mean_link_length > 0 ? 1 + std::sqrt(squared) / mesh.mean_link_length
-                                           : 1);
+  const double now = (point_of(mesh, positions, b) - point_of(mesh, positions, a)).norm(),
+               rest = rest_length(mesh, link);
+  return float(rest > 0 ? now / rest : mesh.mean_link_length > 0 ? 1 + now / mesh.mean_link_length : 1);
 }
 
 float Colouring::distance(const Work& work, int panel, int other, ElementId element) const {

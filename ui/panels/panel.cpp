@@ -158,8 +158,9 @@ bool Panel::hasMoved(const Statistics& statistics) {
   if (frame.number != movedNumber_ || frame.series != movedSeries_) {
     movedNumber_ = frame.number;
     movedSeries_ = frame.series;
-    moved_ = !std::ranges::equal(frame.positions, frame.mesh->rest,
-                                 [](float now, double rest) { return now == float(rest); });
+    std::vector<float> rest(frame.positions.size());
+    frame.space.into(frame.mesh->rest, rest);
+    moved_ = frame.positions != rest;
   }
   return moved_;
 }

@@ -79,6 +79,8 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
       fitRest();
     }
   });
+  connect(&document.highlight(), &Highlight::changed, this,
+          [this] { dragged_ = dragged_ || document_.highlight().marks().grabbed; });
   connect(&document.solvers(), &PanelSolvers::becameIdle, this, &PanelArea::followObject);
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
@@ -268,8 +270,7 @@ void PanelArea::fitAgain() {
 
 /// After a drag that led out of the views, fits them again, unless the user has panned or zoomed since the last fit.
 void PanelArea::followObject() {
-  const bool wasDragged = std::exchange(dragged_, document_.handle().isActive());
-  if (wasDragged && !dragged_ && fits() && !showsAll()) {
+  if (!document_.handle().isActive() && std::exchange(dragged_, false) && fits() && !showsAll()) {
     frame(false);
   }
 }

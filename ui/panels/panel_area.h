@@ -133,7 +133,7 @@ class PanelArea : public QWidget {
   std::optional<int> alone_;
   bool figures_ = false, lecture_ = false;
   QTimer refit_;
-  bool dragged_ = false;  // true if the handle was held when the solvers became idle
+  bool dragged_ = false;  // since the views were fitted to the object after a drag
   bool fitsRest_ = true;  // true if the views show the rest shape since the last fit
   bool stacked_ = false;  // true if two panels are above each other
 };

@@ -39,10 +39,17 @@ ElementMenu::ElementMenu(Document& document, QWidget* window) : QObject(window),
   add("elementMenuPart", QStringLiteral("&Select its part"), &ElementMenu::selectPart);
   add("elementMenuCentre", QStringLiteral("&Centre here"), &ElementMenu::centre);
   add("elementMenuCopy", QStringLiteral("Copy &id"), &ElementMenu::copyId);
+  // Another object may not have the element, and a panel that leaves takes its view with it.
+  connect(&document, &Document::meshChanged, this, &ElementMenu::close);
+  connect(&document, &Document::panelLeaves, this, &ElementMenu::close);
 }
 
 QAction* ElementMenu::add(const char* name, const QString& text, void (ElementMenu::*act)()) {
-  QAction* action = menu_.addAction(text, this, act);
+  QAction* action = menu_.addAction(text, this, [this, act] {
+    if (view_ != nullptr) {
+      (this->*act)();
+    }
+  });
   action->setObjectName(QLatin1String(name));
   return action;
 }
@@ -100,6 +107,11 @@ void ElementMenu::open(View& view, ElementId element, QPoint at) {
   title_->setText(QStringLiteral("Element %L1").arg(element));
   pin_->setText(isPinned(document_, element) ? QStringLiteral("Un&pin") : QStringLiteral("&Pin"));
   menu_.popup(at);
+}
+
+void ElementMenu::close() {
+  menu_.close();
+  view_ = nullptr;
 }
 
 void ElementMenu::pin() { edits::setPinned(document_, {element_}, !isPinned(document_, element_)); }

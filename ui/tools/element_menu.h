@@ -34,6 +34,7 @@ class ElementMenu : public QObject {
   bool isClick(QEvent& event);
   std::optional<ElementId> highlighted() const;
   void open(View& view, ElementId element, QPoint at);
+  void close();
   void pin();
   void selectPart();
   void centre();
@@ -43,7 +44,7 @@ class ElementMenu : public QObject {
   QMenu menu_;
   QAction* title_;
   QAction* pin_;
-  View* view_ = nullptr;  // that opened the menu
+  View* view_ = nullptr;  // that opened the menu; null: what was shown is gone, and the actions do nothing
   ElementId element_ = 0;
   std::optional<QPointF> pressed_;  // by the right button alone, and not moved away since
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/number_field.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "drawing/prepared_levels.h"
@@ -70,7 +71,7 @@ Filling::Filling(Document& document, Jobs& jobs)
              QStringLiteral("Replaces the surface with a volume of tetrahedra, as one undo step")),
       document_(document),
       jobs_(jobs),
-      size_(new QDoubleSpinBox),
+      size_(new NumberField(QStringLiteral("Edge length"))),
       slider_(new QSlider(Qt::Horizontal)),
       simplify_(new QPushButton(QStringLiteral("&Simplify first…"))) {
   makeFields();

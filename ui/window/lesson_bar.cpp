@@ -59,6 +59,7 @@ LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& 
   title_->setFont(bold);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
+  text_->setMinimumWidth(1);  // a word that is too long for the window makes it no wider
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   describeButtons();
   arrange();

@@ -28,6 +28,15 @@ QLineEdit* makeField(const char* name, const QString& accessible, const QString&
   return field;
 }
 
+/// Returns the beginning of a text that a file may have.
+QString fitting(QString text, std::size_t bytes) {
+  text.truncate(qsizetype(bytes));
+  while (text.toUtf8().size() > qsizetype(bytes)) {
+    text.chop(1);
+  }
+  return text;
+}
+
 /// Shows a text in a field, and leaves the cursor where it is if the text is there already.
 void showIn(QLineEdit& field, const std::string& text) {
   const QString shown = QString::fromStdString(text);
@@ -119,10 +128,11 @@ void LessonEditor::listen() {
   connect(earlier_, &QAction::triggered, this, [this] { writer_.moveStep(-1); });
   connect(later_, &QAction::triggered, this, [this] { writer_.moveStep(1); });
   connect(lessonTitle_, &QLineEdit::textEdited, this,
-          [this](const QString& title) { writer_.setLessonTitle(title.toStdString()); });
+          [this](const QString& title) { writer_.setLessonTitle(fitting(title, limits::name_bytes).toStdString()); });
   connect(title_, &QLineEdit::textEdited, this,
-          [this](const QString& title) { writer_.setTitle(title.toStdString()); });
-  connect(text_, &QPlainTextEdit::textChanged, this, [this] { writer_.setText(text_->toPlainText().toStdString()); });
+          [this](const QString& title) { writer_.setTitle(fitting(title, limits::name_bytes).toStdString()); });
+  connect(text_, &QPlainTextEdit::textChanged, this,
+          [this] { writer_.setText(fitting(text_->toPlainText(), limits::caption_bytes).toStdString()); });
   for (QLineEdit* field : {lessonTitle_, title_}) {
     connect(field, &QLineEdit::editingFinished, this, &LessonEditor::refresh);
   }
@@ -132,7 +142,7 @@ void LessonEditor::listen() {
   }
 }
 
-/// A text that cannot be saved, for example an empty one, gives way to the last one that can.
+/// A text that is empty gives way to the last one that is not, and of one that is too long the beginning stays.
 bool LessonEditor::eventFilter(QObject* watched, QEvent* event) {
   if (watched == text_ && event->type() == QEvent::FocusOut) {
     refresh();

@@ -26,7 +26,7 @@ constexpr int leastDepth = 24;  // bits per pixel
 
 /// True if the display is that of another computer, reached by ssh.
 bool isRemote() {
-  return qEnvironmentVariableIsSet("SSH_CONNECTION") && qEnvironmentVariable("DISPLAY").contains(QLatin1Char('.'));
+  return qEnvironmentVariableIsSet("SSH_CONNECTION") && !qEnvironmentVariable("DISPLAY").startsWith(QLatin1Char(':'));
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ class Body {
   /// Returns the positions as they are stored, without a copy; they show every later move. Valid until the body is
   /// assigned to or destroyed, its axes are turned, or a Deformer uses a method on it for which
   /// keeps_stored_positions() is false. Throws Error if something else is stored: displacements from rest, with the
-  /// method `exact`, or coordinates along turned axes.
+  /// method `exact` and in single precision far from the origin, or coordinates along turned axes.
   StoredPositions stored_positions() const;
   /// True if a Deformer with this method leaves the positions where and as they are stored. Throws Error for an unknown
   /// name.

@@ -34,6 +34,7 @@ class ApiMovesTest : public QObject {
   void moves_equal_those_of_the_solver_data();
   void moves_equal_those_of_the_solver();
   void a_copied_body_continues_alike();
+  void a_far_object_keeps_its_digits();
   void relaxation_equals_that_of_a_simulation();
   void the_equilibrium_is_certified();
   void moves_are_traced();
@@ -138,6 +139,26 @@ void ApiMovesTest::a_copied_body_continues_alike() {
     second.move(0, {-9, 0, 0});
     QVERIFY(!same_numbers(second.body().positions(), first.body().positions()));
   }
+}
+
+/// In single precision too, also after the method was set.
+void ApiMovesTest::a_far_object_keeps_its_digits() {
+  const cm::Mesh near = cm::make_cloth(7, 6);
+  std::vector<double> rest = near.rest_positions();
+  for (std::size_t i = 0; i < rest.size(); i += 3) {
+    rest[i] += 4.5e6;
+    rest[i + 1] -= 5.3e6;
+  }
+  std::vector<cm::ElementId> corners;
+  for (const auto& triangle : near.triangles()) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  const cm::Mesh mesh = cm::make_mesh({.positions = rest, .triangles = corners});
+  cm::Deformer deformer(mesh, "exact", cm::Precision::single_precision);
+  deformer.set_method("natural-queue");
+  deformer.move(0, {4.5e6 - 2.7, -5.3e6 + 0.3, 0});
+  const double worst = cm::violation(deformer.body()).max;
+  QVERIFY2(worst < 1e-5, qPrintable(QString::number(worst)));
 }
 
 void ApiMovesTest::relaxation_equals_that_of_a_simulation() {

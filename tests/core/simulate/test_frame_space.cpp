@@ -19,6 +19,7 @@ class FrameSpaceTest : public QObject {
   void positions_keep_their_digits();
   void an_object_answers_alike_wherever_it_lies_data() { places(); }
   void an_object_answers_alike_wherever_it_lies();
+  void a_far_object_keeps_how_it_is_stored();
 
  private:
   static void places();
@@ -107,6 +108,21 @@ void FrameSpaceTest::an_object_answers_alike_wherever_it_lies() {
     const auto there = dragged(algorithm, Precision::single_precision, size, {x, x / 2, -x});
     const double apart = farthest_apart(here, there);
     QVERIFY2(apart < 1e-5, qPrintable(QString::number(apart)));
+  }
+}
+
+void FrameSpaceTest::a_far_object_keeps_how_it_is_stored() {
+  Simulation simulation(sphere(3, {4.5e6, 5.3e6, -1e6}), Algorithm::natural_queue, Precision::single_precision);
+  simulation.apply(commands::Grab{{0}});
+  simulation.apply(commands::Drag{Point(simulation.mesh().rest_position(0) + Point(1.5, 0.6, -0.3))});
+  simulation.apply(commands::Release{});
+  for (const Algorithm algorithm : {Algorithm::exact, Algorithm::generalized, Algorithm::natural_queue}) {
+    simulation.apply(commands::SetAlgorithm{algorithm});
+    const Snapshot before = simulation.snapshot();
+    QVERIFY(before.from_rest);
+    simulation.apply(commands::Reset{});
+    simulation.apply(commands::SetPositions{std::make_shared<const Snapshot>(before)});
+    QVERIFY(simulation.snapshot() == before);
   }
 }
 
