@@ -595,6 +595,15 @@ void WindowLessons::textsThatNoFileHoldsAreNotTaken() {
   auto* caption = bench.find<QPlainTextEdit>("lessonCaptionField");
   caption->setPlainText(QString(5000, QLatin1Char('x')));
   QCOMPARE(player(bench).lesson().steps[0].text, std::string(limits::caption_bytes, 'x'));  // the beginning stays
+  const QSize size = bench.window.size();
+  for (const QString& text : {QString(4000, QLatin1Char('x')), QStringLiteral("line\n").repeated(800)}) {
+    caption->setPlainText(text);
+    bench.trigger("lessonEdit");
+    bench.settle();
+    QCOMPARE(bench.window.size(), size);  // a caption scrolls before it leaves the views no room
+    QVERIFY(bench.view(0).height() > size.height() / 4);
+    bench.trigger("lessonEdit");
+  }
   bench.trigger("lessonEdit");
 }
 

@@ -260,7 +260,7 @@ class WindowWords : public QObject {
       wait.wait();
     });
     QTRY_VERIFY(waits);
-    QCoreApplication::processEvents();  // frames of before have come
+    QCoreApplication::processEvents();                            // frames of before have come
     bench.document().highlight().set({ElementId{31}, true, {}});  // a handle, whose first move takes long
     QTRY_COMPARE(shown->sentence(), QStringLiteral("Preparing…"));
     goesOn.set_value();

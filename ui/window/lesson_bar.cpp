@@ -3,6 +3,7 @@
 #include <QAccessible>
 #include <QAction>
 #include <QHBoxLayout>
+#include <QScrollArea>
 #include <algorithm>
 
 #include "common/colours.h"
@@ -30,6 +31,7 @@ QPushButton* makeButton(const QString& text, const char* name, QAction& action) 
 constexpr int buttonMargins = 80;  // pixels around the buttons and their texts
 constexpr int buttonPadding = 24;  // pixels beside the text of a button
 constexpr int widestName = 260;    // pixels that the button of the next lesson asks for
+constexpr int largestPart = 3;     // a caption has at most a third of the window's height
 
 QString shown(const std::string& text) { return QString::fromStdString(text); }
 
@@ -42,6 +44,7 @@ LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& 
       backAction_(back),
       nextAction_(next),
       followingAction_(following),
+      caption_(new QScrollArea),
       title_(makeLabel("lessonTitle")),
       text_(makeLabel("lessonText")),
       step_(makeLabel("lessonStep")),
@@ -60,6 +63,11 @@ LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& 
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   text_->setWordWrap(true);
   text_->setMinimumWidth(1);  // a word that is too long for the window makes it no wider
+  caption_->setWidgetResizable(true);
+  caption_->setFrameShape(QFrame::NoFrame);
+  caption_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  caption_->setFocusPolicy(Qt::NoFocus);
+  caption_->viewport()->setAutoFillBackground(false);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   describeButtons();
   arrange();
@@ -97,7 +105,8 @@ void LessonBar::arrange() {
   column->setContentsMargins(12, 6, 8, 6);
   column->setSpacing(4);
   column->addLayout(head);
-  column->addWidget(text_);
+  caption_->setWidget(text_);
+  column->addWidget(caption_);
   column->addWidget(&editor_);
 }
 
@@ -148,7 +157,8 @@ void LessonBar::fit() {
   }
 }
 
-/// Reserves the height of the longest caption of the lesson, so that the views keep their size from step to step.
+/// Reserves the height of the longest caption of the lesson, so that the views keep their size from step to step. A
+/// caption that would leave them little room scrolls.
 void LessonBar::keepHeight() {
   if (!player_.isOpen()) {
     return;
@@ -161,6 +171,7 @@ void LessonBar::keepHeight() {
     height = std::max(height, used.height());
   }
   text_->setFixedHeight(height);
+  caption_->setFixedHeight(std::min(height, window()->height() / largestPart));
 }
 
 /// At the end of the last step, the buttons lead on instead of to a next step.
@@ -231,7 +242,7 @@ void LessonBar::refresh() {
     return;
   }
   const QString caption = shown(player_.lesson().steps[player_.step()].text);
-  text_->setVisible(!editor_.isEditing());
+  caption_->setVisible(!editor_.isEditing());
   showButtons();
   fit();
   if (text_->text() != caption) {

@@ -8,6 +8,7 @@
 #include "document/lesson_player.h"
 
 class QAction;
+class QScrollArea;
 
 namespace chainmail {
 
@@ -45,6 +46,7 @@ class LessonBar : public QFrame {
   const LessonPlayer& player_;
   LessonEditor& editor_;
   QAction &backAction_, &nextAction_, &followingAction_;
+  QScrollArea* caption_;
   QLabel *title_, *text_, *step_;
   QPushButton *back_, *next_, *following_, *end_;
   QToolButton* leave_;
