@@ -85,10 +85,8 @@ void add_position_view(BodyClass& body) {
            "Nothing is copied: the array shows every later move, and keeps the body alive. Do not read it while "
            "another\n"
            "thread moves the body. Raises Error if the body does not store positions: with the method `exact`, which\n"
-           "stores displacements from rest, in float32 far from the origin, and along turned axes. While a view "
-           "exists, such a method and other axes "
-           "are\n"
-           "refused.")
+           "stores displacements from rest, in float32 far from the origin, and along turned axes. While a view\n"
+           "exists, such a method and other axes are refused.")
       .def("set_positions", &set_positions, py::arg("positions"),
            "Sets the positions of all elements, also of pinned ones: shape (element_count, 3) or, for the axes that\n"
            "exist, (element_count, space_dimension) (mesh units). They are rounded to the precision.\n\n"

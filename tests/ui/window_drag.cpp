@@ -95,6 +95,22 @@ class WindowDrag : public QObject {
     document.handle().release();
   }
 
+  void theViewsFollowAnObjectThatWasDraggedOutOfThem() {
+    Workbench bench;
+    bench.view(0).setFocus();
+    const QPoint from = bench.place(0, 31);
+    bench.stroke(0, {from, from + QPoint(0, 3000)}, false);
+    QTRY_VERIFY(!bench.window.area().showsAll());  // not while it is held
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(0, 3000));
+    bench.settle();
+    QTRY_VERIFY(bench.window.area().showsAll());
+    bench.view(0).zoom(4);
+    const double height = bench.view(0).camera()->pose().height;
+    const QPoint again = bench.place(0, 31);
+    bench.stroke(0, {again, again + QPoint(0, -2000)});
+    QCOMPARE(bench.view(0).camera()->pose().height, height);  // the user has chosen the view
+  }
+
   void pressingBesideTheObjectMovesNothing() {
     Workbench bench;
     bench.stroke(0, {QPoint(5, 5), QPoint(80, 80)});

@@ -602,6 +602,8 @@ void WindowLessons::textsThatNoFileHoldsAreNotTaken() {
     bench.settle();
     QCOMPARE(bench.window.size(), size);  // a caption scrolls before it leaves the views no room
     QVERIFY(bench.view(0).height() > size.height() / 4);
+    const auto* shown = bench.find<QLabel>("lessonText");
+    QVERIFY(shown->height() >= shown->heightForWidth(shown->width()));  // the last line can be reached
     bench.trigger("lessonEdit");
   }
   bench.trigger("lessonEdit");

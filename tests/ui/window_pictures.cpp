@@ -289,6 +289,7 @@ class WindowPictures : public QObject {
     QVERIFY(dialog.chosen().asOnScreen());
     QCOMPARE(text().section(QLatin1Char(','), 0, 1), QStringLiteral("1,000 × 500 pixels"));
     QCOMPARE(PictureSize({2000, true, 1200}).pixels(), PictureSize::mostPixels);  // not 94,488
+    QCOMPARE(PictureSize({2000, true, 1200}).dotsPerMetre(), 6000.0);             // so it is 2 m wide in print
   }
 
   void drawingsOfPanelsSayWhatTheyShow() {

@@ -18,7 +18,6 @@ namespace {
 constexpr std::array scales{1, 2, 4};
 constexpr PictureSize pageWidth{160, true, 300};  // of the text of a page
 constexpr int ownSize = 0;                        // in place of a scale
-constexpr double inchesPerMetre = 1 / 0.0254;
 
 QString subjectKey() { return QStringLiteral("picture/of"); }
 QString scaleKey() { return QStringLiteral("picture/scale"); }
@@ -197,7 +196,7 @@ QImage PictureActions::picture() const {
                    : subject().what == What::panel ? figureOf(shownPanel(), scale, transparent)
                                                    : pictureOf(drawn, scale, transparent);
   if (ownSize_->isChecked()) {
-    picture.setDotsPerMeterX(qRound(size_.dpi * inchesPerMetre));
+    picture.setDotsPerMeterX(qRound(size_.dotsPerMetre()));
     picture.setDotsPerMeterY(picture.dotsPerMeterX());
   }
   return picture;

@@ -29,6 +29,8 @@ struct PictureSize {
   }
   /// Width in millimetres when it is printed.
   double millimetres() const { return inMillimetres ? width : width * millimetresPerInch / dpi; }
+  /// What a file says, so that the picture has its width in millimetres when it is printed.
+  double dotsPerMetre() const { return std::min(dpi * 1000 / millimetresPerInch, mostPixels * 1000 / millimetres()); }
   /// Returns the size in words, such as '160 mm at 300 dpi' or 'as on the screen'.
   QString inWords() const;
   bool operator==(const PictureSize&) const = default;

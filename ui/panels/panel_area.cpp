@@ -82,6 +82,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   connect(&document.highlight(), &Highlight::changed, this,
           [this] { dragged_ = dragged_ || document_.highlight().marks().grabbed; });
   connect(&document.solvers(), &PanelSolvers::becameIdle, this, &PanelArea::followObject);
+  connect(&document.solvers(), &PanelSolvers::frameReady, this, &PanelArea::followObject);
   connect(&document, &Document::panelsChanged, this, &PanelArea::followPanels);
   connect(&document, &Document::panelLeaves, this, &PanelArea::removePanel);
 }
@@ -268,9 +269,14 @@ void PanelArea::fitAgain() {
   }
 }
 
-/// After a drag that led out of the views, fits them again, unless the user has panned or zoomed since the last fit.
+/// After a drag that led out of the views, fits them again once they show its end, unless the user has panned or zoomed
+/// since the last fit.
 void PanelArea::followObject() {
-  if (!document_.handle().isActive() && std::exchange(dragged_, false) && fits() && !showsAll()) {
+  if (!dragged_ || document_.handle().isActive() || !document_.solvers().settled()) {
+    return;
+  }
+  dragged_ = false;
+  if (fits() && !showsAll()) {
     frame(false);
   }
 }

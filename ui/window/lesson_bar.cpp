@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QHBoxLayout>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <algorithm>
 
 #include "common/colours.h"
@@ -170,7 +171,6 @@ void LessonBar::keepHeight() {
     const QRect used = text_->fontMetrics().boundingRect(room, Qt::TextWordWrap, shown(step.text));
     height = std::max(height, used.height());
   }
-  text_->setFixedHeight(height);
   caption_->setFixedHeight(std::min(height, window()->height() / largestPart));
 }
 
@@ -247,6 +247,7 @@ void LessonBar::refresh() {
   fit();
   if (text_->text() != caption) {
     text_->setText(caption);
+    caption_->verticalScrollBar()->setValue(0);
     QAccessibleEvent alert(this, QAccessible::Alert);
     QAccessible::updateAccessibility(&alert);
   }
