@@ -137,7 +137,8 @@ void add_energy(BodyClass& body) {
             const UseObject use(one);
             one.body().set_energy(energy_of(kind));
           },
-          py::arg("kind"), "Sets the kind of elastic energy: `isotropic`, `axial` or `corotated`. Nothing moves.")
+          py::arg("kind"),
+          "Sets the kind of elastic energy: `isotropic`, `axial`, `corotated` or `material`. Nothing moves.")
       .def_property_readonly("elasticity", used([](const api::Body& one) { return one.elasticity(); }),
                              "The settings of the methods of elasticity.")
       .def(

@@ -106,10 +106,9 @@ void add_results(py::module_& module) {
                     "Largest violation of a link, in rest lengths.")
       .def_readonly("residual", &api::EquilibriumCertificate::residual,
                     "Estimated distance from the equilibrium, in the norm of the energy, relative to its root.")
-      .def_readonly(
-          "energy_gap", &api::EquilibriumCertificate::energy_gap,
-          "Energy above a lower bound of the energy of all valid states, relative to the energy. None for the\n"
-          "corotated energy.")
+      .def_readonly("energy_gap", &api::EquilibriumCertificate::energy_gap,
+                    "Energy above a lower bound of the energy of all valid states, relative to the energy. None for\n"
+                    "corotated links and the material.")
       .def_readonly("regions_bind", &api::EquilibriumCertificate::regions_bind,
                     "True if valid regions change the equilibrium.")
       .def_readonly("iterations", &api::EquilibriumCertificate::iterations,

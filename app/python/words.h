@@ -14,7 +14,7 @@ namespace chainmail::python {
 
 inline constexpr std::array<std::string_view, 2> precision_words{"float", "double"};
 inline constexpr std::array<std::string_view, 3> scheme_words{"mean", "link", "equilibrium"};
-inline constexpr std::array<std::string_view, 3> energy_words{"isotropic", "axial", "corotated"};
+inline constexpr std::array<std::string_view, 4> energy_words{"isotropic", "axial", "corotated", "material"};
 inline constexpr std::array<std::string_view, 2> reference_words{"exact", "physics"};
 
 inline api::Precision precision_of(std::string_view word) {

@@ -19,7 +19,8 @@ namespace chainmail::api {
 static_assert(softness_of(LinkSoftness()) == inner::LinkSoftness());
 static_assert(int(EnergyKind::isotropic) == int(inner::EnergyKind::isotropic) &&
               int(EnergyKind::axial) == int(inner::EnergyKind::axial) &&
-              int(EnergyKind::corotated) == int(inner::EnergyKind::corotated));
+              int(EnergyKind::corotated) == int(inner::EnergyKind::corotated) &&
+              int(EnergyKind::material) == int(inner::EnergyKind::material));
 static_assert(Elasticity().young == parameters::young.default_value &&
               Elasticity().poisson == parameters::poisson.default_value &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&

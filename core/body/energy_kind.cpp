@@ -22,7 +22,11 @@ constexpr std::array all_energy_kinds{
         EnergyKind::corotated, "corotated", "Co-rotated",
         "Each link is a spring, and resists motion across its rest vector turned with its surroundings: close "
         "to an elastic solid, also in large rotations.",
-        parameters::lateral.default_value}};
+        parameters::lateral.default_value},
+    EnergyKindInfo{EnergyKind::material, "material", "Material",
+                   "The cells resist as an elastic material with Poisson's ratio does; nothing is calibrated. Where "
+                   "there are no cells, it is that of co-rotated links.",
+                   parameters::lateral.default_value}};
 
 }  // namespace
 

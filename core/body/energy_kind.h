@@ -5,9 +5,9 @@
 
 namespace chainmail {
 
-/// The elastic energy of links. Each kind has one entry in the table of energy_kind.cpp; the formulas are in
-/// equilibrium/link_energy.h.
-enum class EnergyKind { isotropic, axial, corotated };
+/// The elastic energy that relaxation lowers: of the links, or of the material of the cells. Each kind has one entry in
+/// the table of energy_kind.cpp; the formulas are in equilibrium/link_energy.h and equilibrium/material_energy.h.
+enum class EnergyKind { isotropic, axial, corotated, material };
 
 /// The energy of a new object.
 inline constexpr EnergyKind standard_energy = EnergyKind::corotated;

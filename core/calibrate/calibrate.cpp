@@ -221,7 +221,7 @@ void search_with_sweeps(Bench& bench, const CalibrationOptions& options, Trial& 
 /// Then for energy and regions together, from the best one: narrow regions have their own minima, in which the handle
 /// stops.
 void search_at_equilibrium(Bench& bench, const CalibrationOptions& options, Trial& best) {
-  const bool has_energy = options.energy != EnergyKind::isotropic;
+  const bool has_energy = options.energy == EnergyKind::axial || options.energy == EnergyKind::corotated;
   const int each = static_cast<int>(share_of_energy * options.evaluations);
   for (const double stiffer : {1.0, 10.0}) {
     LinkSoftness open = best.softness;

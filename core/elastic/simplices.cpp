@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -15,6 +16,10 @@ namespace {
 // lost half the digits of a double.
 constexpr double flat_below = 1e-8;
 
+constexpr std::array<CellEdge, 1> link_edges{{{0, 1}}};
+constexpr std::array<CellEdge, 3> triangle_edges{{{0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<CellEdge, 4> square_edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+
 /// Returns true if an uncut link joins two elements. A square or cube of a lattice needs all its links.
 bool has_link(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   const auto link = find_link(mesh, a, b);
@@ -23,8 +28,9 @@ bool has_link(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
 
 class Builder {
  public:
-  Builder(const Mesh& mesh, const Cuts& cuts, const Progress& progress)
-      : mesh_(mesh), cuts_(cuts), progress_(progress) {
+  /// `cells`: what the links of each cell are noted in, if given. Then cells may be flat or inverted.
+  Builder(const Mesh& mesh, const Cuts& cuts, const Progress& progress, CellSimplices* cells = nullptr)
+      : mesh_(mesh), cuts_(cuts), progress_(progress), cells_(cells) {
     simplices_.dimension = mesh.space_dimension;
   }
 
@@ -39,7 +45,7 @@ class Builder {
       default:
         mesh_.has_cells() ? add_cells() : add_cubes();
     }
-    if (simplices_.corners.empty()) {
+    if (simplices_.corners.empty() && cells_ == nullptr) {
       throw Error("object", "it has no uncut cell, so it cannot resist", "uncut links, or use an object with cells");
     }
     find_shapes();
@@ -47,11 +53,28 @@ class Builder {
   }
 
  private:
+  /// Notes the links along these edges of the next cell, and how many simplices it has.
+  template <class Edges, class Corners>
+  void note_cell(const Edges& edges, const Corners& corners, std::size_t simplices) {
+    if (cells_ == nullptr) {
+      return;
+    }
+    cells_->cell_of.insert(cells_->cell_of.end(), simplices, static_cast<std::uint32_t>(cells_->first_link.size()));
+    cells_->first_link.push_back(static_cast<std::uint32_t>(cells_->links.size()));
+    for (const CellEdge& edge : edges) {
+      if (const auto link = find_link(mesh_, corners[static_cast<std::size_t>(edge[0])],
+                                      corners[static_cast<std::size_t>(edge[1])])) {
+        cells_->links.push_back(*link);
+      }
+    }
+  }
+
   void add(std::initializer_list<ElementId> corners) { simplices_.corners.insert(simplices_.corners.end(), corners); }
 
   void add_bars() {
     for (LinkId link = 0; link < mesh_.link_count(); ++link) {
       if (!cuts_.is_cut(link)) {
+        note_cell(link_edges, mesh_.links[link], 1);
         add({mesh_.links[link][0], mesh_.links[link][1]});
       }
     }
@@ -61,6 +84,7 @@ class Builder {
     for (const auto& [a, b, c] : mesh_.triangles) {
       if (!is_cut_between(mesh_, cuts_, a, b) && !is_cut_between(mesh_, cuts_, b, c) &&
           !is_cut_between(mesh_, cuts_, c, a)) {
+        note_cell(triangle_edges, std::array{a, b, c}, 1);
         add({a, b, c});
       }
     }
@@ -69,6 +93,7 @@ class Builder {
   void add_cells() {
     for (const auto& cell : mesh_.tetrahedra) {
       if (is_whole(mesh_, cuts_, cell)) {
+        note_cell(tetrahedron_edges, cell, 1);
         add({cell[0], cell[1], cell[2], cell[3]});
       }
     }
@@ -82,6 +107,7 @@ class Builder {
   /// Splits a hexahedron into a fan from its lowest corner over the sides without this corner. Each side is split by
   /// the diagonal from its own lowest corner.
   void add_hexahedron(const std::array<ElementId, 8>& cell) {
+    note_cell(hexahedron_edges, cell, 6);
     const ElementId lowest = *std::ranges::min_element(cell);
     for (const auto& side : hexahedron_sides) {
       std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
@@ -103,6 +129,7 @@ class Builder {
             !has_link(mesh_, cuts_, b, d)) {
           continue;
         }
+        note_cell(square_edges, std::array{a, b, d, c}, 2);
         if ((x + y) % 2 == 0) {
           add({a, b, d});
           add({a, d, c});
@@ -159,8 +186,12 @@ class Builder {
       edges.col(i) = rest(corners[static_cast<std::size_t>(i) + 1]) - rest(corners[0]);
       longest = std::max(longest, edges.col(i).norm());
     }
-    const double volume = edges.determinant() / (n == 3 ? 6 : n);
-    check_shape(corners, volume, std::pow(longest, n));
+    const double volume = edges.determinant() / (n == 3 ? 6 : n), scale = std::pow(longest, n);
+    if (cells_ != nullptr && !(std::abs(volume) > flat_below * scale)) {
+      simplices_.volumes.push_back(0);
+      return;
+    }
+    check_shape(corners, volume, scale);
     Eigen::Map<Eigen::MatrixXd> gradients(simplices_.gradients.data() + simplex * static_cast<std::size_t>(n * (n + 1)),
                                           n, n + 1);
     gradients.rightCols(n) = edges.inverse().transpose();
@@ -174,7 +205,7 @@ class Builder {
     if (!(std::abs(volume) > flat_below * scale)) {
       throw Error(where, "it is flat, so it cannot resist", "remove it, or mesh the object again");
     }
-    const bool has_way_round = simplices_.dimension == 3;  // a sheet is the same from behind
+    const bool has_way_round = simplices_.dimension == 3 && cells_ == nullptr;  // a sheet is the same from behind
     if (has_way_round && orientation_ != 0 && (volume > 0) != (orientation_ > 0)) {
       throw Error(where, "it is inverted: its corners are in the opposite order to those of the cells before it",
                   "list its corners in the order of the others, or mesh the object again");
@@ -193,6 +224,7 @@ class Builder {
   const Mesh& mesh_;
   const Cuts& cuts_;
   const Progress& progress_;
+  CellSimplices* cells_;
   Simplices simplices_;
   int orientation_ = 0;  // of the cells so far: 1, -1, or 0 before the first
 };
@@ -201,6 +233,24 @@ class Builder {
 
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
   return Builder(mesh, cuts, progress).build();
+}
+
+bool has_simplices(const Mesh& mesh) {
+  switch (mesh.space_dimension) {
+    case 1:
+      return mesh.link_count() > 0;
+    case 2:
+      return mesh.lattice || !mesh.triangles.empty();
+    default:
+      return mesh.lattice || mesh.has_cells();
+  }
+}
+
+CellSimplices build_cell_simplices(const Mesh& mesh, const Progress& progress) {
+  CellSimplices cells;
+  cells.simplices = Builder(mesh, Cuts(), progress, &cells).build();
+  cells.first_link.push_back(static_cast<std::uint32_t>(cells.links.size()));
+  return cells;
 }
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,24 @@ struct Simplices {
 /// Throws Error, with the corners, for a cell that is flat or oriented differently from the others, and if no cell is
 /// left. Throws Cancelled.
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
+
+/// The simplices of all cells, cut or not, and the links that each cell needs: without one of these, the cell is gone.
+struct CellSimplices {
+  Simplices simplices;                    // of a flat cell: volumes and gradients of 0
+  std::vector<std::uint32_t> cell_of;     // of each simplex, ascending
+  std::vector<std::uint32_t> first_link;  // of each cell, and the end: places in `links`
+  std::vector<LinkId> links;
+
+  std::size_t cell_count() const { return first_link.size() - 1; }
+  std::span<const LinkId> links_of(std::size_t cell) const {
+    return std::span(links).subspan(first_link[cell], first_link[cell + 1] - first_link[cell]);
+  }
+};
+/// Returns true if build_cell_simplices finds cells: links on a line, faces or squares in a plane, cells or cubes in
+/// space.
+bool has_simplices(const Mesh& mesh);
+/// The same division as build_simplices. Flat cells and any orientation are accepted. Throws Cancelled.
+CellSimplices build_cell_simplices(const Mesh& mesh, const Progress& progress = {});
 
 /// Throws Error if the pins of a part leave it free to move as a rigid body. A part is a set of cells that share
 /// elements; the message names one of its elements.

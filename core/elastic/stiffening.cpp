@@ -16,7 +16,7 @@ constexpr int longest_search =
 struct Shape {
   double value = 0, slope = 0, curvature = 0;
 };
-Shape shape_of(double x, const StrainLaw& law, double mu) {
+Shape shape_inside(double x, const StrainLaw& law, double mu) {
   if (law.kind == StrainLaw::Kind::gent) {
     const double left = 1 - x / law.gent_limit;
     return left > 0 ? Shape{-mu / 2 * law.gent_limit * std::log1p(-x / law.gent_limit), mu / 2 / left,
@@ -30,11 +30,35 @@ Shape shape_of(double x, const StrainLaw& law, double mu) {
   return {mu / 2 * x, mu / 2, 0};
 }
 
+/// f as it is, or continued by a parabola from the end of its range on.
+enum class Range { physical, extended };
+
+double end_of_range(const StrainLaw& law) {
+  switch (law.kind) {
+    case StrainLaw::Kind::gent:
+      return 0.99 * law.gent_limit;
+    case StrainLaw::Kind::fung:
+      return 8 / law.fung_exponent;
+    default:
+      return infinite;
+  }
+}
+
+Shape shape_of(double x, const StrainLaw& law, double mu, Range range = Range::physical) {
+  if (const double end = end_of_range(law); range == Range::extended && x > end) {
+    const Shape last = shape_inside(end, law, mu);
+    const double beyond = x - end;
+    return {last.value + beyond * (last.slope + beyond * last.curvature / 2), last.slope + beyond * last.curvature,
+            last.curvature};
+  }
+  return shape_inside(x, law, mu);
+}
+
 /// Finds ln s for the stretch s on the axes that are free of stress: 2 f'(I₁ − 3) s² − μ + λ' (ln J + m ln s) = 0.
 class FreeStretch {
  public:
-  FreeStretch(double s, double l, const StrainLaw& law, const Lame& lame, double corrected, int axes)
-      : s_(s), l_(l), law_(law), mu_(lame.mu), lambda_(corrected), axes_(axes) {}
+  FreeStretch(double s, double l, const StrainLaw& law, const Lame& lame, double corrected, int axes, Range range)
+      : s_(s), l_(l), law_(law), mu_(lame.mu), lambda_(corrected), axes_(axes), range_(range) {}
 
   /// Newton's method between bounds, which are halved where it leaves them: the left side grows with ln s.
   double log() const {
@@ -65,13 +89,14 @@ class FreeStretch {
   }
 
  private:
-  Shape at(double a) const { return shape_of(s_ + axes_ * std::expm1(2 * a), law_, mu_); }
+  Shape at(double a) const { return shape_of(s_ + axes_ * std::expm1(2 * a), law_, mu_, range_); }
   double slope(double a) const { return 2 * at(a).slope * std::exp(2 * a) - mu_ + lambda_ * (l_ + axes_ * a); }
 
   double s_, l_;
   const StrainLaw& law_;
   double mu_, lambda_;
   int axes_;
+  Range range_;
 };
 
 SimplexEnergy stiffening_energy(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
@@ -121,22 +146,20 @@ SimplexEnergy stiffening_energy(const Simplices& simplices, std::size_t simplex,
   return result;
 }
 
-}  // namespace
-
-StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const Lame& lame, int dimension) {
+StiffeningTerm term_of(double s, double l, const StrainLaw& law, const Lame& lame, int dimension, Range range) {
   const double corrected = lame.lambda - 4 * shape_of(0, law, lame.mu).curvature;
   const int axes = 3 - dimension;
-  const FreeStretch free(s, l, law, lame, corrected, axes);
-  const bool is_gent = law.kind == StrainLaw::Kind::gent;
+  const FreeStretch free(s, l, law, lame, corrected, axes, range);
+  const bool has_limit = law.kind == StrainLaw::Kind::gent && range == Range::physical;
   StiffeningTerm term;
   // The stretch on the free axes lowers S by less than 1 each.
-  term.infinite = !std::isfinite(s) || (is_gent && s - axes >= law.gent_limit);
+  term.infinite = !std::isfinite(s) || (has_limit && s - axes >= law.gent_limit);
   if (term.infinite) {
     return term;
   }
   const double a = axes == 0 ? 0 : free.log();
   const double squared = std::exp(2 * a), whole = l + axes * a;
-  const Shape f = shape_of(s + axes * std::expm1(2 * a), law, lame.mu);
+  const Shape f = shape_of(s + axes * std::expm1(2 * a), law, lame.mu, range);
   term.infinite = !std::isfinite(f.value) || !std::isfinite(f.curvature);
   if (term.infinite) {
     return term;
@@ -151,6 +174,31 @@ StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const L
   term.curvature_sl = 2 * f.curvature * axes * squared * by_l;
   term.curvature_ll = corrected * (1 + axes * by_l);
   return term;
+}
+
+}  // namespace
+
+StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const Lame& lame, int dimension) {
+  return term_of(s, l, law, lame, dimension, Range::physical);
+}
+
+ExtendedDensity::ExtendedDensity(const StrainLaw& law, const Lame& lame, int dimension, bool free_axes)
+    : law_(law), lame_(lame), dimension_(free_axes ? dimension : 3) {
+  set_least_volume(0.5);
+}
+
+void ExtendedDensity::set_least_volume(double least_volume) {
+  least_volume_ = least_volume;
+  const StiffeningTerm last = term_of(0, std::log(least_volume), law_, lame_, dimension_, Range::extended);
+  slope_ = last.slope_l / least_volume;
+  curvature_ = (last.curvature_ll - last.slope_l) / (least_volume * least_volume);
+}
+
+ExtendedDensity::Value ExtendedDensity::at(double s, double j) const {
+  const double inside = std::max(j, least_volume_), below = j - inside;  // 0 where J is inside
+  const StiffeningTerm term = term_of(s, std::log(inside), law_, lame_, dimension_, Range::extended);
+  return {term.value + below * (term.slope_l / inside + curvature_ / 2 * below),
+          term.slope_s + term.curvature_sl / inside * below, term.slope_l / inside + curvature_ * below};
 }
 
 SimplexModel model_of(const StrainLaw& law) {

@@ -25,4 +25,33 @@ struct StiffeningTerm {
 };
 StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const Lame& lame, int dimension);
 
+/// The energy density as a function of S and of J = det F, for all deformations, inverted ones included.
+///
+/// Below a least J, a parabola in J continues it, with the same value and slope. Beyond I₁ − 3 = .99 J_m (Gent) or 8/b
+/// (Fung), f goes on as a parabola of the same value and first two derivatives. Within these limits it is the energy of
+/// stiffening_term, so a minimum inside them is the same.
+class ExtendedDensity {
+ public:
+  /// `dimension` is that of F; where it is below 3, the other axes are free of stress, or keep their length.
+  ExtendedDensity(const StrainLaw& law, const Lame& lame, int dimension, bool free_axes = true);
+  /// Sets the J below which the parabola begins. The lower it is, the stiffer are inverted cells.
+  void set_least_volume(double least_volume);
+  double least_volume() const { return least_volume_; }
+  /// Slope and curvature of the parabola where it begins.
+  double slope_below() const { return slope_; }
+  double curvature_below() const { return curvature_; }
+
+  /// A density with its derivatives by S and by J.
+  struct Value {
+    double value = 0, by_shape = 0, by_volume = 0;
+  };
+  Value at(double s, double j) const;
+
+ private:
+  StrainLaw law_;
+  Lame lame_;
+  int dimension_;  // 3 if no axis is free of stress
+  double least_volume_ = 0, slope_ = 0, curvature_ = 0;
+};
+
 }  // namespace chainmail

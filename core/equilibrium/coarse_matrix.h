@@ -9,11 +9,11 @@
 
 namespace chainmail {
 
-/// The matrix of a coarse level.
-template <int Rows>
+/// The matrix of a coarse level, which multiplies several columns at once.
+template <int Rows, int Columns = 1>
 struct CoarseMatrix {
   using Square = Eigen::Matrix<float, Rows, Rows>;
-  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vector = Eigen::Matrix<float, Rows, Columns>;
   using Vectors = std::vector<Vector>;
 
   std::uint32_t size() const { return rows.size(); }

@@ -11,6 +11,7 @@
 #include "equilibrium/conjugate_gradients.h"
 #include "equilibrium/corotated.h"
 #include "equilibrium/link_energy.h"
+#include "equilibrium/material_minimum.h"
 #include "equilibrium/quasi_newton.h"
 #include "equilibrium/region_multipliers.h"
 #include "equilibrium/valid_projection.h"
@@ -93,7 +94,7 @@ class Equilibrator final : public EquilibriumSolver {
     result.binds = constrained_;
     result.iterations = iterations_;
     read(body);
-    if (kind_ != EnergyKind::corotated) {
+    if (kind_ != EnergyKind::corotated && kind_ != EnergyKind::material) {
       result.gap = relative_gap();
     }
     result.violation = largest_violation();
@@ -117,7 +118,10 @@ class Equilibrator final : public EquilibriumSolver {
       take_energy(body);
     }
     if (is_new || now.energy != seen_.energy || now.cuts != seen_.cuts) {
-      update_links(body);
+      uses_material() ? note_links() : update_links(body);
+    }
+    if (is_new || now.elastic != seen_.elastic) {
+      has_material_ = false;
     }
     read(body);
     if (is_new || now.positions != seen_.positions) {
@@ -126,6 +130,8 @@ class Equilibrator final : public EquilibriumSolver {
       }
       corotated_.reset();
       newton_.forget();
+      material_.forget();
+      is_start_ = true;
       end_constraints();
     }
     const bool other_fixed = is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_);
@@ -149,6 +155,8 @@ class Equilibrator final : public EquilibriumSolver {
     energy_ = LinkMatrix<double, D>(mesh_);
     newton_.forget();
     fixed_.assign(mesh_->element_count(), 0);
+    jump_.assign(mesh_->element_count(), Vector::Zero());
+    material_ = {};
     scale_ = 0;
     free_.reset();
     penalised_.reset();
@@ -215,14 +223,23 @@ class Equilibrator final : public EquilibriumSolver {
   /// A kind of energy, and a stiffness of another order of magnitude, need everything anew.
   void take_energy(const Body& body) {
     const double mean = mean_weight(body);
-    if (kind_ != body.softness().energy || !(mean < 10 * scale_ && mean > scale_ / 10)) {
-      kind_ = body.softness().energy;
+    const EnergyKind kind = energy_in(*mesh_, body.softness().energy);
+    if (kind_ != kind || !(mean < 10 * scale_ && mean > scale_ / 10)) {
+      kind_ = kind;
       scale_ = mean;
       free_.reset();
       penalised_.reset();
       penalised_matrix_.reset();
       end_constraints();
     }
+  }
+
+  bool uses_material() const { return kind_ == EnergyKind::material; }
+
+  /// The material has links only in its preconditioner, which follows when it is used.
+  void note_links() {
+    has_cuts_ = false;
+    iterations_ = 0;
   }
 
   void update_links(const Body& body) {
@@ -336,6 +353,8 @@ class Equilibrator final : public EquilibriumSolver {
   void hold_fixed() {
     for (std::size_t e = 0; e < fixed_.size(); ++e) {
       if (fixed_[e] != 0 && iterate_[e] != vector_of(shown_.positions[e])) {
+        jump_[e] += vector_of(shown_.positions[e]) - iterate_[e];
+        has_jump_ = true;
         iterate_[e] = vector_of(shown_.positions[e]);
         gradient_is_outdated_ = true;
         iterations_ = 0;
@@ -346,6 +365,10 @@ class Equilibrator final : public EquilibriumSolver {
   // Iterations.
 
   void step(const Progress& progress) {
+    if (uses_material()) {
+      material_step(progress);
+      return;
+    }
     constrained_ ? constrained_step(progress) : free_step(progress);
     ++iterations_;
     if (!constrained_ && residual_ < binds_below && !is_valid(iterate_)) {
@@ -366,6 +389,74 @@ class Equilibrator final : public EquilibriumSolver {
     }
     energy_of_iterate_ -= gradients_.step(energy_, free_, iterate_);
     note_distance(gradients_.distance());
+  }
+
+  /// One step of the search for the minimum of the material's energy, then of the forces of regions.
+  void material_step(const Progress& progress) {
+    prepare_material(progress);
+    material_.step(iterate_);
+    energy_of_iterate_ = material_.energy();
+    note_distance(material_.distance());
+    ++iterations_;
+    if (uses_regions_ && (constrained_ || residual_ < binds_below)) {
+      follow_regions();
+    }
+  }
+
+  void prepare_material(const Progress& progress) {
+    if (!material_.has_begun()) {
+      material_.begin(mesh_, progress.part(0, 0.3));
+      has_material_ = has_cuts_ = false;
+    }
+    if (!std::exchange(has_material_, true)) {
+      material_.set_material(shown_.body->elastic().material, StrainLaw());
+      has_cuts_ = false;
+    }
+    if (!std::exchange(has_cuts_, true)) {
+      material_.set_cuts(shown_.body->cuts());
+    }
+    for (ElementId e = 0; e < fixed_.size(); ++e) {
+      material_.set_fixed(e, fixed_[e] != 0);
+    }
+    prepared_ = material_.update(progress.part(0.3, 1)) || prepared_;
+    if (std::exchange(has_jump_, false)) {
+      for (ElementId e = 0; e < fixed_.size(); ++e) {
+        iterate_[e] -= jump_[e];
+      }
+      material_.extend(jump_, iterate_);
+      std::ranges::fill(jump_, Vector::Zero());
+    }
+    if (std::exchange(is_start_, false) && material_.is_inverted(iterate_)) {
+      try_rest();
+    }
+  }
+
+  /// Starts at rest, apart from what is fixed, if the energy is less there.
+  void try_rest() {
+    Vectors rest(iterate_.size(), Vector::Zero()), from_rest(iterate_.size(), Vector::Zero());
+    for (ElementId e = 0; e < fixed_.size(); ++e) {
+      if (fixed_[e] != 0) {
+        from_rest[e] = iterate_[e];
+      }
+    }
+    material_.extend(from_rest, rest);
+    if (material_.energy_of(rest) < material_.energy_of(iterate_)) {
+      iterate_ = std::move(rest);
+    }
+  }
+
+  /// Finds which regions bind, and moves their forces when the search has come closer than the links are outside.
+  void follow_regions() {
+    const double distance = residual_;
+    const auto square = [&] { return 2 * std::max(0.0, energy_of_iterate_) + unseen_energy(); };
+    const bool moves = constrained_ && distance * distance * square() < last_outside_;
+    const auto update = material_.regions().update(links(), iterate_, moves);
+    last_outside_ = update.outside;
+    constrained_ = !material_.regions().is_empty();
+    if (moves || !update.changed.empty()) {
+      material_.follow_regions(update.changed);
+    }
+    residual_ = std::max(distance, std::sqrt(update.outside / square()));
   }
 
   /// The energy of deflections that nobody sees: the residual of an object at rest is relative to this.
@@ -460,6 +551,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void end_constraints() {
+    material_.follow_regions(material_.regions().clear());
     constrained_ = false;
     gradient_is_outdated_ = true;
   }
@@ -472,7 +564,8 @@ class Equilibrator final : public EquilibriumSolver {
         shown_.for_each_neighbour(i, [&](ElementId j, EntryId entry) {
           if (j > i && (fixed_[i] == 0 || fixed_[j] == 0)) {
             const LinkId link = mesh_->entry_link[entry];
-            visit(link, i, j, shown_.regions[entry], stiffness_of(energy_.link(link)));
+            visit(link, i, j, shown_.regions[entry],
+                  uses_material() ? material_.stiffness(link) : stiffness_of(energy_.link(link)));
           }
         });
       }
@@ -635,6 +728,13 @@ class Equilibrator final : public EquilibriumSolver {
   double energy_of_iterate_ = 0;
   double residual_ = 0;
   int iterations_ = 0;
+
+  MaterialMinimum<D> material_;
+  bool has_material_ = false, has_cuts_ = false;  // it knows the body's
+  bool is_start_ = true;                          // the iterate was set from outside
+  Vectors jump_;                                  // by which fixed elements have moved since the last step
+  bool has_jump_ = false;
+  double last_outside_ = 0;
 
   bool constrained_ = false;  // valid regions bind
   RegionMultipliers<D> regions_;

@@ -16,7 +16,7 @@ struct EquilibriumCertificate {
   double violation = 0;  // largest violation of a link, in rest lengths
   double residual = 0;   // distance d from the equilibrium, as √(energy of d / energy)
   /// Energy above a lower bound (Lagrange's dual function) of the energy of all valid states, relative to the energy.
-  /// None for the corotated energy, which is not convex.
+  /// None for energies that are not convex: corotated links and the material.
   std::optional<double> gap;
   bool binds = false;  // true if valid regions change the equilibrium
   int iterations = 0;  // since the handle, the pins or the object changed
@@ -26,8 +26,8 @@ struct EquilibriumCertificate {
 /// pins stay.
 ///
 /// An iteration is one step, preconditioned by multigrid, of conjugate gradients, or of a quasi-Newton method (L-BFGS)
-/// for the corotated energy. Where valid regions bind, it is one step of the method of multipliers, see
-/// region_multipliers.h. Each iteration leaves the body in a valid state.
+/// for corotated links and the material. Where valid regions bind, it is one step of the method of multipliers, see
+/// region_multipliers.h and region_penalties.h. Each iteration leaves the body in a valid state.
 ///
 /// What is kept between iterations is compared with the body's revisions. A cut, a pin or another softness of some
 /// links updates the levels of the multigrid only around them.

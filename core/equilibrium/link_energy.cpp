@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "elastic/simplices.h"
 #include "equilibrium/corotated.h"
 
 namespace chainmail {
@@ -50,6 +51,10 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
     weights.lateral *= double(shares[link]);
   }
   return weights;
+}
+
+EnergyKind energy_in(const Mesh& mesh, EnergyKind kind) {
+  return kind == EnergyKind::material && !has_simplices(mesh) ? EnergyKind::corotated : kind;
 }
 
 double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {

@@ -35,6 +35,7 @@ struct LinkBlock {
 template <class Scalar, int Dimension>
 class LinkMatrix {
  public:
+  static constexpr int rows = Dimension, columns = 1, dimension = Dimension;
   using Block = LinkBlock<Scalar, Dimension>;
   using Vector = typename Block::Vector;
   using Square = typename Block::Square;

@@ -9,16 +9,17 @@
 namespace chainmail {
 namespace {
 
-/// A coarsest level with at most this many unknowns is solved directly.
-constexpr std::uint32_t max_direct_unknowns = 240;
+/// A coarsest level with at most this many unknowns is solved directly. A Laplacian's other levels cost less.
+template <class Matrix>
+constexpr std::uint32_t max_direct_unknowns = Matrix::columns == 1 ? 240 : 80;
 
 }  // namespace
 
-template <int Dimension>
-class Multigrid<Dimension>::Levels {
+template <class Matrix>
+class Multigrid<Matrix>::Levels {
  public:
-  static constexpr int modes = rigid_modes<Dimension>;
-  using Coarse = CoarseMatrix<modes>;
+  static constexpr int Dimension = Matrix::dimension, modes = rigid_modes<Dimension>, columns = Matrix::columns;
+  using Coarse = CoarseMatrix<modes, columns>;
 
   Levels(const Matrix& matrix, const Progress& progress) {
     finest_.build_smoother(matrix);
@@ -69,18 +70,18 @@ class Multigrid<Dimension>::Levels {
  private:
   struct Level {
     Coarse matrix;
-    MultigridStage<modes, Dimension> stage;  // to the next level
+    MultigridStage<modes, Dimension, columns> stage;  // to the next level
     typename Coarse::Vectors right, x;
   };
 
-  static bool is_coarsest(std::uint32_t count) { return count * modes <= max_direct_unknowns; }
+  static bool is_coarsest(std::uint32_t count) { return count * modes <= max_direct_unknowns<Matrix>; }
   /// After cuts, the coarsest level may have grown.
-  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * max_direct_unknowns; }
+  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * max_direct_unknowns<Matrix>; }
 
   static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
     std::vector<RigidFrame<Dimension>> frames(mesh.element_count());
     const double length = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
-    for (ElementId e = 0; e < frames.size(); ++e) {
+    for (ElementId e = 0; Dimension == mesh.space_dimension && e < frames.size(); ++e) {
       for (int k = 0; k < Dimension; ++k) {
         const double from_corner =
             mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] - mesh.box[0][mesh.axes[std::size_t(k)]];
@@ -134,31 +135,33 @@ class Multigrid<Dimension>::Levels {
   void solve_directly(Level& level) {
     const Eigen::Index size = Eigen::Index(level.right.size()) * modes;
     level.x.resize(level.right.size());
+    // A row of several columns is stored row by row.
+    using Numbers = Eigen::Matrix<float, Eigen::Dynamic, columns, columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
     if (size > 0) {
-      const Eigen::Map<const Eigen::VectorXf> right(level.right.front().data(), size);
-      Eigen::Map<Eigen::VectorXf>(level.x.front().data(), size) =
+      const Eigen::Map<const Numbers> right(level.right.front().data(), size, columns);
+      Eigen::Map<Numbers>(level.x.front().data(), size, columns) =
           direct_.solve(right.template cast<double>()).template cast<float>();
     }
   }
 
-  MultigridStage<Dimension, Dimension> finest_;
+  MultigridStage<Matrix::rows, Dimension, columns> finest_;
   std::vector<std::unique_ptr<Level>> levels_;  // all but the finest
   std::vector<RigidFrame<Dimension>> frames_;   // of the last level, while levels are built
   Eigen::LDLT<Eigen::MatrixXd> direct_;
   bool is_direct_ = true, was_direct_ = true;  // the coarsest level is solved directly: now, after the build
 };
 
-template <int Dimension>
-Multigrid<Dimension>::Multigrid() = default;
-template <int Dimension>
-Multigrid<Dimension>::Multigrid(Multigrid&&) noexcept = default;
-template <int Dimension>
-Multigrid<Dimension>& Multigrid<Dimension>::operator=(Multigrid&&) noexcept = default;
-template <int Dimension>
-Multigrid<Dimension>::~Multigrid() = default;
+template <class Matrix>
+Multigrid<Matrix>::Multigrid() = default;
+template <class Matrix>
+Multigrid<Matrix>::Multigrid(Multigrid&&) noexcept = default;
+template <class Matrix>
+Multigrid<Matrix>& Multigrid<Matrix>::operator=(Multigrid&&) noexcept = default;
+template <class Matrix>
+Multigrid<Matrix>::~Multigrid() = default;
 
-template <int Dimension>
-void Multigrid<Dimension>::build(const Matrix& matrix, const Progress& progress) {
+template <class Matrix>
+void Multigrid<Matrix>::build(const Matrix& matrix, const Progress& progress) {
   // Aggregates do not depend on what is fixed: another handle or pin changes little then.
   Matrix bare = matrix;
   std::vector<ElementId> rows;
@@ -175,21 +178,24 @@ void Multigrid<Dimension>::build(const Matrix& matrix, const Progress& progress)
   levels_ = std::move(levels);
 }
 
-template <int Dimension>
-void Multigrid<Dimension>::update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
+template <class Matrix>
+void Multigrid<Matrix>::update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
   levels_->update(matrix, rows, cut);
   if (levels_->has_outgrown()) {
     build(matrix);
   }
 }
 
-template <int Dimension>
-void Multigrid<Dimension>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution) {
+template <class Matrix>
+void Multigrid<Matrix>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution) {
   levels_->cycle(matrix, right, solution);
 }
 
-template class Multigrid<1>;
-template class Multigrid<2>;
-template class Multigrid<3>;
+template class Multigrid<LinkMatrix<float, 1>>;
+template class Multigrid<LinkMatrix<float, 2>>;
+template class Multigrid<LinkMatrix<float, 3>>;
+template class Multigrid<LinkLaplacian<1>>;
+template class Multigrid<LinkLaplacian<2>>;
+template class Multigrid<LinkLaplacian<4>>;
 
 }  // namespace chainmail

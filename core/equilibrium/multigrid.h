@@ -3,21 +3,24 @@
 #include <memory>
 #include <span>
 
+#include "equilibrium/link_laplacian.h"
 #include "equilibrium/link_matrix.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
 
-/// An approximate inverse of the matrix of an energy of links: one V-cycle of algebraic multigrid by smoothed
+/// An approximate inverse of the matrix of an energy: one V-cycle of algebraic multigrid by smoothed
 /// aggregation (Vaněk, Mandel and Brezina 1996). It is symmetric, so that conjugate gradients can use it.
 ///
 /// Neighbouring elements form aggregates. On the next coarser level an aggregate moves as a rigid body, so that the
 /// iterations do not grow in number if the lateral stiffness is small. Numbers are float: the result is only a
 /// preconditioner.
-template <int Dimension>
+///
+/// `Matrix` is a LinkMatrix in float, or a LinkLaplacian. The aggregates of a Laplacian do not turn: it has no other
+/// motions without energy than translations.
+template <class Matrix>
 class Multigrid {
  public:
-  using Matrix = LinkMatrix<float, Dimension>;
   using Vectors = typename Matrix::Vectors;
 
   Multigrid();

@@ -14,17 +14,18 @@
 
 namespace chainmail {
 
-/// The transfer from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each.
-template <int Rows, int Dimension>
+/// The transfer from one level to the next coarser one, and the smoother. Rows of `Rows` unknowns each, for
+/// each of `Columns` right-hand sides.
+template <int Rows, int Dimension, int Columns = 1>
 class MultigridStage {
  public:
   static constexpr int modes = rigid_modes<Dimension>;
   using Square = Eigen::Matrix<float, Rows, Rows>;
-  using Vector = Eigen::Matrix<float, Rows, 1>;
+  using Vector = Eigen::Matrix<float, Rows, Columns>;
   using Vectors = std::vector<Vector>;
   using Transfer = Eigen::Matrix<float, Rows, modes>;
   using Frames = std::vector<RigidFrame<Dimension>>;
-  using Coarse = CoarseMatrix<modes>;
+  using Coarse = CoarseMatrix<modes, Columns>;
 
   /// Prepares the smoother.
   template <class Matrix>
@@ -294,15 +295,15 @@ class MultigridStage {
   /// Returns the largest eigenvalue of the matrix after division by its diagonal blocks.
   template <class Matrix>
   float estimate_radius(const Matrix& matrix) {
-    if constexpr (Rows == Dimension) {
+    if constexpr (requires { matrix.mesh(); }) {
       return 2;  // a bound for every energy of links, since |a − b|² ≤ 2|a|² + 2|b|²
     }
     Vectors x(matrix.size()), product;
     std::uint32_t state = 1;
     for (Vector& one : x) {
-      for (int k = 0; k < Rows; ++k) {
+      for (int k = 0; k < Rows * Columns; ++k) {
         state = state * 1664525U + 1013904223U;
-        one[k] = float(state >> 8) / float(1 << 24) - 0.5F;
+        one(k / Columns, k % Columns) = float(state >> 8) / float(1 << 24) - 0.5F;
       }
     }
     float radius = 1;

@@ -88,7 +88,7 @@ class Preconditioner {
   }
 
   LinkMatrix<float, D> matrix_;
-  Multigrid<D> grid_;
+  Multigrid<LinkMatrix<float, D>> grid_;
   std::vector<ElementId> outdated_;
   bool cut_ = false;
   std::vector<Eigen::Matrix<float, D, 1>> right_, result_;

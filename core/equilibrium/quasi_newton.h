@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "equilibrium/block_vectors.h"
-#include "equilibrium/preconditioner.h"
 
 namespace chainmail {
 
@@ -21,8 +20,8 @@ class QuasiNewton {
 
   /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
   /// returns the energy. Returns false if no step lowers the energy.
-  template <class Evaluate>
-  bool step(Evaluate evaluate, Preconditioner<D>& preconditioner, Vectors& x, double& energy, Vectors& force) {
+  template <class Evaluate, class Preconditioner>
+  bool step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force) {
     find_direction(preconditioner, force);
     const double slope = dot(direction_, force);
     slope_ = std::max(0.0, slope);
@@ -64,7 +63,8 @@ class QuasiNewton {
     double product = 0;    // step · change
   };
 
-  void find_direction(Preconditioner<D>& preconditioner, const Vectors& force) {
+  template <class Preconditioner>
+  void find_direction(Preconditioner& preconditioner, const Vectors& force) {
     residual_ = force;
     std::vector<double> fractions(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {

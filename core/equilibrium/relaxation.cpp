@@ -13,6 +13,15 @@
 #include "equilibrium/small_quadratic.h"
 
 namespace chainmail {
+namespace {
+
+/// Returns the energy of links that sweeps lower.
+EnergyKind energy_of_sweeps(const Body& body) {
+  const EnergyKind kind = body.softness().energy;
+  return kind == EnergyKind::material ? EnergyKind::corotated : kind;
+}
+
+}  // namespace
 
 /// The visits of one slice.
 template <class View>
@@ -408,14 +417,14 @@ void Relaxation::follow(const Body& body) {
 
 /// Weighs the links again if their energy has changed.
 void Relaxation::follow_energy(const Body& body) {
-  if (energy_ != body.revisions().energy && body.softness().energy != EnergyKind::isotropic) {
+  if (energy_ != body.revisions().energy && energy_of_sweeps(body) != EnergyKind::isotropic) {
     energy_ = body.revisions().energy;
     weights_.resize(body.mesh().link_count());
     for (LinkId link = 0; link < body.mesh().link_count(); ++link) {
       weights_[link] = link_weights(*body.stored_mesh(), body.softness(), link);
     }
   }
-  if (body.softness().energy == EnergyKind::corotated && rotations_.empty()) {
+  if (energy_of_sweeps(body) == EnergyKind::corotated && rotations_.empty()) {
     rotations_.assign(body.mesh().element_count(), Eigen::Matrix3d::Identity());
     turned_.assign(body.mesh().element_count(), 0);
   }
@@ -472,7 +481,7 @@ RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget
   moved_.clear();
   follow_energy(body);
   const RelaxationResult result = body.with_view([&]<class View>(const View& view) {
-    return Slice<View>(*this, view, body.softness().energy, step, held).run(budget);
+    return Slice<View>(*this, view, energy_of_sweeps(body), step, held).run(budget);
   });
   if (result.largest_step > 0) {
     body.note_relaxation();

@@ -101,6 +101,8 @@ class ActiveSet {
 /// s)(r̂·Δ) r̂ + s Δ: along the link all of Δ, across it the fraction b/(1 + b). For isotropic energy s is 1, so the
 /// displacement is Δ.
 ///
+/// Sweeps know links only: with the energy of the material, they lower that of corotated links.
+///
 /// With corotated energy, an element is visited together with its rotation: first its neighbourhood is turned, then it
 /// moves, as if the rotations and the directions of links were constant.
 ///

@@ -5,6 +5,7 @@
 
 #include "body/region.h"
 #include "equilibrium/link_energy.h"
+#include "equilibrium/material_energy.h"
 
 namespace chainmail {
 namespace {
@@ -152,12 +153,15 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
   return sum.result();
 }
 
-double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
-  switch (softness.energy) {
+double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                      const Material& material) {
+  switch (energy_in(mesh, softness.energy)) {
     case EnergyKind::isotropic:
       return isotropic_energy(mesh, cuts, position);
     case EnergyKind::axial:
       return axial_energy(mesh, softness, cuts, position);
+    case EnergyKind::material:
+      return material_energy(mesh, material, cuts, position);
     default:
       return corotated_energy(mesh, softness, cuts, position);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/softness.h"
+#include "elastic/material.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "solver/solver.h"
@@ -78,8 +79,11 @@ class TouchedViolation {
 };
 
 /// Returns the elastic energy over the uncut links, of the kind that the softness names (see
-/// equilibrium/link_energy.h), in double. The isotropic one, ½ Σ |(x_j − x_i) − r_ij|², is in mesh units squared.
-double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
+/// equilibrium/link_energy.h), or of the material of its cells, in double. The isotropic one, ½ Σ |(x_j − x_i) −
+/// r_ij|², is in mesh units squared; that of the material, as neo-Hookean FEM has it, in units of Young's modulus times
+/// mesh units to the power of the space's dimension.
+double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                      const Material& material = {});
 
 /// Returns the displacement of the elements from rest (mesh units), in double.
 struct Displacement {

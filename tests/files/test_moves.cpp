@@ -313,7 +313,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "softness", "compression": 2, "stretch": 1, "shear": 0})", "0: compression: ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "stiffness": 0})", "0: stiffness: ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "energy": "elastic"})",
-      "0: there is no such kind of energy; use isotropic, axial or corotated");
+      "0: there is no such kind of energy; use isotropic, axial, corotated or material");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "object"}, "shaer": 1})",
       "0: 'shaer' is not a known key; ");
   row(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "own"}})",

@@ -12,6 +12,7 @@ make_bare() {
   debootstrap --variant=minbase "${2:-$suite}" "$folder" "$site" || return
   mount -t proc proc "$folder/proc" && mount --bind /dev "$folder/dev" && mount --bind /dev/pts "$folder/dev/pts" || return
   if [[ ${2:-$suite} == "$suite" ]]; then
+    rm -f "$folder/etc/apt/sources.list"  # of debootstrap: apt warns where a source is listed twice
     cp -r /etc/apt/sources.list /etc/apt/sources.list.d "$folder/etc/apt/" 2>/dev/null || true
     cp -r /usr/share/keyrings/. "$folder/usr/share/keyrings/"
   fi

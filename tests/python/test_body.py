@@ -142,7 +142,7 @@ def test_energy_and_elasticity():
     assert body.energy == "corotated"
     body.set_energy("axial")
     assert body.energy == "axial"
-    with pytest.raises(chainmail.Error, match="use isotropic, axial or corotated"):
+    with pytest.raises(chainmail.Error, match="use isotropic, axial, corotated or material"):
         body.set_energy("thermal")
     body.set_elasticity(chainmail.Elasticity(poisson=0.4))
     assert body.elasticity == chainmail.Elasticity(poisson=0.4)

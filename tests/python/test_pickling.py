@@ -198,7 +198,7 @@ def test_relaxation_continues(scheme, precision, method, many):
     assert_equal(continued(again, its_handle, scheme), continued(deformer, handle, scheme))
 
 
-@pytest.mark.parametrize("energy", ["isotropic", "axial", "corotated"])
+@pytest.mark.parametrize("energy", ["isotropic", "axial", "corotated", "material"])
 def test_relaxation_of_each_energy_continues(energy):
     deformer, _ = begun("natural-queue", "double", False, turned=False)
     deformer.body.set_energy(energy)

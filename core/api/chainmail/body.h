@@ -44,8 +44,9 @@ std::span<const SoftnessNumber> softness_numbers();
 /// The elastic energy, which relaxation lowers. See elastic_energy for the formulas.
 enum class EnergyKind {
   isotropic,  ///< Links resist motion along them and across them alike. Their stiffness does not count.
-  axial,     ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
-  corotated  ///< Links are springs, and resist motion across their rest vectors turned with their surroundings.
+  axial,  ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
+  corotated,  ///< Links are springs, and resist motion across their rest vectors turned with their surroundings.
+  material    ///< Cells resist as a material with Poisson's ratio. Without cells, links are corotated.
 };
 
 /// Settings of the methods of elasticity and of free-form deformation. The ChainMail family ignores them.

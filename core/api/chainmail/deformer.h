@@ -45,8 +45,8 @@ struct RelaxOptions {
 struct EquilibriumCertificate {
   double violation = 0;  ///< Largest violation of a link, in rest lengths.
   double residual = 0;   ///< Estimated distance from the equilibrium, as RelaxOptions::until.
-  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for the corotated
-  /// energy, which is not convex.
+  /// Energy above a lower bound of the energy of all valid states, relative to the energy. None for corotated
+  /// links and the material, whose energies are not convex.
   std::optional<double> energy_gap;
   bool regions_bind = false;  ///< True if valid regions change the equilibrium.
   int iterations = 0;         ///< Iterations since the handle, the pins or the object changed.

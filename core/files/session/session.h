@@ -70,7 +70,7 @@ bool is_session(const std::filesystem::path& path);
 ///          "texels": bytes in base 64}},
 ///      "cuts": [a, b of each cut link…], "pins": [id…],
 ///      "softness": {each number of softness_numbers,
-///        "energy": "isotropic", "axial" or "corotated",
+///        "energy": "isotropic", "axial", "corotated" or "material",
 ///        "frame": {"kind": "object" or "given", "rotation": [x, y, z: the axis times the angle in radians]},
 ///        "own": [both ends and all numbers of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},

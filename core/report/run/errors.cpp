@@ -49,7 +49,8 @@ void References::find_equilibrium() {
   const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
   try {
     equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
-                               simulation.body().positions(), cholesky_limit, chainmail::Progress(job));
+                               simulation.body().positions(), simulation.body().elastic().material, cholesky_limit,
+                               chainmail::Progress(job));
   } catch (const Cancelled&) {
     return;  // the result is not needed then
   }

@@ -348,7 +348,7 @@ double energy_in(const PlaneMatrix& matrix, const PlaneMatrix::Vectors& displace
 }
 
 /// Returns the iterations of conjugate gradients until an error has only a share of 1e-8 of its energy; most: 200.
-int iterations_of(Multigrid<2>& grid, const PlaneMatrix& matrix, PlaneMatrix::Vectors error) {
+int iterations_of(Multigrid<LinkMatrix<float, 2>>& grid, const PlaneMatrix& matrix, PlaneMatrix::Vectors error) {
   const double enough = 1e-8 * energy_in(matrix, error);
   PlaneMatrix::Vectors forces, step, direction(error.size(), Eigen::Vector2f::Zero());
   double before = 1;
@@ -383,7 +383,7 @@ void EquilibriumSolverTest::all_levels_follow_a_cut_and_its_undoing() {
   const auto mesh = make_mesh(MeshKind::cloth, {96, 96, 1});
   const double slit = 47.5;
   PlaneMatrix matrix = matrix_of(mesh);
-  Multigrid<2> kept, anew;
+  Multigrid<LinkMatrix<float, 2>> kept, anew;
   kept.build(matrix);
   const auto error = halves_apart(*mesh, slit);
   std::vector<ElementId> rows;

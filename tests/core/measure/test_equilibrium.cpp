@@ -51,7 +51,7 @@ std::unique_ptr<Solver> displaced(const MeshPointer& mesh, const std::vector<std
 
 Equilibrium solve(const Mesh& mesh, const Solver& solver, const std::vector<ElementId>& fixed,
                   const Softness& softness = wide, std::uint64_t limit = cholesky_limit) {
-  auto result = equilibrium(mesh, softness, solver.body().cuts(), fixed, solver.body().positions(), limit);
+  auto result = equilibrium(mesh, softness, solver.body().cuts(), fixed, solver.body().positions(), {}, limit);
   if (!result) {
     throw std::runtime_error("there is no equilibrium");
   }

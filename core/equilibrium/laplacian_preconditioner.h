@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "equilibrium/multigrid.h"
+
+namespace chainmail {
+
+/// The weighted Laplacian of the links with its multigrid, which is brought up to date when it is used. It serves all
+/// axes at once.
+template <int D>
+class LaplacianPreconditioner {
+ public:
+  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
+
+  void begin(MeshPointer mesh) {
+    matrix_ = Matrix(std::move(mesh));
+    grid_ = {};
+    outdated_.clear();
+    cut_ = false;
+  }
+  const Mesh& mesh() const { return matrix_.mesh(); }
+  bool is_fixed(ElementId element) const { return matrix_.is_fixed(element); }
+
+  void set_link(LinkId link, double weight) {
+    matrix_.set_link(link, static_cast<float>(weight));
+    const auto [i, j] = mesh().links[link];
+    outdated_.insert(outdated_.end(), {i, j});
+    cut_ = cut_ || weight == 0;
+  }
+  void set_fixed(ElementId element, bool fixed) {
+    matrix_.set_fixed(element, fixed);
+    outdated_.push_back(element);
+    const auto neighbours = mesh().neighbours_of(element);
+    outdated_.insert(outdated_.end(), neighbours.begin(), neighbours.end());
+  }
+
+  /// Returns true if it built a multigrid.
+  bool update(const Progress& progress) {
+    std::ranges::sort(outdated_);
+    outdated_.erase(std::ranges::unique(outdated_).begin(), outdated_.end());
+    const bool builds = !grid_.is_built() || outdated_.size() > matrix_.size() / 2;
+    if (builds) {
+      grid_.build(matrix_, progress);
+    } else if (!outdated_.empty()) {
+      grid_.update(matrix_, outdated_, cut_);
+    }
+    outdated_.clear();
+    cut_ = false;
+    return builds;
+  }
+
+  void apply(const Vectors& right, Vectors& result) {
+    double largest = 0;
+    for (const auto& one : right) {
+      largest = std::max(largest, one.cwiseAbs().maxCoeff());
+    }
+    const double scale = largest > 0 ? 1 / largest : 1;
+    right_.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      right_[i].setZero();
+      right_[i].template head<D>() = (right[i] * scale).transpose().template cast<float>();
+    }
+    grid_.cycle(matrix_, right_, result_);
+    result.resize(right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      result[i] = result_[i].template head<D>().transpose().template cast<double>() / scale;
+    }
+  }
+
+ private:
+  // Four numbers are one register, three are not.
+  using Matrix = LinkLaplacian<D == 3 ? 4 : D>;
+
+  Matrix matrix_;
+  Multigrid<Matrix> grid_;
+  std::vector<ElementId> outdated_;  // rows
+  bool cut_ = false;
+  typename Matrix::Vectors right_, result_;
+};
+
+}  // namespace chainmail

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace chainmail {
+
+/// The weighted Laplacian of the links of a mesh: a row per element, a weight per link. It multiplies several columns
+/// at once, such as the axes of displacements. Rows and columns of fixed elements are left out: vectors are 0 there,
+/// before and after.
+template <int Columns>
+class LinkLaplacian {
+ public:
+  static constexpr int rows = 1, columns = Columns, dimension = 1;
+  using Square = Eigen::Matrix<float, 1, 1>;
+  using Vector = Eigen::Matrix<float, 1, Columns>;
+  using Vectors = std::vector<Vector>;
+
+  LinkLaplacian() = default;
+  explicit LinkLaplacian(MeshPointer mesh)
+      : mesh_(std::move(mesh)),
+        weights_(mesh_->neighbours.size()),
+        sums_(mesh_->element_count()),
+        fixed_(mesh_->element_count()) {}
+
+  const Mesh& mesh() const { return *mesh_; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(fixed_.size()); }
+  bool is_fixed(ElementId element) const { return fixed_[element] != 0; }
+  void set_fixed(ElementId element, bool fixed) { fixed_[element] = fixed ? 1 : 0; }
+
+  void set_link(LinkId link, float weight) {
+    const auto [i, j] = mesh_->links[link];
+    for (const ElementId end : {i, j}) {
+      for (EntryId entry = mesh_->first_entry[end]; entry < mesh_->first_entry[end + 1]; ++entry) {
+        if (mesh_->entry_link[entry] == link) {
+          weights_[entry] = weight;
+        }
+      }
+      add_up(end);
+    }
+  }
+
+  /// Returns the product with a vector, which is 0 at fixed elements.
+  void apply(const Vectors& x, Vectors& product) const {
+    product.resize(x.size());
+    for (ElementId e = 0; e < fixed_.size(); ++e) {
+      product[e] = fixed_[e] != 0 ? Vector(Vector::Zero()) : row_times(e, x);
+    }
+  }
+
+  /// Calls visit(column, block) for each number of a row, the one on the diagonal last. A fixed element has none.
+  template <class Visit>
+  void for_each_in_row(std::uint32_t row, Visit visit) const {
+    if (is_fixed(row)) {
+      return;
+    }
+    for (EntryId entry = mesh_->first_entry[row]; entry < mesh_->first_entry[row + 1]; ++entry) {
+      if (!is_fixed(mesh_->neighbours[entry]) && weights_[entry] != 0) {
+        visit(mesh_->neighbours[entry], Square(-weights_[entry]));
+      }
+    }
+    visit(row, Square(sums_[row]));
+  }
+
+ private:
+  Vector row_times(ElementId e, const Vectors& x) const {
+    Vector sum = sums_[e] * x[e];
+    for (EntryId entry = mesh_->first_entry[e]; entry < mesh_->first_entry[e + 1]; ++entry) {
+      sum -= weights_[entry] * x[mesh_->neighbours[entry]];
+    }
+    return sum;
+  }
+
+  void add_up(ElementId element) {
+    float sum = 0;
+    for (EntryId entry = mesh_->first_entry[element]; entry < mesh_->first_entry[element + 1]; ++entry) {
+      sum += weights_[entry];
+    }
+    sums_[element] = sum;
+  }
+
+  MeshPointer mesh_;
+  std::vector<float> weights_;  // of each entry of the table of neighbours
+  std::vector<float> sums_;     // of each element: of its weights
+  std::vector<std::uint8_t> fixed_;
+};
+
+}  // namespace chainmail

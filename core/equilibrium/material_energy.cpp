@@ -1,0 +1,353 @@
+#include "equilibrium/material_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace chainmail {
+namespace {
+
+// Weights of links are at least this share of their mean: obtuse cells would give some of them the wrong sign.
+constexpr double least_weight = 0.02;
+
+double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
+
+template <int D>
+double energy_in_space(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position) {
+  MaterialEnergy<D> energy;
+  energy.build(MeshPointer(std::shared_ptr<void>(), &mesh));
+  energy.set_material(material, StrainLaw());
+  energy.set_cuts(cuts);
+  energy.set_extension_below(MaterialEnergy<D>::measured_below);
+  typename MaterialEnergy<D>::Vectors displacements(mesh.element_count());
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    for (int k = 0; k < D; ++k) {
+      displacements[e][k] = position(e, k) - mesh.rest[std::size_t{e} * D + std::size_t(k)];
+    }
+  }
+  return energy.evaluate(displacements, nullptr) * energy.scale() * material.young;
+}
+
+}  // namespace
+
+template <int D>
+void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
+  mesh_ = std::move(mesh);
+  cells_ = build_cell_simplices(*mesh_, progress);
+  const std::size_t count = cells_.simplices.count();
+  is_whole_.assign(cells_.cell_count(), 1);
+  is_cut_.assign(mesh_->link_count(), 0);
+  whole_beside_.assign(mesh_->element_count(), 0);
+  first_simplex_.assign(cells_.cell_count() + 1, 0);
+  batches_.assign((count + lanes - 1) / lanes, Batch{});
+  for (std::size_t s = 0; s < count; ++s) {
+    Batch& batch = batches_[s / lanes];
+    const auto corners = cells_.simplices.corners_of(s);
+    const auto gradients = cells_.simplices.gradients_of(s);
+    for (int k = 0; k <= D; ++k) {
+      batch.corner[std::size_t(k)][s % lanes] = corners[std::size_t(k)];
+      ++whole_beside_[corners[std::size_t(k)]];
+      for (int axis = 0; k > 0 && axis < D; ++axis) {
+        batch.gradient[std::size_t(k - 1)][std::size_t(axis)][Eigen::Index(s % lanes)] = gradients(axis, k);
+      }
+    }
+    ++first_simplex_[cells_.cell_of[s] + 1];
+  }
+  for (std::size_t cell = 0; cell + 1 < first_simplex_.size(); ++cell) {
+    first_simplex_[cell + 1] += first_simplex_[cell];
+  }
+  find_cell_links();
+}
+
+/// Turns the table of links by cell into one of cells by link.
+template <int D>
+void MaterialEnergy<D>::find_cell_links() {
+  first_cell_.assign(mesh_->link_count() + 1, 0);
+  for (const LinkId link : cells_.links) {
+    ++first_cell_[link + 1];
+  }
+  for (std::size_t link = 0; link < mesh_->link_count(); ++link) {
+    first_cell_[link + 1] += first_cell_[link];
+  }
+  std::vector<std::uint32_t> next(first_cell_.begin(), first_cell_.end() - 1);
+  cell_beside_.resize(cells_.links.size());
+  for (std::uint32_t cell = 0; cell < cells_.cell_count(); ++cell) {
+    for (const LinkId link : cells_.links_of(cell)) {
+      cell_beside_[next[link]++] = cell;
+    }
+  }
+}
+
+template <int D>
+void MaterialEnergy<D>::set_material(const Material& material, const StrainLaw& law) {
+  lame_ = lame({1, material.poisson});
+  is_neo_hookean_ = law.kind == StrainLaw::Kind::neo_hookean;
+  density_ = ExtendedDensity(law, lame_, D);
+  scale_ = 1;
+  double sum = 0;
+  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    sum += std::max(0.0, stiffness_around(link)) / mesh_->link_count();
+  }
+  scale_ = sum > 0 && std::isfinite(sum) ? sum : 1;
+  for (std::uint32_t s = 0; s < cells_.simplices.count(); ++s) {
+    set_volume(s, is_whole_[cells_.cell_of[s]] != 0);
+  }
+}
+
+template <int D>
+void MaterialEnergy<D>::set_volume(std::uint32_t simplex, bool is_whole) {
+  batches_[simplex / lanes].volume[Eigen::Index(simplex % lanes)] =
+      is_whole ? cells_.simplices.volumes[simplex] / scale_ : 0;
+}
+
+template <int D>
+void MaterialEnergy<D>::set_cell(std::uint32_t cell, bool is_whole) {
+  is_whole_[cell] = is_whole ? 1 : 0;
+  for (std::uint32_t s = first_simplex_[cell]; s < first_simplex_[cell + 1]; ++s) {
+    set_volume(s, is_whole);
+    for (const ElementId corner : cells_.simplices.corners_of(s)) {
+      whole_beside_[corner] += is_whole ? 1 : std::uint32_t(-1);
+    }
+  }
+}
+
+template <int D>
+std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
+  std::vector<LinkId> changed;
+  std::vector<std::uint32_t> cells;
+  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    if (const std::uint8_t now = cuts.is_cut(link) ? 1 : 0; now != is_cut_[link]) {
+      is_cut_[link] = now;
+      changed.push_back(link);
+      cells.insert(cells.end(), cell_beside_.begin() + first_cell_[link], cell_beside_.begin() + first_cell_[link + 1]);
+    }
+  }
+  std::ranges::sort(cells);
+  cells.erase(std::ranges::unique(cells).begin(), cells.end());
+  for (const std::uint32_t cell : cells) {
+    const auto links = cells_.links_of(cell);
+    const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
+    if (whole != (is_whole_[cell] != 0)) {
+      set_cell(cell, whole);
+      changed.insert(changed.end(), links.begin(), links.end());
+    }
+  }
+  std::ranges::sort(changed);
+  changed.erase(std::ranges::unique(changed).begin(), changed.end());
+  if (!changed.empty() || loose_.empty()) {
+    find_loose_links(cuts);
+  }
+  return changed;
+}
+
+template <int D>
+void MaterialEnergy<D>::find_loose_links(const Cuts& cuts) {
+  loose_.clear();
+  loose_rest_.clear();
+  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    const auto [i, j] = mesh_->links[link];
+    if ((whole_beside_[i] == 0 || whole_beside_[j] == 0) && !cuts.is_cut(link)) {
+      loose_.push_back(link);
+      loose_rest_.push_back(rest_length(*mesh_, link));
+    }
+  }
+}
+
+/// Returns the sum over the simplices that have both ends of a link of −V (2μ + λ) ∇a·∇b.
+template <int D>
+double MaterialEnergy<D>::stiffness_around(LinkId link) const {
+  const auto [i, j] = mesh_->links[link];
+  double sum = 0;
+  for (std::uint32_t at = first_cell_[link]; at < first_cell_[link + 1]; ++at) {
+    const std::uint32_t cell = cell_beside_[at];
+    for (std::uint32_t s = first_simplex_[cell]; is_whole_[cell] != 0 && s < first_simplex_[cell + 1]; ++s) {
+      const auto corners = cells_.simplices.corners_of(s);
+      const auto a = std::ranges::find(corners, i), b = std::ranges::find(corners, j);
+      if (a != corners.end() && b != corners.end()) {
+        const auto gradients = cells_.simplices.gradients_of(s);
+        sum -= cells_.simplices.volumes[s] * gradients.col(a - corners.begin()).dot(gradients.col(b - corners.begin()));
+      }
+    }
+  }
+  return sum * modulus_of(lame_) / scale_;
+}
+
+template <int D>
+double MaterialEnergy<D>::weight(LinkId link) const {
+  if (is_cut_[link] != 0) {
+    return 0;
+  }
+  const auto [i, j] = mesh_->links[link];
+  const bool is_loose = whole_beside_[i] == 0 || whole_beside_[j] == 0;
+  return is_loose ? 1 : std::max(least_weight, stiffness_around(link));
+}
+
+template <int D>
+double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force) {
+  if (force != nullptr) {
+    force->assign(displacements.size(), Vector::Zero());
+  }
+  double energy = 0;
+  Lanes least = Lanes::Ones();
+  for (const Batch& batch : batches_) {
+    energy += evaluate(batch, displacements, force, least);
+  }
+  least_ = least.minCoeff();
+  return energy + add_loose_links(displacements, force);
+}
+
+template <int D>
+double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displacements, Vectors* force,
+                                   Lanes& least) const {
+  Matrix apart;  // [corner − 1][axis]: from the first corner's displacement
+  for (int k = 0; k < D; ++k) {
+    for (int l = 0; l < lanes; ++l) {
+      const Vector& first = displacements[batch.corner[0][std::size_t(l)]];
+      const Vector& here = displacements[batch.corner[std::size_t(k) + 1][std::size_t(l)]];
+      for (int axis = 0; axis < D; ++axis) {
+        apart[std::size_t(k)][std::size_t(axis)][l] = here[axis] - first[axis];
+      }
+    }
+  }
+  Matrix strain;  // F − 1
+  for (std::size_t row = 0; row < D; ++row) {
+    for (std::size_t column = 0; column < D; ++column) {
+      Lanes sum = apart[0][row] * batch.gradient[0][column];
+      for (std::size_t k = 1; k < D; ++k) {
+        sum += apart[k][row] * batch.gradient[k][column];
+      }
+      strain[row][column] = sum;
+    }
+  }
+  Lanes energy, determinant;
+  Matrix stress;
+  find_stress(strain, batch.volume, energy, determinant, force != nullptr ? &stress : nullptr);
+  least = (batch.volume > 0).select(least.min(determinant), least);
+  if (force != nullptr) {
+    std::array<std::array<Lanes, D>, D + 1> pull;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      pull[0][axis].setZero();
+      for (std::size_t k = 0; k < D; ++k) {
+        Lanes sum = stress[axis][0] * batch.gradient[k][0];
+        for (std::size_t column = 1; column < D; ++column) {
+          sum += stress[axis][column] * batch.gradient[k][column];
+        }
+        pull[k + 1][axis] = sum;
+        pull[0][axis] -= sum;
+      }
+    }
+    for (int l = 0; l < lanes; ++l) {
+      for (std::size_t k = 0; k <= D; ++k) {
+        Vector& sum = (*force)[batch.corner[k][std::size_t(l)]];
+        for (std::size_t axis = 0; axis < D; ++axis) {
+          sum[Eigen::Index(axis)] -= pull[k][axis][l];
+        }
+      }
+    }
+  }
+  return energy.sum();
+}
+
+/// Returns the energy, and the first Piola-Kirchhoff stress times the volume.
+template <int D>
+void MaterialEnergy<D>::find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant,
+                                    Matrix* stress) const {
+  Matrix f = strain;
+  Lanes shape = Lanes::Zero();
+  for (std::size_t i = 0; i < D; ++i) {
+    f[i][i] += 1;
+    shape += 2 * strain[i][i];
+    for (std::size_t j = 0; j < D; ++j) {
+      shape += strain[i][j] * strain[i][j];
+    }
+  }
+  Matrix cofactor;
+  if constexpr (D == 1) {
+    cofactor[0][0].setOnes();
+  } else if constexpr (D == 2) {
+    cofactor = {{{f[1][1], -f[1][0]}, {-f[0][1], f[0][0]}}};
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::size_t c = (j + 1) % 3, d = (j + 2) % 3;
+        cofactor[i][j] = f[a][c] * f[b][d] - f[a][d] * f[b][c];
+      }
+    }
+  }
+  determinant = f[0][0] * cofactor[0][0];
+  for (std::size_t j = 1; j < D; ++j) {
+    determinant += f[0][j] * cofactor[0][j];
+  }
+  Lanes value, by_shape, by_volume;
+  find_density(shape, determinant, value, by_shape, by_volume);
+  energy = volume * value;
+  if (stress != nullptr) {
+    by_shape *= 2 * volume;
+    by_volume *= volume;
+    for (std::size_t i = 0; i < D; ++i) {
+      for (std::size_t j = 0; j < D; ++j) {
+        (*stress)[i][j] = by_shape * f[i][j] + by_volume * cofactor[i][j];
+      }
+    }
+  }
+}
+
+template <int D>
+void MaterialEnergy<D>::find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
+                                     Lanes& by_volume) const {
+  if (D == 3 && is_neo_hookean_) {
+    const auto [mu, lambda] = lame_;
+    const double slope = density_.slope_below(), curvature = density_.curvature_below();
+    const Lanes inside = determinant.max(density_.least_volume()), below = determinant - inside;
+    const Lanes log = inside.log();
+    value = mu / 2 * shape + log * (lambda / 2 * log - mu) + below * (slope + curvature / 2 * below);
+    by_shape.setConstant(mu / 2);
+    by_volume = (lambda * log - mu) / inside + curvature * below;
+    return;
+  }
+  for (int l = 0; l < lanes; ++l) {
+    const auto one = density_.at(shape[l], determinant[l]);
+    value[l] = one.value;
+    by_shape[l] = one.by_shape;
+    by_volume[l] = one.by_volume;
+  }
+}
+
+template <int D>
+double MaterialEnergy<D>::add_loose_links(const Vectors& displacements, Vectors* force) const {
+  double energy = 0;
+  for (std::size_t k = 0; k < loose_.size(); ++k) {
+    const auto [i, j] = mesh_->links[loose_[k]];
+    Vector apart = displacements[j] - displacements[i];
+    for (int axis = 0; axis < D; ++axis) {
+      apart[axis] +=
+          mesh_->rest[std::size_t{j} * D + std::size_t(axis)] - mesh_->rest[std::size_t{i} * D + std::size_t(axis)];
+    }
+    const double length = apart.norm(), longer = length - loose_rest_[k];
+    energy += longer * longer / 2;
+    if (force != nullptr && length > 0) {
+      const Vector pull = longer / length * apart;
+      (*force)[i] += pull;
+      (*force)[j] -= pull;
+    }
+  }
+  return energy;
+}
+
+template class MaterialEnergy<1>;
+template class MaterialEnergy<2>;
+template class MaterialEnergy<3>;
+
+double material_energy(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position) {
+  switch (mesh.space_dimension) {
+    case 1:
+      return energy_in_space<1>(mesh, material, cuts, position);
+    case 2:
+      return energy_in_space<2>(mesh, material, cuts, position);
+    default:
+      return energy_in_space<3>(mesh, material, cuts, position);
+  }
+}
+
+}  // namespace chainmail

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "body/positions.h"
+#include "elastic/simplices.h"
+#include "elastic/stiffening.h"
+#include "mesh/cuts.h"
+
+namespace chainmail {
+
+/// The elastic energy of the material of an object's cells, as neo-Hookean finite elements have it: constant strain in
+/// the simplices of its cells (see elastic/simplices.h), with the density of elastic/stiffening.h, which is defined for
+/// inverted cells too. In a plane it is that of plane stress.
+///
+/// A cut link removes the cells along it. An element that no cell holds any more is kept by its links: springs of
+/// their rest lengths, as stiff as the cells around a mean link.
+///
+/// Energies are divided by the mean stiffness of links, see weight(), so that numbers are near 1.
+template <int Dimension>
+class MaterialEnergy {
+ public:
+  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Square = Eigen::Matrix<double, Dimension, Dimension>;
+  using Vectors = std::vector<Vector>;
+
+  /// Makes the cells of a mesh, none cut. Throws Cancelled.
+  void build(MeshPointer mesh, const Progress& progress = {});
+  /// Sets Poisson's ratio and the law. Young's modulus does not move a minimum. Changes all weights.
+  void set_material(const Material& material, const StrainLaw& law);
+  /// Removes and restores cells. Returns the links whose weights changed, ascending.
+  std::vector<LinkId> set_cuts(const Cuts& cuts);
+
+  /// The stiffness of a link in an approximation of the energy: the Laplacian of the cells with the modulus 2μ + λ
+  /// (after Liu, Bouaziz and Kavan 2017), without the entries of the wrong sign of obtuse cells. 0 if the link is cut.
+  double weight(LinkId link) const;
+
+  /// Returns the energy at these displacements from rest, and writes its negative gradient, if given.
+  double evaluate(const Vectors& displacements, Vectors* force);
+  /// The least ratio of a cell's volume to that at rest in the last evaluation; below 0 if a cell is inverted.
+  double least_volume() const { return least_; }
+  /// See ExtendedDensity. Where an energy is measured, the ratio is `measured_below`.
+  static constexpr double measured_below = 0.01;
+  void set_extension_below(double volume) { density_.set_least_volume(volume); }
+  double extension_below() const { return density_.least_volume(); }
+  /// The energy that counts as 1, for a Young's modulus of 1.
+  double scale() const { return scale_; }
+
+ private:
+  // Simplices that the processor computes at once.
+  static constexpr int lanes = 4;
+  using Lanes = Eigen::Array<double, lanes, 1>;
+
+  struct Batch {
+    std::array<std::array<ElementId, lanes>, Dimension + 1> corner;
+    std::array<std::array<Lanes, Dimension>, Dimension> gradient;  // [corner − 1][axis]: of its shape function
+    Lanes volume;                                                  // divided by the scale; 0 if the cell is gone
+  };
+  using Matrix = std::array<std::array<Lanes, Dimension>, Dimension>;  // [row][column]
+
+  void find_cell_links();
+  void set_cell(std::uint32_t cell, bool is_whole);
+  void set_volume(std::uint32_t simplex, bool is_whole);
+  double stiffness_around(LinkId link) const;
+  void find_loose_links(const Cuts& cuts);
+  double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, Lanes& least) const;
+  void find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant, Matrix* stress) const;
+  void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
+                    Lanes& by_volume) const;
+  double add_loose_links(const Vectors& displacements, Vectors* force) const;
+
+  MeshPointer mesh_;
+  CellSimplices cells_;
+  std::vector<std::uint32_t> first_simplex_;             // of each cell, and the end
+  std::vector<std::uint32_t> first_cell_, cell_beside_;  // of each link: the cells that need it
+  std::vector<std::uint8_t> is_whole_;                   // of each cell
+  std::vector<std::uint32_t> whole_beside_;              // of each element: its whole cells
+  std::vector<std::uint8_t> is_cut_;                     // of each link
+  std::vector<Batch> batches_;
+  std::vector<LinkId> loose_;       // uncut links with an end that no cell holds
+  std::vector<double> loose_rest_;  // their rest lengths (mesh units)
+
+  Lame lame_;
+  bool is_neo_hookean_ = true;
+  ExtendedDensity density_{StrainLaw(), Lame{0.5, 0}, Dimension};
+  double scale_ = 1;
+  double least_ = 1;
+};
+
+extern template class MaterialEnergy<1>;
+extern template class MaterialEnergy<2>;
+extern template class MaterialEnergy<3>;
+
+/// Returns the energy of the material of a mesh's uncut cells, in units of Young's modulus times mesh units to the
+/// power of the space's dimension. The mesh has cells, see has_simplices.
+double material_energy(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position);
+
+}  // namespace chainmail

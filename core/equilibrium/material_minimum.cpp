@@ -1,0 +1,155 @@
+#include "equilibrium/material_minimum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace chainmail {
+namespace {
+
+// The ratio of volumes below which the energy is extended at the beginning of a search.
+constexpr double soft_below = 0.5;
+// With a cell below it, the ratio is lowered only when the search has come this close to the minimum (relative).
+constexpr double close = 0.02;
+
+}  // namespace
+
+template <int D>
+void MaterialMinimum<D>::begin(const MeshPointer& mesh, const Progress& progress) {
+  has_begun_ = false;
+  energy_.build(mesh, progress);
+  preconditioner_.begin(mesh);
+  regions_.begin(mesh->link_count());
+  weights_.assign(mesh->link_count(), 0);
+  has_begun_ = true;
+  forget();
+}
+
+template <int D>
+void MaterialMinimum<D>::set_material(const Material& material, const StrainLaw& law) {
+  energy_.set_material(material, law);
+  for (LinkId link = 0; link < weights_.size(); ++link) {
+    weights_[link] = energy_.weight(link);
+    preconditioner_.set_link(link, weights_[link]);
+  }
+  regions_.clear();
+  forget();
+}
+
+template <int D>
+void MaterialMinimum<D>::set_cuts(const Cuts& cuts) {
+  const std::vector<LinkId> changed = energy_.set_cuts(cuts);
+  for (const LinkId link : changed) {
+    weights_[link] = energy_.weight(link);
+  }
+  follow_regions(changed);
+  newton_.forget();
+}
+
+template <int D>
+void MaterialMinimum<D>::set_fixed(ElementId element, bool fixed) {
+  if (preconditioner_.is_fixed(element) == fixed) {
+    return;
+  }
+  preconditioner_.set_fixed(element, fixed);
+  newton_.forget();
+  is_outdated_ = true;
+}
+
+template <int D>
+void MaterialMinimum<D>::forget() {
+  newton_.forget();
+  is_outdated_ = true;
+  energy_.set_extension_below(soft_below);
+}
+
+template <int D>
+bool MaterialMinimum<D>::update(const Progress& progress) {
+  return preconditioner_.update(progress);
+}
+
+template <int D>
+void MaterialMinimum<D>::extend(const Vectors& jump, Vectors& at) {
+  const Mesh& mesh = preconditioner_.mesh();
+  pull_.assign(at.size(), Vectors::value_type::Zero());
+  for (ElementId e = 0; e < at.size(); ++e) {
+    if (jump[e].isZero(0)) {
+      continue;
+    }
+    at[e] += jump[e];
+    for (EntryId entry = mesh.first_entry[e]; entry < mesh.first_entry[e + 1]; ++entry) {
+      if (const ElementId other = mesh.neighbours[entry]; !preconditioner_.is_fixed(other)) {
+        pull_[other] += weights_[mesh.entry_link[entry]] * jump[e];
+      }
+    }
+  }
+  preconditioner_.apply(pull_, step_);
+  add(at, 1, step_);
+  is_outdated_ = true;
+}
+
+template <int D>
+bool MaterialMinimum<D>::is_inverted(const Vectors& at) {
+  energy_.evaluate(at, nullptr);
+  return energy_.least_volume() < 0;
+}
+
+template <int D>
+double MaterialMinimum<D>::evaluate(const Vectors& at, Vectors& force) {
+  double value = energy_.evaluate(at, &force);
+  value += regions_.add(at, &force);
+  for (ElementId e = 0; e < force.size(); ++e) {
+    if (preconditioner_.is_fixed(e)) {
+      force[e].setZero();
+    }
+  }
+  return value;
+}
+
+/// Lowers the ratio below which the energy is extended: at once where that changes nothing, step by step otherwise.
+template <int D>
+void MaterialMinimum<D>::harden(const Vectors& at) {
+  const double present = energy_.extension_below(), least = energy_.least_volume();
+  double wanted = present;
+  if (least >= present) {
+    wanted = MaterialEnergy<D>::measured_below;
+  } else if (distance_ < close * std::sqrt(2 * std::max(0.0, value_))) {
+    wanted = std::max({MaterialEnergy<D>::measured_below, least, present / 4});
+  }
+  if (wanted < present) {
+    energy_.set_extension_below(wanted);
+    if (least < present) {
+      value_ = evaluate(at, force_);
+    }
+  }
+}
+
+template <int D>
+void MaterialMinimum<D>::step(Vectors& at) {
+  if (is_outdated_) {
+    value_ = evaluate(at, force_);
+    distance_ = std::numeric_limits<double>::infinity();
+    is_outdated_ = false;
+  }
+  harden(at);
+  const auto value_at = [this](const Vectors& x, Vectors& force) { return evaluate(x, force); };
+  // Without what it has learned, a step fails only where rounding hides the way down.
+  const bool lowered = newton_.step(value_at, preconditioner_, at, value_, force_) ||
+                       newton_.step(value_at, preconditioner_, at, value_, force_);
+  distance_ = lowered ? newton_.distance() : 0;
+}
+
+template <int D>
+void MaterialMinimum<D>::follow_regions(std::span<const LinkId> changed) {
+  for (const LinkId link : changed) {
+    const double penalty = regions_.is_active(link) ? RegionPenalties<D>::penalty : 0;
+    preconditioner_.set_link(link, (1 + penalty) * weights_[link]);
+  }
+  is_outdated_ = true;
+}
+
+template class MaterialMinimum<1>;
+template class MaterialMinimum<2>;
+template class MaterialMinimum<3>;
+
+}  // namespace chainmail

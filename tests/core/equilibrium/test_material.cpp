@@ -1,0 +1,386 @@
+#include <QtTest>
+#include <cmath>
+#include <random>
+
+#include "core/scenarios.h"
+#include "elastic/elastic.h"
+#include "elastic/energy.h"
+#include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/material_energy.h"
+#include "measure/violation.h"
+#include "mesh/generate.h"
+#include "mesh/layers.h"
+#include "program.h"
+
+namespace chainmail::test_material {
+
+using namespace chainmail::test;
+
+/// The energy of the material and its minimum, against finite elements that share no code with it but the cells.
+class MaterialTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_force_is_the_slope_of_the_energy_data();
+  void the_force_is_the_slope_of_the_energy();
+  void the_energy_equals_finite_elements();
+  void the_minimum_equals_finite_elements_data();
+  void the_minimum_equals_finite_elements();
+  void it_is_found_from_any_start_data();
+  void it_is_found_from_any_start();
+  void it_is_found_after_half_the_width_in_one_move();
+  void no_iteration_raises_the_energy();
+  void a_cut_gives_the_minimum_of_the_cut_object();
+  void a_turned_object_has_no_energy();
+  void links_without_cells_keep_their_length();
+  void regions_bind_where_they_bind();
+};
+
+namespace {
+
+template <int D>
+using Vectors = typename MaterialEnergy<D>::Vectors;
+
+MeshPointer block(MeshKind kind, std::uint32_t width) { return generate({kind, {width, width, width}, 1, {}}); }
+
+/// An object held at its left side, and a patch around its last element that moves.
+struct Scene {
+  explicit Scene(MeshPointer object, double patch = 1.1) : mesh(std::move(object)) {
+    pins = layer(*mesh, *find_side("left"));
+    const ElementId last = mesh->element_count() - 1;
+    for (ElementId e = 0; e <= last; ++e) {
+      if ((rest(e) - rest(last)).norm() <= patch && std::ranges::find(pins, e) == pins.end()) {
+        handle.push_back(e);
+      }
+    }
+  }
+
+  Eigen::VectorXd rest(ElementId e) const {
+    const Eigen::Index n = mesh->space_dimension;
+    return Eigen::Map<const Eigen::VectorXd>(mesh->rest.data() + Eigen::Index{e} * n, n);
+  }
+  Body body() const {
+    Body result(mesh, Precision::double_precision);
+    Softness softness{{0, 1000, 1000}, {}, EnergyKind::material};
+    result.set_softness(softness);
+    result.set_elastic({material});
+    result.pin(pins);
+    return result;
+  }
+  /// Returns the positions at rest, with the handle moved.
+  std::vector<double> moved(std::span<const double> by) const {
+    std::vector<double> at = mesh->rest;
+    for (const ElementId e : handle) {
+      for (std::size_t k = 0; k < by.size(); ++k) {
+        at[e * by.size() + k] += by[k];
+      }
+    }
+    return at;
+  }
+  /// Returns the positions that neo-Hookean finite elements find.
+  std::vector<double> finite_elements(std::span<const double> by, const Cuts& cuts) const {
+    const ElasticProblem problem{mesh, cuts, pins, std::vector<double>(pins.size() * by.size(), 0.0), {material}};
+    const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
+    ElasticHandle held;
+    held.elements = handle;
+    held.arms.assign(handle.size() * by.size(), 0);
+    held.displacements.assign(handle.size() * by.size(), 0);
+    solver->hold(held, {});
+    solver->move(ElasticMotion::by(by), {});
+    if (!solver->remark().empty()) {
+      qWarning("%s", solver->remark().c_str());
+    }
+    std::vector<double> at = mesh->rest;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      at[i] += solver->displacements()[i];
+    }
+    return at;
+  }
+  std::vector<double> finite_elements(std::span<const double> by) const { return finite_elements(by, Cuts(mesh)); }
+
+  MeshPointer mesh;
+  Material material{1, 0.3};
+  std::vector<ElementId> pins, handle;
+};
+
+std::vector<double> positions_of(const Body& body) {
+  std::vector<double> at(body.mesh().rest.size());
+  body.copy_positions(at);
+  return at;
+}
+
+/// Returns the root of the mean square of the differences, relative to that of the displacements.
+double relative_error(const std::vector<double>& found, const std::vector<double>& right, const Mesh& mesh) {
+  double apart = 0, size = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    apart += (found[i] - right[i]) * (found[i] - right[i]);
+    size += (right[i] - mesh.rest[i]) * (right[i] - mesh.rest[i]);
+  }
+  return std::sqrt(apart / size);
+}
+
+double energy_of(const Body& body) {
+  return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions(), body.elastic().material);
+}
+
+/// Solves from these positions, and returns the relative error against finite elements.
+double error_from(const Scene& scene, const std::vector<double>& start, std::span<const double> by) {
+  Body body = scene.body();
+  body.set_positions(start);
+  const bool reached = EquilibriumSolver::make(scene.mesh->space_dimension)->solve(body, scene.handle, 1e-8, 5000);
+  return reached ? relative_error(positions_of(body), scene.finite_elements(by), *scene.mesh) : 1;
+}
+
+template <int D>
+void check_slope(const Mesh& mesh, const StrainLaw& law, double size) {
+  MaterialEnergy<D> energy;
+  energy.build(MeshPointer(std::shared_ptr<void>(), &mesh));
+  energy.set_material({1, 0.4}, law);
+  energy.set_cuts(Cuts());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  Vectors<D> at(mesh.element_count()), along(mesh.element_count()), force;
+  for (ElementId e = 0; e < at.size(); ++e) {
+    for (int k = 0; k < D; ++k) {
+      at[e][k] = size * number(random);
+      along[e][k] = number(random);
+    }
+  }
+  energy.evaluate(at, &force);
+  double slope = 0;
+  Vectors<D> before = at, after = at;
+  constexpr double step = 1e-5;
+  for (ElementId e = 0; e < at.size(); ++e) {
+    slope -= force[e].dot(along[e]);
+    before[e] -= step * along[e];
+    after[e] += step * along[e];
+  }
+  const double measured = (energy.evaluate(after, nullptr) - energy.evaluate(before, nullptr)) / (2 * step);
+  QVERIFY2(std::abs(measured - slope) < 1e-5 * (std::abs(slope) + 1),
+           qPrintable(QString("%1 against %2").arg(measured).arg(slope)));
+}
+
+}  // namespace
+
+void MaterialTest::the_force_is_the_slope_of_the_energy_data() {
+  QTest::addColumn<int>("law");
+  QTest::addColumn<double>("size");
+  for (const double size : {0.1, 1.5}) {  // the second one inverts most cells
+    QTest::addRow("neo-Hookean, %g", size) << int(StrainLaw::Kind::neo_hookean) << size;
+    QTest::addRow("Gent, %g", size) << int(StrainLaw::Kind::gent) << size;
+    QTest::addRow("Fung, %g", size) << int(StrainLaw::Kind::fung) << size;
+  }
+}
+
+void MaterialTest::the_force_is_the_slope_of_the_energy() {
+  QFETCH(int, law);
+  QFETCH(double, size);
+  const StrainLaw one{StrainLaw::Kind(law)};
+  check_slope<1>(*generate({MeshKind::line, {7}, 1, {}}), one, size);
+  check_slope<2>(*block(MeshKind::grid, 4), one, size);
+  check_slope<3>(*block(MeshKind::tetra, 4), one, size);
+  check_slope<3>(*block(MeshKind::block, 4), one, size);
+}
+
+void MaterialTest::the_energy_equals_finite_elements() {
+  const Scene scene(block(MeshKind::tetra, 4));
+  const std::vector<double> by{0.3, -0.2, 0.1};
+  Body body = scene.body();
+  body.set_positions(scene.moved(by));
+  const Simplices simplices = build_simplices(*scene.mesh, Cuts(scene.mesh));
+  double sum = 0;
+  for (std::size_t s = 0; s < simplices.count(); ++s) {
+    CornerDisplacements at(3, 4);
+    for (int k = 0; k < 4; ++k) {
+      const ElementId e = simplices.corners_of(s)[std::size_t(k)];
+      for (int axis = 0; axis < 3; ++axis) {
+        at(axis, k) = body.positions()(e, axis) - scene.mesh->rest[std::size_t{e} * 3 + std::size_t(axis)];
+      }
+    }
+    sum += neo_hookean(simplices, s, at, lame(scene.material), Want::energy).energy;
+  }
+  QVERIFY(sum > 0);
+  QVERIFY(std::abs(energy_of(body) - sum) < 1e-12 * sum);
+}
+
+void MaterialTest::the_minimum_equals_finite_elements_data() {
+  QTest::addColumn<int>("kind");
+  QTest::addColumn<int>("width");
+  QTest::addColumn<double>("poisson");
+  QTest::newRow("tetrahedra") << int(MeshKind::tetra) << 6 << 0.3;
+  QTest::newRow("without contraction") << int(MeshKind::tetra) << 6 << 0.0;
+  QTest::newRow("nearly incompressible") << int(MeshKind::tetra) << 6 << 0.49;
+  QTest::newRow("cubes") << int(MeshKind::block) << 6 << 0.3;
+  QTest::newRow("sheet in a plane") << int(MeshKind::grid) << 9 << 0.45;
+}
+
+void MaterialTest::the_minimum_equals_finite_elements() {
+  QFETCH(int, kind);
+  QFETCH(int, width);
+  QFETCH(double, poisson);
+  Scene scene(block(MeshKind(kind), std::uint32_t(width)));
+  scene.material.poisson = poisson;
+  std::vector<double> by{0.8, -0.6, 0.3};
+  by.resize(std::size_t(scene.mesh->space_dimension));
+  QVERIFY(error_from(scene, scene.moved(by), by) < 1e-6);
+}
+
+void MaterialTest::it_is_found_from_any_start_data() {
+  QTest::addColumn<int>("start");
+  QTest::newRow("all at one point") << 0;
+  QTest::newRow("mirrored") << 1;
+  QTest::newRow("scattered") << 2;
+}
+
+void MaterialTest::it_is_found_from_any_start() {
+  QFETCH(int, start);
+  const Scene scene(block(MeshKind::tetra, 7));
+  const std::vector<double> by{0.8, -0.6, 0.3};
+  std::vector<double> at = scene.moved(by);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(0, 6);
+  for (ElementId e = 0; e < scene.mesh->element_count(); ++e) {
+    if (std::ranges::find(scene.pins, e) != scene.pins.end() ||
+        std::ranges::find(scene.handle, e) != scene.handle.end()) {
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[e * 3 + k] = start == 0 ? 3 : start == 2 ? number(random) : k == 2 ? 6 - at[e * 3 + k] : at[e * 3 + k];
+    }
+  }
+  QVERIFY(error_from(scene, at, by) < 1e-6);
+}
+
+void MaterialTest::it_is_found_after_half_the_width_in_one_move() {
+  for (const double poisson : {0.3, 0.45}) {
+    Scene scene(block(MeshKind::tetra, 9), 1.5);
+    scene.material.poisson = poisson;
+    const std::vector<double> by{3.2, -2.4, 0};
+    QVERIFY(error_from(scene, scene.moved(by), by) < 1e-6);
+  }
+}
+
+void MaterialTest::no_iteration_raises_the_energy() {
+  const Scene scene(block(MeshKind::tetra, 7), 1.5);
+  Body body = scene.body();
+  body.set_positions(scene.moved(std::vector<double>{2.4, -1.8, 0}));
+  const auto solver = EquilibriumSolver::make(3);
+  double last = energy_of(body);
+  for (int i = 0; i < 40; ++i) {
+    solver->iterate(body, scene.handle);
+    const double now = energy_of(body);
+    QVERIFY2(now <= last * (1 + 1e-12), qPrintable(QString("iteration %1: %2 after %3").arg(i).arg(now).arg(last)));
+    last = now;
+  }
+  QVERIFY(solver->residual() < 1e-3);
+}
+
+void MaterialTest::a_cut_gives_the_minimum_of_the_cut_object() {
+  const Scene scene(block(MeshKind::tetra, 7), 1.5);
+  const std::vector<double> by{1.5, -1, 0};
+  Body body = scene.body();
+  body.set_positions(scene.moved(by));
+  const auto solver = EquilibriumSolver::make(3);
+  QVERIFY(solver->solve(body, scene.handle, 1e-8, 5000));
+  std::vector<LinkId> cut;  // half of a plane
+  for (LinkId link = 0; link < scene.mesh->link_count(); ++link) {
+    const Eigen::VectorXd a = scene.rest(scene.mesh->links[link][0]), b = scene.rest(scene.mesh->links[link][1]);
+    if ((a[0] - 2.5) * (b[0] - 2.5) < 0 && a[1] + b[1] > 6) {
+      cut.push_back(link);
+    }
+  }
+  const std::vector<double> whole = positions_of(body);
+  body.cut(cut);
+  QVERIFY(solver->solve(body, scene.handle, 1e-8, 5000));
+  QVERIFY(!solver->has_prepared());  // the multigrid was repaired
+  QVERIFY(relative_error(positions_of(body), scene.finite_elements(by, body.cuts()), *scene.mesh) < 1e-6);
+  QVERIFY(relative_error(positions_of(body), whole, *scene.mesh) > 1e-3);
+  body.uncut(cut);
+  QVERIFY(solver->solve(body, scene.handle, 1e-8, 5000));
+  QVERIFY(relative_error(positions_of(body), whole, *scene.mesh) < 1e-6);
+}
+
+void MaterialTest::a_turned_object_has_no_energy() {
+  Scene scene(block(MeshKind::tetra, 5));
+  std::vector<double> at = scene.mesh->rest;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (ElementId e = 0; e < scene.mesh->element_count(); ++e) {
+    Eigen::Map<Eigen::Vector3d> one(at.data() + 3 * std::size_t{e});
+    one = turn * one + Eigen::Vector3d(10, 20, 30);
+  }
+  Body body = scene.body();
+  body.set_positions(at);
+  QVERIFY(std::abs(energy_of(body)) < 1e-12);
+  at[3 * 62] += 0.3;  // an element in the middle
+  body.set_positions(at);
+  QVERIFY(EquilibriumSolver::make(3, false)->solve(body, scene.handle, 1e-8, 1000));  // regions do not turn
+  QVERIFY(std::abs(energy_of(body)) < 1e-9);
+}
+
+void MaterialTest::links_without_cells_keep_their_length() {
+  // The links of a column of elements stay when all cells along it are gone.
+  const Scene scene(block(MeshKind::tetra, 4));
+  Body body = scene.body();
+  const ElementId corner = 3;  // on the right side
+  std::vector<LinkId> cut;
+  const auto [first, last] = std::pair(scene.mesh->first_entry[corner], scene.mesh->first_entry[corner + 1]);
+  for (EntryId entry = first + 1; entry < last; ++entry) {
+    cut.push_back(scene.mesh->entry_link[entry]);
+  }
+  body.cut(cut);
+  std::vector<double> at = scene.mesh->rest;
+  at[3 * std::size_t{corner}] += 2;
+  body.set_positions(at);
+  QVERIFY(EquilibriumSolver::make(3)->solve(body, scene.handle, 1e-8, 1000));
+  const ElementId other = scene.mesh->neighbours[first];
+  double square = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double apart = body.positions()(corner, k) - body.positions()(other, k);
+    square += apart * apart;
+  }
+  QVERIFY(std::abs(std::sqrt(square) - rest_length(*scene.mesh, scene.mesh->entry_link[first])) < 1e-6);
+}
+
+void MaterialTest::regions_bind_where_they_bind() {
+  const Scene scene(block(MeshKind::tetra, 6), 1.5);
+  Body body = scene.body();
+  body.set_softness(Softness{{0.8, 1.3, 0.3}, {}, EnergyKind::material});
+  const std::vector<double> by{1.2, -0.9, 0};
+  body.set_positions(scene.moved(by));
+  const auto solver = EquilibriumSolver::make(3);
+  const bool reached = solver->solve(body, scene.handle, 1e-6, 3000);
+  const auto certificate = solver->certificate(body);
+  QVERIFY(certificate && certificate->binds);
+  qInfo("%d iterations, residual %g, violation %g", certificate->iterations, certificate->residual,
+        certificate->violation);
+  QVERIFY(reached);
+  QVERIFY(certificate->violation < 1e-6);
+  // No valid state near it has less energy.
+  const double least = energy_of(body);
+  const std::vector<double> at = positions_of(body);
+  std::mt19937 random(5);
+  std::normal_distribution<double> number(0, 1);
+  int tried = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<double> near = at;
+    const ElementId e = ElementId(random() % scene.mesh->element_count());
+    if (body.is_pinned(e) || std::ranges::find(scene.handle, e) != scene.handle.end()) {
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      near[3 * e + k] += 0.003 * number(random);
+    }
+    body.set_positions(near);
+    if (measure_violation(*scene.mesh, body.softness(), body.cuts(), body.positions()).fraction == 0) {
+      ++tried;
+      QVERIFY(energy_of(body) >= least * (1 - 1e-7));
+    }
+  }
+  QVERIFY(tried > 50);
+}
+
+CHAINMAIL_TEST(MaterialTest)
+
+}  // namespace chainmail::test_material
+
+#include "test_material.moc"
