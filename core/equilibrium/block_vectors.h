@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "equilibrium/shared_loop.h"
+
 namespace chainmail {
 
 /// One vector per element.
@@ -11,20 +13,26 @@ template <class Scalar, int Dimension>
 using BlockVectors = std::vector<Eigen::Matrix<Scalar, Dimension, 1>>;
 
 template <class Scalar, int Dimension>
-double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, Dimension>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += a[i].dot(b[i]);
-  }
-  return sum;
+double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, Dimension>& b,
+           const SharedLoop& blocks = {}) {
+  return blocks.sum(a.size(), [&](std::size_t first, std::size_t last) {
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      sum += a[i].dot(b[i]);
+    }
+    return sum;
+  });
 }
 
 /// Adds a multiple of `other` to `sum`.
 template <class Scalar, int Dimension>
-void add(BlockVectors<Scalar, Dimension>& sum, double factor, const BlockVectors<Scalar, Dimension>& other) {
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    sum[i] += factor * other[i];
-  }
+void add(BlockVectors<Scalar, Dimension>& sum, double factor, const BlockVectors<Scalar, Dimension>& other,
+         const SharedLoop& blocks = {}) {
+  blocks.run(sum.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      sum[i] += factor * other[i];
+    }
+  });
 }
 
 }  // namespace chainmail

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "equilibrium/shared_loop.h"
 #include "exact/block_rows.h"
 
 namespace chainmail {
@@ -17,17 +18,19 @@ struct CoarseMatrix {
   using Vectors = std::vector<Vector>;
 
   std::uint32_t size() const { return rows.size(); }
-  void apply(const Vectors& x, Vectors& product) const {
+  void apply(const Vectors& x, Vectors& product, const SharedLoop& shared) const {
     product.resize(x.size());
-    for (std::uint32_t i = 0; i < rows.size(); ++i) {
-      const auto columns = rows.columns(i);
-      const auto blocks = rows.blocks(i);
-      Vector sum = Vector::Zero();
-      for (std::size_t k = 0; k < columns.size(); ++k) {
-        sum.noalias() += blocks[k] * x[columns[k]];
+    shared.run(x.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto columns = rows.columns(static_cast<std::uint32_t>(i));
+        const auto blocks = rows.blocks(static_cast<std::uint32_t>(i));
+        Vector sum = Vector::Zero();
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+          sum.noalias() += blocks[k] * x[columns[k]];
+        }
+        product[i] = sum;
       }
-      product[i] = sum;
-    }
+    });
   }
   template <class Visit>
   void for_each_in_row(std::uint32_t row, Visit visit) const {

@@ -80,6 +80,7 @@ class Equilibrator final : public EquilibriumSolver {
     return reached;
   }
 
+  void set_threads(int threads) override { threads_ = threads; }
   double residual() const override { return residual_; }
   bool has_prepared() const override { return prepared_; }
   std::span<const ElementId> moved() const override { return moved_; }
@@ -134,9 +135,10 @@ class Equilibrator final : public EquilibriumSolver {
       is_start_ = true;
       end_constraints();
     }
-    const bool other_fixed = is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_);
+    std::vector<ElementId> all_held = with_carried(held);
+    const bool other_fixed = is_new || now.pins != seen_.pins || all_held != held_;
     if (other_fixed) {
-      held_.assign(held.begin(), held.end());
+      held_ = std::move(all_held);
       update_fixed(body);
     }
     if (other_fixed || now.positions != seen_.positions || now.energy != seen_.energy || now.cuts != seen_.cuts) {
@@ -145,6 +147,22 @@ class Equilibrator final : public EquilibriumSolver {
     make_valid(body);
     hold_fixed();
     seen_ = body.revisions();
+  }
+
+  /// Returns the held elements. A single one carries its neighbours along, as if the hand had a width: a force on a
+  /// point has no limit as cells become smaller, it inverts those about it.
+  std::vector<ElementId> with_carried(std::span<const ElementId> held) {
+    std::vector<ElementId> all(held.begin(), held.end());
+    if (D > 1 && uses_material() && held.size() == 1) {
+      shown_.for_each_neighbour(held.front(), [&](ElementId neighbour, EntryId) {
+        if (!shown_.pinned(neighbour)) {
+          shown_.positions[neighbour] = shown_.positions[held.front()];
+          all.push_back(neighbour);
+        }
+      });
+      std::ranges::sort(all);
+    }
+    return all;
   }
 
   void begin(const Body& body) {
@@ -394,7 +412,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// One step of the search for the minimum of the material's energy, then of the forces of regions.
   void material_step(const Progress& progress) {
     prepare_material(progress);
-    material_.step(iterate_);
+    material_.step(iterate_, threads_);
     energy_of_iterate_ = material_.energy();
     note_distance(material_.distance());
     ++iterations_;
@@ -700,6 +718,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   const bool uses_regions_;
+  int threads_ = 1;
   bool prepared_ = false;
   MeshPointer mesh_;
   Revisions seen_;

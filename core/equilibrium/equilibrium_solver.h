@@ -42,7 +42,8 @@ class EquilibriumSolver {
   virtual ~EquilibriumSolver() = default;
 
   /// Runs one iteration. The elements of `held` (ascending) and the pins stay, unless their positions contradict each
-  /// other: then the handle moves to where the pins allow it. Throws Error if pins contradict each other, and
+  /// other: then the handle moves to where the pins allow it. With the energy of the material, a single held element
+  /// carries its neighbours along as it has moved from rest. Throws Error if pins contradict each other, and
   /// Cancelled; nothing has moved then.
   virtual void iterate(Body& body, std::span<const ElementId> held, const Progress& progress = {}) = 0;
   /// Iterates until the residual is at most `tolerance`, or `max_iterations` were made. Returns true if the residual
@@ -50,6 +51,9 @@ class EquilibriumSolver {
   virtual bool solve(Body& body, std::span<const ElementId> held, double tolerance, int max_iterations,
                      const Progress& progress = {}) = 0;
 
+  /// Sets the number of threads that an iteration with the energy of the material may use, at least 1, which is the
+  /// default. Results have the same bits for any number.
+  virtual void set_threads(int threads) = 0;
   /// Estimated distance of the last iterate from the equilibrium: see EquilibriumCertificate.
   virtual double residual() const = 0;
   /// True if the last call built a multigrid, which takes as long as tens of iterations.

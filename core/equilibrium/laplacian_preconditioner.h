@@ -31,6 +31,12 @@ class LaplacianPreconditioner {
     outdated_.insert(outdated_.end(), {i, j});
     cut_ = cut_ || weight == 0;
   }
+  /// The same for a while: the coarser levels keep the weight of before.
+  void set_link_for_a_while(LinkId link, double weight) {
+    matrix_.set_link(link, static_cast<float>(weight));
+    const auto [i, j] = mesh().links[link];
+    changed_.insert(changed_.end(), {i, j});
+  }
   void set_fixed(ElementId element, bool fixed) {
     matrix_.set_fixed(element, fixed);
     outdated_.push_back(element);
@@ -50,25 +56,31 @@ class LaplacianPreconditioner {
     }
     outdated_.clear();
     cut_ = false;
+    grid_.update_finest(matrix_, changed_);
+    changed_.clear();
     return builds;
   }
 
-  void apply(const Vectors& right, Vectors& result) {
+  void apply(const Vectors& right, Vectors& result, const SharedLoop& shared) {
     double largest = 0;
     for (const auto& one : right) {
       largest = std::max(largest, one.cwiseAbs().maxCoeff());
     }
     const double scale = largest > 0 ? 1 / largest : 1;
     right_.resize(right.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      right_[i].setZero();
-      right_[i].template head<D>() = (right[i] * scale).transpose().template cast<float>();
-    }
-    grid_.cycle(matrix_, right_, result_);
+    shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        right_[i].setZero();
+        right_[i].template head<D>() = (right[i] * scale).transpose().template cast<float>();
+      }
+    });
+    grid_.cycle(matrix_, right_, result_, shared);
     result.resize(right.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      result[i] = result_[i].template head<D>().transpose().template cast<double>() / scale;
-    }
+    shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        result[i] = result_[i].template head<D>().transpose().template cast<double>() / scale;
+      }
+    });
   }
 
  private:
@@ -78,6 +90,7 @@ class LaplacianPreconditioner {
   Matrix matrix_;
   Multigrid<Matrix> grid_;
   std::vector<ElementId> outdated_;  // rows
+  std::vector<ElementId> changed_;   // rows of which the finest level is outdated
   bool cut_ = false;
   typename Matrix::Vectors right_, result_;
 };

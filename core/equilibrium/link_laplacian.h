@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "equilibrium/shared_loop.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -45,11 +46,13 @@ class LinkLaplacian {
   }
 
   /// Returns the product with a vector, which is 0 at fixed elements.
-  void apply(const Vectors& x, Vectors& product) const {
+  void apply(const Vectors& x, Vectors& product, const SharedLoop& blocks) const {
     product.resize(x.size());
-    for (ElementId e = 0; e < fixed_.size(); ++e) {
-      product[e] = fixed_[e] != 0 ? Vector(Vector::Zero()) : row_times(e, x);
-    }
+    blocks.run(x.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t e = first; e < last; ++e) {
+        product[e] = fixed_[e] != 0 ? Vector(Vector::Zero()) : row_times(static_cast<ElementId>(e), x);
+      }
+    });
   }
 
   /// Calls visit(column, block) for each number of a row, the one on the diagonal last. A fixed element has none.

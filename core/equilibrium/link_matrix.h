@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "equilibrium/shared_loop.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -53,7 +54,7 @@ class LinkMatrix {
   void set_fixed(ElementId element, bool fixed) { fixed_[element] = fixed ? 1 : 0; }
 
   /// Returns the product with a vector, which is 0 at fixed elements.
-  void apply(const Vectors& x, Vectors& product) const {
+  void apply(const Vectors& x, Vectors& product, const SharedLoop& /*links scatter*/ = {}) const {
     product.assign(x.size(), Vector::Zero());
     const auto* ends = mesh_->links.data();
     for (std::size_t l = 0; l < links_.size(); ++l) {

@@ -57,6 +57,7 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
     first_simplex_[cell + 1] += first_simplex_[cell];
   }
   find_cell_links();
+  divide();
 }
 
 /// Turns the table of links by cell into one of cells by link.
@@ -182,22 +183,64 @@ double MaterialEnergy<D>::weight(LinkId link) const {
   return is_loose ? 1 : std::max(least_weight, stiffness_around(link));
 }
 
+/// Divides the batches into parts that are worth a thread.
 template <int D>
-double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force) {
-  if (force != nullptr) {
-    force->assign(displacements.size(), Vector::Zero());
+void MaterialEnergy<D>::divide() {
+  constexpr std::size_t worth = 1024, most = 8;
+  const std::size_t count = std::clamp<std::size_t>(batches_.size() / worth, 1, most);
+  parts_.assign(count, {});
+  for (std::size_t p = 0; p < count; ++p) {
+    Part& part = parts_[p];
+    part.first = batches_.size() * p / count;
+    part.last = batches_.size() * (p + 1) / count;
+    part.low = mesh_->element_count();
+    for (std::size_t b = part.first; b < part.last; ++b) {
+      for (const auto& corners : batches_[b].corner) {
+        part.low = std::min(part.low, std::ranges::min(corners));
+        part.high = std::max(part.high, std::ranges::max(corners) + 1);
+      }
+    }
   }
+}
+
+template <int D>
+double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared) {
+  shared.each(parts_.size(), [&](std::size_t p) { evaluate(parts_[p], displacements, force != nullptr); });
   double energy = 0;
-  Lanes least = Lanes::Ones();
-  for (const Batch& batch : batches_) {
-    energy += evaluate(batch, displacements, force, least);
+  least_ = 1;
+  for (const Part& part : parts_) {
+    energy += part.energy;
+    least_ = std::min(least_, part.least);
   }
-  least_ = least.minCoeff();
+  if (force != nullptr) {
+    force->resize(displacements.size());
+    shared.run(force->size(), [&](std::size_t first, std::size_t last) {
+      std::fill(force->begin() + std::ptrdiff_t(first), force->begin() + std::ptrdiff_t(last), Vector::Zero());
+      for (const Part& part : parts_) {
+        for (std::size_t e = std::max<std::size_t>(first, part.low); e < std::min<std::size_t>(last, part.high); ++e) {
+          (*force)[e] += part.force[e - part.low];
+        }
+      }
+    });
+  }
   return energy + add_loose_links(displacements, force);
 }
 
 template <int D>
-double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displacements, Vectors* force,
+void MaterialEnergy<D>::evaluate(Part& part, const Vectors& displacements, bool wants_force) const {
+  if (wants_force) {
+    part.force.assign(part.high > part.low ? part.high - part.low : 0, Vector::Zero());
+  }
+  part.energy = 0;
+  Lanes least = Lanes::Ones();
+  for (std::size_t b = part.first; b < part.last; ++b) {
+    part.energy += evaluate(batches_[b], displacements, wants_force ? &part.force : nullptr, part.low, least);
+  }
+  part.least = least.minCoeff();
+}
+
+template <int D>
+double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low,
                                    Lanes& least) const {
   Matrix apart;  // [corner − 1][axis]: from the first corner's displacement
   for (int k = 0; k < D; ++k) {
@@ -238,7 +281,7 @@ double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displaceme
     }
     for (int l = 0; l < lanes; ++l) {
       for (std::size_t k = 0; k <= D; ++k) {
-        Vector& sum = (*force)[batch.corner[k][std::size_t(l)]];
+        Vector& sum = (*force)[batch.corner[k][std::size_t(l)] - low];
         for (std::size_t axis = 0; axis < D; ++axis) {
           sum[Eigen::Index(axis)] -= pull[k][axis][l];
         }

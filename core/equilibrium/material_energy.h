@@ -9,6 +9,7 @@
 #include "body/positions.h"
 #include "elastic/simplices.h"
 #include "elastic/stiffening.h"
+#include "equilibrium/shared_loop.h"
 #include "mesh/cuts.h"
 
 namespace chainmail {
@@ -40,7 +41,7 @@ class MaterialEnergy {
   double weight(LinkId link) const;
 
   /// Returns the energy at these displacements from rest, and writes its negative gradient, if given.
-  double evaluate(const Vectors& displacements, Vectors* force);
+  double evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared = {});
   /// The least ratio of a cell's volume to that at rest in the last evaluation; below 0 if a cell is inverted.
   double least_volume() const { return least_; }
   /// See ExtendedDensity. Where an energy is measured, the ratio is `measured_below`.
@@ -62,12 +63,23 @@ class MaterialEnergy {
   };
   using Matrix = std::array<std::array<Lanes, Dimension>, Dimension>;  // [row][column]
 
+  /// A run of batches. Parts are evaluated at the same time, each with the forces on its own range of elements; their
+  /// number depends on the object alone, and so do the bits of the sum.
+  struct Part {
+    std::size_t first = 0, last = 0;  // batches
+    ElementId low = 0, high = 0;      // the elements of their corners are below `high`
+    Vectors force;                    // on the elements from `low` on
+    double energy = 0, least = 1;
+  };
+
   void find_cell_links();
+  void divide();
+  void evaluate(Part& part, const Vectors& displacements, bool wants_force) const;
   void set_cell(std::uint32_t cell, bool is_whole);
   void set_volume(std::uint32_t simplex, bool is_whole);
   double stiffness_around(LinkId link) const;
   void find_loose_links(const Cuts& cuts);
-  double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, Lanes& least) const;
+  double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low, Lanes& least) const;
   void find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant, Matrix* stress) const;
   void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
                     Lanes& by_volume) const;
@@ -81,6 +93,7 @@ class MaterialEnergy {
   std::vector<std::uint32_t> whole_beside_;              // of each element: its whole cells
   std::vector<std::uint8_t> is_cut_;                     // of each link
   std::vector<Batch> batches_;
+  std::vector<Part> parts_;
   std::vector<LinkId> loose_;       // uncut links with an end that no cell holds
   std::vector<double> loose_rest_;  // their rest lengths (mesh units)
 

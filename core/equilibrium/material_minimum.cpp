@@ -41,9 +41,10 @@ void MaterialMinimum<D>::set_cuts(const Cuts& cuts) {
   const std::vector<LinkId> changed = energy_.set_cuts(cuts);
   for (const LinkId link : changed) {
     weights_[link] = energy_.weight(link);
+    preconditioner_.set_link(link, weights_[link]);
   }
-  follow_regions(changed);
   newton_.forget();
+  is_outdated_ = is_material_outdated_ = true;
 }
 
 template <int D>
@@ -53,13 +54,13 @@ void MaterialMinimum<D>::set_fixed(ElementId element, bool fixed) {
   }
   preconditioner_.set_fixed(element, fixed);
   newton_.forget();
-  is_outdated_ = true;
+  is_outdated_ = is_material_outdated_ = true;
 }
 
 template <int D>
 void MaterialMinimum<D>::forget() {
   newton_.forget();
-  is_outdated_ = true;
+  is_outdated_ = is_material_outdated_ = true;
   energy_.set_extension_below(soft_below);
 }
 
@@ -83,9 +84,9 @@ void MaterialMinimum<D>::extend(const Vectors& jump, Vectors& at) {
       }
     }
   }
-  preconditioner_.apply(pull_, step_);
+  preconditioner_.apply(pull_, step_, {});
   add(at, 1, step_);
-  is_outdated_ = true;
+  is_outdated_ = is_material_outdated_ = true;
 }
 
 template <int D>
@@ -95,10 +96,21 @@ bool MaterialMinimum<D>::is_inverted(const Vectors& at) {
 }
 
 template <int D>
-double MaterialMinimum<D>::evaluate(const Vectors& at, Vectors& force) {
-  double value = energy_.evaluate(at, &force);
-  value += regions_.add(at, &force);
-  for (ElementId e = 0; e < force.size(); ++e) {
+double MaterialMinimum<D>::evaluate(const Vectors& at, Vectors& force, const SharedLoop& shared) {
+  material_value_ = energy_.evaluate(at, &material_force_, shared);
+  for (ElementId e = 0; e < material_force_.size(); ++e) {
+    if (preconditioner_.is_fixed(e)) {
+      material_force_[e].setZero();
+    }
+  }
+  return add_regions(at, force);
+}
+
+template <int D>
+double MaterialMinimum<D>::add_regions(const Vectors& at, Vectors& force) const {
+  force = material_force_;
+  const double value = material_value_ + regions_.add(at, &force);
+  for (ElementId e = 0; !regions_.is_empty() && e < force.size(); ++e) {
     if (preconditioner_.is_fixed(e)) {
       force[e].setZero();
     }
@@ -108,7 +120,7 @@ double MaterialMinimum<D>::evaluate(const Vectors& at, Vectors& force) {
 
 /// Lowers the ratio below which the energy is extended: at once where that changes nothing, step by step otherwise.
 template <int D>
-void MaterialMinimum<D>::harden(const Vectors& at) {
+void MaterialMinimum<D>::harden(const Vectors& at, const SharedLoop& shared) {
   const double present = energy_.extension_below(), least = energy_.least_volume();
   double wanted = present;
   if (least >= present) {
@@ -119,31 +131,41 @@ void MaterialMinimum<D>::harden(const Vectors& at) {
   if (wanted < present) {
     energy_.set_extension_below(wanted);
     if (least < present) {
-      value_ = evaluate(at, force_);
+      value_ = evaluate(at, force_, shared);
     }
   }
 }
 
 template <int D>
-void MaterialMinimum<D>::step(Vectors& at) {
-  if (is_outdated_) {
-    value_ = evaluate(at, force_);
-    distance_ = std::numeric_limits<double>::infinity();
-    is_outdated_ = false;
+void MaterialMinimum<D>::step(Vectors& at, int threads) {
+  // Less is done before a helper has come.
+  constexpr std::size_t worth_helpers = 8192;
+  ThreadTeam team(threads);
+  if (threads > 1 && at.size() >= worth_helpers) {
+    team.call_helpers();
   }
-  harden(at);
-  const auto value_at = [this](const Vectors& x, Vectors& force) { return evaluate(x, force); };
+  const SharedLoop shared(team);
+  if (is_outdated_) {
+    value_ = is_material_outdated_ ? evaluate(at, force_, shared) : add_regions(at, force_);
+    distance_ = is_material_outdated_ ? std::numeric_limits<double>::infinity() : distance_;
+    is_outdated_ = is_material_outdated_ = false;
+  }
+  harden(at, shared);
+  const auto value_at = [&](const Vectors& x, Vectors& force) { return evaluate(x, force, shared); };
   // Without what it has learned, a step fails only where rounding hides the way down.
-  const bool lowered = newton_.step(value_at, preconditioner_, at, value_, force_) ||
-                       newton_.step(value_at, preconditioner_, at, value_, force_);
+  const bool lowered = newton_.step(value_at, preconditioner_, at, value_, force_, shared) ||
+                       newton_.step(value_at, preconditioner_, at, value_, force_, shared);
   distance_ = lowered ? newton_.distance() : 0;
+  is_material_outdated_ = !lowered;  // the last try was elsewhere
 }
 
+/// The coarser levels of the multigrid do without the springs: they would follow each change of the working set, and it
+/// converges as fast.
 template <int D>
 void MaterialMinimum<D>::follow_regions(std::span<const LinkId> changed) {
   for (const LinkId link : changed) {
     const double penalty = regions_.is_active(link) ? RegionPenalties<D>::penalty : 0;
-    preconditioner_.set_link(link, (1 + penalty) * weights_[link]);
+    preconditioner_.set_link_for_a_while(link, (1 + penalty) * weights_[link]);
   }
   is_outdated_ = true;
 }

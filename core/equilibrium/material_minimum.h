@@ -40,8 +40,8 @@ class MaterialMinimum {
   /// True if a cell is inverted.
   bool is_inverted(const Vectors& at);
 
-  /// Runs a step. Call update() before.
-  void step(Vectors& at);
+  /// Runs a step, on at most this many threads. Call update() before.
+  void step(Vectors& at, int threads);
   double energy() const { return value_; }
   /// Estimated distance from the minimum, as √(twice the energy of the distance).
   double distance() const { return distance_; }
@@ -53,8 +53,9 @@ class MaterialMinimum {
   void follow_regions(std::span<const LinkId> changed);
 
  private:
-  double evaluate(const Vectors& at, Vectors& force);
-  void harden(const Vectors& at);
+  double evaluate(const Vectors& at, Vectors& force, const SharedLoop& shared);
+  double add_regions(const Vectors& at, Vectors& force) const;
+  void harden(const Vectors& at, const SharedLoop& shared);
 
   bool has_begun_ = false;
   MaterialEnergy<D> energy_;
@@ -62,10 +63,14 @@ class MaterialMinimum {
   QuasiNewton<D> newton_;
   RegionPenalties<D> regions_;
   std::vector<double> weights_;  // of each link
-  Vectors force_;                // the negative gradient
+  Vectors force_;                // the negative gradient, with the springs of regions
+  // Of the material alone, at the displacements that were evaluated last.
+  Vectors material_force_;
+  double material_value_ = 0;
   Vectors step_, pull_;
   double value_ = 0, distance_ = 0;
-  bool is_outdated_ = true;  // the gradient
+  bool is_outdated_ = true;           // the gradient
+  bool is_material_outdated_ = true;  // that of the material, too
 };
 
 extern template class MaterialMinimum<1>;

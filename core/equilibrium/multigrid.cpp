@@ -56,15 +56,21 @@ class Multigrid<Matrix>::Levels {
     factor();
   }
 
+  void update_finest(const Matrix& matrix, std::span<const ElementId> rows) {
+    for (const ElementId row : rows) {
+      finest_.update_inverse(matrix, row);
+    }
+  }
+
   /// True if cuts have split so many aggregates that the coarsest level cannot be solved directly any more.
   bool has_outgrown() const { return was_direct_ && !is_direct_; }
 
-  void cycle(const Matrix& matrix, const Vectors& right, Vectors& x) {
-    finest_.smooth(matrix, right, x, true);
-    finest_.restrict_residual(matrix, right, x, levels_.front()->right);
-    solve(0);
-    finest_.prolong(levels_.front()->x, x);
-    finest_.smooth(matrix, right, x, false);
+  void cycle(const Matrix& matrix, const Vectors& right, Vectors& x, const SharedLoop& shared) {
+    finest_.smooth(matrix, right, x, true, shared);
+    finest_.restrict_residual(matrix, right, x, levels_.front()->right, shared);
+    solve(0, shared);
+    finest_.prolong(levels_.front()->x, x, shared);
+    finest_.smooth(matrix, right, x, false, shared);
   }
 
  private:
@@ -119,17 +125,17 @@ class Multigrid<Matrix>::Levels {
     direct_.compute(dense);
   }
 
-  void solve(std::size_t l) {
+  void solve(std::size_t l, const SharedLoop& shared) {
     Level& level = *levels_[l];
     if (l + 1 == levels_.size()) {
-      is_direct_ ? solve_directly(level) : level.stage.smooth(level.matrix, level.right, level.x, true);
+      is_direct_ ? solve_directly(level) : level.stage.smooth(level.matrix, level.right, level.x, true, shared);
       return;
     }
-    level.stage.smooth(level.matrix, level.right, level.x, true);
-    level.stage.restrict_residual(level.matrix, level.right, level.x, levels_[l + 1]->right);
-    solve(l + 1);
-    level.stage.prolong(levels_[l + 1]->x, level.x);
-    level.stage.smooth(level.matrix, level.right, level.x, false);
+    level.stage.smooth(level.matrix, level.right, level.x, true, shared);
+    level.stage.restrict_residual(level.matrix, level.right, level.x, levels_[l + 1]->right, shared);
+    solve(l + 1, shared);
+    level.stage.prolong(levels_[l + 1]->x, level.x, shared);
+    level.stage.smooth(level.matrix, level.right, level.x, false, shared);
   }
 
   void solve_directly(Level& level) {
@@ -187,8 +193,13 @@ void Multigrid<Matrix>::update(const Matrix& matrix, std::span<const ElementId> 
 }
 
 template <class Matrix>
-void Multigrid<Matrix>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution) {
-  levels_->cycle(matrix, right, solution);
+void Multigrid<Matrix>::update_finest(const Matrix& matrix, std::span<const ElementId> rows) {
+  levels_->update_finest(matrix, rows);
+}
+
+template <class Matrix>
+void Multigrid<Matrix>::cycle(const Matrix& matrix, const Vectors& right, Vectors& solution, const SharedLoop& shared) {
+  levels_->cycle(matrix, right, solution, shared);
 }
 
 template class Multigrid<LinkMatrix<float, 1>>;

@@ -5,6 +5,7 @@
 
 #include "equilibrium/link_laplacian.h"
 #include "equilibrium/link_matrix.h"
+#include "equilibrium/shared_loop.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -36,8 +37,10 @@ class Multigrid {
   /// links, and these elements and their neighbours; `cut`: true if one of the links was cut. Costs about as much as
   /// the rows and their surroundings are large.
   void update(const Matrix& matrix, std::span<const ElementId> rows, bool cut);
+  /// Updates the smoother of the finest level only, for changes that do not last: the coarser levels stay.
+  void update_finest(const Matrix& matrix, std::span<const ElementId> rows);
   /// Writes into `solution` one cycle's approximation of the matrix's inverse times `right`.
-  void cycle(const Matrix& matrix, const Vectors& right, Vectors& solution);
+  void cycle(const Matrix& matrix, const Vectors& right, Vectors& solution, const SharedLoop& shared = {});
 
  private:
   class Levels;

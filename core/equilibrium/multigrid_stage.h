@@ -70,54 +70,60 @@ class MultigridStage {
   }
 
   template <class Matrix>
-  void smooth(const Matrix& matrix, const Vectors& right, Vectors& x, bool from_zero) {
+  void smooth(const Matrix& matrix, const Vectors& right, Vectors& x, bool from_zero, const SharedLoop& shared) {
     // Chebyshev polynomial of degree 2 (Adams et al. 2003).
     const float high = 1.02F * radius_, low = radius_ / 8;
     const float middle = (high + low) / 2, half = (high - low) / 2;
     const float sigma = middle / half;
     if (from_zero) {
       x.assign(right.size(), Vector::Zero());
-      residual_ = right;
     } else {
-      subtract(matrix, right, x);
+      matrix.apply(x, product_, shared);
     }
     step_.resize(right.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      step_[i].noalias() = inverse_[i] * residual_[i];
-      step_[i] /= middle;
-      x[i] += step_[i];
-    }
+    shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        step_[i].noalias() = inverse_[i] * (from_zero ? right[i] : Vector(right[i] - product_[i]));
+        step_[i] /= middle;
+        x[i] += step_[i];
+      }
+    });
     const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
-    subtract(matrix, right, x);
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      const Vector scaled = inverse_[i] * residual_[i];
-      x[i] += next * rho * step_[i] + 2 * next / half * scaled;
-    }
+    matrix.apply(x, product_, shared);
+    shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const Vector scaled = inverse_[i] * (right[i] - product_[i]);
+        x[i] += next * rho * step_[i] + 2 * next / half * scaled;
+      }
+    });
   }
 
   /// Writes the residual's coarse right-hand side.
   template <class Matrix>
   void restrict_residual(const Matrix& matrix, const Vectors& right, const Vectors& x,
-                         typename Coarse::Vectors& coarse_right) {
-    subtract(matrix, right, x);
+                         typename Coarse::Vectors& coarse_right, const SharedLoop& shared) {
+    matrix.apply(x, product_, shared);
     coarse_right.assign(members_.size(), Coarse::Vector::Zero());
-    for (std::uint32_t row = 0; row < residual_.size(); ++row) {
+    for (std::uint32_t row = 0; row < right.size(); ++row) {
+      const Vector residual = right[row] - product_[row];
       const auto columns = transfer_.columns(row);
       const auto blocks = transfer_.blocks(row);
       for (std::size_t k = 0; k < columns.size(); ++k) {
-        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual_[row];
+        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual;
       }
     }
   }
 
-  void prolong(const typename Coarse::Vectors& coarse, Vectors& x) const {
-    for (std::uint32_t row = 0; row < x.size(); ++row) {
-      const auto columns = transfer_.columns(row);
-      const auto blocks = transfer_.blocks(row);
-      for (std::size_t k = 0; k < columns.size(); ++k) {
-        x[row].noalias() += blocks[k] * coarse[columns[k]];
+  void prolong(const typename Coarse::Vectors& coarse, Vectors& x, const SharedLoop& shared) const {
+    shared.run(x.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t row = first; row < last; ++row) {
+        const auto columns = transfer_.columns(static_cast<std::uint32_t>(row));
+        const auto blocks = transfer_.blocks(static_cast<std::uint32_t>(row));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+          x[row].noalias() += blocks[k] * coarse[columns[k]];
+        }
       }
-    }
+    });
   }
 
   /// Adds rows, each of which joins the aggregate of an older row.
@@ -131,6 +137,18 @@ class MultigridStage {
     }
     inverse_.resize(aggregate_.size(), Square::Zero());
     transfer_.resize(static_cast<std::uint32_t>(aggregate_.size()));
+  }
+
+  /// Updates the smoother after a row of the matrix changed.
+  template <class Matrix>
+  void update_inverse(const Matrix& matrix, std::uint32_t row) {
+    Square diagonal = Square::Zero();
+    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
+      if (column == row) {
+        diagonal = block;
+      }
+    });
+    inverse_[row] = safe_inverse(diagonal);
   }
 
   const Frames& frames_of_aggregates() const { return coarse_frames_; }
@@ -281,17 +299,6 @@ class MultigridStage {
     sums_.clear();
   }
 
-  template <class Matrix>
-  void update_inverse(const Matrix& matrix, std::uint32_t row) {
-    Square diagonal = Square::Zero();
-    matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
-      if (column == row) {
-        diagonal = block;
-      }
-    });
-    inverse_[row] = safe_inverse(diagonal);
-  }
-
   /// Returns the largest eigenvalue of the matrix after division by its diagonal blocks.
   template <class Matrix>
   float estimate_radius(const Matrix& matrix) {
@@ -308,7 +315,7 @@ class MultigridStage {
     }
     float radius = 1;
     for (int i = 0; i < power_iterations; ++i) {
-      matrix.apply(x, product);
+      matrix.apply(x, product, {});
       double square = 0;
       for (std::size_t row = 0; row < x.size(); ++row) {
         x[row] = inverse_[row] * product[row];
@@ -449,21 +456,13 @@ class MultigridStage {
     }
   }
 
-  template <class Matrix>
-  void subtract(const Matrix& matrix, const Vectors& right, const Vectors& x) {
-    matrix.apply(x, residual_);
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      residual_[i] = right[i] - residual_[i];
-    }
-  }
-
   std::vector<Square> inverse_;  // of the diagonal blocks
   float radius_ = 1;             // largest eigenvalue of the matrix after division by the diagonal blocks
   Frames frames_, coarse_frames_;
   std::vector<std::uint32_t> aggregate_;             // of each row, or none
   std::vector<std::vector<std::uint32_t>> members_;  // of each aggregate
   BlockRows<Transfer> transfer_;
-  Vectors residual_, step_;
+  Vectors product_, step_;
   std::vector<RowSum<typename Coarse::Square>> sums_;
   RowSum<Transfer> transfer_sum_, product_sum_;
 };

@@ -44,7 +44,7 @@ class Preconditioner {
     return builds;
   }
 
-  void apply(const Vectors& right, Vectors& result) {
+  void apply(const Vectors& right, Vectors& result, const SharedLoop& /*shared*/ = {}) {
     double largest = 0;
     for (const auto& one : right) {
       largest = std::max(largest, one.cwiseAbs().maxCoeff());

@@ -21,9 +21,10 @@ class QuasiNewton {
   /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
   /// returns the energy. Returns false if no step lowers the energy.
   template <class Evaluate, class Preconditioner>
-  bool step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force) {
-    find_direction(preconditioner, force);
-    const double slope = dot(direction_, force);
+  bool step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force,
+            const SharedLoop& shared = {}) {
+    find_direction(preconditioner, force, shared);
+    const double slope = dot(direction_, force, shared);
     slope_ = std::max(0.0, slope);
     if (!(slope > 0)) {
       forget();
@@ -33,15 +34,17 @@ class QuasiNewton {
     start_ = x;
     double length = 1;
     for (int i = 0; i < max_tries; ++i, length *= 0.5) {
-      for (std::size_t e = 0; e < x.size(); ++e) {
-        x[e] = start_[e] + length * direction_[e];
-      }
+      shared.run(x.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e) {
+          x[e] = start_[e] + length * direction_[e];
+        }
+      });
       const double next = evaluate(x, force);
       if (next <= energy - 1e-4 * length * slope + 1e-13 * energy) {
         energy = next;
-        learn(length, force);
-        const double was = dot(before_, before_);
-        shrunk_ = was > 0 ? std::min(1.0, std::sqrt(dot(force, force) / was)) : 0;
+        learn(length, force, shared);
+        const double was = dot(before_, before_, shared);
+        shrunk_ = was > 0 ? std::min(1.0, std::sqrt(dot(force, force, shared) / was)) : 0;
         return true;
       }
     }
@@ -64,31 +67,37 @@ class QuasiNewton {
   };
 
   template <class Preconditioner>
-  void find_direction(Preconditioner& preconditioner, const Vectors& force) {
+  void find_direction(Preconditioner& preconditioner, const Vectors& force, const SharedLoop& shared) {
     residual_ = force;
     std::vector<double> fractions(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
-      fractions[i] = dot(pairs_[i].step, residual_) / pairs_[i].product;
-      add(residual_, -fractions[i], pairs_[i].change);
+      fractions[i] = dot(pairs_[i].step, residual_, shared) / pairs_[i].product;
+      add(residual_, -fractions[i], pairs_[i].change, shared);
     }
-    preconditioner.apply(residual_, direction_);
+    preconditioner.apply(residual_, direction_, shared);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      add(direction_, fractions[i] - dot(pairs_[i].change, direction_) / pairs_[i].product, pairs_[i].step);
+      add(direction_, fractions[i] - dot(pairs_[i].change, direction_, shared) / pairs_[i].product, pairs_[i].step,
+          shared);
     }
   }
 
-  void learn(double length, const Vectors& force) {
+  void learn(double length, const Vectors& force, const SharedLoop& shared) {
     Pair pair;
     if (pairs_.size() == max_pairs) {
       pair = std::move(pairs_.front());
       pairs_.erase(pairs_.begin());
     }
-    pair.step.assign(direction_.size(), Eigen::Matrix<double, D, 1>::Zero());
-    add(pair.step, length, direction_);
-    pair.change = before_;
-    add(pair.change, -1, force);
-    pair.product = dot(pair.step, pair.change);
-    if (pair.product > 1e-12 * std::sqrt(dot(pair.step, pair.step) * dot(pair.change, pair.change))) {
+    pair.step.resize(direction_.size());
+    pair.change.resize(direction_.size());
+    shared.run(direction_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t e = first; e < last; ++e) {
+        pair.step[e] = length * direction_[e];
+        pair.change[e] = before_[e] - force[e];
+      }
+    });
+    pair.product = dot(pair.step, pair.change, shared);
+    const double size = std::sqrt(dot(pair.step, pair.step, shared) * dot(pair.change, pair.change, shared));
+    if (pair.product > 1e-12 * size) {
       pairs_.push_back(std::move(pair));
     }
   }

@@ -197,6 +197,7 @@ RelaxationResult Solver::equilibrate(Solve solve) {
     if (!equilibrium_) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
     }
+    equilibrium_->set_threads(threads_);
     solve();
   } catch (const Error&) {
     throw;  // nothing has moved

@@ -50,8 +50,8 @@ class Solver {
   void set_algorithm(Algorithm algorithm);
   /// Sets the progress of long preparations and solutions. A cancelled pass throws Cancelled, and nothing has moved.
   void set_progress(const Progress& progress) { progress_ = progress; }
-  /// Sets the number of threads that a pass may use, at least 1, which is the default. A pass gets fewer while other
-  /// passes run. No result depends on it.
+  /// Sets the number of threads that a pass or an iteration may use, at least 1, which is the default. A pass gets
+  /// fewer while other passes run. No result depends on it.
   void set_threads(int threads) { threads_ = threads; }
 
   /// Returns what a solver with the same algorithm and a copy of the body needs in order to continue as this one does,

@@ -34,6 +34,8 @@ class MaterialTest : public QObject {
   void a_turned_object_has_no_energy();
   void links_without_cells_keep_their_length();
   void regions_bind_where_they_bind();
+  void a_single_element_carries_its_neighbours();
+  void threads_change_no_bit();
 };
 
 namespace {
@@ -377,6 +379,42 @@ void MaterialTest::regions_bind_where_they_bind() {
     }
   }
   QVERIFY(tried > 50);
+}
+
+void MaterialTest::a_single_element_carries_its_neighbours() {
+  Scene scene(block(MeshKind::tetra, 6));
+  const ElementId last = scene.mesh->element_count() - 1;
+  scene.handle = {last};
+  Body body = scene.body();
+  body.set_positions(scene.moved(std::vector<double>{0.8, -0.6, 0.3}));
+  QVERIFY(EquilibriumSolver::make(3)->solve(body, scene.handle, 1e-8, 5000));
+  const std::vector<double> at = positions_of(body);
+  for (const ElementId e : scene.mesh->neighbours_of(last)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      QVERIFY(std::abs(at[3 * e + k] - scene.mesh->rest[3 * e + k] -
+                       (at[3 * last + k] - scene.mesh->rest[3 * last + k])) < 1e-12);
+    }
+    scene.handle.push_back(e);
+  }
+  std::ranges::sort(scene.handle);
+  QVERIFY(relative_error(at, scene.finite_elements(std::vector<double>{0.8, -0.6, 0.3}), *scene.mesh) < 1e-6);
+}
+
+void MaterialTest::threads_change_no_bit() {
+  const Scene scene(block(MeshKind::tetra, 21), 3);  // large enough for helpers
+  std::vector<double> once;
+  for (const int threads : {1, 2, 4}) {
+    Body body = scene.body();
+    body.set_positions(scene.moved(std::vector<double>{2, -1, 1}));
+    const auto solver = EquilibriumSolver::make(3);
+    solver->set_threads(threads);
+    for (int i = 0; i < 5; ++i) {
+      solver->iterate(body, scene.handle);
+    }
+    const std::vector<double> at = positions_of(body);
+    QVERIFY(once.empty() || at == once);
+    once = at;
+  }
 }
 
 CHAINMAIL_TEST(MaterialTest)
