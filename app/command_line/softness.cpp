@@ -29,7 +29,7 @@ CLI::Option* add_energy(CLI::App& app) {
   return add_value(app, "--energy", names,
                    "elastic energy that relaxation lowers, of links or of the material of cells; isotropic ignores " +
                        softness_names(", ", region_numbers, softness_numbers.size() - 1) + " and " +
-                       std::string(softness_numbers.back().parameter->name) + " [" +
+                       std::string(softness_numbers.back().parameter->name) + ", material too, at equilibrium [" +
                        std::string(info(standard_energy).name) + "]");
 }
 

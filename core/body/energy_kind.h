@@ -11,6 +11,9 @@ enum class EnergyKind { isotropic, axial, corotated, material };
 
 /// The energy of a new object.
 inline constexpr EnergyKind standard_energy = EnergyKind::corotated;
+/// The energy of links that comes closest to a material: that of objects without cells and of sweeps, and the one that
+/// calibration adjusts.
+inline constexpr EnergyKind link_energy = EnergyKind::corotated;
 
 /// One row of the table: everything that other code knows about a kind of energy.
 struct EnergyKindInfo {

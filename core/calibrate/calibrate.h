@@ -27,7 +27,7 @@ struct CalibrationOptions {
   int max_sweeps = 100;              // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::mean;
-  EnergyKind energy = standard_energy;
+  EnergyKind energy = link_energy;
   StrainLaw law = {};  // of the reference solution
 };
 

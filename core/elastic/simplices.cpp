@@ -235,10 +235,10 @@ Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& pr
   return Builder(mesh, cuts, progress).build();
 }
 
-bool has_simplices(const Mesh& mesh) {
+bool has_solid_cells(const Mesh& mesh) {
   switch (mesh.space_dimension) {
     case 1:
-      return mesh.link_count() > 0;
+      return false;
     case 2:
       return mesh.lattice || !mesh.triangles.empty();
     default:

@@ -53,9 +53,8 @@ struct CellSimplices {
     return std::span(links).subspan(first_link[cell], first_link[cell + 1] - first_link[cell]);
   }
 };
-/// Returns true if build_cell_simplices finds cells: links on a line, faces or squares in a plane, cells or cubes in
-/// space.
-bool has_simplices(const Mesh& mesh);
+/// Returns true if a mesh has cells of its space's dimension: faces or squares in a plane, cells or cubes in space.
+bool has_solid_cells(const Mesh& mesh);
 /// The same division as build_simplices. Flat cells and any orientation are accepted. Throws Cancelled.
 CellSimplices build_cell_simplices(const Mesh& mesh, const Progress& progress = {});
 

@@ -416,7 +416,7 @@ class Equilibrator final : public EquilibriumSolver {
     energy_of_iterate_ = material_.energy();
     note_distance(material_.distance());
     ++iterations_;
-    if (uses_regions_ && (constrained_ || residual_ < binds_below)) {
+    if (uses_regions_ && (constrained_ || (residual_ < binds_below && !is_valid(iterate_)))) {
       follow_regions();
     }
   }
@@ -463,18 +463,18 @@ class Equilibrator final : public EquilibriumSolver {
     }
   }
 
-  /// Finds which regions bind, and moves their forces when the search has come closer than the links are outside.
+  /// Finds which regions bind, and moves their forces when the search has come closer than these are to right.
   void follow_regions() {
     const double distance = residual_;
     const auto square = [&] { return 2 * std::max(0.0, energy_of_iterate_) + unseen_energy(); };
-    const bool moves = constrained_ && distance * distance * square() < last_outside_;
+    const bool moves = constrained_ && distance * distance * square() < last_apart_;
     const auto update = material_.regions().update(links(), iterate_, moves);
-    last_outside_ = update.outside;
+    last_apart_ = update.apart;
     constrained_ = !material_.regions().is_empty();
     if (moves || !update.changed.empty()) {
       material_.follow_regions(update.changed);
     }
-    residual_ = std::max(distance, std::sqrt(update.outside / square()));
+    residual_ = std::max(distance, std::sqrt(update.apart / square()));
   }
 
   /// The energy of deflections that nobody sees: the residual of an object at rest is relative to this.
@@ -753,7 +753,7 @@ class Equilibrator final : public EquilibriumSolver {
   bool is_start_ = true;                          // the iterate was set from outside
   Vectors jump_;                                  // by which fixed elements have moved since the last step
   bool has_jump_ = false;
-  double last_outside_ = 0;
+  double last_apart_ = 0;  // how far the forces of regions were from right, see RegionPenalties
 
   bool constrained_ = false;  // valid regions bind
   RegionMultipliers<D> regions_;

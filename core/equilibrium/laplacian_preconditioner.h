@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,9 +18,10 @@ class LaplacianPreconditioner {
   using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
 
   void begin(MeshPointer mesh) {
-    matrix_ = Matrix(std::move(mesh));
+    matrix_ = finest_ = Matrix(std::move(mesh));
     grid_ = {};
     outdated_.clear();
+    changed_.clear();
     cut_ = false;
   }
   const Mesh& mesh() const { return matrix_.mesh(); }
@@ -27,18 +29,20 @@ class LaplacianPreconditioner {
 
   void set_link(LinkId link, double weight) {
     matrix_.set_link(link, static_cast<float>(weight));
+    finest_.set_link(link, static_cast<float>(weight));
     const auto [i, j] = mesh().links[link];
     outdated_.insert(outdated_.end(), {i, j});
     cut_ = cut_ || weight == 0;
   }
   /// The same for a while: the coarser levels keep the weight of before.
   void set_link_for_a_while(LinkId link, double weight) {
-    matrix_.set_link(link, static_cast<float>(weight));
+    finest_.set_link(link, static_cast<float>(weight));
     const auto [i, j] = mesh().links[link];
     changed_.insert(changed_.end(), {i, j});
   }
   void set_fixed(ElementId element, bool fixed) {
     matrix_.set_fixed(element, fixed);
+    finest_.set_fixed(element, fixed);
     outdated_.push_back(element);
     const auto neighbours = mesh().neighbours_of(element);
     outdated_.insert(outdated_.end(), neighbours.begin(), neighbours.end());
@@ -54,10 +58,15 @@ class LaplacianPreconditioner {
     } else if (!outdated_.empty()) {
       grid_.update(matrix_, outdated_, cut_);
     }
+    changed_.insert(changed_.end(), outdated_.begin(), outdated_.end());
+    if (builds) {
+      changed_.resize(matrix_.size());
+      std::iota(changed_.begin(), changed_.end(), ElementId{0});
+    }
+    grid_.update_finest(finest_, changed_);
     outdated_.clear();
-    cut_ = false;
-    grid_.update_finest(matrix_, changed_);
     changed_.clear();
+    cut_ = false;
     return builds;
   }
 
@@ -74,7 +83,7 @@ class LaplacianPreconditioner {
         right_[i].template head<D>() = (right[i] * scale).transpose().template cast<float>();
       }
     });
-    grid_.cycle(matrix_, right_, result_, shared);
+    grid_.cycle(finest_, right_, result_, shared);
     result.resize(right.size());
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -87,7 +96,8 @@ class LaplacianPreconditioner {
   // Four numbers are one register, three are not.
   using Matrix = LinkLaplacian<D == 3 ? 4 : D>;
 
-  Matrix matrix_;
+  Matrix matrix_;  // of which the coarser levels are made
+  Matrix finest_;  // the same, with the links that were set for a while
   Multigrid<Matrix> grid_;
   std::vector<ElementId> outdated_;  // rows
   std::vector<ElementId> changed_;   // rows of which the finest level is outdated

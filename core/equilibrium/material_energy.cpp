@@ -7,8 +7,8 @@
 namespace chainmail {
 namespace {
 
-// Weights of links are at least this share of their mean: obtuse cells would give some of them the wrong sign.
-constexpr double least_weight = 0.02;
+// Stiffness of a link with an end that no cell holds.
+constexpr double loose_stiffness = 1e-6;
 
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
@@ -180,7 +180,7 @@ double MaterialEnergy<D>::weight(LinkId link) const {
   }
   const auto [i, j] = mesh_->links[link];
   const bool is_loose = whole_beside_[i] == 0 || whole_beside_[j] == 0;
-  return is_loose ? 1 : std::max(least_weight, stiffness_around(link));
+  return is_loose ? loose_stiffness : std::max(least_weight, stiffness_around(link));
 }
 
 /// Divides the batches into parts that are worth a thread.
@@ -368,9 +368,9 @@ double MaterialEnergy<D>::add_loose_links(const Vectors& displacements, Vectors*
           mesh_->rest[std::size_t{j} * D + std::size_t(axis)] - mesh_->rest[std::size_t{i} * D + std::size_t(axis)];
     }
     const double length = apart.norm(), longer = length - loose_rest_[k];
-    energy += longer * longer / 2;
+    energy += loose_stiffness * longer * longer / 2;
     if (force != nullptr && length > 0) {
-      const Vector pull = longer / length * apart;
+      const Vector pull = loose_stiffness * longer / length * apart;
       (*force)[i] += pull;
       (*force)[j] -= pull;
     }

@@ -19,7 +19,7 @@ namespace chainmail {
 /// inverted cells too. In a plane it is that of plane stress.
 ///
 /// A cut link removes the cells along it. An element that no cell holds any more is kept by its links: springs of
-/// their rest lengths, as stiff as the cells around a mean link.
+/// their rest lengths, so weak that the cells do not feel them.
 ///
 /// Energies are divided by the mean stiffness of links, see weight(), so that numbers are near 1.
 template <int Dimension>
@@ -39,6 +39,8 @@ class MaterialEnergy {
   /// The stiffness of a link in an approximation of the energy: the Laplacian of the cells with the modulus 2μ + λ
   /// (after Liu, Bouaziz and Kavan 2017), without the entries of the wrong sign of obtuse cells. 0 if the link is cut.
   double weight(LinkId link) const;
+  /// The least weight of a link between elements that cells hold.
+  static constexpr double least_weight = 0.02;
 
   /// Returns the energy at these displacements from rest, and writes its negative gradient, if given.
   double evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared = {});
@@ -109,7 +111,7 @@ extern template class MaterialEnergy<2>;
 extern template class MaterialEnergy<3>;
 
 /// Returns the energy of the material of a mesh's uncut cells, in units of Young's modulus times mesh units to the
-/// power of the space's dimension. The mesh has cells, see has_simplices.
+/// power of the space's dimension. The mesh has cells, see has_solid_cells.
 double material_energy(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position);
 
 }  // namespace chainmail

@@ -165,7 +165,7 @@ template <int D>
 void MaterialMinimum<D>::follow_regions(std::span<const LinkId> changed) {
   for (const LinkId link : changed) {
     const double penalty = regions_.is_active(link) ? RegionPenalties<D>::penalty : 0;
-    preconditioner_.set_link_for_a_while(link, (1 + penalty) * weights_[link]);
+    preconditioner_.set_link_for_a_while(link, weights_[link] + penalty * stiffness(link));
   }
   is_outdated_ = true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -47,7 +48,9 @@ class MaterialMinimum {
   double distance() const { return distance_; }
 
   /// A link's stiffness, as the springs of regions count it.
-  double stiffness(LinkId link) const { return weights_[link]; }
+  double stiffness(LinkId link) const {
+    return weights_[link] > 0 ? std::max(MaterialEnergy<D>::least_weight, weights_[link]) : 0;
+  }
   RegionPenalties<D>& regions() { return regions_; }
   /// Tells that the forces of regions changed, and the working set at these links.
   void follow_regions(std::span<const LinkId> changed);

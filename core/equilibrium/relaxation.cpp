@@ -18,7 +18,7 @@ namespace {
 /// Returns the energy of links that sweeps lower.
 EnergyKind energy_of_sweeps(const Body& body) {
   const EnergyKind kind = body.softness().energy;
-  return kind == EnergyKind::material ? EnergyKind::corotated : kind;
+  return kind == EnergyKind::material ? link_energy : kind;
 }
 
 }  // namespace

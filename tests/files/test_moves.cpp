@@ -79,7 +79,8 @@ void MovesTest::commands_are_read() {
   QCOMPARE(std::get<commands::Pin>(moves[5]).elements, (std::vector<ElementId>{3, 0}));
   QCOMPARE(std::get<commands::Unpin>(moves[6]).elements, std::vector<ElementId>{3});
   QVERIFY(std::holds_alternative<commands::Reset>(moves[7]));
-  QVERIFY((*std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
+  QVERIFY(
+      (*std::get<commands::SetSoftness>(moves[8]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}, link_energy}));
   // A simulation accepts the commands that were read.
   Simulation simulation(mesh_, Algorithm::exact, Precision::double_precision);
   for (const Command& move : moves) {
@@ -370,7 +371,8 @@ void MovesTest::keys_come_in_any_order() {
   QCOMPARE(moves.size(), std::size_t{3});
   QCOMPARE(std::get<commands::Cut>(moves[0]).links, (std::vector<LinkId>{0, 6}));
   QCOMPARE(std::get<commands::Pin>(moves[1]).elements, std::vector<ElementId>{3});
-  QVERIFY((*std::get<commands::SetSoftness>(moves[2]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}}));
+  QVERIFY(
+      (*std::get<commands::SetSoftness>(moves[2]).softness == Softness{{0.5, 2, 0}, {{1, {1, 1, 0.25}}}, link_energy}));
 }
 
 /// A key that occurs twice is an error, because one of the two values would be ignored.

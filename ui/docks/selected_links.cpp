@@ -4,6 +4,7 @@
 #include <QVBoxLayout>
 
 #include "document/edits.h"
+#include "equilibrium/link_energy.h"
 
 namespace chainmail {
 namespace {
@@ -11,6 +12,17 @@ namespace {
 const QString selectedPrefix = QStringLiteral("selected-");
 
 }  // namespace
+
+bool linksCount(const Document& document) {
+  switch (energy_in(*document.mesh(), document.wholeSoftness()->energy)) {
+    case EnergyKind::isotropic:
+      return false;
+    case EnergyKind::material:
+      return info(document.relaxation().scheme).sweeps;
+    default:
+      return true;
+  }
+}
 
 SelectedLinks::SelectedLinks(Document& document)
     : QGroupBox(QStringLiteral("Selected links")),
@@ -32,6 +44,7 @@ SelectedLinks::SelectedLinks(Document& document)
           [this] { edits::setSoftnessOf(document_, document_.selection().links(), std::nullopt); });
   connect(&document.selection(), &Selection::changed, this, &SelectedLinks::refresh);
   connect(&document, &Document::softnessChanged, this, &SelectedLinks::refresh);
+  connect(&document, &Document::relaxationChanged, this, &SelectedLinks::refresh);
   refresh();
 }
 
@@ -74,7 +87,7 @@ void SelectedLinks::refresh() {
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const auto value = softness_numbers[i].value;
     numbers_[i]->show(all.isCommon[i] ? all.softness.*value : global.*value);
-    numbers_[i]->setEnabled(i < region_numbers || document_.wholeSoftness()->energy != EnergyKind::isotropic);
+    numbers_[i]->setEnabled(i < region_numbers || linksCount(document_));
   }
 }
 

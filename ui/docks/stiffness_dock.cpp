@@ -32,8 +32,9 @@ StiffnessDock::StiffnessDock(Document& document)
   }
   column_->addWidget(new SelectedLinks(document));
   setColumn(*this, *column_);
-  connect(&document, &Document::softnessChanged, this, &StiffnessDock::showSoftness);
-  connect(&document, &Document::meshChanged, this, &StiffnessDock::showFrame);
+  for (const auto change : {&Document::softnessChanged, &Document::meshChanged, &Document::relaxationChanged}) {
+    connect(&document, change, this, &StiffnessDock::showSoftness);
+  }
   showSoftness();
 }
 
@@ -94,12 +95,12 @@ void StiffnessDock::showFrame() {
   }
 }
 
-/// The kind of energy applies to all links. With isotropic energy, the numbers below it do not count.
+/// The kind of energy applies to the whole object.
 void StiffnessDock::addEnergy() {
   energy_->setObjectName(QStringLiteral("energy"));
   energy_->setAccessibleName(QStringLiteral("Energy"));
   energy_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, without changing the field
-  QString help = QStringLiteral("Elastic energy of all links, which relaxation lowers.");
+  QString help = QStringLiteral("Elastic energy that relaxation lowers.");
   for (const EnergyKindInfo& one : energy_kinds()) {
     energy_->addItem(text(one.label), int(one.kind));
     energy_->setItemData(energy_->count() - 1, text(one.help), Qt::ToolTipRole);
@@ -125,7 +126,7 @@ void StiffnessDock::showSoftness() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const double value = document_.softness().*softness_numbers[i].value;
     rows_[i]->show(value);
-    rows_[i]->setEnabled(i < region_numbers || kind != EnergyKind::isotropic);
+    rows_[i]->setEnabled(i < region_numbers || linksCount(document_));
     changed = changed || (i >= region_numbers && value != LinkSoftness().*softness_numbers[i].value);
   }
   advanced_->setChanged(changed);

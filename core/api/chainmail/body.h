@@ -172,9 +172,9 @@ class Body {
   /// Returns the softness of each link.
   std::vector<LinkSoftness> link_softness() const;
 
-  /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has corotated energy.
-  /// A global lateral stiffness that was the usual one of the old kind becomes that of the new kind: 1 for corotated,
-  /// 0.03 for axial energy.
+  /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has
+  /// corotated links. A global lateral stiffness that was the usual one of the old kind becomes that of the new kind:
+  /// 0.03 for axial energy, else 1.
   void set_energy(EnergyKind kind);
   /// The kind of elastic energy.
   EnergyKind energy() const;

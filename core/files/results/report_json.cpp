@@ -146,6 +146,7 @@ Json begin_with(const report::PhysicsContestant& contestant) {
           {"label", label(contestant)},
           {"sweeps", contestant.sweeps},
           {"equilibrium", contestant.equilibrium},
+          {"open_regions", contestant.open_regions},
           {"calibrated", contestant.calibrated ? to_json(*contestant.calibrated) : Json()}};
 }
 

@@ -198,7 +198,7 @@ constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_nu
 /// Checks commands one after another, as a simulation would execute them from rest.
 class MovesReader {
  public:
-  MovesReader(const std::string& where, const MeshPointer& mesh, EnergyKind absent_energy = standard_energy)
+  MovesReader(const std::string& where, const MeshPointer& mesh, EnergyKind absent_energy = link_energy)
       : where_(where), fields_(where_, mesh), absent_energy_(absent_energy) {}
 
   std::vector<Command> read(std::string_view text, const std::filesystem::path& path, const Progress& progress);

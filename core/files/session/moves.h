@@ -49,7 +49,7 @@ std::vector<Command> read_moves(const std::filesystem::path& path, const MeshPoi
 /// energy has `absent_energy`.
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
                                 const MeshPointer& mesh, const Progress& progress,
-                                EnergyKind absent_energy = standard_energy);
+                                EnergyKind absent_energy = link_energy);
 
 /// Writes moves, one line per command. They begin with `mesh`, or with the mesh that the first split of them splits.
 /// Commands for the solver (algorithm, relaxation, states for undo) are left out. Throws Error for a change of mesh or

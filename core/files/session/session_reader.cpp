@@ -50,7 +50,7 @@ class SessionReader {
   std::string_view moves_;
   const MeshOpener& open_;
   std::uint64_t version_ = session_version;
-  EnergyKind absent_energy_ = standard_energy;
+  EnergyKind absent_energy_ = link_energy;
   Session result_;
 };
 
@@ -60,7 +60,7 @@ void SessionReader::check_kind() {
     fields_.fail("it is not a session", "use a file that the workbench saved");
   }
   version_ = fields_.count(tree_, "version", session_version);
-  absent_energy_ = has_energy() ? standard_energy : EnergyKind::isotropic;
+  absent_energy_ = has_energy() ? link_energy : EnergyKind::isotropic;
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
                              "panels", "moves", "moves_done", "lesson", "ui"});
 }

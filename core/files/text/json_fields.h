@@ -46,7 +46,7 @@ class JsonFields {
   /// Returns the numbers of a softness, named as in the table of parameters. Those of the energy may be left out.
   LinkSoftness softness(const Json& object) const;
   /// Returns the kind of energy of a softness, or `absent` if it is left out.
-  EnergyKind energy(const Json& object, EnergyKind absent = standard_energy) const;
+  EnergyKind energy(const Json& object, EnergyKind absent = link_energy) const;
   /// Returns the axes of a softness for this mesh; those of the world if they are left out. Principal axes without a
   /// rotation are found in the mesh, which takes time in proportion to its size, and are kept in `principal`.
   RegionAxes axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const;

@@ -59,7 +59,8 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
           << series.contestant.sweeps << ",,1," << all_digits(point.ms_per_move) << ",,,,,"
           << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
           << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
-          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0)
+          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0) << ','
+          << (series.contestant.open_regions ? 1 : 0)
           << std::string(physics_shape_figures + 2 * symmetry_angles.size(), ',') << '\n';
     }
   }
@@ -73,7 +74,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
          "first_ms,first_lower_quartile,first_upper_quartile,first_repetitions,"
          "after_cut_ms,after_cut_lower_quartile,after_cut_upper_quartile,after_cut_repetitions,"
          "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
-         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium,"
+         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium,open_regions,"
          "hausdorff,volume_change,inverted_cells,largest_stretch,violation_max,"
          "turned_45_max,turned_45_relative,turned_90_max,turned_90_relative\n";
   for (const PhysicsObject& object : report.objects) {
@@ -88,7 +89,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
           out << std::string(physics_figures, ',');
         }
         out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << ','
-            << (entry.contestant.equilibrium ? 1 : 0);
+            << (entry.contestant.equilibrium ? 1 : 0) << ',' << (entry.contestant.open_regions ? 1 : 0);
         if (entry.measurement) {
           write_physics_shape(out, entry.measurement->shape);
         } else {

@@ -49,9 +49,10 @@ PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title
     const bool calibrated = entry.contestant.calibrated.has_value(), equilibrium = entry.contestant.equilibrium;
     panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series,
                            entry.contestant.sweeps > 0 || equilibrium,
-                           calibrated    ? "cal."
-                           : equilibrium ? equilibrium_mark
-                                         : "",
+                           calibrated                      ? "cal."
+                           : entry.contestant.open_regions ? "open"
+                           : equilibrium                   ? equilibrium_mark
+                                                           : "",
                            in_words(drag, entry)});
     if (!prepares(entry.contestant) && !calibrated && !equilibrium) {
       if (panel.curves.empty() || panel.curves.back().series != series) {

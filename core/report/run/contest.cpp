@@ -48,9 +48,7 @@ class Contest::Participant {
     if (contestant.limit > 0 && !contestant.equilibrium) {
       object_.elastic.iterations = std::uint32_t(contestant.limit);
     }
-    if (contestant.calibrated) {
-      object_.softness = {*contestant.calibrated, {}, object_.softness.energy, object_.softness.axes};
-    }
+    object_.softness = softness_of(contestant, object_.softness);
     const auto before = bytes_in_use();
     try {
       runner_ = std::make_unique<Runner>(object_, *contestant.algorithm, options.precision, options);

@@ -36,12 +36,23 @@ std::string label(const PhysicsContestant& contestant) {
     return label(unlimited) + ", " + std::to_string(contestant.limit) +
            (contestant.limit == 1 ? " iteration" : " iterations");
   }
+  if (contestant.open_regions) {
+    return label(Contestant{*contestant.algorithm, 0, contestant.equilibrium}) + ", open regions";
+  }
   if (!contestant.calibrated) {
     return label(Contestant{*contestant.algorithm, contestant.sweeps, contestant.equilibrium}) +
            cells_of(*contestant.algorithm);
   }
   return label(Contestant{*contestant.algorithm, 0, contestant.equilibrium}) + ", calibrated" +
          (contestant.sweeps == 0 ? "" : " (" + std::to_string(contestant.sweeps) + " sweeps)");
+}
+
+Softness softness_of(const PhysicsContestant& contestant, const Softness& object) {
+  if (contestant.open_regions) {
+    constexpr LinkSoftness open{.compression = 0, .stretch = 1000, .shear = 1000};
+    return {open, {}, EnergyKind::material, object.axes};
+  }
+  return contestant.calibrated ? Softness{*contestant.calibrated, {}, link_energy, object.axes} : object;
 }
 
 bool prepares(const PhysicsContestant& contestant) {
@@ -61,6 +72,7 @@ std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algo
     }
     if (equilibrium && takes_part_at_equilibrium(algorithm)) {
       contestants.push_back({algorithm, 0, {}, true});
+      contestants.push_back({algorithm, 0, {}, true, 0, true});
     }
     for (const Calibration& found : calibrations) {
       if (found.algorithm == algorithm && found.refusal.empty()) {

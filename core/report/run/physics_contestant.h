@@ -16,9 +16,10 @@ struct PhysicsContestant {
   std::optional<Algorithm> algorithm;  // none: only the handle and the pins move
   int sweeps = 0;                      // number of relaxation sweeps after each move
   std::optional<LinkSoftness> calibrated =
-      {};                    // result of the calibration on this object; none: the object's own softness
-  bool equilibrium = false;  // true: relaxed to the equilibrium after each move, instead of sweeps
-  int limit = 0;             // most iterations per move, whether they converge or not; 0: those of the method
+      {};                     // result of the calibration on this object; none: the object's own softness
+  bool equilibrium = false;   // true: relaxed to the equilibrium after each move, instead of sweeps
+  int limit = 0;              // most iterations per move, whether they converge or not; 0: those of the method
+  bool open_regions = false;  // true: the energy of the material, and regions that do not bind; nothing is calibrated
 
   bool operator==(const PhysicsContestant&) const = default;
 };
@@ -28,6 +29,9 @@ std::string name(const PhysicsContestant& contestant);
 std::string label(const PhysicsContestant& contestant);
 /// Returns true for methods of elasticity, which do some work before their first move.
 bool prepares(const PhysicsContestant& contestant);
+
+/// Returns the softness with which a contestant runs on an object of this softness.
+Softness softness_of(const PhysicsContestant& contestant, const Softness& object);
 
 /// The softness and the sweeps with which an algorithm is closest to the reference solution on one object.
 struct Calibration {
@@ -47,7 +51,8 @@ using Calibrator = std::function<Calibration(const Case& object, Algorithm algor
                                              const std::vector<ElementId>& handles, const std::stop_token& stop)>;
 
 /// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps,
-/// with the equilibrium if `equilibrium`, and calibrated, then the methods of elasticity without sweeps.
+/// with the equilibrium if `equilibrium`, also in open regions, and calibrated, then the methods of elasticity without
+/// sweeps.
 std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
                                               bool equilibrium, const std::vector<Calibration>& calibrations);
 

@@ -112,11 +112,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
       continue;
     }
     Symmetry& one = result.emplace_back(Symmetry{contestants[i], {}, {}});
-    if (contestants[i].calibrated) {
-      object.softness = {*contestants[i].calibrated, {}, asked.softness.energy, asked.softness.axes};
-    } else {
-      object.softness = asked.softness;
-    }
+    object.softness = softness_of(contestants[i], asked.softness);
     try {
       const Mesh& mesh = *object.mesh;
       const double start = clocks.wall();

@@ -36,6 +36,7 @@ class MaterialTest : public QObject {
   void regions_bind_where_they_bind();
   void a_single_element_carries_its_neighbours();
   void threads_change_no_bit();
+  void random_scenes_equal_finite_elements();
 };
 
 namespace {
@@ -379,6 +380,11 @@ void MaterialTest::regions_bind_where_they_bind() {
     }
   }
   QVERIFY(tried > 50);
+  // Released, the regions' forces end, and it goes back to rest.
+  body.set_positions(at);
+  QVERIFY(solver->solve(body, scene.handle, 1e-6, 3000));
+  QVERIFY(solver->solve(body, {}, 1e-6, 3000));
+  QVERIFY(energy_of(body) < 1e-12);
 }
 
 void MaterialTest::a_single_element_carries_its_neighbours() {
@@ -415,6 +421,61 @@ void MaterialTest::threads_change_no_bit() {
     QVERIFY(once.empty() || at == once);
     once = at;
   }
+}
+
+void MaterialTest::random_scenes_equal_finite_elements() {
+  int compared = 0;
+  QVERIFY(check_property(
+      "random pins, cuts and handles have the minimum of finite elements",
+      [&] {
+        Scene scene(block(*rc::gen::element(MeshKind::tetra, MeshKind::block), *rc::gen::inRange<std::uint32_t>(3, 6)));
+        scene.material.poisson = *rc::gen::element(0.0, 0.3, 0.45);
+        const ElementId count = scene.mesh->element_count();
+        const auto more = *rc::gen::container<std::vector<ElementId>>(4, rc::gen::inRange<ElementId>(0, count));
+        for (const ElementId e : more) {
+          if (std::ranges::find(scene.pins, e) == scene.pins.end() &&
+              std::ranges::find(scene.handle, e) == scene.handle.end()) {
+            scene.pins.push_back(e);
+          }
+        }
+        std::ranges::sort(scene.pins);
+        std::vector<double> by;
+        for (int k = 0; k < 3; ++k) {
+          by.push_back(0.01 * *rc::gen::inRange(-25, 26));
+        }
+        RC_PRE(std::ranges::any_of(by, [](double one) { return one != 0; }));
+        Body body = scene.body();
+        body.set_positions(scene.moved(by));
+        const auto solver = EquilibriumSolver::make(3);
+        solver->iterate(body, scene.handle);
+        body.cut(*rc::gen::container<std::vector<LinkId>>(3, rc::gen::inRange<LinkId>(0, scene.mesh->link_count())));
+        std::vector<double> expected;
+        try {
+          expected = scene.finite_elements(by, body.cuts());
+        } catch (const Error&) {
+          return;  // a part without pins
+        }
+        RC_ASSERT(solver->solve(body, scene.handle, 1e-8, 5000));
+        // Elements that no cell holds stay at rest in finite elements.
+        const CellSimplices cells = build_cell_simplices(*scene.mesh);
+        std::vector<bool> in_cell(count);
+        for (std::size_t s = 0; s < cells.simplices.count(); ++s) {
+          const bool whole = std::ranges::none_of(cells.links_of(cells.cell_of[s]),
+                                                  [&](LinkId link) { return body.cuts().is_cut(link); });
+          for (const ElementId e : cells.simplices.corners_of(s)) {
+            in_cell[e] = in_cell[e] || whole;
+          }
+        }
+        const std::vector<double> found = positions_of(body);
+        for (ElementId e = 0; e < count; ++e) {
+          for (std::size_t k = 0; in_cell[e] && k < 3; ++k) {
+            RC_ASSERT(std::abs(found[3 * e + k] - expected[3 * e + k]) < 1e-5);
+          }
+        }
+        ++compared;
+      },
+      60));
+  QVERIFY(compared > 20);
 }
 
 CHAINMAIL_TEST(MaterialTest)
