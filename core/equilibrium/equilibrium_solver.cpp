@@ -135,10 +135,9 @@ class Equilibrator final : public EquilibriumSolver {
       is_start_ = true;
       end_constraints();
     }
-    std::vector<ElementId> all_held = with_carried(held);
-    const bool other_fixed = is_new || now.pins != seen_.pins || all_held != held_;
+    const bool other_fixed = is_new || now.pins != seen_.pins || !std::ranges::equal(held, held_);
     if (other_fixed) {
-      held_ = std::move(all_held);
+      held_.assign(held.begin(), held.end());
       update_fixed(body);
     }
     if (other_fixed || now.positions != seen_.positions || now.energy != seen_.energy || now.cuts != seen_.cuts) {
@@ -147,22 +146,6 @@ class Equilibrator final : public EquilibriumSolver {
     make_valid(body);
     hold_fixed();
     seen_ = body.revisions();
-  }
-
-  /// Returns the held elements. A single one carries its neighbours along, as if the hand had a width: a force on a
-  /// point has no limit as cells become smaller, it inverts those about it.
-  std::vector<ElementId> with_carried(std::span<const ElementId> held) {
-    std::vector<ElementId> all(held.begin(), held.end());
-    if (D > 1 && uses_material() && held.size() == 1) {
-      shown_.for_each_neighbour(held.front(), [&](ElementId neighbour, EntryId) {
-        if (!shown_.pinned(neighbour)) {
-          shown_.positions[neighbour] = shown_.positions[held.front()];
-          all.push_back(neighbour);
-        }
-      });
-      std::ranges::sort(all);
-    }
-    return all;
   }
 
   void begin(const Body& body) {

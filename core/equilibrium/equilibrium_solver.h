@@ -42,8 +42,7 @@ class EquilibriumSolver {
   virtual ~EquilibriumSolver() = default;
 
   /// Runs one iteration. The elements of `held` (ascending) and the pins stay, unless their positions contradict each
-  /// other: then the handle moves to where the pins allow it. With the energy of the material, a single held element
-  /// carries its neighbours along as it has moved from rest. Throws Error if pins contradict each other, and
+  /// other: then the handle moves to where the pins allow it. Throws Error if pins contradict each other, and
   /// Cancelled; nothing has moved then.
   virtual void iterate(Body& body, std::span<const ElementId> held, const Progress& progress = {}) = 0;
   /// Iterates until the residual is at most `tolerance`, or `max_iterations` were made. Returns true if the residual
