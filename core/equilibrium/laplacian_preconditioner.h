@@ -51,7 +51,7 @@ class LaplacianPreconditioner {
   /// Returns true if it built a multigrid.
   bool update(const Progress& progress) {
     std::ranges::sort(outdated_);
-    outdated_.erase(std::ranges::unique(outdated_).begin(), outdated_.end());
+    outdated_.erase(std::unique(outdated_.begin(), outdated_.end()), outdated_.end());
     const bool builds = !grid_.is_built() || outdated_.size() > matrix_.size() / 2;
     if (builds) {
       grid_.build(matrix_, progress);

@@ -124,7 +124,7 @@ std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
     }
   }
   std::ranges::sort(cells);
-  cells.erase(std::ranges::unique(cells).begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   for (const std::uint32_t cell : cells) {
     const auto links = cells_.links_of(cell);
     const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
@@ -134,7 +134,7 @@ std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
     }
   }
   std::ranges::sort(changed);
-  changed.erase(std::ranges::unique(changed).begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   if (!changed.empty() || loose_.empty()) {
     find_loose_links(cuts);
   }
