@@ -53,6 +53,11 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
     }
     ++first_simplex_[cells_.cell_of[s] + 1];
   }
+  for (std::size_t s = count; s % lanes != 0; ++s) {  // the rest of the last batch has no volume
+    for (auto& corner : batches_.back().corner) {
+      corner[s % lanes] = corner[0];
+    }
+  }
   for (std::size_t cell = 0; cell + 1 < first_simplex_.size(); ++cell) {
     first_simplex_[cell + 1] += first_simplex_[cell];
   }
