@@ -354,8 +354,10 @@ class Equilibrator final : public EquilibriumSolver {
   void hold_fixed() {
     for (std::size_t e = 0; e < fixed_.size(); ++e) {
       if (fixed_[e] != 0 && iterate_[e] != vector_of(shown_.positions[e])) {
-        jump_[e] += vector_of(shown_.positions[e]) - iterate_[e];
-        has_jump_ = true;
+        if (uses_material()) {
+          jump_[e] += vector_of(shown_.positions[e]) - iterate_[e];
+          has_jump_ = true;
+        }
         iterate_[e] = vector_of(shown_.positions[e]);
         gradient_is_outdated_ = true;
         iterations_ = 0;
@@ -450,14 +452,14 @@ class Equilibrator final : public EquilibriumSolver {
   void follow_regions() {
     const double distance = residual_;
     const auto square = [&] { return 2 * std::max(0.0, energy_of_iterate_) + unseen_energy(); };
-    const bool moves = constrained_ && distance * distance * square() < last_apart_;
+    const bool moves = constrained_ && distance * distance * square() < region_error_;
     const auto update = material_.regions().update(links(), iterate_, moves);
-    last_apart_ = update.apart;
+    region_error_ = update.error;
     constrained_ = !material_.regions().is_empty();
     if (moves || !update.changed.empty()) {
       material_.follow_regions(update.changed);
     }
-    residual_ = std::max(distance, std::sqrt(update.apart / square()));
+    residual_ = std::max(distance, std::sqrt(update.error / square()));
   }
 
   /// The energy of deflections that nobody sees: the residual of an object at rest is relative to this.
@@ -482,9 +484,7 @@ class Equilibrator final : public EquilibriumSolver {
       gradient_is_outdated_ = false;
     }
     const auto evaluate = [&](const Vectors& at, Vectors& force) { return gradient(at, force); };
-    // Without what it has learned, a step fails only where rounding hides the way down.
-    const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_) ||
-                         newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
+    const bool lowered = newton_.step(evaluate, free_, iterate_, energy_of_iterate_, force_);
     note_distance(lowered ? newton_.distance() : 0);
   }
 
@@ -736,7 +736,7 @@ class Equilibrator final : public EquilibriumSolver {
   bool is_start_ = true;                          // the iterate was set from outside
   Vectors jump_;                                  // by which fixed elements have moved since the last step
   bool has_jump_ = false;
-  double last_apart_ = 0;  // how far the forces of regions were from right, see RegionPenalties
+  double region_error_ = 0;  // how far the forces of regions were from right, see RegionPenalties
 
   bool constrained_ = false;  // valid regions bind
   RegionMultipliers<D> regions_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -26,7 +27,13 @@ class LinkLaplacian {
       : mesh_(std::move(mesh)),
         weights_(mesh_->neighbours.size()),
         sums_(mesh_->element_count()),
-        fixed_(mesh_->element_count()) {}
+        fixed_(mesh_->element_count()),
+        entries_(mesh_->link_count()) {
+    for (EntryId entry = 0; entry < weights_.size(); ++entry) {
+      const LinkId link = mesh_->entry_link[entry];
+      entries_[link][mesh_->neighbours[entry] == mesh_->links[link][0] ? 1 : 0] = entry;
+    }
+  }
 
   const Mesh& mesh() const { return *mesh_; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(fixed_.size()); }
@@ -34,14 +41,10 @@ class LinkLaplacian {
   void set_fixed(ElementId element, bool fixed) { fixed_[element] = fixed ? 1 : 0; }
 
   void set_link(LinkId link, float weight) {
-    const auto [i, j] = mesh_->links[link];
-    for (const ElementId end : {i, j}) {
-      for (EntryId entry = mesh_->first_entry[end]; entry < mesh_->first_entry[end + 1]; ++entry) {
-        if (mesh_->entry_link[entry] == link) {
-          weights_[entry] = weight;
-        }
-      }
-      add_up(end);
+    for (const std::size_t end : {0, 1}) {
+      float& present = weights_[entries_[link][end]];
+      sums_[mesh_->links[link][end]] += double(weight) - double(present);
+      present = weight;
     }
   }
 
@@ -66,30 +69,23 @@ class LinkLaplacian {
         visit(mesh_->neighbours[entry], Square(-weights_[entry]));
       }
     }
-    visit(row, Square(sums_[row]));
+    visit(row, Square(float(sums_[row])));
   }
 
  private:
   Vector row_times(ElementId e, const Vectors& x) const {
-    Vector sum = sums_[e] * x[e];
+    Vector sum = float(sums_[e]) * x[e];
     for (EntryId entry = mesh_->first_entry[e]; entry < mesh_->first_entry[e + 1]; ++entry) {
       sum -= weights_[entry] * x[mesh_->neighbours[entry]];
     }
     return sum;
   }
 
-  void add_up(ElementId element) {
-    float sum = 0;
-    for (EntryId entry = mesh_->first_entry[element]; entry < mesh_->first_entry[element + 1]; ++entry) {
-      sum += weights_[entry];
-    }
-    sums_[element] = sum;
-  }
-
   MeshPointer mesh_;
   std::vector<float> weights_;  // of each entry of the table of neighbours
-  std::vector<float> sums_;     // of each element: of its weights
+  std::vector<double> sums_;    // of each element: of its weights; sums of float lose nothing in double
   std::vector<std::uint8_t> fixed_;
+  std::vector<std::array<EntryId, 2>> entries_;  // of each link, in the rows of its first and its second end
 };
 
 }  // namespace chainmail

@@ -140,9 +140,7 @@ std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
   }
   std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  if (!changed.empty() || loose_.empty()) {
-    find_loose_links(cuts);
-  }
+  find_loose_links(cuts);
   return changed;
 }
 
@@ -247,17 +245,31 @@ void MaterialEnergy<D>::evaluate(Part& part, const Vectors& displacements, bool 
 template <int D>
 double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low,
                                    Lanes& least) const {
+  const Matrix strain = strain_of(batch, displacements);
+  Lanes energy, determinant;
+  Matrix stress;
+  find_stress(strain, batch.volume, energy, determinant, force != nullptr ? &stress : nullptr);
+  least = (batch.volume > 0).select(least.min(determinant), least);
+  if (force != nullptr) {
+    add_forces(batch, stress, *force, low);
+  }
+  return energy.sum();
+}
+
+/// Returns F − 1.
+template <int D>
+auto MaterialEnergy<D>::strain_of(const Batch& batch, const Vectors& displacements) -> Matrix {
   Matrix apart;  // [corner − 1][axis]: from the first corner's displacement
-  for (int k = 0; k < D; ++k) {
-    for (int l = 0; l < lanes; ++l) {
-      const Vector& first = displacements[batch.corner[0][std::size_t(l)]];
-      const Vector& here = displacements[batch.corner[std::size_t(k) + 1][std::size_t(l)]];
-      for (int axis = 0; axis < D; ++axis) {
-        apart[std::size_t(k)][std::size_t(axis)][l] = here[axis] - first[axis];
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Vector& first = displacements[batch.corner[0][l]];
+      const Vector& here = displacements[batch.corner[k + 1][l]];
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        apart[k][axis][Eigen::Index(l)] = here[Eigen::Index(axis)] - first[Eigen::Index(axis)];
       }
     }
   }
-  Matrix strain;  // F − 1
+  Matrix strain;
   for (std::size_t row = 0; row < D; ++row) {
     for (std::size_t column = 0; column < D; ++column) {
       Lanes sum = apart[0][row] * batch.gradient[0][column];
@@ -267,33 +279,50 @@ double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displaceme
       strain[row][column] = sum;
     }
   }
-  Lanes energy, determinant;
-  Matrix stress;
-  find_stress(strain, batch.volume, energy, determinant, force != nullptr ? &stress : nullptr);
-  least = (batch.volume > 0).select(least.min(determinant), least);
-  if (force != nullptr) {
-    std::array<std::array<Lanes, D>, D + 1> pull;
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      pull[0][axis].setZero();
-      for (std::size_t k = 0; k < D; ++k) {
-        Lanes sum = stress[axis][0] * batch.gradient[k][0];
-        for (std::size_t column = 1; column < D; ++column) {
-          sum += stress[axis][column] * batch.gradient[k][column];
-        }
-        pull[k + 1][axis] = sum;
-        pull[0][axis] -= sum;
+  return strain;
+}
+
+template <int D>
+void MaterialEnergy<D>::add_forces(const Batch& batch, const Matrix& stress, Vectors& force, ElementId low) {
+  std::array<std::array<Lanes, D>, D + 1> pull;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    pull[0][axis].setZero();
+    for (std::size_t k = 0; k < D; ++k) {
+      Lanes sum = stress[axis][0] * batch.gradient[k][0];
+      for (std::size_t column = 1; column < D; ++column) {
+        sum += stress[axis][column] * batch.gradient[k][column];
       }
+      pull[k + 1][axis] = sum;
+      pull[0][axis] -= sum;
     }
-    for (int l = 0; l < lanes; ++l) {
-      for (std::size_t k = 0; k <= D; ++k) {
-        Vector& sum = (*force)[batch.corner[k][std::size_t(l)] - low];
-        for (std::size_t axis = 0; axis < D; ++axis) {
-          sum[Eigen::Index(axis)] -= pull[k][axis][l];
-        }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t k = 0; k <= D; ++k) {
+      Vector& sum = force[batch.corner[k][l] - low];
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        sum[Eigen::Index(axis)] -= pull[k][axis][Eigen::Index(l)];
       }
     }
   }
-  return energy.sum();
+}
+
+template <int D>
+auto MaterialEnergy<D>::cofactor_of(const Matrix& f) -> Matrix {
+  Matrix cofactor;
+  if constexpr (D == 1) {
+    cofactor[0][0].setOnes();
+  } else if constexpr (D == 2) {
+    cofactor = {{{f[1][1], -f[1][0]}, {-f[0][1], f[0][0]}}};
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::size_t c = (j + 1) % 3, d = (j + 2) % 3;
+        cofactor[i][j] = f[a][c] * f[b][d] - f[a][d] * f[b][c];
+      }
+    }
+  }
+  return cofactor;
 }
 
 /// Returns the energy, and the first Piola-Kirchhoff stress times the volume.
@@ -309,20 +338,7 @@ void MaterialEnergy<D>::find_stress(const Matrix& strain, const Lanes& volume, L
       shape += strain[i][j] * strain[i][j];
     }
   }
-  Matrix cofactor;
-  if constexpr (D == 1) {
-    cofactor[0][0].setOnes();
-  } else if constexpr (D == 2) {
-    cofactor = {{{f[1][1], -f[1][0]}, {-f[0][1], f[0][0]}}};
-  } else {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const std::size_t c = (j + 1) % 3, d = (j + 2) % 3;
-        cofactor[i][j] = f[a][c] * f[b][d] - f[a][d] * f[b][c];
-      }
-    }
-  }
+  const Matrix cofactor = cofactor_of(f);
   determinant = f[0][0] * cofactor[0][0];
   for (std::size_t j = 1; j < D; ++j) {
     determinant += f[0][j] * cofactor[0][j];

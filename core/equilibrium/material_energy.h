@@ -82,6 +82,9 @@ class MaterialEnergy {
   double stiffness_around(LinkId link) const;
   void find_loose_links(const Cuts& cuts);
   double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low, Lanes& least) const;
+  static Matrix strain_of(const Batch& batch, const Vectors& displacements);
+  static Matrix cofactor_of(const Matrix& f);
+  static void add_forces(const Batch& batch, const Matrix& stress, Vectors& force, ElementId low);
   void find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant, Matrix* stress) const;
   void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
                     Lanes& by_volume) const;

@@ -152,9 +152,7 @@ void MaterialMinimum<D>::step(Vectors& at, int threads) {
   }
   harden(at, shared);
   const auto value_at = [&](const Vectors& x, Vectors& force) { return evaluate(x, force, shared); };
-  // Without what it has learned, a step fails only where rounding hides the way down.
-  const bool lowered = newton_.step(value_at, preconditioner_, at, value_, force_, shared) ||
-                       newton_.step(value_at, preconditioner_, at, value_, force_, shared);
+  const bool lowered = newton_.step(value_at, preconditioner_, at, value_, force_, shared);
   distance_ = lowered ? newton_.distance() : 0;
   is_material_outdated_ = !lowered;  // the last try was elsewhere
 }

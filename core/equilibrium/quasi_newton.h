@@ -19,10 +19,31 @@ class QuasiNewton {
   void forget() { pairs_.clear(); }
 
   /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
-  /// returns the energy. Returns false if no step lowers the energy.
+  /// returns the energy. Returns false if no step lowers the energy, also without what was learned: then rounding hides
+  /// the way down.
   template <class Evaluate, class Preconditioner>
   bool step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force,
             const SharedLoop& shared = {}) {
+    return try_step(evaluate, preconditioner, x, energy, force, shared) ||
+           try_step(evaluate, preconditioner, x, energy, force, shared);
+  }
+
+  /// Estimates the distance from the minimum after the last step: √(twice the energy of the distance).
+  double distance() const { return std::sqrt(slope_) * shrunk_; }
+
+ private:
+  static constexpr std::size_t max_pairs = 6;
+  static constexpr int max_tries = 12;
+
+  struct Pair {
+    Vectors step, change;  // of the position, and of the gradient
+    double product = 0;    // step · change
+  };
+
+  /// Forgets everything if it fails.
+  template <class Evaluate, class Preconditioner>
+  bool try_step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force,
+                const SharedLoop& shared) {
     find_direction(preconditioner, force, shared);
     const double slope = dot(direction_, force, shared);
     slope_ = std::max(0.0, slope);
@@ -53,18 +74,6 @@ class QuasiNewton {
     forget();
     return false;
   }
-
-  /// Estimates the distance from the minimum after the last step: √(twice the energy of the distance).
-  double distance() const { return std::sqrt(slope_) * shrunk_; }
-
- private:
-  static constexpr std::size_t max_pairs = 6;
-  static constexpr int max_tries = 12;
-
-  struct Pair {
-    Vectors step, change;  // of the position, and of the gradient
-    double product = 0;    // step · change
-  };
 
   template <class Preconditioner>
   void find_direction(Preconditioner& preconditioner, const Vectors& force, const SharedLoop& shared) {

@@ -46,7 +46,7 @@ class RegionPenalties {
   struct Update {
     /// Σ stiffness · squared change of the multiplier: how far links are outside their regions, or held by a force that
     /// they do not need.
-    double apart = 0;
+    double error = 0;
     std::vector<LinkId> changed;  // links that joined or left the working set
   };
   /// Finds the working set anew. `links(visit)` calls visit(link, i, j, region, stiffness) for each link that counts;
@@ -64,7 +64,7 @@ class RegionPenalties {
       }
       const Vector wanted = apart + one.multiplier;
       const Vector outside = wanted - RegionMultipliers<Dimension>::clamped_to(region, wanted);
-      result.apart += stiffness * (outside - one.multiplier).squaredNorm();
+      result.error += stiffness * (outside - one.multiplier).squaredNorm();
       const bool is = !outside.isZero(0);
       if (moves) {
         one.multiplier = outside;

@@ -420,6 +420,9 @@ void Simulation::carry_out(const commands::SetElastic& command) {
     if (info(algorithm_).family() == Family::elastic) {
       answer();
     }
+    if (softness().energy == EnergyKind::material && !info(relaxation_scheme_).sweeps && last_handle_) {
+      wake({});  // the equilibrium depends on Poisson's ratio
+    }
   }
 }
 

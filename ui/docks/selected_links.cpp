@@ -13,7 +13,7 @@ const QString selectedPrefix = QStringLiteral("selected-");
 
 }  // namespace
 
-bool linksCount(const Document& document) {
+bool usesLinkEnergy(const Document& document) {
   switch (energy_in(*document.mesh(), document.wholeSoftness()->energy)) {
     case EnergyKind::isotropic:
       return false;
@@ -87,7 +87,7 @@ void SelectedLinks::refresh() {
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const auto value = softness_numbers[i].value;
     numbers_[i]->show(all.isCommon[i] ? all.softness.*value : global.*value);
-    numbers_[i]->setEnabled(i < region_numbers || linksCount(document_));
+    numbers_[i]->setEnabled(i < region_numbers || usesLinkEnergy(document_));
   }
 }
 

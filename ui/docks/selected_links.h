@@ -13,7 +13,7 @@ namespace chainmail {
 
 /// Returns true if the numbers of the links' energy count: with isotropic energy they do not, and with the energy of
 /// the material they do for sweeps only, which know links only.
-bool linksCount(const Document& document);
+bool usesLinkEnergy(const Document& document);
 
 /// Softness of the selected links only: sets or resets its numbers as one undo step.
 class SelectedLinks : public QGroupBox {

@@ -126,7 +126,7 @@ void StiffnessDock::showSoftness() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const double value = document_.softness().*softness_numbers[i].value;
     rows_[i]->show(value);
-    rows_[i]->setEnabled(i < region_numbers || linksCount(document_));
+    rows_[i]->setEnabled(i < region_numbers || usesLinkEnergy(document_));
     changed = changed || (i >= region_numbers && value != LinkSoftness().*softness_numbers[i].value);
   }
   advanced_->setChanged(changed);

@@ -17,6 +17,7 @@ class SettlingTest : public QObject {
   void after_a_drag_it_settles_and_sleeps_data();
   void after_a_drag_it_settles_and_sleeps();
   void a_drag_while_it_settles_is_followed();
+  void another_material_wakes_it();
   void pins_that_contradict_each_other_leave_a_remark();
   void iterations_at_once_end_at_the_residual();
   void another_scheme_begins_at_once();
@@ -106,6 +107,20 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
   const auto asleep = positions_of(simulation);
   QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().relaxing);
   QVERIFY(same_bits(positions_of(simulation), asleep));
+}
+
+void SettlingTest::another_material_wakes_it() {
+  Simulation simulation = held_grid(Algorithm::exact);
+  carry_out(simulation, commands::SetSoftness{Softness{{0, 100, 100}, {}, EnergyKind::material}});
+  carry_out(simulation, commands::Grab{handle});
+  carry_out(simulation, commands::Drag{position_of(simulation, handle) + Point(3, 1, 0)});
+  QVERIFY(steps_to_sleep(simulation) > 0);
+  const auto before = positions_of(simulation);
+  ElasticOptions options;
+  options.material.poisson = 0.49;
+  carry_out(simulation, commands::SetElastic{options});
+  QVERIFY(steps_to_sleep(simulation) > 1);
+  QVERIFY(!same_bits(positions_of(simulation), before));
 }
 
 void SettlingTest::a_drag_while_it_settles_is_followed() {
