@@ -31,7 +31,8 @@ constexpr const char* calibrate_footer =
     "5 to 20 % of the object's size. The search lowers the relative error at the end of the drags: the RMS of the\n"
     "error over the RMS of the reference's displacements. The result is also tested on drags that the search did not\n"
     "use. The saved preset opens in the workbench and in compare --preset. It contains the softness, not the\n"
-    "relaxation and the kind of energy. With --relaxation equilibrium, the search also varies lateral and exponent.\n\n"
+    "relaxation and the kind of energy. At equilibrium, the search also varies lateral and exponent; with sweeps, it\n"
+    "varies their number.\n\n"
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
@@ -42,8 +43,8 @@ CalibrationOptions calibration_options(const CalibrateArguments& options, const 
   if (const auto name = value_of(options.algorithm)) {
     result.algorithm = algorithm_of("--algorithm", *name, algorithms());
   }
-  result.scheme = relaxation_of(options.relaxation, false);
-  result.energy = energy_of(options.energy);
+  result.scheme = relaxation_of(options.relaxation, false, CalibrationOptions().scheme);
+  result.energy = energy_of(options.energy, link_energy);
   result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
   result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
   result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
@@ -139,8 +140,8 @@ Command add_calibrate(CLI::App& root) {
   options.pins = add_pins(*app);
   options.algorithm =
       add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
-  options.relaxation = add_relaxation(*app, false);
-  options.energy = add_energy(*app);
+  options.relaxation = add_relaxation(*app, false, CalibrationOptions().scheme);
+  options.energy = add_energy(*app, link_energy);
   options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
   options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
   options.evaluations =

@@ -96,7 +96,7 @@ void check_word(const std::string& where, const std::string& word, const std::ve
   }
 }
 
-CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only) {
+CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, RelaxationScheme usual) {
   std::string names, help = "relaxation scheme";
   for (const RelaxationSchemeInfo& one : relaxation_schemes) {
     if (one.sweeps || !sweeps_only) {
@@ -104,17 +104,17 @@ CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only) {
       help += "; " + std::string(one.name) + ": " + std::string(one.summary);
     }
   }
-  return add_value(app, "--relaxation", names, help + " [mean]");
+  return add_value(app, "--relaxation", names, help + " [" + std::string(info(usual).name) + "]");
 }
 
-RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only) {
+RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only, RelaxationScheme usual) {
   std::vector<std::string> names;
   for (const RelaxationSchemeInfo& one : relaxation_schemes) {
     if (one.sweeps || !sweeps_only) {
       names.emplace_back(one.name);
     }
   }
-  const std::string word = value_of(option).value_or("mean");
+  const std::string word = value_of(option).value_or(std::string(info(usual).name));
   check_word(option->get_name(), word, names);
   return *find_relaxation_scheme(word);
 }

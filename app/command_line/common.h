@@ -59,11 +59,12 @@ std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, s
                               std::uint32_t highest = 1'000'000'000);
 /// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
-/// Adds the option --relaxation, with the schemes that sweep or with all.
-CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only);
-/// Returns the scheme that --relaxation names; `mean` if it is missing. Throws Error, with the list of names, if it is
+/// Adds the option --relaxation, with the schemes that sweep or with all. Its help names the one without the option.
+CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, RelaxationScheme usual = RelaxationScheme::mean);
+/// Returns the scheme that --relaxation names; `usual` if it is missing. Throws Error, with the list of names, if it is
 /// none of those offered.
-RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only);
+RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only,
+                               RelaxationScheme usual = RelaxationScheme::mean);
 /// Splits a list at its commas. Throws Error if a word occurs twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
 

@@ -229,6 +229,9 @@ void deform(const DeformArguments& options) {
   const Precision precision = read_precision(options);
   const RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
   Softness softness = softness_of(options.global);
+  if (options.script->count() > 0 && options.global.energy->count() == 0) {
+    set_energy(softness, link_energy);  // recorded moves begin with it
+  }
   const ElasticOptions elastic = elastic_of(options.elastic);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation, targets);

@@ -19,9 +19,20 @@ std::vector<std::string> energy_names() {
   return names;
 }
 
+/// Returns the kind of energy without its option: that of links if a number is given that the material ignores.
+EnergyKind usual_energy(const SoftnessArguments& arguments, const LinkSoftness& usual) {
+  for (std::size_t i = region_numbers; i < softness_numbers.size(); ++i) {
+    const auto value = softness_numbers[i].value;
+    if (arguments.numbers[i]->count() > 0 || usual.*value != LinkSoftness().*value) {
+      return link_energy;
+    }
+  }
+  return standard_energy;
+}
+
 }  // namespace
 
-CLI::Option* add_energy(CLI::App& app) {
+CLI::Option* add_energy(CLI::App& app, EnergyKind usual) {
   std::string names;
   for (const std::string& name : energy_names()) {
     names += (names.empty() ? "" : "|") + name;
@@ -30,13 +41,13 @@ CLI::Option* add_energy(CLI::App& app) {
                    "elastic energy that relaxation lowers, of links or of the material of cells; isotropic ignores " +
                        softness_names(", ", region_numbers, softness_numbers.size() - 1) + " and " +
                        std::string(softness_numbers.back().parameter->name) + ", material too, at equilibrium [" +
-                       std::string(info(standard_energy).name) + "]");
+                       std::string(info(usual).name) + "]");
 }
 
-EnergyKind energy_of(const CLI::Option* option) {
+EnergyKind energy_of(const CLI::Option* option, EnergyKind usual) {
   const auto name = value_of(option);
   if (!name) {
-    return standard_energy;
+    return usual;
   }
   check_word("--energy", *name, energy_names());
   return energy_kind_of(*name);
@@ -72,7 +83,7 @@ SoftnessArguments add_softness(CLI::App& app) {
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     arguments.numbers[i] = add_parameter(app, *softness_numbers[i].parameter);
   }
-  arguments.energy = add_energy(app);
+  arguments.energy = add_energy(app, standard_energy);
   arguments.axes = add_value(app, "--frame", "axes|object|AXIS:DEGREES",
                              "valid regions lie along the axes of the world, the principal axes of the object at rest, "
                              "or axes turned by a rotation; AXIS is x, y, z or X,Y,Z [axes]");
@@ -81,7 +92,7 @@ SoftnessArguments add_softness(CLI::App& app) {
 
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual) {
   Softness softness{usual, {}};
-  set_energy(softness, energy_of(arguments.energy));
+  set_energy(softness, energy_of(arguments.energy, usual_energy(arguments, usual)));
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     if (arguments.numbers[i]->count() > 0) {
       softness.global.*softness_numbers[i].value = value_of(arguments.numbers[i], *softness_numbers[i].parameter);

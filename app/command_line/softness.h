@@ -7,10 +7,10 @@
 
 namespace chainmail::command_line {
 
-/// The option for the kind of energy.
-CLI::Option* add_energy(CLI::App& app);
-/// Returns the kind of energy; the standard one without the option. Throws Error if it is not known.
-EnergyKind energy_of(const CLI::Option* option);
+/// The option for the kind of energy. Its help names the kind without the option.
+CLI::Option* add_energy(CLI::App& app, EnergyKind usual);
+/// Returns the kind of energy; `usual` without the option. Throws Error if it is not known.
+EnergyKind energy_of(const CLI::Option* option, EnergyKind usual);
 
 /// The options for the softness of all links, for the kind of energy, and for the axes of valid regions.
 struct SoftnessArguments {
@@ -18,7 +18,8 @@ struct SoftnessArguments {
   CLI::Option *energy = nullptr, *axes = nullptr;
 };
 SoftnessArguments add_softness(CLI::App& app);
-/// Returns the softness of all links: the numbers of `usual`, where options override them. Throws Error, with the
+/// Returns the softness of all links: the numbers of `usual`, where options override them. Without the option for it,
+/// the energy is that of links if a number that only links have is given, else that of the material. Throws Error, with the
 /// option, if a value is out of range or the kind of energy is not known.
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual = {});
 

@@ -129,8 +129,8 @@ void add_cuts_and_pins(BodyClass& body) {
 
 void add_energy(BodyClass& body) {
   body.def_property_readonly("energy", used([](const api::Body& one) { return word_for(one.energy()); }),
-                             "The kind of elastic energy, which relaxation lowers: `corotated` for a new body,\n"
-                             "`isotropic`, `axial` or `material`.")
+                             "The kind of elastic energy, which relaxation lowers: `material` for a new body,\n"
+                             "`isotropic`, `axial` or `corotated`.")
       .def(
           "set_energy",
           [](Object& one, const std::string& kind) {

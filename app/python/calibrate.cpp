@@ -55,7 +55,7 @@ void add_calibrate(py::module_& module) {
       py::arg("body"), py::kw_only(), py::arg("method") = defaults.method, py::arg("seed") = defaults.seed,
       py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
       py::arg("evaluations") = defaults.evaluations, py::arg("most_sweeps") = defaults.most_sweeps,
-      py::arg("scheme") = "mean", py::arg("job") = py::none(), py::arg("progress") = py::none(),
+      py::arg("scheme") = "equilibrium", py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error\n"
       "against neo-Hookean finite elements on the same cells.\n\n"
       "The object gives its mesh, cuts, pins, elasticity and kind of energy; it does not change. `drags` and "

@@ -102,9 +102,9 @@ Body::Body(const Mesh& mesh, Precision precision) {
     return std::make_unique<Impl>(
         Impl{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
   });
-  if (const OwnSoftness& own = Access::impl(mesh).softness; !own.empty()) {
-    impl_->body().set_softness(Softness{{}, own});
-  }
+  Softness softness = standard_softness();
+  softness.links = Access::impl(mesh).softness;
+  impl_->body().set_softness(softness);
 }
 
 Body::Body(const Body& other) : Body(body_of(other.mesh(), state_of(other))) {}

@@ -38,7 +38,7 @@ CalibrationOptions calibration_of(const inner::Body& body, const CalibrateOption
   how.evaluations = options.evaluations;
   how.max_sweeps = options.most_sweeps;
   how.scheme = scheme_of(options.scheme);
-  how.energy = body.softness().energy;
+  how.energy = inner::energy_of_links(body.softness().energy);
   return how;
 }
 

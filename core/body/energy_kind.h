@@ -9,11 +9,14 @@ namespace chainmail {
 /// the table of energy_kind.cpp; the formulas are in equilibrium/link_energy.h and equilibrium/material_energy.h.
 enum class EnergyKind { isotropic, axial, corotated, material };
 
-/// The energy of a new object.
-inline constexpr EnergyKind standard_energy = EnergyKind::corotated;
-/// The energy of links that comes closest to a material: that of objects without cells and of sweeps, and the one that
-/// calibration adjusts.
+/// The energy of a new object. Objects without cells and sweeps have that of links in its place.
+inline constexpr EnergyKind standard_energy = EnergyKind::material;
+/// The energy of links that comes closest to a material. Recorded moves and files that name no energy mean this one, and
+/// calibration adjusts it.
 inline constexpr EnergyKind link_energy = EnergyKind::corotated;
+
+/// Returns the kind of energy that links have if that of the material cannot be used.
+constexpr EnergyKind energy_of_links(EnergyKind kind) { return kind == EnergyKind::material ? link_energy : kind; }
 
 /// One row of the table: everything that other code knows about a kind of energy.
 struct EnergyKindInfo {

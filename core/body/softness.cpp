@@ -152,6 +152,12 @@ bool OwnSoftness::operator==(const OwnSoftness& other) const {
   return count_ == other.count_ && std::equal(begin(), end(), other.begin(), other.end());
 }
 
+Softness standard_softness() {
+  Softness softness;
+  set_energy(softness, standard_energy);
+  return softness;
+}
+
 void set_energy(Softness& softness, EnergyKind kind) {
   if (softness.global.lateral == info(softness.energy).lateral) {
     softness.global.lateral = info(kind).lateral;

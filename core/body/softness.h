@@ -158,11 +158,11 @@ class OwnSoftness::Iterator {
 };
 
 /// The softness of an object: a global one, different ones for single links, the kind of energy of all links, and the
-/// axes along which their valid regions lie.
+/// axes along which their valid regions lie. Recorded moves begin with Softness(), new objects with standard_softness().
 struct Softness {
   LinkSoftness global;
   OwnSoftness links;
-  EnergyKind energy = standard_energy;
+  EnergyKind energy = link_energy;
   RegionAxes axes = {};
 
   const LinkSoftness& of(LinkId link) const {
@@ -172,6 +172,9 @@ struct Softness {
 
   bool operator==(const Softness&) const = default;
 };
+
+/// Returns the softness of a new object.
+Softness standard_softness();
 
 /// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
 void set_energy(Softness& softness, EnergyKind kind);

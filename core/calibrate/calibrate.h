@@ -26,7 +26,7 @@ struct CalibrationOptions {
   int evaluations = 200;             // each evaluation runs all drags
   int max_sweeps = 100;              // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
-  RelaxationScheme scheme = RelaxationScheme::mean;
+  RelaxationScheme scheme = RelaxationScheme::equilibrium;
   EnergyKind energy = link_energy;
   StrainLaw law = {};  // of the reference solution
 };

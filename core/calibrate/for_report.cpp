@@ -33,7 +33,7 @@ report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
     options.pins = object.pins;
     options.algorithm = algorithm;
     options.scheme = equilibrium ? RelaxationScheme::equilibrium : scheme;
-    options.energy = object.softness.energy;
+    options.energy = energy_of_links(object.softness.energy);
     options.drags = equilibrium ? drags_at_equilibrium : drags;
     options.held_out = 0;
     options.evaluations = equilibrium ? evaluations_at_equilibrium : evaluations;

@@ -54,7 +54,7 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
 }
 
 EnergyKind energy_in(const Mesh& mesh, EnergyKind kind) {
-  return kind == EnergyKind::material && !has_solid_cells(mesh) ? link_energy : kind;
+  return has_solid_cells(mesh) ? kind : energy_of_links(kind);
 }
 
 double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {

@@ -16,10 +16,7 @@ namespace chainmail {
 namespace {
 
 /// Returns the energy of links that sweeps lower.
-EnergyKind energy_of_sweeps(const Body& body) {
-  const EnergyKind kind = body.softness().energy;
-  return kind == EnergyKind::material ? link_energy : kind;
-}
+EnergyKind energy_of_sweeps(const Body& body) { return energy_of_links(body.softness().energy); }
 
 }  // namespace
 

@@ -15,8 +15,8 @@ MeshPointer first_mesh(const std::vector<Command>& commands);
 /// Returns the mesh of the object after recorded commands that begin with `mesh`.
 MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands);
 
-/// The recorded commands. They lead from an object at rest, without cuts and pins and with the default softness, to the
-/// current object. Settings of the solver (algorithm, relaxation) are not recorded.
+/// The recorded commands. They lead from an object at rest, without cuts and pins and with Softness(), to the current
+/// object. Settings of the solver (algorithm, relaxation) are not recorded.
 /// RestoreState moves the position back to where the state was saved. Later commands stay until a new command replaces
 /// them.
 class MoveHistory {
@@ -34,6 +34,9 @@ class MoveHistory {
   /// Replaces all commands and sets the position to 0.
   void load(const std::vector<Command>& commands);
   std::vector<Command> commands() const;
+  /// Returns the position after which an object begins its life: a first command that sets its softness is none of its
+  /// moves.
+  std::size_t start() const { return !timeline_.empty() && std::holds_alternative<commands::SetSoftness>(at(0)) ? 1 : 0; }
   /// Returns the number of passes (drags) among the first `commands` commands.
   std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
   /// True if the commands up to the current position grab elements and do not release them.

@@ -31,6 +31,7 @@ class DeformCommandTest : public QObject {
   void steps_are_equal_and_end_at_the_target();
   void relaxation_goes_to_the_equilibrium();
   void the_equilibrium_is_certified();
+  void the_energy_is_that_of_the_material();
   void a_script_is_carried_out_before_the_acts();
   void sweeps_are_interrupted_at_once_data();
   void sweeps_are_interrupted_at_once();
@@ -223,6 +224,24 @@ void DeformCommandTest::the_equilibrium_is_certified() {
   const auto outcome = program_->run("deform --algorithm exact --script bad.json line.dat");
   QCOMPARE(outcome.code, 2);
   QVERIFY(is_one_sentence(outcome) && outcome.error.contains("bad.json: command 0: 'until' works only with "));
+}
+
+/// The energy is that of the material, unless something else says that links are meant.
+void DeformCommandTest::the_energy_is_that_of_the_material() {
+  QCOMPARE(program_->run("generate tetra 3x3x3 -o block.msh").code, 0);
+  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "element": 26},
+    {"do": "drag", "by": [0.3, 0.2, 0]}]})");
+  const auto energy = [&](const QByteArray& options) {
+    deform("--algorithm exact --pin left " + options, "block.msh");
+    return program_->json("out.json")["energy"].toDouble();
+  };
+  const double material = energy("--by 26:0.3,0.2,0 --energy material"),
+               links = energy("--by 26:0.3,0.2,0 --energy corotated");
+  QVERIFY(material > 0 && links > 0 && material != links);
+  QCOMPARE(energy("--by 26:0.3,0.2,0"), material);
+  QCOMPARE(energy("--by 26:0.3,0.2,0 --lateral 1"), links);
+  QCOMPARE(energy("--script moves.json"), links);
+  QCOMPARE(energy("--script moves.json --energy material"), material);
 }
 
 void DeformCommandTest::a_script_is_carried_out_before_the_acts() {

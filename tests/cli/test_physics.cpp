@@ -162,7 +162,7 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
       "calibrate cloth.obj --pins 20,24,21,22,23 --drags 2 --evaluations 30 --name felt -o felt.json --json out.json";
   const auto outcome = program_->run(line);
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  QVERIFY(outcome.out.contains(" sweeps per move\n") && outcome.out.contains("\n  calibrated "));
+  QVERIFY(outcome.out.contains(" at equilibrium (corotated energy)\n") && outcome.out.contains("\n  calibrated "));
   const auto preset = program_->json("felt.json")["presets"].toArray().at(0).toObject();
   const auto result = program_->json("out.json");
   QCOMPARE(preset["name"].toString(), QString("felt"));
@@ -179,6 +179,9 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   QVERIFY(held_out["residual"]["rms"].toDouble() > 0 && held_out["residual"]["max"].toDouble() > 0);
   QVERIFY(relative(held_out, "residual_nothing") > 0.6 && relative(held_out["drags"][0], "after") < 9);
   QVERIFY(outcome.out.contains("Drags not used by the search (4):\n"));
+  const auto swept = program_->run(
+      "calibrate cloth.obj --pins top --drags 1 --evaluations 5 --relaxation mean --json swept.json");
+  QVERIFY2(swept.out.contains(" sweeps per move\n"), swept.error);
   // Runs the same again, and once with the pins by their name.
   const QByteArray first = program_->read("out.json");
   QCOMPARE(program_->run("calibrate cloth.obj --pins top --drags 2 --evaluations 30 --json out.json").code, 0);

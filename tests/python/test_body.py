@@ -139,7 +139,7 @@ def test_softness_is_a_value():
 
 def test_energy_and_elasticity():
     body = chainmail.Body(chainmail.make_tetra(3, 3, 3))
-    assert body.energy == "corotated"
+    assert body.energy == "material"
     body.set_energy("axial")
     assert body.energy == "axial"
     with pytest.raises(chainmail.Error, match="use isotropic, axial, corotated or material"):

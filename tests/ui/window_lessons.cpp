@@ -501,7 +501,7 @@ void WindowLessons::aLessonIsWrittenInTheWindow() {
   const State pulled = stateOf(bench);
   back(bench);
   QCOMPARE(bench.find<QLabel>("lessonText")->text(), QStringLiteral("At rest."));
-  QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
+  QCOMPARE(bench.document().moves().history().position(), bench.document().moves().history().start());
   bench.window.sessions().savePath(path);
   bench.settle();
   shared();
@@ -539,7 +539,7 @@ void WindowLessons::stepsAreOrderedAndRemoved() {
   QCOMPARE(titles(), QStringLiteral("A C B"));
   QCOMPARE(player(bench).step(), std::size_t{1});
   QCOMPARE(player(bench).lesson().steps[2].until, until);  // positions never fall
-  QCOMPARE(player(bench).lesson().steps[1].until, std::size_t{0});
+  QCOMPARE(player(bench).lesson().steps[1].until, bench.document().moves().history().start());
   bench.trigger("undo");
   QCOMPARE(titles(), QStringLiteral("A B C"));
   bench.trigger("redo");

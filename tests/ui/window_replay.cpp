@@ -47,7 +47,8 @@ void work(Workbench& bench) {
 void go(Workbench& bench, const char* action) {
   bench.trigger(action);
   const bool first = QLatin1String(action) == QLatin1String("replayFirst");
-  QTRY_COMPARE(bench.document().moves().history().position(), first ? 0 : bench.document().moves().history().length());
+  const MoveHistory& history = bench.document().moves().history();
+  QTRY_COMPARE(history.position(), first ? history.start() : history.length());
   bench.settle();
 }
 
@@ -228,7 +229,7 @@ class WindowReplay : public QObject {
     QVERIFY(shapes(bench) == (Shapes{rest, rest}));
     QCOMPARE(bench.document().cuts().count(), 0U);
     QVERIFY(bench.document().pins().empty());
-    QCOMPARE(bench.document().softness(), LinkSoftness());
+    QVERIFY(*bench.document().wholeSoftness() == standard_softness());  // as the object was when it was new
     QCOMPARE(bench.document().moves().history().length(), length);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
@@ -468,7 +469,7 @@ class WindowReplay : public QObject {
                        QStringLiteral("build line"));
     QTRY_VERIFY_WITH_TIMEOUT(!bench.window.jobs().running(), 60'000);
     bench.settle();
-    QCOMPARE(bench.document().moves().history().length(), std::size_t{0});
+    QCOMPARE(bench.document().moves().history().length(), bench.document().moves().history().start());
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("the object was replaced")));
   }
 

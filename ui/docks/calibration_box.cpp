@@ -108,7 +108,7 @@ void CalibrationBox::start() {
   options.pins = document_.pins();
   options.algorithm = algorithm();
   options.scheme = document_.relaxation().scheme;
-  options.energy = document_.wholeSoftness()->energy;
+  options.energy = energy_of_links(document_.wholeSoftness()->energy);
   jobs_.start(
       Jobs::Kind::compute, QStringLiteral("Calibrating softness"),
       [this, options, mesh = document_.mesh(), cuts = document_.cuts()](const Progress& progress) -> Jobs::Finish {
@@ -123,8 +123,8 @@ void CalibrationBox::start() {
 
 void CalibrationBox::take(const CalibrationResult& result, const CalibrationOptions& options) {
   const bool atEquilibrium = !info(options.scheme).sweeps;
-  edits::setSoftnessAndRelaxation(document_, result.softness, {atEquilibrium || result.sweeps > 0, 1, options.scheme},
-                                  QStringLiteral("calibrated softness"));
+  edits::setCalibrated(document_, result.softness, options.energy,
+                       {atEquilibrium || result.sweeps > 0, 1, options.scheme});
   const QString sweeps = atEquilibrium        ? QStringLiteral("at equilibrium")
                          : result.sweeps == 0 ? QStringLiteral("without relaxation")
                                               : QStringLiteral("with %1 of relaxation after each move")

@@ -79,12 +79,14 @@ bool changesObject(const Command& command) {
 Document::Document(MeshPointer mesh, const QString& name)
     : files_(contents_), selection_(contents_), solvers_(contents_), handle_(*this), moves_(*this) {
   contents_.object = std::make_shared<DocumentObject>(std::move(mesh), name);
+  contents_.softness = std::make_shared<const Softness>(standard_softness());
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   connect(&solvers_, &PanelSolvers::refused, this, &Document::reportRefusal);
   connect(&solvers_, &PanelSolvers::sent, &moves_, &MovePlayer::changed);
   for (int panel = 0; panel < minPanels; ++panel) {
     addSolver(algorithm(panel));
   }
+  post(commands::SetSoftness{contents_.softness});
   undoStack_.setUndoLimit(undoSteps);
   connect(&undoStack_, &QUndoStack::indexChanged, &moves_, &MovePlayer::lastDragChanged);
 }

@@ -139,9 +139,9 @@ void setSoftnessOf(Document& document, const std::vector<LinkId>& links, const s
 }
 
 void resetSoftness(Document& document) {
-  if (*document.wholeSoftness() != Softness()) {
+  if (*document.wholeSoftness() != standard_softness()) {
     Change edit = document.change(QStringLiteral("reset softness"));
-    edit.after.softness = std::make_shared<const Softness>();
+    edit.after.softness = std::make_shared<const Softness>(standard_softness());
     document.apply(std::move(edit));
   }
 }
@@ -158,13 +158,15 @@ void setRelaxation(Document& document, const commands::SetRelaxation& relaxation
   }
 }
 
-void setSoftnessAndRelaxation(Document& document, const LinkSoftness& global, const commands::SetRelaxation& relaxation,
-                              const QString& text) {
-  if (global != document.softness() || relaxation != document.relaxation()) {
-    Change edit = document.change(text);
-    if (global != document.softness()) {
-      edit.after.softness = std::make_shared<const Softness>(Softness{
-          global, document.wholeSoftness()->links, document.wholeSoftness()->energy, document.wholeSoftness()->axes});
+void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind energy,
+                   const commands::SetRelaxation& relaxation) {
+  Softness softness = *document.wholeSoftness();
+  softness.global = global;
+  softness.energy = energy;
+  if (softness != *document.wholeSoftness() || relaxation != document.relaxation()) {
+    Change edit = document.change(QStringLiteral("calibrated softness"));
+    if (softness != *document.wholeSoftness()) {
+      edit.after.softness = std::make_shared<const Softness>(std::move(softness));
     }
     edit.after.relaxation = relaxation;
     document.apply(std::move(edit));

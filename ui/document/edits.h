@@ -22,11 +22,12 @@ void setEnergy(Document& document, EnergyKind kind);
 void setRegionAxes(Document& document, AxesKind kind);
 /// Sets the softness of these links. If `own` is empty, the global softness applies to them again.
 void setSoftnessOf(Document& document, const std::vector<LinkId>& links, const std::optional<LinkSoftness>& own);
-/// Resets all links to the default softness, including links with a softness of their own.
+/// Resets all links to the softness of a new object, including links with a softness of their own.
 void resetSoftness(Document& document);
 void setRelaxation(Document& document, const commands::SetRelaxation& relaxation, int gesture = 0);
-void setSoftnessAndRelaxation(Document& document, const LinkSoftness& global, const commands::SetRelaxation& relaxation,
-                              const QString& text);
+/// Takes a calibrated softness with the kind of energy and the relaxation that it was calibrated for.
+void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind energy,
+                   const commands::SetRelaxation& relaxation);
 void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture = 0);
 /// Sets the algorithm of a panel. The document emits refused() if the algorithm does not work on the mesh.
 void setAlgorithm(Document& document, int panel, Algorithm algorithm);

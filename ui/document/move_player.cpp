@@ -26,14 +26,26 @@ bool startsFromRest(const Session& session) {
          std::ranges::all_of(session.panels, [](const auto& panel) { return panel.positions.is_at_rest(); });
 }
 
+/// Returns the commands that lead from the beginning of recorded moves to an object at rest.
+std::vector<Command> commandsFor(const std::shared_ptr<const Softness>& softness, const std::vector<LinkId>& cuts,
+                                 const std::vector<ElementId>& pins) {
+  std::vector<Command> commands{commands::SetSoftness{softness}};
+  if (!cuts.empty()) {
+    commands.push_back(commands::Cut{cuts});
+  }
+  if (!pins.empty()) {
+    commands.push_back(commands::Pin{pins});
+  }
+  return commands;
+}
+
 }  // namespace
 
 const MoveHistory& MovePlayer::history() const { return std::as_const(document_).solvers().log().history(); }
 
 /// A session without moves gets recorded commands that start with the object at rest.
 void MovePlayer::open(const Session& session) {
-  const std::vector<Command> object{commands::SetSoftness{session.softness}, commands::Cut{session.cuts},
-                                    commands::Pin{session.pins}};
+  const std::vector<Command> object = commandsFor(session.softness, session.cuts, session.pins);
   const bool hasMoves = !session.moves.empty();
   CommandLog& log = document_.solvers().log();
   log.flush();  // to the history that is replaced below
@@ -55,7 +67,10 @@ void MovePlayer::noteDeparture() {
 }
 
 void MovePlayer::forget() {
-  document_.solvers().log().history().load({});
+  const auto object = commandsFor(document_.wholeSoftness(), document_.cuts().links(), document_.pins());
+  MoveHistory& history = document_.solvers().log().history();
+  history.load(object);
+  history.go_to(object.size());
   emit changed();
   emit lastDragChanged();
 }

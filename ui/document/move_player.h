@@ -23,7 +23,7 @@ class MovePlayer : public QObject {
   const MoveHistory& history() const;
   /// The commands of the last drag of this mesh, without the release; empty if there was none.
   std::vector<Command> lastDrag() const { return history().last_drag(); }
-  /// Clears the move history; positions stay.
+  /// Replaces the recorded commands with those that lead to the present object at rest; positions stay.
   void forget();
   /// Adds the relaxation since the last pass to the recorded commands. Call it before they are saved.
   void noteRelaxation();

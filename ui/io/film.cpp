@@ -72,8 +72,8 @@ void Film::begin(const QString& path) {
   const MoveHistory& history = document_.moves().history();
   ofPass_ = false;
   perSecond_ = picturesPerSecond;
-  positions_ = {0};
-  for (std::size_t i = 0; i < history.length(); ++i) {
+  positions_ = {history.start()};
+  for (std::size_t i = history.start(); i < history.length(); ++i) {
     if (std::holds_alternative<commands::Drag>(history.at(i))) {
       positions_.push_back(i + 1);
     }

@@ -387,7 +387,7 @@ def calibrate(
     held_out: int = 4,
     evaluations: int = 200,
     most_sweeps: int = 100,
-    scheme: _Scheme = "mean",
+    scheme: _Scheme = "equilibrium",
     job: Job | None = None,
     progress: _Progress = None,
 ) -> dict[str, Any]: ...

@@ -20,7 +20,7 @@ struct CalibrateOptions {
   int held_out = 4;                      ///< Number of drags that only test the result, at least 1.
   int evaluations = 200;                 ///< Largest number of evaluations, at least 1; each runs all drags.
   int most_sweeps = 100;                 ///< Largest number of sweeps that is tried, of 0, 1, 3, 10, 30 and 100.
-  RelaxationScheme scheme = RelaxationScheme::mean;  ///< Relaxation scheme; `equilibrium` needs no sweeps.
+  RelaxationScheme scheme = RelaxationScheme::equilibrium;  ///< Relaxation scheme; `equilibrium` needs no sweeps.
 };
 
 /// Errors against the reference solution, means over drags; the maxima are the largest.
@@ -40,11 +40,11 @@ struct Calibration {
   std::string json = {};            ///< All figures, drag by drag, as `chainmail calibrate --json` writes them.
 };
 
-/// Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error
-/// against neo-Hookean finite elements on the same cells (search by DIRECT-L, Gablonsky and Kelley 2001, then Sbplx,
-/// Rowan 1990). With the scheme `equilibrium`, it also finds the lateral stiffness and the exponent, by Sbplx from
-/// several starts. Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts,
-/// pins, elasticity and kind of energy; it does not change.
+/// Finds the softness of all links that has the lowest mean relative error against neo-Hookean finite elements on the
+/// same cells. With the scheme `equilibrium`, it varies regions, lateral stiffness and exponent, by Sbplx (Rowan 1990)
+/// from several starts; with sweeps, the regions and the number of sweeps, by DIRECT-L (Gablonsky and Kelley 2001), then
+/// Sbplx. Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts, pins,
+/// elasticity and kind of energy (that of the material stands for corotated links); it does not change.
 ///
 /// Throws Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is out of
 /// its range, if the object has no static solution, and if no reference solution converges; and Cancelled.

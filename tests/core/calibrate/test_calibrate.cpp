@@ -48,6 +48,7 @@ const MeshPointer sheet = make_mesh(MeshKind::cloth, {5, 5, 1});
 
 CalibrationOptions quick() {
   CalibrationOptions options;
+  options.scheme = RelaxationScheme::mean;
   options.pins = layer(*sheet, *find_side("top"));
   options.drags = 2;
   options.evaluations = 40;

@@ -85,7 +85,7 @@ void ReplayDock::makeActions() {
   };
   first_ =
       add("replayFirst", QStringLiteral("Go to &beginning"), "toStart", QKeySequence(QStringLiteral("Ctrl+Alt+Home")),
-          QStringLiteral("Shows the object before the first move"), [=] { stopAndGo(0); });
+          QStringLiteral("Shows the object before the first move"), [=, this] { stopAndGo(document_.moves().history().start()); });
   back_ = add("replayBack", QStringLiteral("Move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+Alt+Left")),
               QStringLiteral("Goes back by one pass"), [=, this] { stopAndGo(previousMove()); });
   play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Alt+Space")),
@@ -143,7 +143,7 @@ void ReplayDock::scheduleShow() {
 
 QString ReplayDock::describe() const {
   const MoveHistory& history = document_.moves().history();
-  if (history.length() == 0) {
+  if (history.length() == history.start()) {
     return QStringLiteral("No moves yet: everything you do to the object is recorded here");
   }
   return QStringLiteral("move %L1 of %L2")
@@ -157,11 +157,11 @@ void ReplayDock::showMoves() {
   }
   const MoveHistory& history = document_.moves().history();
   const QSignalBlocker block(slider_);
-  slider_->setRange(0, int(history.length()));
+  slider_->setRange(int(history.start()), int(history.length()));
   slider_->setValue(int(wanted_.value_or(history.position())));
   position_->setText(describe());
-  const bool some = history.length() > 0, filming = film_.running();
-  const bool behind = history.position() > 0, ahead = history.position() < history.length();
+  const bool some = history.length() > history.start(), filming = film_.running();
+  const bool behind = history.position() > history.start(), ahead = history.position() < history.length();
   for (QAction* action : {first_, back_}) {
     action->setEnabled(behind && !filming);
   }
@@ -191,12 +191,12 @@ std::size_t ReplayDock::nextMove() const {
 
 std::size_t ReplayDock::previousMove() const {
   const MoveHistory& history = document_.moves().history();
-  for (std::size_t i = history.position(); i > 1; --i) {
+  for (std::size_t i = history.position(); i > history.start() + 1; --i) {
     if (isMove(history.at(i - 2))) {
       return i - 1;
     }
   }
-  return 0;
+  return history.start();
 }
 
 /// Goes to a position in the recorded commands. While the solvers are busy, stores it as the next position.
@@ -218,7 +218,7 @@ void ReplayDock::setPlaying(bool on) {
     return;
   }
   if (document_.moves().history().position() == document_.moves().history().length()) {
-    goTo(0);
+    goTo(document_.moves().history().start());
   }
   playing_.start(1000 / speed_->currentData().toInt());
 }
