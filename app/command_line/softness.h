@@ -19,8 +19,8 @@ struct SoftnessArguments {
 };
 SoftnessArguments add_softness(CLI::App& app);
 /// Returns the softness of all links: the numbers of `usual`, where options override them. Without the option for it,
-/// the energy is that of links if a number that only links have is given, else that of the material. Throws Error, with the
-/// option, if a value is out of range or the kind of energy is not known.
+/// the energy is that of links if a number that only links have is given, else that of the material. Throws Error, with
+/// the option, if a value is out of range or the kind of energy is not known.
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual = {});
 
 /// Returns the axes of the option for this mesh; those of the world without the option. Throws Error, with the option,

@@ -11,8 +11,8 @@ enum class EnergyKind { isotropic, axial, corotated, material };
 
 /// The energy of a new object. Objects without cells and sweeps have that of links in its place.
 inline constexpr EnergyKind standard_energy = EnergyKind::material;
-/// The energy of links that comes closest to a material. Recorded moves and files that name no energy mean this one, and
-/// calibration adjusts it.
+/// The energy of links that comes closest to a material. Recorded moves and files that name no energy mean this one,
+/// and calibration adjusts it.
 inline constexpr EnergyKind link_energy = EnergyKind::corotated;
 
 /// Returns the kind of energy that links have if that of the material cannot be used.

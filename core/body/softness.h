@@ -158,7 +158,8 @@ class OwnSoftness::Iterator {
 };
 
 /// The softness of an object: a global one, different ones for single links, the kind of energy of all links, and the
-/// axes along which their valid regions lie. Recorded moves begin with Softness(), new objects with standard_softness().
+/// axes along which their valid regions lie. Recorded moves begin with Softness(), new objects with
+/// standard_softness().
 struct Softness {
   LinkSoftness global;
   OwnSoftness links;

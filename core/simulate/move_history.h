@@ -36,7 +36,9 @@ class MoveHistory {
   std::vector<Command> commands() const;
   /// Returns the position after which an object begins its life: a first command that sets its softness is none of its
   /// moves.
-  std::size_t start() const { return !timeline_.empty() && std::holds_alternative<commands::SetSoftness>(at(0)) ? 1 : 0; }
+  std::size_t start() const {
+    return !timeline_.empty() && std::holds_alternative<commands::SetSoftness>(at(0)) ? 1 : 0;
+  }
   /// Returns the number of passes (drags) among the first `commands` commands.
   std::size_t passes(std::size_t commands) const { return commands == 0 ? 0 : nodes_[timeline_[commands - 1]].passes; }
   /// True if the commands up to the current position grab elements and do not release them.

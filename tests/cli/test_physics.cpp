@@ -179,8 +179,8 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   QVERIFY(held_out["residual"]["rms"].toDouble() > 0 && held_out["residual"]["max"].toDouble() > 0);
   QVERIFY(relative(held_out, "residual_nothing") > 0.6 && relative(held_out["drags"][0], "after") < 9);
   QVERIFY(outcome.out.contains("Drags not used by the search (4):\n"));
-  const auto swept = program_->run(
-      "calibrate cloth.obj --pins top --drags 1 --evaluations 5 --relaxation mean --json swept.json");
+  const auto swept =
+      program_->run("calibrate cloth.obj --pins top --drags 1 --evaluations 5 --relaxation mean --json swept.json");
   QVERIFY2(swept.out.contains(" sweeps per move\n"), swept.error);
   // Runs the same again, and once with the pins by their name.
   const QByteArray first = program_->read("out.json");

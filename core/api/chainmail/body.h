@@ -173,8 +173,8 @@ class Body {
   std::vector<LinkSoftness> link_softness() const;
 
   /// Sets the kind of elastic energy. Nothing moves; relaxation uses it from now on. A new body has
-  /// that of the material. A global lateral stiffness that was the usual one of the old kind becomes that of the new kind:
-  /// 0.03 for axial energy, else 1.
+  /// that of the material. A global lateral stiffness that was the usual one of the old kind becomes that of the new
+  /// kind: 0.03 for axial energy, else 1.
   void set_energy(EnergyKind kind);
   /// The kind of elastic energy.
   EnergyKind energy() const;

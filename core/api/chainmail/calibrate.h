@@ -42,9 +42,9 @@ struct Calibration {
 
 /// Finds the softness of all links that has the lowest mean relative error against neo-Hookean finite elements on the
 /// same cells. With the scheme `equilibrium`, it varies regions, lateral stiffness and exponent, by Sbplx (Rowan 1990)
-/// from several starts; with sweeps, the regions and the number of sweeps, by DIRECT-L (Gablonsky and Kelley 2001), then
-/// Sbplx. Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts, pins,
-/// elasticity and kind of energy (that of the material stands for corotated links); it does not change.
+/// from several starts; with sweeps, the regions and the number of sweeps, by DIRECT-L (Gablonsky and Kelley 2001),
+/// then Sbplx. Each drag moves a random element by 5 to 20 % of the object's size. The object gives its mesh, cuts,
+/// pins, elasticity and kind of energy (that of the material stands for corotated links); it does not change.
 ///
 /// Throws Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is out of
 /// its range, if the object has no static solution, and if no reference solution converges; and Cancelled.

@@ -83,9 +83,9 @@ void ReplayDock::makeActions() {
     setPlaying(false);
     goTo(position);
   };
-  first_ =
-      add("replayFirst", QStringLiteral("Go to &beginning"), "toStart", QKeySequence(QStringLiteral("Ctrl+Alt+Home")),
-          QStringLiteral("Shows the object before the first move"), [=, this] { stopAndGo(document_.moves().history().start()); });
+  first_ = add("replayFirst", QStringLiteral("Go to &beginning"), "toStart",
+               QKeySequence(QStringLiteral("Ctrl+Alt+Home")), QStringLiteral("Shows the object before the first move"),
+               [=, this] { stopAndGo(document_.moves().history().start()); });
   back_ = add("replayBack", QStringLiteral("Move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+Alt+Left")),
               QStringLiteral("Goes back by one pass"), [=, this] { stopAndGo(previousMove()); });
   play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Alt+Space")),
