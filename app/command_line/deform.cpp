@@ -25,6 +25,7 @@ struct DeformArguments {
   CLI::App* app = nullptr;
   MeshOptions mesh;
   ElasticArguments elastic;
+  StrainLawArguments law;
   SoftnessArguments global;
   CLI::Option *algorithm, *precision, *softness;
   CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
@@ -119,8 +120,7 @@ DeformSummary summarize(Simulation& simulation, const Run& run) {
           mesh.link_count(),
           run.passes,
           statistics.violation,
-          elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions,
-                         simulation.body().elastic().material),
+          elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions, simulation.body().elastic()),
           measure_displacement(mesh, positions),
           volume_change(mesh, positions),
           inverted_cells(mesh, positions),
@@ -232,7 +232,8 @@ void deform(const DeformArguments& options) {
   if (options.script->count() > 0 && options.global.energy->count() == 0) {
     set_energy(softness, link_energy);  // recorded moves begin with it
   }
-  const ElasticOptions elastic = elastic_of(options.elastic);
+  ElasticOptions elastic = elastic_of(options.elastic);
+  elastic.law = strain_law_of(options.law, elastic.material);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation, targets);
   const std::vector<Action> actions = read_actions(options);
@@ -299,6 +300,7 @@ void add_model(CLI::App& app, DeformArguments& options) {
   options.relax_until = add_parameter(app, parameters::relax_until);
   options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
   options.elastic = add_elastic(app);
+  options.law = add_strain_law(app);
   options.mesh.space =
       add_value(app, "--space", "1|2|3",
                 "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");

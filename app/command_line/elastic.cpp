@@ -77,15 +77,27 @@ StrainLawArguments add_strain_laws(CLI::App& app) {
           add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
 }
 
+StrainLawArguments add_strain_law(CLI::App& app) {
+  return {
+      add_value(app, "--material", "neo-hookean|gent|fung",
+                "law of the material, for relaxation to it and for the algorithm neo-hookean; gent and fung stiffen "
+                "as they are stretched [neo-hookean]"),
+      add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
+}
+
+StrainLaw strain_law_of(const StrainLawArguments& arguments, const Material& material) {
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments, material);
+  if (laws.size() > 1) {
+    throw Error("--material", "it names several materials", "name one");
+  }
+  return laws.front();
+}
+
 std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material) {
-  constexpr std::array kinds{StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung};
   std::vector<StrainLaw> laws;
   for (const std::string& word : words_of("--material", value_of(arguments.materials).value_or("neo-hookean"))) {
-    const auto kind = std::ranges::find(kinds, word, [](StrainLaw::Kind one) { return name(one); });
-    if (kind == kinds.end()) {
-      check_word("--material", word, {"neo-hookean", "gent", "fung"});
-    }
-    laws.push_back({*kind, value_of(arguments.gent_limit, parameters::gent_limit),
+    check_word("--material", word, {"neo-hookean", "gent", "fung"});
+    laws.push_back({chainmail::strain_law_of(word), value_of(arguments.gent_limit, parameters::gent_limit),
                     value_of(arguments.fung_exponent, parameters::fung_exponent)});
     in_options({{"gent-limit", "--gent-limit"}, {"fung-exponent", "--fung-exponent"}},
                [&] { check(laws.back(), material); });

@@ -12,13 +12,18 @@ struct ElasticArguments {
 ElasticArguments add_elastic(CLI::App& app);
 /// Adds only the options of the material.
 ElasticArguments add_material(CLI::App& app);
-/// Throws Error, with the option, if a value is out of range.
+/// Throws Error, with the option, if a value is out of range. The law is neo-Hookean.
 ElasticOptions elastic_of(const ElasticArguments& arguments);
 
-/// The options for the material of the reference solution.
+/// The options for the law of a material: one, or several.
 struct StrainLawArguments {
   CLI::Option *materials = nullptr, *gent_limit = nullptr, *fung_exponent = nullptr;
 };
+/// Adds the options for the law of the object's own material.
+StrainLawArguments add_strain_law(CLI::App& app);
+/// Returns that law; neo-Hookean if none is named. Throws Error, with the option.
+StrainLaw strain_law_of(const StrainLawArguments& arguments, const Material& material);
+/// Adds the options for the materials of the reference solution.
 StrainLawArguments add_strain_laws(CLI::App& app);
 /// Returns the laws to compare with; neo-Hookean if none is named. Throws Error, with the option.
 std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material);

@@ -10,6 +10,7 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/pickling.h"
+#include "python/words.h"
 
 namespace chainmail::python {
 namespace {
@@ -134,15 +135,17 @@ void add_elasticity(py::module_& module) {
   const api::Elasticity defaults;
   py::class_<api::Elasticity> elasticity(
       module, "Elasticity",
-      "Settings of the methods of elasticity and of free-form deformation. The ChainMail\n"
-      "family ignores them. A value object: it does not change.");
+      "Settings of the methods of elasticity, of free-form deformation and of relaxation to\n"
+      "the material. A value object: it does not change.");
   elasticity
       .def(py::init([](double young, double poisson, const std::array<std::uint32_t, 3>& control_points,
-                       std::uint32_t iterations) {
-             return api::Elasticity{young, poisson, control_points, iterations};
+                       std::uint32_t iterations, const std::string& law, double gent_limit, double fung_exponent) {
+             return api::Elasticity{young, poisson, control_points, iterations, law_of(law), gent_limit, fung_exponent};
            }),
            py::kw_only(), py::arg("young") = defaults.young, py::arg("poisson") = defaults.poisson,
-           py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = defaults.iterations)
+           py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = defaults.iterations,
+           py::arg("law") = word_for(defaults.law), py::arg("gent_limit") = defaults.gent_limit,
+           py::arg("fung_exponent") = defaults.fung_exponent)
       .def_readonly("young", &api::Elasticity::young,
                     "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.")
       .def_readonly("poisson", &api::Elasticity::poisson, "Poisson's ratio: 0 to below 0.5.")
@@ -154,24 +157,39 @@ void add_elasticity(py::module_& module) {
           "Number of control points of free-form deformation along x, y and z, 2 to 8.")
       .def_readonly("iterations", &api::Elasticity::iterations,
                     "Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000.")
+      .def_property_readonly(
+          "law", [](const api::Elasticity& one) { return word_for(one.law); },
+          "Law of relaxation to the material and of neo-Hookean FEM: `neo-hookean`, or `gent` or\n"
+          "`fung`, which stiffen as they are stretched.")
+      .def_readonly("gent_limit", &api::Elasticity::gent_limit,
+                    "With `gent`: bound of I1 - 3, the sum of the squared principal stretches less 3.")
+      .def_readonly("fung_exponent", &api::Elasticity::fung_exponent, "With `fung`: factor of I1 - 3 in the exponent.")
       .def(py::self == py::self)
       .def("__repr__",
            [](const api::Elasticity& one) {
              std::ostringstream text;
              text << "Elasticity(young=" << text_of(one.young) << ", poisson=" << text_of(one.poisson)
                   << ", control_points=(" << one.control_points[0] << ", " << one.control_points[1] << ", "
-                  << one.control_points[2] << "), iterations=" << one.iterations << ")";
+                  << one.control_points[2] << "), iterations=" << one.iterations << ", law='" << word_for(one.law)
+                  << "', gent_limit=" << text_of(one.gent_limit) << ", fung_exponent=" << text_of(one.fung_exponent)
+                  << ")";
              return text.str();
            })
       .attr("__hash__") = py::none();
   add_pickling(
       elasticity,
       [](const api::Elasticity& one) {
-        return py::make_tuple(one.young, one.poisson, one.control_points, one.iterations);
+        return py::make_tuple(one.young, one.poisson, one.control_points, one.iterations, word_for(one.law),
+                              one.gent_limit, one.fung_exponent);
       },
       [](const py::tuple& state) {
-        return api::Elasticity{state[0].cast<double>(), state[1].cast<double>(),
-                               state[2].cast<std::array<std::uint32_t, 3>>(), state[3].cast<std::uint32_t>()};
+        return api::Elasticity{state[0].cast<double>(),
+                               state[1].cast<double>(),
+                               state[2].cast<std::array<std::uint32_t, 3>>(),
+                               state[3].cast<std::uint32_t>(),
+                               law_of(state[4].cast<std::string>()),
+                               state[5].cast<double>(),
+                               state[6].cast<double>()};
       });
 }
 

@@ -15,6 +15,7 @@ namespace chainmail::python {
 inline constexpr std::array<std::string_view, 2> precision_words{"float", "double"};
 inline constexpr std::array<std::string_view, 3> scheme_words{"mean", "link", "equilibrium"};
 inline constexpr std::array<std::string_view, 4> energy_words{"isotropic", "axial", "corotated", "material"};
+inline constexpr std::array<std::string_view, 3> law_words{"neo-hookean", "gent", "fung"};
 inline constexpr std::array<std::string_view, 2> reference_words{"exact", "physics"};
 
 inline api::Precision precision_of(std::string_view word) {
@@ -26,11 +27,15 @@ inline api::RelaxationScheme scheme_of(std::string_view word) {
 inline api::EnergyKind energy_of(std::string_view word) {
   return static_cast<api::EnergyKind>(word_of("energy", word, energy_words));
 }
+inline api::StrainLaw law_of(std::string_view word) {
+  return static_cast<api::StrainLaw>(word_of("law", word, law_words));
+}
 inline api::Reference reference_of(std::string_view word) {
   return static_cast<api::Reference>(word_of("against", word, reference_words));
 }
 
 inline std::string_view word_for(api::Precision precision) { return precision_words[std::size_t(precision)]; }
 inline std::string_view word_for(api::EnergyKind energy) { return energy_words[std::size_t(energy)]; }
+inline std::string_view word_for(api::StrainLaw law) { return law_words[std::size_t(law)]; }
 
 }  // namespace chainmail::python

@@ -26,7 +26,12 @@ static_assert(Elasticity().young == parameters::young.default_value &&
               Elasticity().control_points[0] == ElasticOptions::control_points &&
               Elasticity().control_points[1] == ElasticOptions::control_points &&
               Elasticity().control_points[2] == ElasticOptions::control_points &&
-              Elasticity().iterations == parameters::iterations.default_value);
+              Elasticity().iterations == parameters::iterations.default_value &&
+              Elasticity().gent_limit == parameters::gent_limit.default_value &&
+              Elasticity().fung_exponent == parameters::fung_exponent.default_value);
+static_assert(int(StrainLaw::neo_hookean) == int(inner::StrainLaw::Kind::neo_hookean) &&
+              int(StrainLaw::gent) == int(inner::StrainLaw::Kind::gent) &&
+              int(StrainLaw::fung) == int(inner::StrainLaw::Kind::fung));
 
 namespace {
 
@@ -344,14 +349,18 @@ Rotation Body::frame() const {
 
 void Body::set_elasticity(const Elasticity& elasticity) {
   const ElasticOptions options{
-      {elasticity.young, elasticity.poisson}, elasticity.control_points, elasticity.iterations};
+      {elasticity.young, elasticity.poisson},
+      elasticity.control_points,
+      elasticity.iterations,
+      {inner::StrainLaw::Kind(elasticity.law), elasticity.gent_limit, elasticity.fung_exponent}};
   guarded([&] { inner::check(options); });
   impl_->body().set_elastic(options);
 }
 
 Elasticity Body::elasticity() const {
   const ElasticOptions& options = impl_->body().elastic();
-  return {options.material.young, options.material.poisson, options.lattice, options.iterations};
+  return {options.material.young,      options.material.poisson, options.lattice,          options.iterations,
+          StrainLaw(options.law.kind), options.law.gent_limit,   options.law.fung_exponent};
 }
 
 }  // namespace chainmail::api

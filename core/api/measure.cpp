@@ -55,7 +55,7 @@ Spread distance(const Body& body, std::span<const double> positions) {
 
 double elastic_energy(const Body& body) {
   const inner::Body& impl = Access::body(body);
-  return inner::elastic_energy(impl.mesh(), impl.softness(), impl.cuts(), impl.positions(), impl.elastic().material);
+  return inner::elastic_energy(impl.mesh(), impl.softness(), impl.cuts(), impl.positions(), impl.elastic());
 }
 
 std::vector<double> ReferenceSolution::positions() const {

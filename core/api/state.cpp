@@ -128,6 +128,9 @@ void put_elastic(State& state, const ElasticOptions& elastic) {
   state["poisson"] = elastic.material.poisson;
   state["control_points"] = std::vector<std::uint32_t>(elastic.lattice.begin(), elastic.lattice.end());
   state["iterations"] = std::int64_t(elastic.iterations);
+  state["law"] = name(elastic.law.kind);
+  state["gent_limit"] = elastic.law.gent_limit;
+  state["fung_exponent"] = elastic.law.fung_exponent;
 }
 
 ElasticOptions elastic_from(StateFields& state) {
@@ -135,9 +138,12 @@ ElasticOptions elastic_from(StateFields& state) {
   if (points.size() != 3) {
     state.refuse("control_points");
   }
+  const auto kind =
+      state.word("law", inner::strain_laws.size(), [](std::size_t i) { return name(inner::strain_laws[i]); });
   return {{state.real("young"), state.real("poisson")},
           {points[0], points[1], points[2]},
-          std::uint32_t(state.whole("iterations", 0, std::numeric_limits<std::uint32_t>::max()))};
+          std::uint32_t(state.whole("iterations", 0, std::numeric_limits<std::uint32_t>::max())),
+          {inner::strain_laws[kind], state.real("gent_limit"), state.real("fung_exponent")}};
 }
 
 BodyState body_state_from(StateFields& state, const inner::Mesh& mesh) {

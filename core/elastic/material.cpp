@@ -1,5 +1,6 @@
 #include "elastic/material.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -23,10 +24,19 @@ void check(const ElasticOptions& options) {
     check(parameters::lattice, count);
   }
   check(parameters::iterations, options.iterations);
+  check(options.law, options.material);
 }
 
 std::string name(StrainLaw::Kind kind) {
   return kind == StrainLaw::Kind::gent ? "gent" : kind == StrainLaw::Kind::fung ? "fung" : "neo-hookean";
+}
+
+StrainLaw::Kind strain_law_of(std::string_view wanted) {
+  const auto found = std::ranges::find(strain_laws, wanted, [](StrainLaw::Kind one) { return name(one); });
+  if (found == strain_laws.end()) {
+    throw Error("law", "there is no such material", "use neo-hookean, gent or fung");
+  }
+  return *found;
 }
 
 std::string label(const StrainLaw& law) {

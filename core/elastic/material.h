@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "mesh/parameters.h"
 
@@ -16,22 +17,6 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Settings of the methods of elasticity and of free-form deformation.
-struct ElasticOptions {
-  static constexpr auto control_points = static_cast<std::uint32_t>(parameters::lattice.default_value);
-
-  Material material;
-  /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
-  std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
-  /// Most iterations of XPBD and Projective Dynamics for one move.
-  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.default_value);
-
-  bool operator==(const ElasticOptions&) const = default;
-};
-
-/// Throws Error, with the name of the parameter, if one of the options is out of range.
-void check(const ElasticOptions& options);
-
 /// How the energy of an elastic material grows with the strain. At small strains, all are the same linear elasticity.
 /// `stiffening.h` has the formulas.
 struct StrainLaw {
@@ -43,12 +28,36 @@ struct StrainLaw {
 
   bool operator==(const StrainLaw&) const = default;
 };
+/// All laws, in the order of the constants.
+inline constexpr std::array strain_laws{StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung};
 /// Returns `neo-hookean`, `gent` or `fung`.
 std::string name(StrainLaw::Kind kind);
+/// Returns the law of this name. Throws Error, with all names, if there is none.
+StrainLaw::Kind strain_law_of(std::string_view name);
 /// Returns a description for readers, with the parameter: `Gent (limit 2)`.
 std::string label(const StrainLaw& law);
 /// Throws Error, with the name of the parameter, if the law does not exist for this material.
 void check(const StrainLaw& law, const Material& material);
+
+/// Settings of the methods of elasticity, of free-form deformation and of relaxation to the material.
+struct ElasticOptions {
+  static constexpr auto control_points = static_cast<std::uint32_t>(parameters::lattice.default_value);
+
+  Material material;
+  /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
+  std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
+  /// Most iterations of XPBD and Projective Dynamics for one move.
+  std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.default_value);
+
+  /// Of neo-Hookean FEM and of relaxation to the material. The other methods are linear or have none.
+  StrainLaw law = {};
+
+  bool operator==(const ElasticOptions&) const = default;
+};
+
+/// Throws Error, with the name of the parameter, if one of the options is out of range or the law does not exist for
+/// the material.
+void check(const ElasticOptions& options);
 
 /// Lamé's parameters of a material in three dimensions.
 struct Lame {

@@ -412,7 +412,7 @@ class Equilibrator final : public EquilibriumSolver {
       has_material_ = has_cuts_ = false;
     }
     if (!std::exchange(has_material_, true)) {
-      material_.set_material(shown_.body->elastic().material, StrainLaw());
+      material_.set_material(shown_.body->elastic().material, shown_.body->elastic().law);
       has_cuts_ = false;
     }
     if (!std::exchange(has_cuts_, true)) {

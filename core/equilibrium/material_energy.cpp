@@ -13,10 +13,11 @@ constexpr double loose_stiffness = 1e-6;
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
 template <int D>
-double energy_in_space(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position) {
+double energy_in_space(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts,
+                       const PositionView& position) {
   MaterialEnergy<D> energy;
   energy.build(MeshPointer(std::shared_ptr<void>(), &mesh));
-  energy.set_material(material, StrainLaw());
+  energy.set_material(elastic.material, elastic.law);
   energy.set_cuts(cuts);
   energy.set_extension_below(MaterialEnergy<D>::measured_below);
   typename MaterialEnergy<D>::Vectors displacements(mesh.element_count());
@@ -25,7 +26,7 @@ double energy_in_space(const Mesh& mesh, const Material& material, const Cuts& c
       displacements[e][k] = position(e, k) - mesh.rest[std::size_t{e} * D + std::size_t(k)];
     }
   }
-  return energy.evaluate(displacements, nullptr) * energy.scale() * material.young;
+  return energy.evaluate(displacements, nullptr) * energy.scale() * elastic.material.young;
 }
 
 }  // namespace
@@ -403,14 +404,15 @@ template class MaterialEnergy<1>;
 template class MaterialEnergy<2>;
 template class MaterialEnergy<3>;
 
-double material_energy(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position) {
+double material_energy(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts,
+                       const PositionView& position) {
   switch (mesh.space_dimension) {
     case 1:
-      return energy_in_space<1>(mesh, material, cuts, position);
+      return energy_in_space<1>(mesh, elastic, cuts, position);
     case 2:
-      return energy_in_space<2>(mesh, material, cuts, position);
+      return energy_in_space<2>(mesh, elastic, cuts, position);
     default:
-      return energy_in_space<3>(mesh, material, cuts, position);
+      return energy_in_space<3>(mesh, elastic, cuts, position);
   }
 }
 

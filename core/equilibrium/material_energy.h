@@ -115,6 +115,6 @@ extern template class MaterialEnergy<3>;
 
 /// Returns the energy of the material of a mesh's uncut cells, in units of Young's modulus times mesh units to the
 /// power of the space's dimension. The mesh has cells, see has_solid_cells.
-double material_energy(const Mesh& mesh, const Material& material, const Cuts& cuts, const PositionView& position);
+double material_energy(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts, const PositionView& position);
 
 }  // namespace chainmail

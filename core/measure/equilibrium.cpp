@@ -236,7 +236,7 @@ class System {
 
 /// The energies of corotated links and of the material are not quadratic: their minimum is found by iterations from the
 /// present positions on.
-bool settle(const Mesh& mesh, const Softness& softness, const Material& material, const Cuts& cuts,
+bool settle(const Mesh& mesh, const Softness& softness, const ElasticOptions& elastic, const Cuts& cuts,
             std::span<const ElementId> fixed, const PositionView& positions, Equilibrium& equilibrium,
             const Progress& progress) {
   constexpr double enough = 1e-8;
@@ -249,7 +249,7 @@ bool settle(const Mesh& mesh, const Softness& softness, const Material& material
   body.store_displacements(true);
   body.set_positions(at);
   body.set_softness(softness);
-  body.set_elastic({material});
+  body.set_elastic(elastic);
   body.cut(cuts.links());
   body.pin(fixed);
   if (!EquilibriumSolver::make(mesh.space_dimension, false)->solve(body, {}, enough, max_iterations, progress)) {
@@ -283,14 +283,14 @@ PositionView Equilibrium::positions(const Mesh& mesh) const {
 
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
-                                       const Material& material, std::uint64_t limit, const Progress& progress) {
+                                       const ElasticOptions& elastic, std::uint64_t limit, const Progress& progress) {
   if (fixed.empty()) {
     return std::nullopt;
   }
   Equilibrium result{displacements_of(mesh, positions), joined_to(mesh, cuts, fixed)};
   const bool is_solved = energy_in(mesh, softness.energy) == EnergyKind::corotated ||
                                  energy_in(mesh, softness.energy) == EnergyKind::material
-                             ? settle(mesh, softness, material, cuts, fixed, positions, result, progress)
+                             ? settle(mesh, softness, elastic, cuts, fixed, positions, result, progress)
                              : System(mesh, softness, cuts, fixed, result).solve(limit, progress);
   if (!is_solved) {
     return std::nullopt;

@@ -35,11 +35,11 @@ inline constexpr std::uint64_t cholesky_limit = 65'536;
 
 /// Returns the equilibrium with these elements fixed at their positions; the positions of the others are only the start
 /// of the iterations. The energies of corotated links and of the material may have several minima: this is the one that
-/// they find. None if no element
-/// is fixed, if the energy has no single minimum, or if the iterations do not converge. May throw Cancelled.
+/// they find. None if no element is fixed, if the energy has no single minimum, or if the iterations do not converge.
+/// May throw Cancelled.
 std::optional<Equilibrium> equilibrium(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                                        std::span<const ElementId> fixed, const PositionView& positions,
-                                       const Material& material = {}, std::uint64_t limit = cholesky_limit,
+                                       const ElasticOptions& elastic = {}, std::uint64_t limit = cholesky_limit,
                                        const Progress& progress = {});
 
 }  // namespace chainmail

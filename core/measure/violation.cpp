@@ -154,14 +154,14 @@ Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, 
 }
 
 double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                      const Material& material) {
+                      const ElasticOptions& elastic) {
   switch (energy_in(mesh, softness.energy)) {
     case EnergyKind::isotropic:
       return isotropic_energy(mesh, cuts, position);
     case EnergyKind::axial:
       return axial_energy(mesh, softness, cuts, position);
     case EnergyKind::material:
-      return material_energy(mesh, material, cuts, position);
+      return material_energy(mesh, elastic, cuts, position);
     default:
       return corotated_energy(mesh, softness, cuts, position);
   }

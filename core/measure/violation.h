@@ -83,7 +83,7 @@ class TouchedViolation {
 /// r_ij|², is in mesh units squared; that of the material, as neo-Hookean FEM has it, in units of Young's modulus times
 /// mesh units to the power of the space's dimension.
 double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                      const Material& material = {});
+                      const ElasticOptions& elastic = {});
 
 /// Returns the displacement of the elements from rest (mesh units), in double.
 struct Displacement {

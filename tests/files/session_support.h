@@ -40,7 +40,7 @@ inline Session session_on(const MeshPointer& mesh) {
   session.softness = std::make_shared<const Softness>(Softness{
       {0.1, 1.0 / 0.3, 1e-300, 2.0 / 3, 3.5, -0.75}, {{2, {0, 1, 7, 0.3, 1e-9, 2.5}}, {4, {}}}, EnergyKind::corotated});
   session.relaxation = {true, 1.0 / 3, RelaxationScheme::link};
-  session.elastic = {{2.5, 1.0 / 3}, {2, 5, 8}};
+  session.elastic = {{2.5, 1.0 / 3}, {2, 5, 8}, 70, {StrainLaw::Kind::gent, 1.5, 0.25}};
   const auto dimension = static_cast<std::size_t>(mesh->space_dimension);
   std::vector<double> one{1.0 / 3, -0.0, 1e300};
   one.resize(dimension);

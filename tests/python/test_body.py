@@ -146,6 +146,14 @@ def test_energy_and_elasticity():
         body.set_energy("thermal")
     body.set_elasticity(chainmail.Elasticity(poisson=0.4))
     assert body.elasticity == chainmail.Elasticity(poisson=0.4)
+    assert body.elasticity.law == "neo-hookean"
+    body.set_elasticity(chainmail.Elasticity(poisson=0.4, law="gent", gent_limit=1.5))
+    assert (body.elasticity.law, body.elasticity.gent_limit) == ("gent", 1.5)
+    assert "law='gent', gent_limit=1.5" in repr(body.elasticity)
+    with pytest.raises(chainmail.Error, match="use neo-hookean, gent or fung"):
+        chainmail.Elasticity(law="hooke")
+    with pytest.raises(chainmail.Error, match="too low for a Poisson's ratio"):
+        body.set_elasticity(chainmail.Elasticity(poisson=0.1, law="gent"))
     with pytest.raises(chainmail.Error, match="poisson"):
         body.set_elasticity(chainmail.Elasticity(poisson=0.5))
 

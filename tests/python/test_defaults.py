@@ -34,7 +34,7 @@ def value_of(initializer):
     if text in constants:
         return constants[text]
     if "::" in text:
-        return text.split("::")[-1]
+        return text.split("::")[-1].replace("_", "-")
     if text.startswith("{"):
         return tuple(value_of(one) for one in text.strip("{}").split(","))
     if "/" in text:

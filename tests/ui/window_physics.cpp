@@ -1,5 +1,6 @@
 // Tests the elastic methods in a real window: which are available, which pins they need, and their settings.
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -78,6 +79,32 @@ class WindowPhysics : public QObject {
     bench.document().undo();
     QVERIFY(bench.document().pins().empty());
     QVERIFY(bench.find<QAction>("pinLeft")->isEnabled());
+  }
+
+  void theLawOfTheMaterialIsChosen() {
+    Workbench bench(gridInAPlane());
+    auto* law = bench.find<QComboBox>("law");
+    auto* limit = bench.find<QDoubleSpinBox>("gent-limitSpin");
+    auto* exponent = bench.find<QDoubleSpinBox>("fung-exponentSpin");
+    const auto choose = [&](StrainLaw::Kind kind) {
+      law->setCurrentIndex(law->findData(int(kind)));
+      emit law->activated(law->currentIndex());
+    };
+    QVERIFY(limit->parentWidget()->isHidden() && exponent->parentWidget()->isHidden());
+    choose(StrainLaw::Kind::gent);
+    QVERIFY(bench.document().elastic().law.kind == StrainLaw::Kind::gent);
+    QVERIFY(!limit->parentWidget()->isHidden() && exponent->parentWidget()->isHidden());
+    limit->setValue(3);
+    QCOMPARE(bench.document().elastic().law.gent_limit, 3.0);
+    // A material that hardly changes its volume is needed: the field shows what is there.
+    bench.find<QDoubleSpinBox>("poissonSpin")->setValue(0);
+    QCOMPARE(bench.document().elastic().material.poisson, 0.3);
+    QCOMPARE(bench.find<QDoubleSpinBox>("poissonSpin")->value(), 0.3);
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("is too low for a Poisson's ratio of 0")));
+    bench.document().undo();
+    bench.document().undo();
+    QVERIFY(bench.document().elastic() == ElasticOptions());
+    QCOMPARE(law->currentData().toInt(), int(StrainLaw::Kind::neo_hookean));
   }
 
   void materialAndLatticeAreStepsOfUndo() {

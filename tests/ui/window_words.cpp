@@ -86,6 +86,10 @@ class WindowWords : public QObject {
     QTest::newRow("almost all") << 0.998 << 12.3 << true
                                 << QStringLiteral("more than 99 % of links violated, worst 12 × rest length");
     QTest::newRow("all") << 1.0 << 1.0 << true << QStringLiteral("100 % of links violated, worst 1 × rest length");
+    QTest::newRow("a hundred") << 0.13 << 100.3 << true
+                               << QStringLiteral("13 % of links violated, worst 100 × rest length");
+    QTest::newRow("almost a hundred") << 0.13 << 99.7 << true
+                                      << QStringLiteral("13 % of links violated, worst 100 × rest length");
     QTest::newRow("far") << 0.13 << 11234.4 << true
                          << QStringLiteral("13 % of links violated, worst 11,234 × rest length");
     QTest::newRow("unknown") << std::nan("") << std::nan("") << true

@@ -18,10 +18,14 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
       poisson_(new ParameterRow(parameters::poisson)),
+      law_(new QComboBox),
+      gentLimit_(new ParameterRow(parameters::gent_limit)),
+      fungExponent_(new ParameterRow(parameters::fung_exponent)),
       iterations_(new ParameterRow(parameters::iterations)),
       pins_(new QLabel) {
   addRow(young_, &Material::young);
   addRow(poisson_, &Material::poisson);
+  addLaw();
   column_->addLayout(makeLattice());
   addIterations();
   column_->addLayout(makePins(layers));
@@ -43,6 +47,41 @@ void PhysicsDock::addRow(ParameterRow* row, double Material::*member) {
     options.material.*member = value;
     edits::setElastic(document_, options, row->label(), gesture);
   });
+}
+
+/// The law of the material, with its parameter.
+void PhysicsDock::addLaw() {
+  law_->setObjectName(QStringLiteral("law"));
+  law_->setFocusPolicy(Qt::StrongFocus);  // the wheel scrolls the dock, without changing the field
+  law_->setToolTip(QStringLiteral(
+      "How the material stiffens as it is stretched, in relaxation to the material and in neo-Hookean FEM. Gent "
+      "stiffens toward a limit, Fung exponentially"));
+  for (const auto& [kind, name] :
+       {std::pair(StrainLaw::Kind::neo_hookean, "Neo-Hookean"), std::pair(StrainLaw::Kind::gent, "Gent"),
+        std::pair(StrainLaw::Kind::fung, "Fung")}) {
+    law_->addItem(QString::fromLatin1(name), int(kind));
+  }
+  auto* label = new QLabel(QStringLiteral("Law"));
+  label->setBuddy(law_);
+  label->setToolTip(law_->toolTip());
+  auto* row = new QHBoxLayout;
+  row->addWidget(label);
+  row->addWidget(law_, 1);
+  column_->addLayout(row);
+  connect(law_, &QComboBox::activated, this, [this] {
+    ElasticOptions options = document_.elastic();
+    options.law.kind = StrainLaw::Kind(law_->currentData().toInt());
+    edits::setElastic(document_, options, QStringLiteral("law of the material"));
+  });
+  for (const auto& [parameter, member] :
+       {std::pair(gentLimit_, &StrainLaw::gent_limit), std::pair(fungExponent_, &StrainLaw::fung_exponent)}) {
+    column_->addWidget(parameter);
+    connect(parameter, &ParameterRow::changed, this, [this, parameter, member](double value, int gesture) {
+      ElasticOptions options = document_.elastic();
+      options.law.*member = value;
+      edits::setElastic(document_, options, parameter->label(), gesture);
+    });
+  }
 }
 
 void PhysicsDock::addIterations() {
@@ -108,6 +147,11 @@ void PhysicsDock::showElastic() {
   const ElasticOptions& options = document_.elastic();
   young_->show(options.material.young);
   poisson_->show(options.material.poisson);
+  law_->setCurrentIndex(law_->findData(int(options.law.kind)));
+  gentLimit_->show(options.law.gent_limit);
+  gentLimit_->setVisible(options.law.kind == StrainLaw::Kind::gent);
+  fungExponent_->show(options.law.fung_exponent);
+  fungExponent_->setVisible(options.law.kind == StrainLaw::Kind::fung);
   iterations_->show(options.iterations);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     const QSignalBlocker block(lattice_[k]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QSpinBox>
@@ -26,6 +27,7 @@ class PhysicsDock : public QDockWidget {
 
  private:
   void addRow(ParameterRow* row, double Material::*member);
+  void addLaw();
   void addIterations();
   QLayout* makeLattice();
   QLayout* makePins(PinLayers& layers);
@@ -38,6 +40,9 @@ class PhysicsDock : public QDockWidget {
   QVBoxLayout* column_;
   ParameterRow* young_;
   ParameterRow* poisson_;
+  QComboBox* law_;
+  ParameterRow* gentLimit_;
+  ParameterRow* fungExponent_;
   ParameterRow* iterations_;
   std::array<QSpinBox*, 3> lattice_{};
   QLabel* pins_;

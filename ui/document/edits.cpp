@@ -174,6 +174,13 @@ void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind en
 }
 
 void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture) {
+  try {
+    check(options);
+  } catch (const Error& error) {
+    emit document.refused(QString::fromStdString(error.what()));
+    emit document.elasticChanged();  // so that fields show the present values again
+    return;
+  }
   if (options != document.elastic()) {
     Change edit = document.change(text, gesture);
     edit.after.elastic = options;

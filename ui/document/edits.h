@@ -28,6 +28,7 @@ void setRelaxation(Document& document, const commands::SetRelaxation& relaxation
 /// Takes a calibrated softness with the kind of energy and the relaxation that it was calibrated for.
 void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind energy,
                    const commands::SetRelaxation& relaxation);
+/// The document emits refused() if the options contradict each other.
 void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture = 0);
 /// Sets the algorithm of a panel. The document emits refused() if the algorithm does not work on the mesh.
 void setAlgorithm(Document& document, int panel, Algorithm algorithm);

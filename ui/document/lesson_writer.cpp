@@ -1,6 +1,5 @@
 #include "document/lesson_writer.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -91,9 +90,8 @@ void LessonWriter::removeStep() {
     edits::setLesson(document_, {}, QStringLiteral("remove lesson"));
     return;
   }
-  const std::size_t step = std::min(lesson.step, captions.steps.size() - 1);
-  chainmail::removeStep(captions, step);
-  put(lesson.session, std::move(captions), step > 0 ? step - 1 : 0, QStringLiteral("remove step"));
+  chainmail::removeStep(captions, lesson.step);
+  put(lesson.session, std::move(captions), lesson.step > 0 ? lesson.step - 1 : 0, QStringLiteral("remove step"));
 }
 
 void LessonWriter::moveStep(int by) {

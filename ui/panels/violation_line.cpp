@@ -17,7 +17,7 @@ constexpr double leastFull = 0.1;    // rest lengths; see fullAt()
 
 /// Returns a number with two digits, or without decimals.
 QString rounded(double value) {
-  return value < 100 ? QLocale().toString(value, 'g', 2) : QLocale().toString(value, 'f', 0);
+  return value < 99.5 ? QLocale().toString(value, 'g', 2) : QLocale().toString(value, 'f', 0);
 }
 
 /// Returns a share as a percentage that is not rounded to none or all.

@@ -102,16 +102,11 @@ void CameraActions::add(const char* name, const QString& text, const char* iconN
   moves_.push_back(action);
 }
 
-void CameraActions::attach(Panel& panel) {
-  View& view = panel.view();
-  views_.push_back(&view);
-  view.addActions({moves_.begin(), moves_.end()});
-  connect(&view, &QObject::destroyed, this, [this, gone = &view] { std::erase(views_, gone); });
-}
+void CameraActions::attach(Panel& panel) { panel.view().addActions({moves_.begin(), moves_.end()}); }
 
 View* CameraActions::focusedView() const {
   auto* focused = qobject_cast<View*>(QApplication::focusWidget());
-  return focused != nullptr || views_.empty() ? focused : views_.front();
+  return focused != nullptr ? focused : &area_.panels().front()->view();
 }
 
 void CameraActions::fillMoves(QMenu& menu) const {

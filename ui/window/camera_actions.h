@@ -44,7 +44,6 @@ class CameraActions : public QObject {
   std::vector<QAction*> moves_;
   QAction* upZ_ = nullptr;
   std::vector<QAction*> sides_;  // views along the axes and projection: they need a third dimension
-  std::vector<View*> views_;
 };
 
 }  // namespace chainmail

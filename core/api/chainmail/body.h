@@ -49,7 +49,14 @@ enum class EnergyKind {
   material    ///< Cells resist as a material with Poisson's ratio. Without cells, links are corotated.
 };
 
-/// Settings of the methods of elasticity and of free-form deformation. The ChainMail family ignores them.
+/// How the energy of an elastic material grows with the strain. At small strains, all are the same linear elasticity.
+enum class StrainLaw {
+  neo_hookean,  ///< It does not stiffen.
+  gent,  ///< It stiffens toward a limit of I₁ − 3, the sum of the squared principal stretches less 3 (Gent 1996).
+  fung   ///< It stiffens exponentially (Demiray 1972).
+};
+
+/// Settings of the methods of elasticity, of free-form deformation and of relaxation to the material.
 struct Elasticity {
   double young = 1;      ///< Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.
   double poisson = 0.3;  ///< Poisson's ratio: 0 to below 0.5.
@@ -57,6 +64,10 @@ struct Elasticity {
   std::array<std::uint32_t, 3> control_points{4, 4, 4};
   /// Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000. They stop earlier if they converge.
   std::uint32_t iterations = 2000;
+  /// Law of relaxation to the material and of neo-Hookean FEM.
+  StrainLaw law = StrainLaw::neo_hookean;
+  double gent_limit = 2;       ///< With `gent`: bound of I₁ − 3, above 0; higher for a lower Poisson's ratio.
+  double fung_exponent = 0.5;  ///< With `fung`: factor of I₁ − 3, above 0; lower for a lower Poisson's ratio.
 
   /// True if all values are equal.
   bool operator==(const Elasticity&) const = default;

@@ -75,7 +75,8 @@ bool is_session(const std::filesystem::path& path);
 ///        "own": [both ends and all numbers of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
 ///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis],
-///      "iterations": most of a move},
+///        "iterations": most of a move, "law": "neo-hookean", "gent" or "fung", "gent_limit": of I1 - 3,
+///        "fung_exponent": per I1 - 3},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "frame": [rotation, as above], "runs": [first, end of each run of elements that are given…], "held": [their
 ///        coordinates…]}],

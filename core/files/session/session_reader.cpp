@@ -168,7 +168,7 @@ void SessionReader::take_elastic() {
   }
   const Json& object = fields_.object(tree_, "elastic");
   fields_.say_at(file_ + ": elastic");
-  fields_.check_keys(object, {"young", "poisson", "lattice", "iterations"});
+  fields_.check_keys(object, {"young", "poisson", "lattice", "iterations", "law", "gent_limit", "fung_exponent"});
   ElasticOptions options;
   options.material = {fields_.number(fields_.member(object, "young")),
                       fields_.number(fields_.member(object, "poisson"))};
@@ -184,7 +184,13 @@ void SessionReader::take_elastic() {
     const bool counts = iterations.is_number_unsigned() && iterations <= Json(parameters::iterations.highest);
     options.iterations = counts ? iterations.get<std::uint32_t>() : 0;
   }
+  const auto number = [&](const char* key, double usual) {
+    return object.contains(key) ? fields_.number(object[key]) : usual;
+  };
+  options.law.gent_limit = number("gent_limit", options.law.gent_limit);
+  options.law.fung_exponent = number("fung_exponent", options.law.fung_exponent);
   try {
+    options.law.kind = object.contains("law") ? strain_law_of(fields_.text(object, "law")) : options.law.kind;
     check(options);
   } catch (const Error& error) {
     throw error.at(fields_.where() + ": " + error.where());

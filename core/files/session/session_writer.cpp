@@ -229,9 +229,14 @@ void SessionWriter::write_state() {
                                {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
-    const auto& [material, lattice, iterations] = session_.elastic;
-    const OrderedJson elastic{
+    const auto& [material, lattice, iterations, law] = session_.elastic;
+    OrderedJson elastic{
         {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
+    if (law != StrainLaw()) {
+      elastic["law"] = name(law.kind);
+      elastic["gent_limit"] = law.gent_limit;
+      elastic["fung_exponent"] = law.fung_exponent;
+    }
     out_ << ",\n\"elastic\": " << elastic.dump();
   }
 }

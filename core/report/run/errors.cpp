@@ -12,7 +12,7 @@ constexpr ElementId equilibrium_limit = 131'072;
 
 double energy_of(const Simulation& simulation) {
   return elastic_energy(simulation.mesh(), simulation.softness(), simulation.body().cuts(),
-                        simulation.body().positions());
+                        simulation.body().positions(), simulation.elastic());
 }
 
 Distance between(const Runner& one, const Runner& other) {
@@ -49,7 +49,7 @@ void References::find_equilibrium() {
   const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
   try {
     equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
-                               simulation.body().positions(), simulation.body().elastic().material, cholesky_limit,
+                               simulation.body().positions(), simulation.body().elastic(), cholesky_limit,
                                chainmail::Progress(job));
   } catch (const Cancelled&) {
     return;  // the result is not needed then

@@ -28,6 +28,8 @@ class MaterialTest : public QObject {
   void the_minimum_equals_finite_elements();
   void it_is_found_from_any_start_data();
   void it_is_found_from_any_start();
+  void materials_that_stiffen_equal_finite_elements_data();
+  void materials_that_stiffen_equal_finite_elements();
   void it_is_found_after_half_the_width_in_one_move();
   void no_iteration_raises_the_energy();
   void a_cut_gives_the_minimum_of_the_cut_object();
@@ -66,7 +68,9 @@ struct Scene {
     Body result(mesh, Precision::double_precision);
     Softness softness{{0, 1000, 1000}, {}, EnergyKind::material};
     result.set_softness(softness);
-    result.set_elastic({material});
+    ElasticOptions options{material};
+    options.law = law;
+    result.set_elastic(options);
     result.pin(pins);
     return result;
   }
@@ -82,7 +86,7 @@ struct Scene {
   }
   /// Returns the positions that neo-Hookean finite elements find.
   std::vector<double> finite_elements(std::span<const double> by, const Cuts& cuts) const {
-    const ElasticProblem problem{mesh, cuts, pins, std::vector<double>(pins.size() * by.size(), 0.0), {material}};
+    const ElasticProblem problem{mesh, cuts, pins, std::vector<double>(pins.size() * by.size(), 0.0), {material}, law};
     const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
     ElasticHandle held;
     held.elements = handle;
@@ -103,6 +107,7 @@ struct Scene {
 
   MeshPointer mesh;
   Material material{1, 0.3};
+  StrainLaw law;
   std::vector<ElementId> pins, handle;
 };
 
@@ -123,7 +128,7 @@ double relative_error(const std::vector<double>& found, const std::vector<double
 }
 
 double energy_of(const Body& body) {
-  return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions(), body.elastic().material);
+  return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions(), body.elastic());
 }
 
 /// Solves from these positions, and returns the relative error against finite elements.
@@ -252,6 +257,32 @@ void MaterialTest::it_is_found_from_any_start() {
     }
   }
   QVERIFY(error_from(scene, at, by) < 1e-6);
+}
+
+void MaterialTest::materials_that_stiffen_equal_finite_elements_data() {
+  QTest::addColumn<int>("kind");
+  QTest::addColumn<int>("law");
+  for (const auto& [kind, name] : {std::pair(MeshKind::tetra, "solid"), std::pair(MeshKind::grid, "sheet")}) {
+    QTest::addRow("Gent, %s", name) << int(kind) << int(StrainLaw::Kind::gent);
+    QTest::addRow("Fung, %s", name) << int(kind) << int(StrainLaw::Kind::fung);
+  }
+}
+
+void MaterialTest::materials_that_stiffen_equal_finite_elements() {
+  QFETCH(int, kind);
+  QFETCH(int, law);
+  Scene scene(block(MeshKind(kind), 6));
+  scene.material.poisson = 0.4;
+  scene.law = {StrainLaw::Kind(law), 1, 1};
+  std::vector<double> by{1.2, -0.6, 0.3};
+  by.resize(std::size_t(scene.mesh->space_dimension));
+  Body body = scene.body();
+  body.set_positions(scene.moved(by));
+  QVERIFY(EquilibriumSolver::make(scene.mesh->space_dimension)->solve(body, scene.handle, 1e-8, 5000));
+  const std::vector<double> found = positions_of(body), right = scene.finite_elements(by);
+  QVERIFY(relative_error(found, right, *scene.mesh) < 1e-6);
+  scene.law = {};
+  QVERIFY(relative_error(found, scene.finite_elements(by), *scene.mesh) > 1e-3);  // the law counts
 }
 
 void MaterialTest::it_is_found_after_half_the_width_in_one_move() {

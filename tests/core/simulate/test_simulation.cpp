@@ -208,14 +208,15 @@ AlgorithmInfo noting_entry(PassSettings& seen) {
 
 const Softness other_softness{
     {0.4, 1.7, 0.3, 0.2, 3, -0.5}, {}, EnergyKind::axial, RegionAxes(AxesKind::given, {0, 0, 0.3})};
-const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17};
+const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17, {StrainLaw::Kind::gent, 4, 0.25}};
 const commands::SetRelaxation other_relaxation{true, 0.5, RelaxationScheme::link};
 
 /// True if every setting differs from its default, so that one that is lost is seen. A new member of these structures
 /// does not compile here until it is looked at.
 bool all_are_other() {
-  const auto& [material, lattice, iterations] = other_elastic;
+  const auto& [material, lattice, iterations, law] = other_elastic;
   const auto& [young, poisson] = material;
+  const auto& [kind, gent_limit, fung_exponent] = law;
   const auto& [on, step, scheme] = other_relaxation;
   const auto& [global, links, energy, frame] = other_softness;
   const ElasticOptions elastic;
@@ -225,7 +226,8 @@ bool all_are_other() {
              [&](const SoftnessNumber& one) { return global.*one.value == LinkSoftness().*one.value; }) &&
          links.empty() && energy != standard_energy && frame != RegionAxes() && young != elastic.material.young &&
          poisson != elastic.material.poisson && lattice[0] != elastic.lattice[0] && lattice[1] != elastic.lattice[1] &&
-         lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && on != relaxation.on &&
+         lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && kind != elastic.law.kind &&
+         gent_limit != elastic.law.gent_limit && fung_exponent != elastic.law.fung_exponent && on != relaxation.on &&
          step != relaxation.step && scheme != relaxation.scheme;
 }
 

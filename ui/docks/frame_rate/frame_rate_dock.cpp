@@ -168,6 +168,7 @@ RateSample FrameRateDock::read(int panel) {
     sample.violationRms = statistics.violation.rms;
     sample.ofSample = statistics.violation_of_sample;
     sample.ofWholeMesh = statistics.violation_of_whole_mesh;
+    sample.lag = statistics.residual.value_or(RateSample::none);
     if (statistics.last_second.passes != 0 && statistics.algorithm == sample.algorithm) {
       sample.ms = statistics.last_pass_ms;
       sample.medianMs = statistics.last_second.median_ms;

@@ -91,12 +91,10 @@ void RateFigures::followPanels() {
 }
 
 void RateFigures::nameRow(int panel) {
-  if (panel < int(rows_.size())) {
-    const Row& row = rows_[std::size_t(panel)];
-    row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
-                          .arg(QColor(panelColour(document_, panel)).name(), panelName(panel),
-                               text(info(document_.algorithm(panel)).label)));
-  }
+  const Row& row = rows_[std::size_t(panel)];
+  row.name->setText(QStringLiteral("<span style='color:%1'>━━</span> <b>%2</b> %3")
+                        .arg(QColor(panelColour(document_, panel)).name(), panelName(panel),
+                             text(info(document_.algorithm(panel)).label)));
 }
 
 /// Removes the figures of the algorithm before.

@@ -24,7 +24,12 @@ constexpr std::array quantities{
         [](const RateSample& one) { return one.violationMax; }},
     RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
                  "Root mean square over the links; while dragging, over links that the last pass touched",
-                 [](const RateSample& one) { return one.violationRms; }}};
+                 [](const RateSample& one) { return one.violationRms; }},
+    RateQuantity{
+        "lag", "Lag behind the equilibrium", "relative",
+        "Estimated distance from the equilibrium while relaxation goes there, in the norm of the energy, relative "
+        "to its root",
+        [](const RateSample& one) { return one.lag; }}};
 
 // A longer gap (s) between samples ends a line. The time of the next pass does not count.
 constexpr double longestGap = 1;
@@ -114,7 +119,7 @@ void writeRow(std::ostream& out, std::size_t panel, const RateSample& one) {
           : one.ofWholeMesh            ? "all"
           : one.ofSample               ? "sample"
                                        : "touched")
-      << '\n';
+      << ',' << digits(one.lag) << '\n';
 }
 
 }  // namespace
@@ -164,7 +169,7 @@ std::vector<QPolygonF> curveOf(std::span<const RateSample> samples, const RateQu
 
 void writeCsv(std::ostream& out, std::span<const RateHistory> panels) {
   out << "time_s,panel,algorithm,painted_per_s,passes_per_s,pass_ms,pass_median_ms,pass_worst_ms,violation_max,"
-         "violation_rms,violation_of\n";
+         "violation_rms,violation_of,lag\n";
   std::vector<std::size_t> next(panels.size(), 0);
   for (;;) {
     std::size_t first = panels.size();

@@ -21,6 +21,7 @@ struct RateSample {
   double ms = none;                                 // of the last pass, if there was one since the last sample
   double medianMs = none, worstMs = none;           // of the passes of the last second
   double violationMax = none, violationRms = none;  // rest lengths
+  double lag = none;                                // residual of relaxation to the equilibrium: see Statistics
   bool ofSample = false;                            // of some of the links that the last pass touched
   bool ofWholeMesh = false;  // true if the violation is of all links, false if of the links that the last pass touched
   Algorithm algorithm = Algorithm::natural_queue;
