@@ -58,7 +58,7 @@ Word word_of(const CLI::Option& option) {
   }
   const bool is_mesh = word.names.empty() && option.get_single_name() == "MESH";
   word.is_file = is_mesh || word.value.find("FILE") != std::string::npos || word.value == "FOLDER";
-  word.repeats = option.get_items_expected_max() > 1;
+  word.repeats = option.get_allow_extra_args();
   return word;
 }
 

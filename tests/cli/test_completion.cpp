@@ -54,7 +54,8 @@ constexpr Typed lines[]{{"chainmail de", "deform"},
                         {"chainmail compare --against phy", "physics"},
                         {"chainmail generate tetr", "tetra"},
                         {"chainmail completion fis", "fish"},
-                        {"chainmail info obje", "object.obj"}};
+                        {"chainmail info obje", "object.obj"},
+                        {"chainmail compare object.obj sec", "second.obj"}};
 
 }  // namespace
 
@@ -65,6 +66,7 @@ class CompletionCommandTest : public QObject {
  private slots:
   void completes_data();
   void completes();
+  void zsh_has_plain_descriptions();
   void refused();
 };
 
@@ -90,6 +92,7 @@ void CompletionCommandTest::completes() {
   }
   const Program program;
   program.write("object.obj", "v 0 0 0\n");
+  program.write("second.obj", "v 0 0 0\n");
   const auto made = program.run({"completion", shell});
   QVERIFY2(made.code == 0 && made.error.isEmpty(), made.error);
   program.write("completion", made.out);
@@ -103,6 +106,15 @@ void CompletionCommandTest::completes() {
   QVERIFY(process.waitForFinished(60'000));
   const QString answer = QString::fromUtf8(process.readAllStandardOutput());
   QVERIFY2(answer.contains(completed), qPrintable(answer + QString::fromUtf8(process.readAllStandardError())));
+}
+
+/// Only brackets and colons have a meaning in a description, so only they have a backslash.
+void CompletionCommandTest::zsh_has_plain_descriptions() {
+  const Program program;
+  const QString script = QString::fromUtf8(program.run("completion zsh").out);
+  QVERIFY(script.contains("--algorithm"));
+  const auto escaped = QRegularExpression(R"(\\[A-Za-z0-9])").match(script);
+  QVERIFY2(!escaped.hasMatch(), qPrintable(escaped.captured()));
 }
 
 void CompletionCommandTest::refused() {

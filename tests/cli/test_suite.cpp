@@ -151,6 +151,8 @@ void SuiteCommandTest::wrong_usage_data() {
   row("compare --suite --experiments bar,bar -o out", "--experiments: ");
   row("compare --suite --shard 0/2 -o out", "--shard: '0/2' is not a part of a whole; ");
   row("compare --suite --shard 3/2 -o out", "--shard: '3/2' is not a part of a whole; ");
+  row("compare --suite --shard 2/ -o out", "--shard: '2/' is not a part of a whole; ");
+  row("compare --suite --shard 2/two -o out", "--shard: '2/two' is not a part of a whole; ");
   row("compare --suite --shard 2 -o out", "--shard: '2' is not a part of a whole; ");
   row("compare --suite --shard 2/2 --experiments bar -o out", "--shard: no experiment is in this part; ");
   row("compare --shard 1/2 -o out", "--shard: it works only with --suite; ");

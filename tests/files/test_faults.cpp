@@ -1,6 +1,7 @@
 // Lets each system call of a save fail in turn, and checks that nothing is lost.
 
 #include <QtTest>
+#include <algorithm>
 #include <cerrno>
 #include <map>
 
@@ -47,6 +48,7 @@ class FaultsTest : public QObject {
  private slots:
   void nothing_is_lost_data();
   void nothing_is_lost();
+  void a_file_system_without_unnamed_files_is_written_to();
 
  private:
   /// Returns the outcome for a fault at the n-th call; empty if there are fewer calls.
@@ -136,6 +138,13 @@ void FaultsTest::nothing_is_lost() {
     QVERIFY(!words.contains(QStringLiteral("LOST")));
   }
   QVERIFY(faults >= 12);  // each error at least at an open, a write and a rename
+}
+
+/// The new content has no name at first. Where a file system has no such files, it has a temporary name.
+void FaultsTest::a_file_system_without_unnamed_files_is_written_to() {
+  const Saving saving{{{"a", "old"}}, [](const fs::path& folder) { write_file(folder / "a", text("new")); }};
+  const auto opening = std::ranges::find(file_calls(), FileCall::open, &NamedCall::call);
+  QCOMPARE(outcome(saving, *opening, 1, EOPNOTSUPP, false), QStringLiteral("new"));
 }
 
 CHAINMAIL_TEST(FaultsTest)

@@ -1,5 +1,7 @@
 #include <Eigen/Geometry>
 #include <QtTest>
+#include <cmath>
+#include <limits>
 
 #include "files/mesh/fill.h"
 #include "files/support.h"
@@ -34,6 +36,7 @@ class FillTest : public QObject {
   void surfaces_that_enclose_nothing_are_refused_data();
   void surfaces_that_enclose_nothing_are_refused();
   void too_many_tetrahedra_are_refused_before_they_are_made();
+  void sizes_are_numbers_above_0();
   void it_can_be_cancelled();
 };
 
@@ -104,11 +107,17 @@ void FillTest::too_many_tetrahedra_are_refused_before_they_are_made() {
   }
 }
 
+void FillTest::sizes_are_numbers_above_0() {
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    const QString error = error_of([&] { fill(*obj(octahedron(8)), size); });
+    QVERIFY2(error.startsWith("size: it must be a number above 0"), qPrintable(error));
+  }
+}
+
 void FillTest::it_can_be_cancelled() {
   JobState job;
   job.cancelled = true;
   QVERIFY_THROWS_EXCEPTION(Cancelled, fill(*obj(octahedron(8)), 0.05, Progress(job)));
-  QVERIFY(error_of([] { fill(*obj(octahedron(8)), 0); }).startsWith("size: it must be a number above 0"));
 }
 
 CHAINMAIL_TEST(FillTest)

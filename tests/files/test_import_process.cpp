@@ -91,6 +91,7 @@ class ImportProcessTest : public QObject {
   void it_runs_in_the_sandbox_and_inherits_nothing();
   void the_file_that_was_opened_is_read();
   void it_says_how_much_it_has_read();
+  void it_says_how_much_of_its_work_is_done();
   void no_temporary_folder_stays();
   void other_files_are_hidden();
   void its_version_says_what_the_sandbox_has();
@@ -208,6 +209,24 @@ void ImportProcessTest::it_says_how_much_it_has_read() {
   shares.erase(0.0);
   shares.erase(1.0);
   QVERIFY2(shares.size() > 1, "a share between nothing and all, more than once");
+}
+
+/// Filling reads little and takes long.
+void ImportProcessTest::it_says_how_much_of_its_work_is_done() {
+  JobState job;
+  const Patience patience(job);
+  auto running = std::async(std::launch::async, [&job] {
+    ImportInput input("ball.obj");
+    put_work(input);
+    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, Progress(job));
+  });
+  double share = 0;
+  while (share == 0 && running.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+    share = job.share.load();
+  }
+  job.cancelled = true;
+  QVERIFY_THROWS_EXCEPTION(Cancelled, running.get());
+  QVERIFY2(share > 0 && share < 1, qPrintable(QString::number(share)));
 }
 
 void ImportProcessTest::no_temporary_folder_stays() {

@@ -37,7 +37,8 @@ void TextTest::numbers_data() {
                                      {"-2E-2", -0.02}}) {
     QTest::newRow(word) << QByteArray(word) << true << number;
   }
-  for (const char* word : {"", "-", "+", "+-1", "--1", "nan", "inf", "-inf", "1e999", "1x", "x", "1,5", "0x10", "1 "}) {
+  for (const char* word :
+       {"", "-", "+", "+-1", "--1", "nan", "inf", "-inf", "1e999", "0.001e+999", "1x", "x", "1,5", "0x10", "1 "}) {
     QTest::newRow(word) << QByteArray(word) << false << 0.0;
   }
 }

@@ -53,6 +53,14 @@ const T& chainmail_swapped(int number, const T& first, const T& second) {
   return chainmail_fault(number) ? second : first;
 }
 
+/// Returns the value, or an empty one if the fault is switched on. A member that is a reference still refers to the
+/// value, not to a copy.
+template <class T>
+const T& chainmail_or_empty(int number, const T& value) {
+  static const T empty{};
+  return chainmail_fault(number) ? empty : value;
+}
+
 /// What an option has if nobody sets it.
 template <class Options>
 inline const Options chainmail_default{};

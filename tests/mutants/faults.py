@@ -153,7 +153,7 @@ def swaps(source, elements):
 def member(source, start, end, before):
     """Leaves a member out of a copy: it gets the value that its type has without one."""
     name = source.plain[start:end]
-    text = f"(chainmail_fault(@FAULT@) ? std::remove_cvref_t<decltype({name})>{{}} : {name})"
+    text = f"chainmail_or_empty(@FAULT@, {name})"
     return source.fault("member", start, end, text, f"{before}{name}", f"{before}(nothing)")
 
 

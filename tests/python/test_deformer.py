@@ -140,6 +140,16 @@ def test_relaxation_lowers_the_energy():
     assert deformer.relax(0) == 0
 
 
+def test_schemes_of_relaxation_differ():
+    def after(scheme):
+        deformer = chainmail.Deformer(bar())
+        deformer.move(44, (5, 3, 2))
+        deformer.relax(1, scheme=scheme)
+        return np.array(deformer.body.positions())
+
+    assert not np.array_equal(after("mean"), after("link"))
+
+
 def test_relaxation_to_the_equilibrium():
     deformer = chainmail.Deformer(bar())
     deformer.move(44, (5, 3, 2))

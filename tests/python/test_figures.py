@@ -133,6 +133,8 @@ def test_calibrate_is_a_dictionary_with_a_table():
     assert found["errors"]["state"] == ["nothing", "before", "after"] * 2
     assert json.loads(found["json"])["compression"] == found["softness"].compression
     assert chainmail.calibrate(beam(), **options) == found
+    other = json.loads(chainmail.calibrate(beam(), seed=2, **options)["json"])
+    assert other["seed"] == 2 and other["drags"] != json.loads(found["json"])["drags"]
 
 
 @pytest.mark.parametrize(

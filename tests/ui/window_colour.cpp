@@ -335,6 +335,18 @@ class WindowColour : public QObject {
     QCOMPARE(legend.highest(), automatic);
   }
 
+  void aFixedRangeAroundACentreIsEquallyLongOnBothSides() {
+    Workbench bench;
+    colourBy(bench, "colourBy-length");  // 1 is the length at rest
+    bench.trigger("colourRange-fixed");
+    bench.find<QDoubleSpinBox>("colourRangeHighest")->setValue(1.5);
+    bench.find<QDoubleSpinBox>("colourRangeLowest")->setValue(0.75);
+    bench.settleFigures();
+    const Legend& legend = bench.window.panel(0).legend();
+    QCOMPARE(legend.lowest(), shown(0.5));
+    QCOMPARE(legend.highest(), shown(1.5));
+  }
+
   void theRangeIsRemembered() {
     {
       Workbench bench;
@@ -392,6 +404,18 @@ class WindowColour : public QObject {
     }
     QVERIFY(most >= 4);
     QCOMPARE(legend.ticks(1).size(), std::size_t{2});
+  }
+
+  void theLegendGrowsWithItsTexts() {
+    Workbench bench;
+    colourBy(bench, "colourBy-violation");
+    const Legend& legend = bench.window.area().legend();
+    const int usual = legend.height();
+    QFont large = bench.window.area().font();
+    large.setPointSizeF(2 * large.pointSizeF());
+    bench.window.area().setFont(large);
+    QVERIFY(legend.height() > usual);
+    QCOMPARE(legend.height(), legend.wholeHeight());  // else its last line would be cut
   }
 
   void distanceBetweenThePanels() {

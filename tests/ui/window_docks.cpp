@@ -253,6 +253,30 @@ class WindowDocks : public QObject {
     QVERIFY(now() == RegionAxes() && note->isHidden());
   }
 
+  void theFrameOfRegionsIsChosenUnlessNothingCanBeTurned() {
+    Workbench bench;
+    const auto* field = bench.find<QComboBox>("frame");
+    QVERIFY(field->isEnabled());
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("open"));
+    QVERIFY(!field->isEnabled());
+  }
+
+  /// A rotation comes from a session or from moves.
+  void aRotationOfRegionsIsListedWhileItApplies() {
+    Workbench bench;
+    const auto* field = bench.find<QComboBox>("frame");
+    Change edit = bench.document().change(QStringLiteral("rotation"));
+    Softness softness = *bench.document().wholeSoftness();
+    softness.axes = RegionAxes(AxesKind::given, Point(0, 0, 0.5));
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
+    bench.document().apply(std::move(edit));
+    QCOMPARE(field->currentText(), QStringLiteral("Given axes"));
+    bench.document().undo();
+    QCOMPARE(field->currentText(), QStringLiteral("World's axes"));
+    QCOMPARE(field->count(), 2);
+  }
+
   void oneDragOfASliderIsOneStepOfUndo() {
     Workbench bench;
     auto* slider = bench.find<QSlider>("stretchSlider");

@@ -270,6 +270,19 @@ class WindowFailures : public QObject {
     QTRY_VERIFY(hasPositionsOnDisk());
   }
 
+  /// Below a limit of address space, the window lacks what the check before it would keep.
+  void theCheckOfMemoryGivesBackWhatItTakes() {
+    const auto kilobytes = [] {
+      QFile status(QStringLiteral("/proc/self/status"));
+      const QByteArray text = status.open(QIODevice::ReadOnly) ? status.readAll() : QByteArray();
+      return text.mid(text.indexOf("VmSize:") + 7).trimmed().split(' ').first().toLongLong();
+    };
+    const qint64 before = kilobytes();
+    QVERIFY(before > 0);
+    QCOMPARE(whyNoMemory(), QString());
+    QVERIFY(kilobytes() - before < 500'000);  // the window needs 1 GB
+  }
+
   /// Opening, cutting and dragging fail, the object and the window stay.
   void withLittleMemoryTheWindowStays() {
     Workbench bench(generate({MeshKind::grid, {120, 120, 1}, 1, {}}));

@@ -15,6 +15,7 @@
 #include "document/edits.h"
 #include "io/sessions.h"
 #include "mesh/mesh.h"
+#include "tools/grab_brush.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -267,6 +268,16 @@ class WindowHandle : public QObject {
     const double link = linkPixels(bench, 0);
     wheel(bench.view(0), at, 240);  // without the key, the wheel zooms
     QVERIFY(linkPixels(bench, 0) > 1.3 * link);
+  }
+
+  void theWheelMakesTheBrushAsLargeAsItMayBe() {
+    Workbench bench;
+    const QPoint at = bench.place(0, 31);
+    pointAt(bench, 0, at);
+    QTest::keyPress(&bench.view(0), Qt::Key_R);
+    wheel(bench.view(0), at, 120 * 100);
+    QTest::keyRelease(&bench.view(0), Qt::Key_R);
+    QCOMPARE(shownRadius(bench), int(GrabBrush::largestRadius));
   }
 
   void aPinnedElementStaysOutOfTheHandle() {

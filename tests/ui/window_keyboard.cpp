@@ -201,6 +201,19 @@ class WindowKeyboard : public QObject {
     QVERIFY(!QSettings().contains(QStringLiteral("shortcuts/fitView")));
   }
 
+  /// Keyboards differ in the characters that need Shift.
+  void shiftThatTypesACharacterIsNotPartOfTheKeys() {
+    Workbench bench;
+    openList(bench);
+    search(bench, QStringLiteral("current side"));
+    auto* keys = dialog(bench)->findChild<QKeySequenceEdit*>(QStringLiteral("shortcutKeys"));
+    keys->setFocus();
+    QTest::keyClick(keys, Qt::Key_Exclam, Qt::ShiftModifier);
+    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::Key_Exclam));
+    QTest::keyClick(keys, Qt::Key_J, Qt::ShiftModifier);  // each keyboard has letters without it
+    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::SHIFT | Qt::Key_J));
+  }
+
   void allKeysAreReset() {
     Workbench bench;
     auto* list = openList(bench);

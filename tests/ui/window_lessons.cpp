@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QSlider>
 #include <QToolButton>
 #include <cmath>
 
@@ -157,6 +158,7 @@ class WindowLessons : public QObject {
   void theNameOfTheNextLessonFitsANarrowBar();
   void undoMovesTheCaption();
   void aLessonIsWrittenInTheWindow();
+  void aStepThatIsWrittenShowsThePassAsItsAuthorSawIt();
   void stepsAreOrderedAndRemoved();
   void aLessonOfTheMenuIsEditedAsACopy();
   void textsThatNoFileHoldsAreNotTaken();
@@ -241,6 +243,8 @@ void WindowLessons::theBarShowsTheStep() {
   QVERIFY(text("lessonTitle").endsWith(QString::fromStdString(steps[0].title)));
   QCOMPARE(text("lessonText"), QString::fromStdString(steps[0].text));
   QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());
+  const auto* leave = bench.find<QToolButton>("lessonCloseButton");
+  QVERIFY(leave->isVisible() && leave->width() >= leave->iconSize().width());  // the title leaves it room
   QTest::keyClick(&bench.window, Qt::Key_PageDown);
   QTest::keyClick(&bench.window, Qt::Key_PageDown);  // to the end of the step
   awaitStep(bench);
@@ -492,6 +496,8 @@ void WindowLessons::aLessonIsWrittenInTheWindow() {
   type<QLineEdit>(bench, "lessonTitleField", QStringLiteral("My lesson"));
   type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("At rest."));
   disturb(bench);
+  const auto* field = bench.find<QPlainTextEdit>("lessonCaptionField");
+  QVERIFY(field->height() >= 3 * field->fontMetrics().lineSpacing());  // for three short sentences
   bench.trigger("lessonAddStep");
   type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("A pull"));
   type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("The others follow."));
@@ -514,6 +520,25 @@ void WindowLessons::aLessonIsWrittenInTheWindow() {
   QCOMPARE(player(bench).step(), std::size_t{0});
   next(bench);
   QVERIFY(stateOf(bench) == pulled);
+}
+
+void WindowLessons::aStepThatIsWrittenShowsThePassAsItsAuthorSawIt() {
+  Workbench& bench = shared();
+  const auto* dock = bench.find<QDockWidget>("propagationDock");
+  bench.trigger("showPropagation");
+  QTRY_VERIFY(dock->isVisible());
+  bench.settle();
+  bench.trigger("lessonNew");
+  QCOMPARE(player(bench).lesson().steps[0].dock, std::string("propagation"));
+  disturb(bench);
+  QTRY_VERIFY(bench.find<QSlider>("propagationStep0")->isEnabled());
+  bench.trigger("passFirst");
+  bench.trigger("passForward");
+  bench.trigger("lessonAddStep");
+  QCOMPARE(player(bench).lesson().steps[1].candidate, std::optional<std::uint32_t>(1));
+  bench.trigger("lessonClose");
+  bench.trigger("showPropagation");
+  QTRY_VERIFY(!dock->isVisible());
 }
 
 void WindowLessons::stepsAreOrderedAndRemoved() {

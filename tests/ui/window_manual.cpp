@@ -294,6 +294,17 @@ class WindowManual : public QObject {
     QCOMPARE(results->currentRow(), (row + count - 1) % count);
   }
 
+  void aSearchStartsAtTheCursor() {
+    Manual bench;
+    bench.manual->open(QStringLiteral("algorithms.md"));
+    QTextCursor inTitle(bench.page->document());
+    inTitle.setPosition(5);
+    bench.page->setTextCursor(inTitle);
+    bench.search->setText(QStringLiteral("algorithm"));  // also the first word of the page
+    QCOMPARE(bench.file(), QStringLiteral("algorithms.md"));
+    QVERIFY(bench.page->textCursor().selectionStart() > inTitle.position());
+  }
+
   void whatIsNotFoundIsSaid() {
     Manual bench;
     const auto* answer = bench.manual->findChild<QLabel*>(QStringLiteral("manualAnswer"));

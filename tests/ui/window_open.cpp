@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSlider>
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTextStream>
@@ -112,6 +113,12 @@ class WindowOpen : public QObject {
     QCOMPARE(threshold->singleStep(), (threshold->maximum() - threshold->minimum()) / 100);
     threshold->setValue(-1000);
     QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("120 voxels"));
+    auto* slider = bench.find<QSlider>("volumeSlider");  // follows the field, and the field follows it
+    QCOMPARE(slider->value(), slider->minimum());
+    threshold->setValue(1000);
+    QCOMPARE(slider->value(), slider->maximum());
+    slider->setValue(slider->minimum());
+    QCOMPARE(threshold->value(), -1000.0);
     threshold->setValue(500);
     QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("24 voxels"));
     bench.find<QPushButton>("volumeAgree")->click();

@@ -116,6 +116,18 @@ class WindowPanels : public QObject {
     QVERIFY(bench.document().solvers().frame(0)->statistics.last_pass.moved > 0);
   }
 
+  void twoPanelsAreArrangedAsTheyShowTheObjectLarger() {
+    Workbench bench(generate({MeshKind::block, {2, 9, 2}, 1, {}}));
+    const auto at = [&](int panel) { return bench.window.panel(panel).mapTo(&bench.window, QPoint()); };
+    QTRY_VERIFY(at(0).y() == at(1).y() && at(0).x() < at(1).x());  // a high object
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {40, 3, 1}, 1, {}}), QStringLiteral("long"),
+                       QStringLiteral("build"));
+    QTRY_VERIFY(at(0).x() == at(1).x() && at(0).y() < at(1).y());
+    bench.document().undoStack().undo();
+    QTRY_VERIFY(at(0).y() == at(1).y() && at(0).x() < at(1).x());
+    bench.settle();
+  }
+
   void theDistanceOfTheReferenceIsThatOfTheFurthest() {
     Workbench bench;
     bench.trigger("addPanel");

@@ -91,6 +91,23 @@ class WindowPropagation : public QObject {
     QVERIFY(positions(bench, 1) == after);
   }
 
+  void eachColumnNamesItsPanel() {
+    Workbench bench;
+    openAndDrag(bench);
+    for (int panel = 0; panel < bench.document().panels(); ++panel) {
+      const auto* title = bench.find<QLabel>(qPrintable(QStringLiteral("propagationPanel%1").arg(panel)));
+      QVERIFY(title != nullptr && title->isVisible());
+      QVERIFY(title->text().contains(bench.window.panel(panel).selector().currentText()));
+    }
+  }
+
+  void theLegendCountsCandidatesFromOne() {
+    Workbench bench;
+    openAndDrag(bench);
+    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
+    QCOMPARE(bench.window.panel(1).legend().lowest(), QStringLiteral("1"));
+  }
+
   void behindAnotherDockItColoursNothingAndKeepsItsStep() {
     Workbench bench;
     openAndDrag(bench);
@@ -339,6 +356,24 @@ class WindowPropagation : public QObject {
     QVERIFY(bench.find<QAction>("passPlay")->isChecked());
     QVERIFY(slider(bench, 1).value() < slider(bench, 1).maximum());
     QTRY_COMPARE(slider(bench, 1).value(), slider(bench, 1).maximum());
+    QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
+  }
+
+  /// The first panel is chosen, and only the second one has candidates.
+  void slowMotionOfAPanelWithoutCandidatesStops() {
+    Workbench bench;
+    bench.choose(0, "Free-form deformation");
+    QTest::keyClick(&bench.window, Qt::Key_O);
+    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
+    bench.document().handle().grab(middle);
+    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(4, 3, 0));
+    bench.document().handle().release();
+    bench.settle();
+    QTRY_VERIFY(slider(bench, 1).isEnabled());
+    QVERIFY(!slider(bench, 0).isEnabled());
+    bench.find<QCheckBox>("passTogether")->setChecked(false);
+    bench.trigger("passPlay");
+    QVERIFY(bench.find<QAction>("passPlay")->isChecked());
     QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
   }
 

@@ -166,6 +166,19 @@ std::vector<Command> dragRelaxAndDrag(const Mesh& mesh) {
   return moves;
 }
 
+/// Returns two drags of 100 moves each.
+std::vector<Command> twoLongDrags(const Mesh& mesh, const Point& step) {
+  std::vector<Command> moves;
+  for (const ElementId element : {31U, 10U}) {
+    moves.emplace_back(commands::Grab{element});
+    for (int i = 1; i <= 100; ++i) {
+      moves.emplace_back(commands::Drag{mesh.rest_position(element) + double(i) * step});
+    }
+    moves.emplace_back(commands::Release{});
+  }
+  return moves;
+}
+
 QStringList filesIn(const QTemporaryDir& folder) {
   return QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot, QDir::Name);
 }
@@ -196,6 +209,22 @@ class ChooseFolder : public QObject {
  private:
   QTimer timer_;
 };
+
+/// Returns the title of the dialog for files that an action opens, and closes the dialog.
+QString askedBy(Workbench& bench, const char* action) {
+  QString title;
+  QTimer timer;
+  QObject::connect(&timer, &QTimer::timeout, &timer, [&] {
+    if (auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget())) {
+      timer.stop();
+      title = dialog->windowTitle();
+      dialog->reject();
+    }
+  });
+  timer.start(10);
+  bench.trigger(action);
+  return title;
+}
 
 /// Writes a script of one long drag.
 void writeDrags(const QString& path, int drags) {
@@ -271,14 +300,7 @@ class WindowReplay : public QObject {
   /// Snapshots on the way must not be within a drag, because they do not store the handle.
   void anyPlaceOfALongDragIsReachedFromAnywhere() {
     Workbench bench;
-    std::vector<Command> moves;
-    for (const ElementId element : {31U, 10U}) {
-      moves.emplace_back(commands::Grab{element});
-      for (int i = 1; i <= 100; ++i) {
-        moves.emplace_back(commands::Drag{bench.document().mesh()->rest_position(element) + 0.05 * Point(i, -i, 0)});
-      }
-      moves.emplace_back(commands::Release{});
-    }
+    const std::vector<Command> moves = twoLongDrags(*bench.document().mesh(), Point(0.05, -0.05, 0));
     bench.document().moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
     bench.settle();
     for (const std::size_t place : {moves.size(), std::size_t{70}, std::size_t{150}, std::size_t{36}, std::size_t{103},
@@ -291,6 +313,24 @@ class WindowReplay : public QObject {
                      run(done, bench.document().mesh(), bench.document().algorithm(panel)),
                  qPrintable(QStringLiteral("after %1 commands").arg(place)));
       }
+    }
+  }
+
+  /// Snapshots on the way belong to the moves that were there then.
+  void otherMovesAreReachedWithoutTheSnapshotsOfTheFirst() {
+    Workbench bench;
+    Document& document = bench.document();
+    for (const double step : {0.05, -0.05}) {
+      const std::vector<Command> moves = twoLongDrags(*document.mesh(), Point(step, -step, 0));
+      document.moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
+      bench.settle();
+      document.moves().goTo(moves.size());
+      bench.settle();
+      const std::size_t back = moves.size() - 50;  // after the snapshot between both drags
+      document.moves().goTo(back);
+      bench.settle();
+      const std::vector<Command> done(moves.begin(), moves.begin() + std::ptrdiff_t(back));
+      QVERIFY(document.solvers().frame(0)->positions == run(done, document.mesh(), document.algorithm(0)));
     }
   }
 
@@ -379,6 +419,7 @@ class WindowReplay : public QObject {
       QCOMPARE(place->text(), QStringLiteral("move %1 of 5").arg(moves));
       QVERIFY(shapes(bench) == seen[moves]);
     }
+    QVERIFY(!bench.find<QAction>("replayBack")->isEnabled());  // this is the beginning
   }
 
   void savedMovesAreAScriptOfIdenticalBits() {
@@ -582,6 +623,18 @@ class WindowReplay : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 2, 30'000);
     QVERIFY(pictureTime() > before);
     QCOMPARE(filesIn(folder).size(), 7);
+  }
+
+  void aVideoIsAFileAndPicturesHaveAFolder() {
+    QVERIFY2(Film::canMakeVideos(), "ffmpeg was not found; install the package ffmpeg");
+    Workbench bench;
+    workInFewMoves(bench);
+    for (const char* action : {"savePictures", "savePassPictures"}) {
+      QCOMPARE(askedBy(bench, action), QStringLiteral("Save pictures into a folder"));
+    }
+    for (const char* action : {"saveVideo", "savePassVideo"}) {
+      QCOMPARE(askedBy(bench, action), QStringLiteral("Save as video"));
+    }
   }
 
   void eachPictureOfAFilmIsWhatThePanelsShowAfterItsMove() {

@@ -72,12 +72,27 @@ class WindowReport : public QObject {
         QVERIFY(bench.table().item(row, msColumn)->text().toDouble() > 0);
       }
     }
+    const std::vector<std::string>& notes = bench.plot().plot().legend_notes;
+    QVERIFY(std::ranges::find(notes, std::string("filled: no sweeps")) != notes.end());
     QVERIFY(bench.find<QLabel>("reportTimesNote")->isVisible());
     QVERIFY(!bench.find<QLabel>("reportRefusals")->isVisible());
     bench.click("reportCopy");
     const QStringList lines = QApplication::clipboard()->text().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
     QCOMPARE(lines.size(), 13);
     QCOMPARE(lines.last().count(QLatin1Char('\t')), bench.table().columnCount() - 1);
+  }
+
+  void aLongNameDoesNotWidenTheDock() {
+    ReportBench bench;
+    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QString(400, QLatin1Char('x')),
+                       {});
+    bench.settle();
+    bench.choose("reportSweeps", 0);
+    bench.run();
+    const auto* heading = bench.find<QLabel>("reportHeading");
+    QVERIFY(heading->text().startsWith(bench.document().name()));
+    const int words = heading->fontMetrics().horizontalAdvance(heading->text());
+    QVERIFY(bench.results().minimumSizeHint().width() < words / 2);
   }
 
   void errorsOfZeroStandOnALineOfTheirOwn() {

@@ -65,6 +65,7 @@ class WindowReportRun : public QObject {
   void theWindowStaysLiveDuringARun() {
     ReportBench bench;
     bench.runForLong();
+    QVERIFY(bench.find<QProgressBar>("reportProgress")->updatesEnabled());  // else the bar is not drawn again
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(40, -60)});
     QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);

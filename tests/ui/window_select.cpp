@@ -268,7 +268,7 @@ class WindowSelect : public QObject {
     QCOMPARE(bench.document().softness(), LinkSoftness());
     QCOMPARE(bench.document().wholeSoftness()->links.size(), squareLinks);
     bench.trigger("resetStiffness");
-    QCOMPARE(*bench.document().wholestandard_softness(), Softness());
+    QCOMPARE(*bench.document().wholeSoftness(), standard_softness());
   }
 
   void aStiffLinkDoesNotGive() {

@@ -243,6 +243,17 @@ class WindowSheet : public QObject {
     QCOMPARE(warped(bench, 0, "again.png"), second);  // the same algorithm gives the same picture
   }
 
+  void thePictureOfAPanelThatIsAddedCanBeSavedToo() {
+    Workbench bench;
+    const auto* save = bench.find<QAction>("saveWarpedC");
+    QVERIFY(!save->isVisible());
+    bench.trigger("addPanel");
+    QTRY_VERIFY(save->isVisible());
+    bench.trigger("removePanel");
+    QTRY_VERIFY(!save->isVisible());
+    bench.settle();
+  }
+
   void aCutIsAHoleAndTheFrameIsChosen() {
     Workbench bench;
     openSheet(bench, picture("a.png"), 13);

@@ -11,6 +11,7 @@
 
 #include "common/plot_widget.h"
 #include "docks/size_test/size_test_dock.h"
+#include "docks/size_test/size_test_view.h"
 #include "fair_timer.h"
 #include "report/page/format.h"
 #include "window.h"
@@ -182,6 +183,19 @@ class WindowSizeTest : public QObject {
     bench.begin();
     QTRY_VERIFY(bench.stage() != nullptr && bench.stage()->isVisible());
     QVERIFY(bench.dock().running());  // the window closes during the test
+  }
+
+  void aViewThatCannotDrawEndsTheTestWithASentence() {
+    SizeBench bench;
+    bench.find<QSpinBox>("sizeTestFirst")->setValue(300);
+    bench.find<QSpinBox>("sizeTestLargest")->setValue(1'000'000);
+    bench.begin();
+    QTRY_VERIFY(bench.stage() != nullptr && bench.stage()->isVisible());
+    const QString sentence = QStringLiteral("the view cannot draw");
+    emit bench.find<SizeTestView>("sizeTestView0")->failed(sentence);
+    QVERIFY(!bench.dock().running());
+    QVERIFY(bench.view(0).isVisible());
+    QVERIFY2(bench.window.messages().sentence().contains(sentence), qPrintable(bench.window.messages().sentence()));
   }
 
   void nothingElseActsMeanwhile() {

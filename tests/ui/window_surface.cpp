@@ -67,6 +67,7 @@ class WindowSurface : public QObject {
     QCOMPARE(groundAbout(bench, middleOfTheFront), 0.0);
     const QImage surface = picture(bench);
     QVERIFY(surface != both);
+    QVERIFY(isGround(surface.pixel(8, 8)));  // next to the object
     bench.trigger("showLinks");
     QVERIFY(groundAbout(bench, middleOfTheFront) > 0.2);  // between links, squares of about 20 pixels are empty
     bench.trigger("showSurface");

@@ -32,7 +32,7 @@ struct CalibrationErrors {
 
 /// The softness that comes closest to an elastic material.
 struct Calibration {
-  LinkSoftness softness = {};       ///< Softness of all links.
+  LinkSoftness softness = {};       ///< Softness of all links, for the energy that was calibrated.
   int sweeps = 0;                   ///< Sweeps of relaxation after each move; 0 with the scheme `equilibrium`.
   int evaluations = 0;              ///< Number of evaluations that were made.
   CalibrationErrors fitted = {};    ///< On the drags that the search used.

@@ -34,6 +34,7 @@ class ElasticTest : public QObject {
   void a_cantilever_bends_as_beams_do();
   void small_moves_are_linear();
   void the_hand_and_the_pins_are_where_they_are();
+  void a_hand_may_lie_on_a_pin();
   void options_out_of_range_are_refused();
   void limits_of_solids_are_those_of_the_checks();
 };
@@ -447,6 +448,19 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
     }
     solver->reset();
     QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return one == 0; }));
+  }
+}
+
+/// The edge between them has no length then, and so no direction in which it could push.
+void ElasticTest::a_hand_may_lie_on_a_pin() {
+  const MeshPointer mesh = make_mesh(MeshKind::line, {4, 1, 1});
+  const auto solver = make_elastic(ElasticMethod::xpbd, pinned(mesh, {0}));
+  solver->hold(ElasticHandle::of(1));
+  solver->move(ElasticMotion::by(std::array{-1.0}));
+  QCOMPARE(solver->remark(), std::string());
+  QCOMPARE(solver->displacements()[0], 0.0);
+  for (const std::size_t e : {1U, 2U, 3U}) {  // the others follow the handle
+    QVERIFY2(std::abs(solver->displacements()[e] + 1) < 1e-4, qPrintable(QString::number(solver->displacements()[e])));
   }
 }
 

@@ -29,6 +29,7 @@ class EquilibriumTest : public QObject {
   void corotated_energy_follows_a_turned_side();
   void corotated_energy_ends_at_a_cut();
   void gradients_agree_with_cholesky();
+  void gradients_come_back_to_rest();
 };
 
 namespace {
@@ -250,6 +251,16 @@ void EquilibriumTest::gradients_agree_with_cholesky() {
   QVERIFY(largest_step(direct_axial.displacements, iterated_axial.displacements) < 1e-6);
   QVERIFY(largest_step(direct_axial.displacements, direct.displacements) > 0.1);
   QVERIFY(largest_coordinate(direct.displacements) > 5);
+}
+
+/// Nothing fixed moves along y, so all elements come back along y, however far away they start.
+void EquilibriumTest::gradients_come_back_to_rest() {
+  const auto mesh = make_mesh(MeshKind::cloth, {12, 9, 1});
+  const auto solver = displaced(mesh, {{0, {1, 0, 0}}, {50, {0.5, 0.75, 0}}, {31, {0, -0.25, 0}}});
+  const auto result = solve(*mesh, *solver, {0, 107}, wide, 0);
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    QVERIFY(std::abs(result.displacements[2 * std::size_t{e} + 1]) < rounding);
+  }
 }
 
 CHAINMAIL_TEST(EquilibriumTest)

@@ -315,6 +315,7 @@ void SplitTest::polygons_stay_polygons() {
   QCOMPARE(split->edit.polygons.size(), 6U * 5);
   QVERIFY(std::abs(total_area(*split->after) - 6) < 1e-12);
   QCOMPARE(split->after->link_count(), mesh->link_count() + 2 * 3 + 4);  // along the cut on both sides; sides in two
+  QVERIFY_THROWS_EXCEPTION(Error, make_split(mesh, SplitEdit{{}, {}, {}, {6}, {}}));  // the last one is number 5
 }
 
 void SplitTest::perspective_places_elements_on_the_stroke() {

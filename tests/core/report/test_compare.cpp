@@ -187,6 +187,10 @@ void CompareTest::three_drags_reach_as_far_as_they_say() {
   const ElementId handle = std::get<commands::Grab>(back.front()).elements.front();
   QVERIFY(std::get<commands::Drag>(back.back()).target == grid->rest_position(handle));
   QVERIFY(displaced(one.drags[2]) > 128);  // the object does not spring back by itself
+  for (const RecordedMoves& moves : one.drags) {
+    const ElementId grabbed = std::get<commands::Grab>(moves.commands.front()).elements.front();
+    QVERIFY2(moves.description.starts_with("element " + std::to_string(grabbed) + ", "), moves.name.c_str());
+  }
 }
 
 CHAINMAIL_TEST(CompareTest)

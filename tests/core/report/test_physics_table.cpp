@@ -3,6 +3,7 @@
 
 #include "program.h"
 #include "report/page/physics_csv.h"
+#include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
 
 namespace chainmail::test_physics_table {
@@ -17,7 +18,10 @@ class PhysicsTableTest : public QObject {
   void figures_of_a_page_stand_under_their_names();
   void figures_of_a_terminal_stand_under_their_names();
   void what_was_not_measured_is_empty();
+  void the_law_of_the_reference_is_named();
   void growth_stands_under_its_names();
+  void who_cannot_take_part_has_one_row();
+  void plots_of_growth_are_named_after_what_they_show();
   void the_file_has_each_number_under_its_name_data();
   void the_file_has_each_number_under_its_name();
 };
@@ -128,6 +132,13 @@ void PhysicsTableTest::what_was_not_measured_is_empty() {
   QCOMPARE(cell(page, "prepare: median (quartiles, repetitions), ms", "grab"), QString());
 }
 
+void PhysicsTableTest::the_law_of_the_reference_is_named() {
+  PhysicsObject bar = object();
+  bar.law = {StrainLaw::Kind::gent, 3};
+  const std::string about = physics_table(bar).about;
+  QVERIFY2(about.find("reference: Gent (limit 3)") != std::string::npos, about.c_str());
+}
+
 void PhysicsTableTest::growth_stands_under_its_names() {
   const auto with = [](double relative) {
     PhysicalError error;
@@ -146,6 +157,22 @@ void PhysicsTableTest::growth_stands_under_its_names() {
   QCOMPARE(cell(table, "relative error (ratio)", "first size"), QString("0.5"));
   QCOMPARE(cell(table, "relative error (ratio)", "last known"), QString("0.25"));
   QCOMPARE(cell(table, "why not larger", ""), QString("it takes too long"));
+}
+
+/// An algorithm that cannot take part has one row for all numbers of sweeps.
+void PhysicsTableTest::who_cannot_take_part_has_one_row() {
+  const GrowthSeries grown{PhysicsContestant{.algorithm = Algorithm::exact}, {{10, 1, 2, {}}}, "it takes too long", {}};
+  const GrowthSeries refused{PhysicsContestant{.algorithm = Algorithm::chainmail_3d}, {}, "it is no grid", {}};
+  GrowthSeries swept = refused;
+  swept.contestant.sweeps = 1;
+  QCOMPARE(growth_table({"bar", "a bar", {grown, refused, swept}}).rows.size(), std::size_t{2});
+}
+
+void PhysicsTableTest::plots_of_growth_are_named_after_what_they_show() {
+  for (const Plot& plot : {growth_time_plot({}), growth_prepare_plot({}), growth_error_plot({})}) {
+    QVERIFY(!plot.y.title.empty());
+    QVERIFY2(plot.title.ends_with(plot.y.title), plot.title.c_str());
+  }
 }
 
 void PhysicsTableTest::the_file_has_each_number_under_its_name_data() {

@@ -63,6 +63,7 @@ class SuiteTest : public QObject {
   void linear_fem_meets_the_beam();
   void a_handle_that_turns_has_a_reference();
   void limited_iterations_count_unlimited_ones_must_converge();
+  void experiments_have_the_handles_that_they_say();
   void each_size_is_one_column();
   void times_grow_with_the_accuracy();
   void a_fresh_move_is_timed_with_its_grab();
@@ -173,6 +174,21 @@ void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
   QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
   QVERIFY(entries[1].measurement && entries[1].refusal.empty());
   QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
+}
+
+void SuiteTest::experiments_have_the_handles_that_they_say() {
+  const MeshPointer organ = generate({MeshKind::tetra, {6, 4, 4}});
+  int counted = 0;
+  for (const SuiteExperiment& one : suite_experiments()) {
+    const auto says = [&](std::string_view words) { return one.description.find(words) != std::string_view::npos; };
+    if (const std::size_t said = says("one handle") ? 1 : says("three handles") ? 3 : 0; said > 0) {
+      const std::vector<Case> cases = one.cases(organ);
+      QCOMPARE(cases.size(), std::size_t{1});
+      QVERIFY2(handles_of(cases.front()).size() == said, std::string(one.name).c_str());
+      ++counted;
+    }
+  }
+  QVERIFY(counted > 0);
 }
 
 void SuiteTest::each_size_is_one_column() {
