@@ -76,10 +76,10 @@ void PhysicsDock::addLaw() {
   for (const auto& [parameter, member] :
        {std::pair(gentLimit_, &StrainLaw::gent_limit), std::pair(fungExponent_, &StrainLaw::fung_exponent)}) {
     column_->addWidget(parameter);
-    connect(parameter, &ParameterRow::changed, this, [this, parameter, member](double value, int gesture) {
+    connect(parameter, &ParameterRow::changed, this, [this, row = parameter, of = member](double value, int gesture) {
       ElasticOptions options = document_.elastic();
-      options.law.*member = value;
-      edits::setElastic(document_, options, parameter->label(), gesture);
+      options.law.*of = value;
+      edits::setElastic(document_, options, row->label(), gesture);
     });
   }
 }
