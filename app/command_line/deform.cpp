@@ -233,7 +233,7 @@ void deform(const DeformArguments& options) {
     set_energy(softness, link_energy);  // recorded moves begin with it
   }
   ElasticOptions elastic = elastic_of(options.elastic);
-  elastic.law = strain_law_of(options.law, elastic.material);
+  elastic.law = own_law_of(options.law, elastic.material);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation, targets);
   const std::vector<Action> actions = read_actions(options);

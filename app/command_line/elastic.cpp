@@ -85,7 +85,7 @@ StrainLawArguments add_strain_law(CLI::App& app) {
       add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
 }
 
-StrainLaw strain_law_of(const StrainLawArguments& arguments, const Material& material) {
+StrainLaw own_law_of(const StrainLawArguments& arguments, const Material& material) {
   const std::vector<StrainLaw> laws = strain_laws_of(arguments, material);
   if (laws.size() > 1) {
     throw Error("--material", "it names several materials", "name one");
@@ -97,7 +97,7 @@ std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const
   std::vector<StrainLaw> laws;
   for (const std::string& word : words_of("--material", value_of(arguments.materials).value_or("neo-hookean"))) {
     check_word("--material", word, {"neo-hookean", "gent", "fung"});
-    laws.push_back({chainmail::strain_law_of(word), value_of(arguments.gent_limit, parameters::gent_limit),
+    laws.push_back({strain_law_of(word), value_of(arguments.gent_limit, parameters::gent_limit),
                     value_of(arguments.fung_exponent, parameters::fung_exponent)});
     in_options({{"gent-limit", "--gent-limit"}, {"fung-exponent", "--fung-exponent"}},
                [&] { check(laws.back(), material); });

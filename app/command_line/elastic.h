@@ -22,7 +22,7 @@ struct StrainLawArguments {
 /// Adds the options for the law of the object's own material.
 StrainLawArguments add_strain_law(CLI::App& app);
 /// Returns that law; neo-Hookean if none is named. Throws Error, with the option.
-StrainLaw strain_law_of(const StrainLawArguments& arguments, const Material& material);
+StrainLaw own_law_of(const StrainLawArguments& arguments, const Material& material);
 /// Adds the options for the materials of the reference solution.
 StrainLawArguments add_strain_laws(CLI::App& app);
 /// Returns the laws to compare with; neo-Hookean if none is named. Throws Error, with the option.

@@ -24,6 +24,8 @@ void check(const ElasticOptions& options) {
     check(parameters::lattice, count);
   }
   check(parameters::iterations, options.iterations);
+  check(parameters::gent_limit, options.law.gent_limit);
+  check(parameters::fung_exponent, options.law.fung_exponent);
   check(options.law, options.material);
 }
 
@@ -60,6 +62,11 @@ void check(const StrainLaw& law, const Material& material) {
   const double value = is_gent ? law.gent_limit : law.fung_exponent;
   check(parameter, value);
   const auto [mu, lambda] = lame(material);
+  if (lambda == 0) {
+    throw Error(std::string(parameter.name),
+                "the material '" + name(law.kind) + "' does not exist for a Poisson's ratio of 0",
+                "use a higher Poisson's ratio, or the material 'neo-hookean'");
+  }
   if (is_gent ? lambda * value < 2 * mu : lambda < 2 * mu * value) {
     throw Error(std::string(parameter.name),
                 in_short(value) + " is too " + (is_gent ? "low" : "high") + " for a Poisson's ratio of " +

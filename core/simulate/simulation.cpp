@@ -421,7 +421,7 @@ void Simulation::carry_out(const commands::SetElastic& command) {
       answer();
     }
     if (softness().energy == EnergyKind::material && !info(relaxation_scheme_).sweeps && last_handle_) {
-      wake({});  // the equilibrium depends on Poisson's ratio
+      wake({});  // the equilibrium depends on the material
     }
   }
 }

@@ -242,6 +242,9 @@ void PhysicsCommandTest::wrong_usage_data() {
       "--gent-limit: 1 is too low for a Poisson's ratio of 0.3, for which it is at least 1.333; ");
   row("compare cloth.obj --against physics --pins top --material fung --fung-exponent 0.8 -o out",
       "--fung-exponent: 0.8 is too high for a Poisson's ratio of 0.3, for which it is at most 0.75; ");
+  row("compare cloth.obj --against physics --pins top --material gent --poisson 0 -o out",
+      "--gent-limit: the material 'gent' does not exist for a Poisson's ratio of 0; ");
+  row("deform cloth.obj --algorithm exact --material gent,fung", "--material: it names several materials; name one");
   row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
   row("compare cloth.obj --preset cloth.obj -o out", "cloth.obj:1: ");
   row("calibrate", "MESH: it is missing; ");

@@ -35,6 +35,15 @@ void put_work(ImportInput& input) {
   input.write("surface", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+/// Begins to fill an object, which takes long, on another thread.
+std::future<void> fill_beside(JobState& job) {
+  return std::async(std::launch::async, [&job] {
+    ImportInput input("ball.obj");
+    put_work(input);
+    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, Progress(job));
+  });
+}
+
 /// Returns the child processes of this process, started by any of its threads.
 std::vector<fs::path> started() {
   std::vector<fs::path> found;
@@ -150,11 +159,7 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   QVERIFY(open_here >= 0 && as_an_input == import::last_input);
   JobState job;
   const Patience patience(job);
-  auto running = std::async(std::launch::async, [&job] {
-    ImportInput input("ball.obj");
-    put_work(input);
-    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, Progress(job));
-  });
+  auto running = fill_beside(job);
   fs::path confined;
   while (confined.empty() && running.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
     const auto processes = started();
@@ -215,11 +220,7 @@ void ImportProcessTest::it_says_how_much_it_has_read() {
 void ImportProcessTest::it_says_how_much_of_its_work_is_done() {
   JobState job;
   const Patience patience(job);
-  auto running = std::async(std::launch::async, [&job] {
-    ImportInput input("ball.obj");
-    put_work(input);
-    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, Progress(job));
-  });
+  auto running = fill_beside(job);
   double share = 0;
   while (share == 0 && running.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
     share = job.share.load();

@@ -34,6 +34,15 @@ void setSquare(Workbench& bench, double compression) {
   bench.find<QPushButton>("setSelected")->click();
 }
 
+/// Selects the square and begins a stroke of the brush elsewhere, which replaces the selection until it is given up.
+bool holdsABrushStroke(Workbench& bench) {
+  bench.trigger("toolSelect");
+  selectBetween(bench, 10, 30);
+  bench.find<QToolButton>("selectBrush")->click();
+  bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
+  return bench.document().selection().elements() != square;
+}
+
 }  // namespace
 
 class WindowSelect : public QObject {
@@ -113,11 +122,7 @@ class WindowSelect : public QObject {
 
   void escapeGivesABrushStrokeUp() {
     Workbench bench;
-    bench.trigger("toolSelect");
-    selectBetween(bench, 10, 30);
-    bench.find<QToolButton>("selectBrush")->click();
-    bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
-    QVERIFY(bench.document().selection().elements() != square);
+    QVERIFY(holdsABrushStroke(bench));
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     QCOMPARE(bench.document().selection().elements(), square);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 53));
@@ -127,11 +132,7 @@ class WindowSelect : public QObject {
   /// Another window may receive the release. The next move of the mouse then has no pressed button.
   void aBrushStrokeWithoutItsReleaseIsGivenUp() {
     Workbench bench;
-    bench.trigger("toolSelect");
-    selectBetween(bench, 10, 30);
-    bench.find<QToolButton>("selectBrush")->click();
-    bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
-    QVERIFY(bench.document().selection().elements() != square);
+    QVERIFY(holdsABrushStroke(bench));
     View& view = bench.view(0);
     const QPointF at = bench.place(0, 53);
     QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
