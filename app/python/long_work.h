@@ -2,10 +2,15 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <future>
+#include <memory>
 #include <system_error>
+#include <utility>
 
 #include "chainmail/job.h"
 
@@ -21,9 +26,15 @@ void wait_for_work(const api::Job& job, const pybind11::object& progress,
 /// work runs in this one, and Ctrl-C waits for it.
 template <class Work>
 auto run_long(const api::Job& job, const pybind11::object& progress, Work work) {
+  // The C library ends the program if a thread finds no memory for its first exception, so some is kept for that.
+  auto reserve = std::make_unique_for_overwrite<std::array<std::byte, 1 << 20>>();
   std::future<decltype(work())> result;
   try {
-    result = std::async(std::launch::async, std::ref(work));
+    result = std::async(std::launch::async, [&work, kept = std::move(reserve)]() mutable {
+      kept.reset();
+      static_cast<void>(std::uncaught_exceptions());  // takes the memory
+      return work();
+    });
   } catch (const std::system_error&) {
     const pybind11::gil_scoped_release unlocked;
     return work();

@@ -125,7 +125,11 @@ class ShareSum {
 }  // namespace
 
 const std::vector<float>& LinkShares::of(const Mesh& mesh) const {
-  std::call_once(cache_->once, [&] { cache_->shares = ShareSum(mesh).run(); });
+  const std::lock_guard guard(cache_->mutex);
+  if (!cache_->is_filled) {
+    cache_->shares = ShareSum(mesh).run();
+    cache_->is_filled = true;
+  }
   return cache_->shares;
 }
 

@@ -21,7 +21,9 @@ class LinkShares {
 
  private:
   struct Cache {
-    std::once_flag once;
+    /// Not std::call_once: an exception through it ends the program where little memory is left (glibc 2.36).
+    std::mutex mutex;
+    bool is_filled = false;
     std::vector<float> shares;
   };
 

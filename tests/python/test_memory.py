@@ -17,7 +17,7 @@ def attempt(work):
         return None
 
 used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-limit = used + int(sys.argv[1]) * 2**20
+limit = used + int(float(sys.argv[1]) * 2**20)
 resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 for make in (lambda: chainmail.make_cloth(80, 80), lambda: chainmail.make_tetra(8, 8, 8)):
     mesh = attempt(make)
@@ -39,7 +39,7 @@ print("alive")
 """
 
 
-@pytest.mark.parametrize("megabytes", [1, 2, 4, 7, 10, 15, 20, 25, 30, 40, 50, 65, 80])
+@pytest.mark.parametrize("megabytes", [1, 1.5, 1.8, 2, 3, 4, 6, 8, 9, 10, 11, 12, 13, 15, 20, 25, 30, 40, 50, 65, 80])
 def test_little_memory(megabytes):
     done = subprocess.run([sys.executable, "-c", PROGRAM, str(megabytes)], capture_output=True, text=True, timeout=200)
     assert (done.returncode, done.stdout) == (0, "alive\n"), done.stderr
