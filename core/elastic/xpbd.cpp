@@ -1,3 +1,5 @@
+#include "elastic/xpbd.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -14,70 +16,50 @@
 namespace chainmail {
 namespace {
 
-// The time step makes the mean spring this many times as stiff as the inertia of an element. It decides on how fast the
-// iterations converge, not on the answer. If they diverge, it is halved, at most so often (measured).
-constexpr double springs_over_inertia = 2;
-constexpr int max_step_halvings = 6;
-// Iterations diverge if one moves an element by this many mean edge lengths.
+// The object is at rest if a time step moves no coordinate by more than this (mean edge lengths).
+constexpr double at_rest_below = 1e-10;
+// It diverges if a time step moves one by this.
 constexpr double diverging_move = 100;
-// An answer has converged if it is estimated to be this close to the equilibrium, or hardly moves (mean edge lengths).
-constexpr double converged_distance = 3e-7, last_move_below = 1e-8;
-// The rate at which moves shrink is measured over so many iterations.
-constexpr std::size_t rated_iterations = 32;
 
-/// The largest moves of the last iterations, and how far the answer is estimated to be from the limit.
-class ShrinkingMoves {
- public:
-  void add(double move) { moves_.push_back(move); }
-
-  /// If moves shrink by a factor per iteration, the moves that are still to come are a geometric series.
-  double distance() const {
-    const double last = moves_.back();
-    if (last == 0 || moves_.size() <= rated_iterations) {
-      return last == 0 ? 0 : std::numeric_limits<double>::infinity();
-    }
-    const double before = moves_[moves_.size() - 1 - rated_iterations];
-    const double rate = std::pow(last / before, 1.0 / rated_iterations);
-    return rate < 1 ? last * rate / (1 - rate) : std::numeric_limits<double>::infinity();
-  }
-
- private:
-  std::vector<double> moves_;
-};
-
-/// Extended position based dynamics (Macklin et al. 2016) at rest: distance constraints on the edges, and constraints
-/// of the volume of tetrahedra, or of the area of triangles in a plane.
+/// Extended position based dynamics with small steps (Macklin et al. 2016, 2019): distance constraints on the edges,
+/// and constraints of the volume of tetrahedra, or of the area of triangles in a plane.
 ///
 /// Compliances are such that the energy ½ Σ C² / α is that of an elastic material as far as springs allow. Those of
 /// distances are 1 / k with k = c μ Σ V / |r|² over the cells at the edge (c = 5/2 in a solid, 8/3 in a sheet, and
 /// Young's modulus on a line); springs of all directions then have the shear modulus μ and λ = μ. Those of volumes are
 /// V / (λ − μ), which adds the rest of λ; there are none if λ ≤ μ, up to Poisson's ratio 1/4.
 ///
-/// An iteration is a time step without velocities: it starts from the last positions plus h² times the forces that the
-/// multipliers stand for, and corrects the multipliers by one sweep over the constraints. Implicit steps from rest to
-/// rest end where the forces are in equilibrium, whatever h is. Multipliers are kept between steps: if each step began
-/// with none, as in a simulation, then one sweep per step would end elsewhere.
+/// An iteration is a time step: elements of equal mass go on with their velocities, less damping, and one sweep over
+/// the constraints moves them back, with multipliers that begin at 0. Velocities are kept from move to move.
 template <int N>
 class Xpbd final : public IteratedSolver {
  public:
-  Xpbd(const ElasticProblem& problem, const Simplices& cells, const Progress& progress)
+  Xpbd(const ElasticProblem& problem, const Simplices& cells, const XpbdStep& step, const Progress& progress)
       : IteratedSolver(problem, cells),
         iterations_(problem.options.iterations),
-        mobility_(problem.mesh->element_count(), 1) {
+        kept_velocity_(1 - step.damping),
+        elements_(problem.mesh->element_count()),
+        motions_(elements_.size()) {
     check_held(cells, *problem.mesh, problem.pins);
+    const Mesh& mesh = *problem.mesh;
     const int n = cells.dimension;
     const Lame material = lame_of_dimension(lame(problem.options.material), n);
-    const auto springs = springs_of(cells, *problem.mesh, spring_modulus(material.mu, n));
-    length_ = mean_length(springs, *problem.mesh);
+    const auto springs = springs_of(cells, mesh, spring_modulus(material.mu, n));
+    length_ = mean_length(springs, mesh);
     double mean = 0;
     for (const WeightedEdge& spring : springs) {
       mean += spring.weight / double(springs.size());
     }
-    const double step = springs_over_inertia / mean;  // h² over the mass of an element
-    const std::vector<double>& rest = problem.mesh->rest;
-    add_distances(springs, rest, step);
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      // From the first element, so that an object far from the origin loses no digits.
+      elements_[e].at = motions_[e].rest = of(mesh.rest, e) - of(mesh.rest, 0);
+    }
+    const double square = step.springs_over_inertia / mean;  // of the time step, over the mass of an element
+    for (const auto& [from, to, stiffness] : springs) {
+      distances_.push_back({from, to, (motions_[to].rest - motions_[from].rest).norm(), 1 / (stiffness * square)});
+    }
     if (n == N && N > 1 && material.lambda > material.mu) {
-      add_volumes(cells, rest, (material.lambda - material.mu) * step);
+      add_volumes(cells, (material.lambda - material.mu) * square);
     }
     find_base(progress);
   }
@@ -85,60 +67,45 @@ class Xpbd final : public IteratedSolver {
  private:
   using Vector = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
+  /// What the constraints read and write.
+  struct Element {
+    Vector at;
+    double mobility = 1;  // inverse mass: 1, or 0 if the position is prescribed
+  };
+  struct Motion {
+    Vector rest, before = Vector::Zero(), velocity = Vector::Zero();  // velocity: way in a time step
+  };
   struct Distance {
-    std::size_t from = 0, to = 0;
-    Vector rest;
+    ElementId from = 0, to = 0;
     double length = 0;      // at rest
-    double compliance = 0;  // over h²
-    double multiplier = 0;
+    double compliance = 0;  // over the square of the time step
   };
   struct Volume {
-    std::array<std::size_t, N + 1> corners;
-    Square edges;  // at rest
-    double volume = 0, compliance = 0, multiplier = 0;
+    std::array<ElementId, N + 1> corners;
+    double volume = 0, compliance = 0;
   };
 
-  static Vector of(const std::vector<double>& all, std::size_t element) {
+  static Eigen::Map<const Vector> of(std::span<const double> all, std::size_t element) {
     return Eigen::Map<const Vector>(all.data() + element * N);
   }
 
-  void add_distances(const std::vector<WeightedEdge>& springs, const std::vector<double>& rest, double step) {
-    for (const auto& [from, to, stiffness] : springs) {
-      const Vector apart = of(rest, to) - of(rest, from);
-      distances_.push_back({from, to, apart, apart.norm(), 1 / (stiffness * step)});
-    }
-  }
-
-  void add_volumes(const Simplices& cells, const std::vector<double>& rest, double stiffness) {
+  void add_volumes(const Simplices& cells, double stiffness) {
     for (std::size_t s = 0; s < cells.count(); ++s) {
       Volume one;
       std::ranges::copy(cells.corners_of(s), one.corners.begin());
-      for (int k = 0; k < N; ++k) {
-        one.edges.col(k) = of(rest, one.corners[std::size_t(k) + 1]) - of(rest, one.corners[0]);
-      }
-      one.volume = of_box * one.edges.determinant();
+      one.volume = slope_of(one).volume;
       one.compliance = std::abs(one.volume) / stiffness;
       volumes_.push_back(one);
     }
   }
 
   void prescribe(const std::vector<ElementId>& prescribed, const Progress& /*progress*/) override {
-    std::ranges::fill(mobility_, 1.0);
-    for (const ElementId element : prescribed) {
-      mobility_[element] = 0;
+    for (Element& element : elements_) {
+      element.mobility = 1;
     }
-  }
-
-  void shift(std::size_t element, const Vector& by, std::vector<double>& to) const {
-    Eigen::Map<Vector>(to.data() + element * N) += mobility_[element] * by;
-  }
-
-  Vector apart(const Distance& one, const std::vector<double>& at) const {
-    return one.rest + (of(at, one.to) - of(at, one.from));
-  }
-  void push(const Distance& one, const Vector& by, std::vector<double>& to) const {
-    shift(one.to, by, to);
-    shift(one.from, -by, to);
+    for (const ElementId element : prescribed) {
+      elements_[element].mobility = 0;
+    }
   }
 
   /// The volume of a cell, with its sign, and its derivatives by the corners.
@@ -146,10 +113,10 @@ class Xpbd final : public IteratedSolver {
     double volume = 0;
     std::array<Vector, N + 1> by_corner;
   };
-  Slope slope_of(const Volume& one, const std::vector<double>& at) const {
-    Square edges = one.edges;
+  Slope slope_of(const Volume& one) const {
+    Square edges;
     for (int k = 0; k < N; ++k) {
-      edges.col(k) += of(at, one.corners[std::size_t(k) + 1]) - of(at, one.corners[0]);
+      edges.col(k) = elements_[one.corners[std::size_t(k) + 1]].at - elements_[one.corners[0]].at;
     }
     Square slopes;  // of the determinant
     if constexpr (N == 3) {
@@ -166,189 +133,145 @@ class Xpbd final : public IteratedSolver {
     }
     return slope;
   }
-  void push(const Volume& one, const Slope& slope, double by, std::vector<double>& to) const {
+
+  void meet(const Distance& one) {
+    Element &from = elements_[one.from], &to = elements_[one.to];
+    const double mobile = from.mobility + to.mobility;
+    const Vector across = to.at - from.at;
+    const double size = across.norm();
+    if (mobile == 0 || size == 0) {
+      return;
+    }
+    const Vector push = (one.length - size) / (size * (mobile + one.compliance)) * across;
+    to.at += to.mobility * push;
+    from.at -= from.mobility * push;
+  }
+  void meet(const Volume& one) {
+    const Slope slope = slope_of(one);
+    double mobile = 0;
     for (std::size_t k = 0; k <= N; ++k) {
-      shift(one.corners[k], by * slope.by_corner[k], to);
+      mobile += elements_[one.corners[k]].mobility * slope.by_corner[k].squaredNorm();
+    }
+    if (mobile == 0) {
+      return;
+    }
+    const double multiplier = (one.volume - slope.volume) / (mobile + one.compliance);
+    for (std::size_t k = 0; k <= N; ++k) {
+      Element& corner = elements_[one.corners[k]];
+      corner.at += corner.mobility * multiplier * slope.by_corner[k];
     }
   }
 
-  /// Begins a step: moves the elements by the forces of the multipliers.
-  void predict(std::vector<double>& at) {
-    predicted_ = at;
+  /// Makes a time step. Returns the longest way of a coordinate; infinity if it is not a number.
+  double step() {
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      motions_[e].before = elements_[e].at;
+      elements_[e].at += elements_[e].mobility * kept_velocity_ * motions_[e].velocity;
+    }
     for (const Distance& one : distances_) {
-      const Vector across = apart(one, at);
-      const double size = across.norm();
-      if (size > 0) {
-        push(one, one.multiplier / size * across, predicted_);
-      }
+      meet(one);
     }
     for (const Volume& one : volumes_) {
-      push(one, slope_of(one, at), one.multiplier, predicted_);
+      meet(one);
     }
-    std::swap(at, predicted_);
-  }
-
-  /// Corrects the multiplier of each constraint in turn. Returns how far the largest correction moves an element.
-  double sweep(std::vector<double>& at) {
-    double largest = 0;
-    for (Distance& one : distances_) {
-      const double mobile = mobility_[one.from] + mobility_[one.to];
-      const Vector across = apart(one, at);
-      const double size = across.norm();
-      if (mobile == 0 || size == 0) {
-        continue;
-      }
-      const double change = (one.length - size - one.compliance * one.multiplier) / (mobile + one.compliance);
-      one.multiplier += change;
-      push(one, change / size * across, at);
-      largest = std::max(largest, std::abs(change));
+    double longest = 0;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      motions_[e].velocity = elements_[e].at - motions_[e].before;
+      const double way = motions_[e].velocity.template lpNorm<Eigen::Infinity>();
+      longest = way <= longest ? longest : way;  // also if it is not a number
     }
-    for (Volume& one : volumes_) {
-      const Slope slope = slope_of(one, at);
-      double mobile = 0, steepest = 0;
-      for (std::size_t k = 0; k <= N; ++k) {
-        const double squared = slope.by_corner[k].squaredNorm();
-        mobile += mobility_[one.corners[k]] * squared;
-        steepest = std::max(steepest, squared);
-      }
-      if (mobile == 0) {
-        continue;
-      }
-      const double change = (one.volume - slope.volume - one.compliance * one.multiplier) / (mobile + one.compliance);
-      one.multiplier += change;
-      push(one, slope, change, at);
-      largest = std::max(largest, std::abs(change) * std::sqrt(steepest));
-    }
-    return largest;
+    return std::isfinite(longest) ? longest : std::numeric_limits<double>::infinity();
   }
 
   std::string relax(std::vector<double>& displacements, const Progress& progress) override {
-    if (!is_where_it_was(displacements)) {
-      forget_forces();
-    }
-    const std::vector<double> start = displacements;
-    ShrinkingMoves moves;
-    double largest = 0;
-    int halvings = 0;
-    for (std::uint32_t i = 0; i < iterations_; ++i) {
+    begin_at(displacements);
+    double longest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < iterations_ && longest > at_rest_below * length_; ++i) {
       progress.report(double(i) / iterations_);
-      largest = iterate(displacements);
-      if (largest > diverging_move * length_) {
-        if (halvings++ == max_step_halvings) {
-          break;
-        }
-        displacements = start;
-        halve_step();
-        moves = {};
-        continue;
-      }
-      moves.add(largest);
-      if (largest <= last_move_below * length_ || moves.distance() <= converged_distance * length_) {
+      longest = step();
+      if (longest > diverging_move * length_) {
+        stop();
         last_ = displacements;
-        return {};
+        return "it diverged; the elements stay, but for the handle";
       }
     }
-    if (halvings > max_step_halvings) {
-      displacements = start;
-      forget_forces();
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      if (elements_[e].mobility != 0) {
+        Eigen::Map<Vector>(displacements.data() + e * N) = elements_[e].at - motions_[e].rest;
+      }
     }
     last_ = displacements;
-    return halvings > max_step_halvings ? "it diverged; the elements stay, but for the handle"
-                                        : not_converged(iterations_, largest / length_);
+    return longest > at_rest_below * length_ ? not_converged(iterations_, longest / length_) : std::string();
   }
 
-  /// One time step. Returns how far it moves an element, or infinity if that is not a number.
-  double iterate(std::vector<double>& displacements) {
-    before_ = displacements;
-    predict(displacements);
-    double largest = sweep(displacements);
-    for (std::size_t k = 0; k < before_.size(); ++k) {
-      const double move = std::abs(displacements[k] - before_[k]);
-      largest = move <= largest ? largest : move;  // also if it is not a number
+  void begin_at(const std::vector<double>& displacements) {
+    if (!is_where_it_was(displacements)) {
+      stop();
     }
-    return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
-  }
-
-  /// Halves the square of the time step, by which compliances are divided.
-  void halve_step() {
-    multiply_compliances(2);
-    forget_forces();
-  }
-  void multiply_compliances(double by) {
-    all_compliances_ *= by;
-    for (Distance& one : distances_) {
-      one.compliance *= by;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      elements_[e].at = motions_[e].rest + of(displacements, e);
     }
-    for (Volume& one : volumes_) {
-      one.compliance *= by;
+  }
+  void stop() {
+    for (Motion& motion : motions_) {
+      motion.velocity.setZero();
     }
   }
 
-  /// The compliances, as a power of 2 of those at the beginning, and the multipliers.
   std::vector<double> kept(const std::vector<double>& displacements) const override {
-    const double knows = is_where_it_was(displacements) ? 1 : 0;
-    std::vector<double> kept{all_compliances_};
-    for (const Distance& one : distances_) {
-      kept.push_back(knows * one.multiplier);
+    const bool knows = is_where_it_was(displacements);
+    std::vector<double> velocities(displacements.size(), 0.0);
+    for (std::size_t e = 0; e < motions_.size() && knows; ++e) {
+      Eigen::Map<Vector>(velocities.data() + e * N) = motions_[e].velocity;
     }
-    for (const Volume& one : volumes_) {
-      kept.push_back(knows * one.multiplier);
-    }
-    return kept;
+    return velocities;
   }
   void keep(std::span<const double> kept, const std::vector<double>& displacements) override {
-    multiply_compliances(std::max(1.0, kept[0]) / all_compliances_);
-    auto next = kept.begin() + 1;
-    for (Distance& one : distances_) {
-      one.multiplier = *next++;
-    }
-    for (Volume& one : volumes_) {
-      one.multiplier = *next++;
+    for (std::size_t e = 0; e < motions_.size(); ++e) {
+      motions_[e].velocity = of(kept, e);
     }
     last_ = displacements;
   }
 
-  /// True if the multipliers are those of these displacements. Those of prescribed elements may differ.
+  /// True if the velocities are those at these displacements. Those of prescribed elements may differ.
   bool is_where_it_was(const std::vector<double>& displacements) const {
     for (std::size_t i = 0; i < last_.size(); ++i) {
-      if (mobility_[i / N] != 0 && displacements[i] != last_[i]) {
+      if (elements_[i / N].mobility != 0 && displacements[i] != last_[i]) {
         return false;
       }
     }
     return true;
   }
-  void forget_forces() {
-    for (Distance& one : distances_) {
-      one.multiplier = 0;
-    }
-    for (Volume& one : volumes_) {
-      one.multiplier = 0;
-    }
-  }
 
   static constexpr double of_box = N == 3 ? 1.0 / 6 : N == 2 ? 0.5 : 1;  // share of a simplex in the box of its edges
 
   std::uint32_t iterations_;
-  std::vector<double> mobility_;  // inverse mass of each element: 1, or 0 if its displacement is prescribed
+  double kept_velocity_;  // share of the velocity that damping leaves
+  std::vector<Element> elements_;
+  std::vector<Motion> motions_;
   std::vector<Distance> distances_;
   std::vector<Volume> volumes_;
-  double all_compliances_ = 1;                     // over those at the beginning: a power of 2
-  double length_ = 1;                              // mean of the edges, the unit of moves (mesh units)
-  std::vector<double> last_, predicted_, before_;  // iterates
+  double length_ = 1;         // mean of the edges, the unit of moves (mesh units)
+  std::vector<double> last_;  // displacements after the last time step
 };
 
 }  // namespace
 
-std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress) {
+std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const XpbdStep& step,
+                                         const Progress& progress) {
   const Simplices cells = build_edge_cells(*problem.mesh, problem.cuts, progress.part(0, 0.2));
   switch (problem.mesh->space_dimension) {
     case 1:
-      return std::make_unique<Xpbd<1>>(problem, cells, progress.part(0.2, 1));
+      return std::make_unique<Xpbd<1>>(problem, cells, step, progress.part(0.2, 1));
     case 2:
-      return std::make_unique<Xpbd<2>>(problem, cells, progress.part(0.2, 1));
+      return std::make_unique<Xpbd<2>>(problem, cells, step, progress.part(0.2, 1));
     default:
-      return std::make_unique<Xpbd<3>>(problem, cells, progress.part(0.2, 1));
+      return std::make_unique<Xpbd<3>>(problem, cells, step, progress.part(0.2, 1));
   }
+}
+
+std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress) {
+  return make_xpbd(problem, XpbdStep(), progress);
 }
 
 }  // namespace chainmail

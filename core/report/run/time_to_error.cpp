@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array sweeps_tried{0, 1, 3, 10, 30, 100, 300};
 constexpr std::array equilibrium_tried{1, 2, 5, 10, 20, 50, 100, 200};
-constexpr std::array iterations_tried{1, 3, 10, 30, 100, 300, 1000};
+constexpr std::array iterations_tried{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
 
 /// A contestant with all numbers of iterations that it may use.
 struct Group {

@@ -7,6 +7,7 @@
 
 #include "core/elastic/elastic_problems.h"
 #include "core/report/plain_minimum.h"
+#include "elastic/xpbd.h"
 #include "mesh/error.h"
 #include "program.h"
 
@@ -23,11 +24,10 @@ class ContestantsTest : public QObject {
   void corotational_is_at_the_least_energy();
   void projective_is_at_the_least_energy_data() { dimensions(); }
   void projective_is_at_the_least_energy();
-  void xpbd_is_at_the_least_energy_data() { dimensions(); }
-  void xpbd_is_at_the_least_energy();
-  void xpbd_shortens_its_step_where_it_diverges();
-  void xpbd_hardly_changes_after_50_iterations_data() { dimensions(); }
-  void xpbd_hardly_changes_after_50_iterations();
+  void xpbd_rests_near_the_least_energy_data() { dimensions(); }
+  void xpbd_rests_near_the_least_energy();
+  void xpbd_swings();
+  void xpbd_comes_to_rest();
   void too_few_iterations_are_told_data();
   void too_few_iterations_are_told();
   void what_has_no_cells_is_refused();
@@ -288,17 +288,17 @@ void ContestantsTest::projective_is_at_the_least_energy() {
   }
 }
 
-/// Springs have the material's μ; what they lack of λ is the resistance of the volumes.
-void ContestantsTest::xpbd_is_at_the_least_energy() {
+/// Springs have the material's μ; what they lack of λ is the resistance of the volumes. One iteration per time step
+/// does not meet all constraints, so the object rests beside the least energy, by an error in proportion to the square
+/// of the step.
+void ContestantsTest::xpbd_rests_near_the_least_energy() {
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
   for (const double poisson : {0.1, 0.4}) {
     const auto [mu, lambda] = moduli(*mesh, 3, poisson);
     const double of_volumes = std::max(0.0, lambda - mu);
-    const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
-    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
-    drag(*solver, *mesh, far);
-    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    problem.options.iterations = 100'000;
     const auto energy = [&, mu = mu](const std::vector<double>& displacements) {
       double sum = spring_energy(*mesh, (mesh->space_dimension == 3 ? 2.5 : 8.0 / 3) * mu, displacements);
       for_each_shape(*mesh, displacements, [&](const Shape& shape) {
@@ -307,39 +307,59 @@ void ContestantsTest::xpbd_is_at_the_least_energy() {
       });
       return sum;
     };
-    const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
-    QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+    const auto exact = least(*mesh, problem, far, energy);
+    std::vector<double> apart;
+    for (const double square : {0.08, 0.02, 0.005}) {
+      const auto solver = make_xpbd(problem, {.springs_over_inertia = square}, {});
+      drag(*solver, *mesh, far);
+      QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+      apart.push_back(largest_step(solver->displacements(), exact));
+    }
+    for (std::size_t i = 1; i < apart.size(); ++i) {
+      const double ratio = apart[i] / apart[i - 1];
+      QVERIFY2(ratio > 0.2 && ratio < 0.3, qPrintable(QString::number(ratio)));
+    }
+    QVERIFY2(apart.back() < 2e-3, qPrintable(QString::number(apart.back())));
   }
 }
 
-/// A stretched sheet of a material that hardly changes its volume: with a long time step, iterations diverge.
-void ContestantsTest::xpbd_shortens_its_step_where_it_diverges() {
+/// One element between a pin and the handle: its way, step by step, by hand. Both springs are equal, so that each takes
+/// the share κ / (κ + 1) of what it is too long or too short, with κ = h² k / m.
+void ContestantsTest::xpbd_swings() {
+  const MeshPointer mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  ElasticProblem problem = pinned(mesh, {0});
+  problem.options.iterations = 1;
+  const XpbdStep step;
+  const auto solver = make_xpbd(problem, step, {});
+  solver->hold(ElasticHandle::of(2));
+  constexpr double by = 0.3;
+  const double share = step.springs_over_inertia / (step.springs_over_inertia + 1);
+  double at = 0, velocity = 0, furthest = 0;
+  for (int i = 0; i < 60; ++i) {
+    solver->move(ElasticMotion::by(std::array{by}));
+    const double free = at + (1 - step.damping) * velocity;
+    const double after = (1 - share) * (1 - share) * free + share * by;
+    velocity = after - at;
+    at = after;
+    furthest = std::max(furthest, at);
+    QVERIFY2(std::abs(solver->displacements()[1] - at) < 1e-12, qPrintable(QString::number(i)));
+  }
+  QVERIFY(furthest > at + 0.01);  // it swings beyond where it comes to rest
+}
+
+/// A stretched sheet of a material that hardly changes its volume, with the usual time step.
+void ContestantsTest::xpbd_comes_to_rest() {
   const MeshPointer mesh = generate({MeshKind::cloth, {32, 32, 1}});
   for (const double poisson : {0.3, 0.45}) {
     ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
-    problem.options.iterations = 5000;
+    problem.options.iterations = 20'000;
     const auto solver = make_elastic(ElasticMethod::xpbd, problem);
     drag(*solver, *mesh, far);
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     for (const double displacement : solver->displacements()) {
-      QVERIFY(std::isfinite(displacement) && std::abs(displacement) < 2 * far.norm());
+      QVERIFY(std::abs(displacement) < 2 * far.norm());
     }
-    QVERIFY2(solver->remark().find("diverged") == std::string::npos, solver->remark().c_str());
   }
-}
-
-void ContestantsTest::xpbd_hardly_changes_after_50_iterations() {
-  QFETCH(const int, object);
-  const MeshPointer mesh = make(Object(object));
-  std::vector<std::vector<double>> answers;
-  for (const std::uint32_t iterations : {50U, 200U}) {
-    ElasticProblem problem = pinned(mesh, first_column(*mesh));
-    problem.options.iterations = iterations;
-    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
-    drag(*solver, *mesh, far);
-    answers.push_back(solver->displacements());
-  }
-  const double change = largest_step(answers[0], answers[1]);
-  QVERIFY2(change < 0.01 * far.norm(), qPrintable(QString::number(change)));
 }
 
 void ContestantsTest::too_few_iterations_are_told_data() {
