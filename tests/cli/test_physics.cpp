@@ -68,7 +68,7 @@ void PhysicsCommandTest::the_report_is_written() {
   QVERIFY(contestants[1]["error"]["rms"].toDouble() > 0.01);
   QVERIFY(contestants[1]["error"]["relative"].toDouble() > contestants[1]["error"]["rms"].toDouble());
   QVERIFY(contestants[4]["open_regions"].toBool() && contestants[4]["equilibrium"].toBool());
-  QCOMPARE(contestants[4]["label"].toString(), QString("Exact + equilibrium, open regions"));
+  QCOMPARE(contestants[4]["label"].toString(), QString("Material, multigrid, after Exact ChainMail"));
   QVERIFY(contestants[4]["error"]["relative"].toDouble(9) < 0.01);  // the energy is that of the reference
   QVERIFY(contestants[5]["calibrated"]["stretch"].toDouble() >= 1 && !contestants[5]["equilibrium"].toBool());
   QVERIFY(contestants[6]["calibrated"]["lateral"].toDouble() > 0 && contestants[6]["equilibrium"].toBool());

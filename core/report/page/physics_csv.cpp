@@ -40,6 +40,12 @@ void write_physics_shape(std::ostream& out, const ShapeFigures& shape) {
       << all_digits(shape.violation);
 }
 
+/// Writes how close the contestant is to its equilibrium; empty fields if it has none.
+void write_equilibrium(std::ostream& out, const std::optional<PhysicsMeasurement>& measured) {
+  out << ',' << (measured ? all_digits(measured->residual) : "") << ','
+      << (measured && measured->binds ? (*measured->binds ? "1" : "0") : "");
+}
+
 /// Writes by how much the contestant differs on the turned object; empty fields if that was not measured.
 void write_symmetry(std::ostream& out, const PhysicsObject& object, const PhysicsContestant& contestant) {
   const Symmetry* symmetry = find_symmetry(object.symmetry, contestant);
@@ -61,7 +67,7 @@ void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
           << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
           << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0) << ','
           << (series.contestant.open_regions ? 1 : 0)
-          << std::string(physics_shape_figures + 2 * symmetry_angles.size(), ',') << '\n';
+          << std::string(physics_shape_figures + 2 * symmetry_angles.size() + 2, ',') << '\n';
     }
   }
 }
@@ -76,7 +82,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
          "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
          "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium,open_regions,"
          "hausdorff,volume_change,inverted_cells,largest_stretch,violation_max,"
-         "turned_45_max,turned_45_relative,turned_90_max,turned_90_relative\n";
+         "turned_45_max,turned_45_relative,turned_90_max,turned_90_relative,residual,regions_bind\n";
   for (const PhysicsObject& object : report.objects) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {
@@ -96,6 +102,7 @@ void write_csv(std::ostream& out, const PhysicsReport& report) {
           out << std::string(physics_shape_figures, ',');
         }
         write_symmetry(out, object, entry.contestant);
+        write_equilibrium(out, entry.measurement);
         out << '\n';
       }
     }

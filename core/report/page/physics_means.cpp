@@ -26,15 +26,20 @@ void mix(PhysicalError& mean, const PhysicalError& other, double weight) {
 }
 
 PhysicsEntry mean_of(const Drags& drags, std::size_t entry) {
-  PhysicsEntry mean = drags.front()->entries[entry];
-  for (std::size_t i = 1; i < drags.size(); ++i) {
-    const PhysicsEntry& other = drags[i]->entries[entry];
-    if (!mean.measurement || !other.measurement) {
+  PhysicsEntry mean{drags.front()->entries[entry].contestant, std::nullopt, {}};
+  int count = 0;
+  for (const PhysicsDrag* drag : drags) {
+    const PhysicsEntry& other = drag->entries[entry];
+    if (!other.measurement) {
       mean.refusal = mean.refusal.empty() ? other.refusal : mean.refusal;
-      mean.measurement.reset();
+      ++mean.left_out;
       continue;
     }
-    const double weight = 1 / double(i + 1);
+    if (count++ == 0) {
+      mean.measurement = other.measurement;
+      continue;
+    }
+    const double weight = 1 / double(count);
     PhysicsMeasurement& to = *mean.measurement;
     const PhysicsMeasurement& from = *other.measurement;
     mix(to.ms_per_move, from.ms_per_move, weight);
@@ -44,6 +49,8 @@ PhysicsEntry mean_of(const Drags& drags, std::size_t entry) {
     mix(to.prepare.grab, from.prepare.grab, weight);
     mix(to.error, from.error, weight);
     take_worst(to.shape, from.shape);
+    to.residual = std::max(to.residual, from.residual);
+    to.binds = std::max(to.binds, from.binds);
   }
   return mean;
 }

@@ -36,8 +36,8 @@ std::size_t series_of(Plot& plot, const PhysicsContestant& contestant) {
 PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title) {
   PlotPanel panel{drag.no_reference.empty() ? title : title + ": no reference", {}, {}};
   for (const PhysicsEntry& entry : drag.entries) {
-    if (!entry.measurement) {
-      continue;
+    if (!entry.measurement || entry.left_out > 0) {
+      continue;  // a mean without some drags may be small because it leaves out the hard ones
     }
     const double error = entry.measurement->error.relative;
     if (!entry.contestant.algorithm) {

@@ -42,16 +42,23 @@ std::string inverted_cell(const PhysicsMeasurement& m) { return count(m.shape.in
 std::string stretch_cell(const PhysicsMeasurement& m) { return figure(m.shape.stretch); }
 std::string violation_cell(const PhysicsMeasurement& m) { return figure(m.shape.violation); }
 
-/// Columns of a page about the shape, the worst of all drags without a cut.
-struct ShapeColumn {
-  const char* name;
+std::string residual_cell(const PhysicsMeasurement& m) { return figure(m.residual); }
+std::string binds_cell(const PhysicsMeasurement& m) { return !m.binds ? "" : *m.binds ? "yes" : "no"; }
+
+/// Columns of a page with the worst of all drags without a cut.
+struct WorstColumn {
+  const char *group, *name;
   CellOf cell;
 };
-constexpr ShapeColumn shape_columns[]{{"Hausdorff (rest lengths)", hausdorff_cell},
-                                      {"volume change (%)", volume_cell},
-                                      {"inverted cells", inverted_cell},
-                                      {"stretch (ratio)", stretch_cell},
-                                      {"violation (rest lengths)", violation_cell}};
+constexpr const char* shape = "shape: worst of the drags";
+constexpr const char* equilibrium = "equilibrium: worst of the drags";
+constexpr WorstColumn worst_columns[]{{shape, "Hausdorff (rest lengths)", hausdorff_cell},
+                                      {shape, "volume change (%)", volume_cell},
+                                      {shape, "inverted cells", inverted_cell},
+                                      {shape, "stretch (ratio)", stretch_cell},
+                                      {shape, "violation (rest lengths)", violation_cell},
+                                      {equilibrium, "residual (ratio)", residual_cell},
+                                      {equilibrium, "regions bind", binds_cell}};
 
 /// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
 std::string time_cell(const TimeSpread& ms, bool for_text) {
@@ -95,8 +102,9 @@ void add_times(FigureTable::Row& row, const Means& means, std::size_t entry, boo
 void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const ErrorColumns& group) {
   for (const PhysicsDrag& drag : means.by_name) {
     if (!drag.has_cut || group.in_text) {
-      const auto& measured = drag.entries[entry].measurement;
-      row.cells.push_back(measured ? group.cell(*measured) : "n/a");
+      const PhysicsEntry& mean = drag.entries[entry];
+      const std::string left_out = mean.left_out > 0 ? " (without " + std::to_string(mean.left_out) + ")" : "";
+      row.cells.push_back(mean.measurement ? group.cell(*mean.measurement) + left_out : "n/a");
     }
   }
 }
@@ -116,7 +124,7 @@ FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
       add_errors(row, means, entry, group);
     }
   }
-  for (const ShapeColumn& column : shape_columns) {
+  for (const WorstColumn& column : worst_columns) {
     if (!for_text) {
       const auto& measured = means.all.entries[entry].measurement;
       row.cells.push_back(measured ? column.cell(*measured) : "n/a");
@@ -144,9 +152,9 @@ std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
       add_group(group);
     }
   }
-  for (const ShapeColumn& column : shape_columns) {
+  for (const WorstColumn& column : worst_columns) {
     if (!for_text) {
-      columns.push_back({"shape: worst of the drags", column.name});
+      columns.push_back({column.group, column.name});
     }
   }
   return columns;

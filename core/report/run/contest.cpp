@@ -41,7 +41,7 @@ bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>&
 class Contest::Participant {
  public:
   Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options)
-      : object_(object), contestant_(contestant), clocks_(options.clocks) {
+      : object_(object), contestant_(contestant), options_(options), clocks_(options.clocks) {
     if (!contestant.algorithm) {
       return;
     }
@@ -75,11 +75,14 @@ class Contest::Participant {
       return;
     }
     try {
-      const PreparingTimes* preparing =
-          preparations != nullptr && prepares(contestant_) ? &prepared(*preparations) : nullptr;
+      const PreparingTimes* preparing = preparations != nullptr ? &prepared(*preparations) : nullptr;
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
+      if (preparing != nullptr && !prepares(contestant_)) {
+        run(stop);  // prepares, so that no time of the next run contains this
+        times_ = {};
+      }
       run(stop);
       bytes_ = has_run_ ? bytes_ : sum_of(bytes_, bytes_since(before));
       has_run_ = true;
@@ -117,14 +120,21 @@ class Contest::Participant {
   }
 
  private:
-  /// Returns the times of preparation for the object and all its handles. Measures them for the first contestant of a
-  /// method.
+  /// Returns the times of preparation for the object and all its handles. Measures them for the first contestant of
+  /// those that share them.
   const PreparingTimes& prepared(Preparations& preparations) const {
-    const ElasticMethod method = *info(*contestant_.algorithm).elastic;
-    const auto found = preparations.find(method);
-    return found != preparations.end()
-               ? found->second
-               : preparations.emplace(method, PreparingTimes(object_, method, clocks_)).first->second;
+    PhysicsContestant shared = contestant_;
+    shared.limit = shared.sweeps = 0;
+    const auto found = std::ranges::find(preparations, shared, &Preparations::value_type::first);
+    if (found != preparations.end()) {
+      return found->second;
+    }
+    const auto method = info(*contestant_.algorithm).elastic;
+    return preparations
+        .emplace_back(shared, method
+                                  ? PreparingTimes(object_, *method, clocks_)
+                                  : PreparingTimes(object_, *contestant_.algorithm, contestant_.equilibrium, options_))
+        .second;
   }
 
   Relaxing relaxing() const {
@@ -145,17 +155,25 @@ class Contest::Participant {
     times_.add(times);
   }
 
-  /// A contestant that did not converge has no figures, unless its iterations are limited.
+  /// A contestant that did not converge, by its own rule, has no figures, unless its iterations are limited.
   void measure(const ReferenceSolution& reference) {
     const Simulation& simulation = runner_->simulation();
     if (contestant_.limit == 0 || !handle_is_there(simulation, runner_->handle(), reference)) {
       entry_.refusal = simulation.statistics().remark;
+    }
+    const auto equilibrium = contestant_.equilibrium ? runner_->certificate() : std::nullopt;
+    if (contestant_.limit == 0 && equilibrium && equilibrium->residual > compared_residual) {
+      entry_.refusal = "it did not reach the residual in " + std::to_string(equilibrium_iterations) + " iterations";
     }
     if (!stopped_ && entry_.refusal.empty()) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
       measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), reference);
       measured.shape = shape_of(simulation.body().positions(), simulation.body().cuts(), reference);
       measured.bytes = bytes_;
+      if (equilibrium) {
+        measured.residual = equilibrium->residual;
+        measured.binds = equilibrium->binds;
+      }
       if (!std::isfinite(measured.error.relative)) {
         entry_.measurement.reset();
         entry_.refusal = "its positions are not numbers: it diverged";
@@ -175,6 +193,7 @@ class Contest::Participant {
 
   Case object_;  // with the softness of the contestant
   PhysicsContestant contestant_;
+  CompareOptions options_;
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
   std::optional<std::uint64_t> bytes_;  // held after the first drag

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "report/run/physics.h"
@@ -32,8 +32,8 @@ class Contest {
 
  private:
   class Participant;
-  /// Times of preparation, which contestants of one method share.
-  using Preparations = std::map<ElasticMethod, PreparingTimes>;
+  /// Times of preparation. Contestants that differ in their iterations or sweeps share them.
+  using Preparations = std::vector<std::pair<PhysicsContestant, PreparingTimes>>;
 
   CompareOptions options_;
   Measured measured_;

@@ -47,7 +47,9 @@ struct PhysicsMeasurement {
   TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
-  std::optional<std::uint64_t> bytes;  // memory of the solver after its first drag; none where it is not known
+  std::optional<double> residual = {};  // at the end of the drag, of contestants at equilibrium
+  std::optional<bool> binds = {};       // true if valid regions change the equilibrium there
+  std::optional<std::uint64_t> bytes;   // memory of the solver after its first drag; none where it is not known
   ShapeFigures shape;  // at the end of the drag; the reference of the Hausdorff distance is the reference solution
 };
 
@@ -55,6 +57,7 @@ struct PhysicsEntry {
   PhysicsContestant contestant;
   std::optional<PhysicsMeasurement> measurement;
   std::string refusal;  // reason why there is no measurement; empty if there is one
+  int left_out = 0;     // of a mean of drags: number of drags without a measurement, whose first refusal is above
 };
 
 struct PhysicsDrag {

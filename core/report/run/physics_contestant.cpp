@@ -37,7 +37,8 @@ std::string label(const PhysicsContestant& contestant) {
            (contestant.limit == 1 ? " iteration" : " iterations");
   }
   if (contestant.open_regions) {
-    return label(Contestant{*contestant.algorithm, 0, contestant.equilibrium}) + ", open regions";
+    // No region binds, so what it measures is the minimisation, which begins with the answer of the pass.
+    return "Material, multigrid, after " + std::string(info(*contestant.algorithm).label);
   }
   if (!contestant.calibrated) {
     return label(Contestant{*contestant.algorithm, contestant.sweeps, contestant.equilibrium}) +

@@ -5,6 +5,7 @@
 
 #include "mesh/error.h"
 #include "report/run/clocks.h"
+#include "report/run/runner.h"
 
 namespace chainmail::report {
 namespace {
@@ -34,6 +35,30 @@ ElasticHandle elastic_handle(const Case& object, ElementId handle) {
   return {std::move(elements), std::vector<double>(arms.size(), 0.0), arms};
 }
 
+/// Returns the grab of the first drag that grabs an element, with the first move.
+RecordedMoves first_move_of(const Case& object, ElementId handle) {
+  RecordedMoves moves = *std::ranges::find(object.drags, handle, handle_of);
+  const auto drag = std::ranges::find_if(
+      moves.commands, [](const Command& one) { return std::holds_alternative<commands::Drag>(one); });
+  moves.commands.erase(drag == moves.commands.end() ? drag : drag + 1, moves.commands.end());
+  return moves;
+}
+
+/// Returns a short drag of an element that is neither pinned nor the first one of a drag.
+RecordedMoves short_drag_of_another(const Case& object) {
+  const std::vector<ElementId> handles = handles_of(object);
+  ElementId element = 0;
+  const auto is_taken = [&](ElementId one) {
+    return std::ranges::count(handles, one) + std::ranges::count(object.pins, one) > 0;
+  };
+  while (element + 1 < object.mesh->element_count() && is_taken(element)) {
+    ++element;
+  }
+  constexpr double by = 0.01;  // mean rest lengths
+  const Point to = object.mesh->rest_position(element) + by * object.mesh->mean_link_length * Point::UnitX();
+  return {"another", "", {commands::Grab{{element}}, commands::Drag{to}}};
+}
+
 }  // namespace
 
 PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks) {
@@ -52,6 +77,32 @@ PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method, const C
         grab_.erase(handle);  // the drag itself reports the reason
       }
     }
+  }
+}
+
+PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium,
+                               const CompareOptions& options) {
+  const Clocks& clocks = options.clocks;
+  const Relaxing one_iteration(0, equilibrium, 1);
+  const RecordedMoves other = short_drag_of_another(object);
+  const double start = clocks.wall();
+  for (int repetition = 0;
+       repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
+    std::unique_ptr<Runner> runner;
+    const auto run = [&](const RecordedMoves& moves) {
+      return runner->run(moves, one_iteration, chainmail::Progress());
+    };
+    const double first = seconds_of(clocks, [&] {
+      runner = std::make_unique<Runner>(object, algorithm, options.precision, options);
+      run(other);
+    });
+    for (const ElementId handle : handles_of(object)) {
+      const RecordedMoves moves = first_move_of(object, handle);
+      const Runner::Run fresh = run(moves), again = run(moves);
+      grab_[handle].push_back(std::max(0.0, fresh.grab_ms + fresh.ms.front() - again.ms.front()));
+    }
+    const double later = seconds_of(clocks, [&] { run(other); });
+    factorize_.push_back(1e3 * std::max(0.0, first - later));
   }
 }
 

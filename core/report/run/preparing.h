@@ -2,16 +2,22 @@
 
 #include <map>
 
+#include "report/run/compare.h"
 #include "report/run/physics.h"
 
 namespace chainmail::report {
 
-/// Times to prepare a method of elasticity for an object, and for each element that its drags grab.
+/// Times of a contestant to prepare for an object, and for each element that its drags grab.
 class PreparingTimes {
  public:
   PreparingTimes() = default;
-  /// Repeats the preparation for about a second, and does it at least once. Throws Error if the method has no solution.
+  /// Of a method of elasticity. Repeats the preparation for about a second, and does it at least once. Throws Error if
+  /// the method has no solution.
   PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks = machine_clocks());
+  /// Of ChainMail, which prepares in the first move after a grab: a move that repeats the last one takes so much less.
+  /// Between two handles it grabs another element, so that it keeps nothing of the last drag. Throws Error if the
+  /// object does not fit the algorithm.
+  PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const CompareOptions& options);
 
   Preparation of(ElementId handle) const;
 

@@ -97,6 +97,7 @@ void Runner::carry_out(const Command& command, Relaxing relaxing, Run& run) {
   const double applying = 1e3 * seconds_of(clocks_, [&] { simulation_.apply(command); });
   if (const auto* grab = std::get_if<Grab>(&command)) {
     handle_ = grab->elements;
+    run.grab_ms += applying;
   }
   if (!std::holds_alternative<Drag>(command)) {
     return;

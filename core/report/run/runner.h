@@ -17,6 +17,7 @@ class Runner {
   /// Times and counts of a run.
   struct Run {
     std::vector<double> ms;  // time of each move: its pass and its relaxation, without the time of other programs
+    double grab_ms = 0;      // time of all grabs
     std::uint64_t checked = 0;
     std::uint64_t moved = 0;
     bool stopped = false;
@@ -30,6 +31,8 @@ class Runner {
           bool must_converge = false);
 
   const Simulation& simulation() const { return simulation_; }
+  /// Returns how close the object is to the equilibrium; none if it was not relaxed to it.
+  std::optional<EquilibriumCertificate> certificate() { return simulation_.certificate(); }
   /// Returns the elements of the last handle; none before the first run.
   const std::vector<ElementId>& handle() const { return handle_; }
 

@@ -67,6 +67,10 @@ SuiteRow row_of(const RecordedMoves& moves, const PhysicsEntry& entry) {
   }
   row.stretch = measured.shape.stretch;
   row.violation = measured.shape.violation;
+  row.residual = measured.residual;
+  if (measured.binds) {
+    row.binds = *measured.binds ? 1 : 0;
+  }
   row.factorize_ms = median_of(measured.prepare.factorize);
   row.grab_ms = median_of(measured.prepare.grab);
   row.first_ms = median_of(measured.first_move);

@@ -66,7 +66,7 @@ SuiteTime time_of(const Group& group, const std::vector<PhysicsEntry>& drag, con
     if (const auto& measured = drag[i].measurement) {
       take_shorter(time.least_error, measured->error.relative);
       take(time, *measured, measured->ms_per_move.median, &SuiteTime::ms_per_move);
-      if (prepares(group.contestant)) {
+      if (measured->prepare.factorize.count > 0) {
         time.factorize_ms = measured->prepare.factorize.median;
       }
     }

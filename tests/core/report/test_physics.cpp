@@ -365,8 +365,8 @@ void PhysicsTest::everyone_takes_part() {
         if (fits) {
           QVERIFY(entry.measurement->ms_per_move.median > 0 && entry.measurement->first_move.median > 0);
           const Preparation& prepare = entry.measurement->prepare;
-          QCOMPARE(prepare.factorize.median > 0, info(algorithm).elastic.has_value());
-          QCOMPARE(prepare.grab.median > 0, info(algorithm).elastic.has_value());
+          QVERIFY(prepare.factorize.median > 0 && prepare.grab.median >= 0);
+          QVERIFY(prepare.grab.median > 0 || !(info(algorithm).elastic || entry.contestant.equilibrium));
         }
       }
     }

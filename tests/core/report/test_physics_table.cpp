@@ -18,6 +18,7 @@ class PhysicsTableTest : public QObject {
   void figures_of_a_page_stand_under_their_names();
   void figures_of_a_terminal_stand_under_their_names();
   void what_was_not_measured_is_empty();
+  void a_refusal_is_one_drag_s();
   void the_law_of_the_reference_is_named();
   void growth_stands_under_its_names();
   void who_cannot_take_part_has_one_row();
@@ -41,6 +42,8 @@ PhysicsMeasurement measurement() {
   all.prepare = {time(8, 6), time(16, 7)};
   all.error = {0.11, 0.12, 0.13, 0.14, 0.15, 9};
   all.shape = {0.21, 0.22, 23, 0.24, 0.25};
+  all.residual = 0.0625;
+  all.binds = true;
   return all;
 }
 
@@ -105,6 +108,9 @@ void PhysicsTableTest::figures_of_a_page_stand_under_their_names() {
   QCOMPARE(cell(table, shape, "inverted cells"), QString("23"));
   QCOMPARE(cell(table, shape, "stretch (ratio)"), QString("0.24"));
   QCOMPARE(cell(table, shape, "violation (rest lengths)"), QString("0.25"));
+  const std::string equilibrium = "equilibrium: worst of the drags";
+  QCOMPARE(cell(table, equilibrium, "residual (ratio)"), QString("0.0625"));
+  QCOMPARE(cell(table, equilibrium, "regions bind"), QString("yes"));
   QCOMPARE(table.rows[0].cells.size(), table.columns.size());
 }
 
@@ -130,6 +136,26 @@ void PhysicsTableTest::what_was_not_measured_is_empty() {
   const FigureTable page = physics_table(whole, false);
   QCOMPARE(cell(page, "prepare: median (quartiles, repetitions), ms", "factorize"), QString("8 (7.75–8.5, 6)"));
   QCOMPARE(cell(page, "prepare: median (quartiles, repetitions), ms", "grab"), QString());
+}
+
+/// A contestant that one drag refuses keeps its figures of the others. Its mean is not in the plot, where it would
+/// stand for drags that it leaves out.
+void PhysicsTableTest::a_refusal_is_one_drag_s() {
+  PhysicsObject whole = object();
+  whole.drags[1] = whole.drags[0];
+  const auto marks = [&] {
+    PhysicsReport report;
+    report.objects = {whole};
+    return physics_overview(report).panels.at(0).marks.size();
+  };
+  QCOMPARE(marks(), std::size_t{1});
+  whole.drags[1].entries[0] = {whole.drags[0].entries[0].contestant, std::nullopt, "it did not converge"};
+  for (const bool for_text : {false, true}) {
+    QCOMPARE(cell(physics_table(whole, for_text), "relative error (ratio)", "pull"), QString("0.11 (without 1)"));
+  }
+  QCOMPARE(marks(), std::size_t{0});
+  whole.drags[0].entries[0] = whole.drags[1].entries[0];
+  QCOMPARE(physics_table(whole, true).rows.at(0).refusal, std::string("it did not converge"));
 }
 
 void PhysicsTableTest::the_law_of_the_reference_is_named() {
@@ -218,6 +244,8 @@ void PhysicsTableTest::the_file_has_each_number_under_its_name_data() {
   row("inverted_cells", "23");
   row("largest_stretch", "0.24");
   row("violation_max", "0.25");
+  row("residual", "0.0625");
+  row("regions_bind", "1");
 }
 
 void PhysicsTableTest::the_file_has_each_number_under_its_name() {
