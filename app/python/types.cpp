@@ -156,7 +156,7 @@ void add_elasticity(py::module_& module) {
           },
           "Number of control points of free-form deformation along x, y and z, 2 to 8.")
       .def_readonly("iterations", &api::Elasticity::iterations,
-                    "Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000.")
+                    "Most iterations of a method that iterates, for one move, 1 to 100000.")
       .def_property_readonly(
           "law", [](const api::Elasticity& one) { return word_for(one.law); },
           "Law of relaxation to the material and of neo-Hookean FEM: `neo-hookean`, or `gent` or\n"

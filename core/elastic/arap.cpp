@@ -6,8 +6,6 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint32_t max_arap_iterations = 5000;
-
 /// Returns the edges about each element, as groups. Each cotangent counts as 0 if it is negative, as in CGAL's
 /// Surface_mesh_deformation: negative weights would let an element run away.
 void group_spokes(LocalGlobalEnergy& energy) {
@@ -47,7 +45,7 @@ std::unique_ptr<ElasticSolver> make_arap(const ElasticProblem& problem, const Pr
   } else {
     group_spokes(energy);
   }
-  return make_local_global("ARAP", problem, std::move(energy), max_arap_iterations, progress.part(0.1, 1));
+  return make_local_global("ARAP", problem, std::move(energy), problem.options.iterations, progress.part(0.1, 1));
 }
 
 }  // namespace chainmail

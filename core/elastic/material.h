@@ -46,7 +46,7 @@ struct ElasticOptions {
   Material material;
   /// Control points along each axis. Fewer than 2 span nothing, and each one costs time for every element.
   std::array<std::uint32_t, 3> lattice{control_points, control_points, control_points};
-  /// Most iterations of XPBD and Projective Dynamics for one move.
+  /// Most iterations of a method that iterates, for one move.
   std::uint32_t iterations = static_cast<std::uint32_t>(parameters::iterations.default_value);
 
   /// Of neo-Hookean FEM and of relaxation to the material. The other methods are linear or have none.

@@ -46,7 +46,8 @@ Newton::Newton(const Simplices& simplices, const Lame& lame, ElementId elements,
       model_(std::move(model)),
       unknowns_(simplices.dimension, elements, order, prescribed),
       stiffness_(simplices, unknowns_),
-      length_(cell_length(simplices)) {
+      length_(cell_length(simplices)),
+      most_steps_(max_steps) {
   if (unknowns_.count() > 0) {
     factor_.analyze(stiffness_.matrix());
   }
@@ -148,7 +149,13 @@ bool Newton::descend(std::vector<double>& displacements, const Eigen::VectorXd& 
   return false;
 }
 
+void Newton::limit_steps(std::uint32_t most) {
+  limited_ = most <= std::uint32_t(max_steps);
+  most_steps_ = limited_ ? int(most) : max_steps;
+}
+
 bool Newton::solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress) {
+  unconverged_ = 0;
   if (unknowns_.count() == 0) {
     for (std::size_t i = 0; i < displacements.size(); ++i) {
       displacements[i] += increment[i];
@@ -158,7 +165,8 @@ bool Newton::solve(std::vector<double>& displacements, const std::vector<double>
   if (!predict(displacements, increment, progress.part(0, 1.0 / (max_steps + 1)))) {
     return false;
   }
-  for (int i = 0; i < max_steps; ++i) {
+  double longest = 0;
+  for (int i = 0; i < most_steps_; ++i) {
     const Progress of_step = progress.part(double(i + 1) / (max_steps + 1), double(i + 2) / (max_steps + 1));
     of_step.report(0.0);
     const Eigen::VectorXd slope = unknowns_.gather(gradient(displacements));
@@ -169,11 +177,13 @@ bool Newton::solve(std::vector<double>& displacements, const std::vector<double>
     if (!step.allFinite() || !descend(displacements, step, slope.dot(step))) {
       return false;
     }
-    if (convex_ && step.lpNorm<Eigen::Infinity>() <= converged_below * length_) {
+    longest = step.lpNorm<Eigen::Infinity>();
+    if (convex_ && longest <= converged_below * length_) {
       return true;
     }
   }
-  return false;
+  unconverged_ = limited_ ? longest : 0;
+  return limited_;
 }
 
 }  // namespace chainmail

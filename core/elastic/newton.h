@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,6 +22,11 @@ class Newton {
   /// (n coordinates per element; 0 for the others) and finds the new equilibrium. Returns false if it does not
   /// converge; `displacements` are then meaningless. Throws Cancelled.
   bool solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress = {});
+  /// Ends solve() after so many steps at most. It then returns true, converged or not.
+  void limit_steps(std::uint32_t most);
+  /// Returns the longest change of a coordinate in the last step (mesh units) if the last solve() did not converge before
+  /// the limit; 0 if it did.
+  double unconverged() const { return unconverged_; }
 
   /// Energy (Young's modulus times mesh units to the power n), and its possible rounding error.
   struct Energy {
@@ -45,6 +51,9 @@ class Newton {
   Cholesky factor_;
   bool convex_ = true;  // true if the last matrix was the Hessian itself
   double length_;       // of a cell, the unit in which steps are measured (mesh units)
+  int most_steps_;
+  bool limited_ = false;  // true: most_steps_ are enough
+  double unconverged_ = 0;
 };
 
 }  // namespace chainmail

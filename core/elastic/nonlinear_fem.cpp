@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <span>
 
 #include "elastic/corotated.h"
 #include "elastic/elimination.h"
+#include "elastic/iterated.h"
 #include "elastic/methods.h"
 #include "elastic/newton.h"
 #include "elastic/rigid_fit.h"
@@ -29,10 +32,14 @@ std::string percent(double share) {
 /// Newton's method with a line search. The handle's displacement is applied in load steps.
 class NonlinearFem final : public ElasticSolver {
  public:
-  NonlinearFem(const char* name, SimplexModel model, const ElasticProblem& problem, const Progress& progress)
+  /// `iterations`: most steps of Newton's method for a load step; none: as many as it needs.
+  NonlinearFem(const char* name, SimplexModel model, std::optional<std::uint32_t> iterations,
+               const ElasticProblem& problem, const Progress& progress)
       : model_(std::move(model)),
+        iterations_(iterations),
         dimension_(static_cast<std::size_t>(problem.mesh->space_dimension)),
         elements_(problem.mesh->element_count()),
+        edge_length_(problem.mesh->mean_link_length),
         pins_(problem.pins),
         pinned_(problem.pinned),
         simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
@@ -51,6 +58,9 @@ class NonlinearFem final : public ElasticSolver {
       std::vector<ElementId> prescribed = pins_;
       prescribed.insert(prescribed.end(), handle.elements.begin(), handle.elements.end());
       newton_ = std::make_unique<Newton>(simplices_, lame_, elements_, order_, prescribed, model_);
+      if (iterations_) {
+        newton_->limit_steps(*iterations_);
+      }
     }
     handle_ = handle;
   }
@@ -74,20 +84,27 @@ class NonlinearFem final : public ElasticSolver {
       }
     }
     displacements_ = std::move(answer);
+    reached_ = remark_.empty();
+    if (reached_ && newton_->unconverged() > 0) {
+      remark_ = not_converged(*iterations_, newton_->unconverged() / edge_length_);
+    }
   }
 
   void reset() override {
     displacements_ = base_;
     remark_.clear();
+    reached_ = true;
   }
   std::vector<double> memory() const override { return displacements_; }
   void recall(std::span<const double> memory) override {
     check_memory(memory, displacements_.size());
     displacements_.assign(memory.begin(), memory.end());
     remark_.clear();
+    reached_ = true;
   }
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return remark_; }
+  bool reached() const override { return reached_; }
   bool follows_path() const override { return true; }
 
  private:
@@ -149,8 +166,10 @@ class NonlinearFem final : public ElasticSolver {
   }
 
   SimplexModel model_;
+  std::optional<std::uint32_t> iterations_;
   std::size_t dimension_;
   ElementId elements_;
+  double edge_length_;  // mean of the links (mesh units)
   std::vector<ElementId> pins_;
   std::vector<double> pinned_;
   Simplices simplices_;
@@ -159,6 +178,7 @@ class NonlinearFem final : public ElasticSolver {
   std::vector<double> base_, displacements_;
   std::unique_ptr<Newton> newton_;  // for the handle's elements
   ElasticHandle handle_;
+  bool reached_ = true;
   std::string remark_;
 };
 
@@ -166,11 +186,11 @@ class NonlinearFem final : public ElasticSolver {
 
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
   check(problem.law, problem.options.material);
-  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.law), problem, progress);
+  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.law), std::nullopt, problem, progress);
 }
 
 std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress) {
-  return std::make_unique<NonlinearFem>("corotational FEM", corotated, problem, progress);
+  return std::make_unique<NonlinearFem>("corotational FEM", corotated, problem.options.iterations, problem, progress);
 }
 
 }  // namespace chainmail

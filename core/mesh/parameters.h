@@ -188,7 +188,7 @@ inline constexpr Parameter iterations{
     .slider_highest = 10'000,
     .step = 100,
     .decimals = 0,
-    .help = "most iterations of XPBD and Projective Dynamics for one move: they stop earlier if they converge"};
+    .help = "most iterations of a method that iterates, for one move: they stop earlier if they converge"};
 
 }  // namespace parameters
 

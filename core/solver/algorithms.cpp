@@ -120,7 +120,8 @@ std::vector<AlgorithmInfo> make_table() {
        .style = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#de3867"},  // two squares that overlap
        .make = make_elastic_method<ElasticMethod::corotational>,
        .elastic = ElasticMethod::corotational,
-       .needs_pins = true},
+       .needs_pins = true,
+       .obeys_iterations = true},
       {.algorithm = Algorithm::arap,
        .name = "arap",
        .label = "ARAP",
@@ -129,12 +130,13 @@ std::vector<AlgorithmInfo> make_table() {
        .style = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#7f3826"},  // pentagon
        .make = make_elastic_method<ElasticMethod::arap>,
        .elastic = ElasticMethod::arap,
-       .needs_pins = true},
+       .needs_pins = true,
+       .obeys_iterations = true},
       {.algorithm = Algorithm::xpbd,
        .name = "xpbd",
        .label = "XPBD",
-       .source = "Macklin et al. 2016",
-       .summary = "springs and volumes as constraints that give way, solved one after another",
+       .source = "Macklin et al. 2016, 2019",
+       .summary = "springs and volumes as constraints that give way, in small steps of time",
        .style = {"M-1.2-.9H1.2L.35.9H-.35Z", "#ea00e2"},  // trapezium
        .make = make_elastic_method<ElasticMethod::xpbd>,
        .elastic = ElasticMethod::xpbd,

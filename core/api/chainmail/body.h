@@ -62,7 +62,7 @@ struct Elasticity {
   double poisson = 0.3;  ///< Poisson's ratio: 0 to below 0.5.
   /// Number of control points of free-form deformation along each axis, 2 to 8.
   std::array<std::uint32_t, 3> control_points{4, 4, 4};
-  /// Most iterations of XPBD and Projective Dynamics for one move, 1 to 100000. They stop earlier if they converge.
+  /// Most iterations of a method that iterates, for one move, 1 to 100000. They stop earlier if they converge.
   std::uint32_t iterations = 2000;
   /// Law of relaxation to the material and of neo-Hookean FEM.
   StrainLaw law = StrainLaw::neo_hookean;

@@ -364,6 +364,8 @@ void ContestantsTest::xpbd_comes_to_rest() {
 
 void ContestantsTest::too_few_iterations_are_told_data() {
   QTest::addColumn<int>("method");
+  QTest::newRow("corotational FEM") << int(ElasticMethod::corotational);
+  QTest::newRow("ARAP") << int(ElasticMethod::arap);
   QTest::newRow("XPBD") << int(ElasticMethod::xpbd);
   QTest::newRow("Projective Dynamics") << int(ElasticMethod::projective);
 }
