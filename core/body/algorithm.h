@@ -17,7 +17,8 @@ enum class Algorithm {
   corotational,
   arap,
   xpbd,
-  projective
+  projective,
+  quasi_newton
 };
 
 }  // namespace chainmail

@@ -86,6 +86,8 @@ constexpr std::array methods{
     MethodEntry{ElasticMethod::xpbd, edge_limit[3], [](const Mesh& mesh) { check_cells("XPBD", mesh); }, make_xpbd},
     MethodEntry{ElasticMethod::projective, edge_limit[3],
                 [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); }, make_projective},
+    MethodEntry{ElasticMethod::quasi_newton, linear_limit[3],
+                [](const Mesh& mesh) { check_fem("quasi-Newton FEM", mesh, linear_limit); }, make_quasi_newton},
 };
 
 const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(methods, method, &MethodEntry::method); }

@@ -32,7 +32,7 @@ struct MethodInfo {
 /// 1998), 3d (Frisken-Gibson 1997), exact (this project), fem (Bro-Nielsen and Cotin 1996), neo-hookean (Bonet and Wood
 /// 1997), bem (James and Pai 1999), ffd (Sederberg and Parry 1986; Hsu et al. 1992), corotational (Mueller and Gross
 /// 2004; Sifakis and Barbic 2012), arap (Sorkine and Alexa 2007; Chao et al. 2010), xpbd (Macklin et al. 2016) and
-/// projective (Bouaziz et al. 2014).
+/// projective (Bouaziz et al. 2014), quasi-newton (Liu et al. 2017).
 std::vector<MethodInfo> methods();
 
 /// Returns what is known about a method. Throws Error, with all names, if there is none with this name.

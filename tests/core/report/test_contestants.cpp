@@ -22,6 +22,8 @@ class ContestantsTest : public QObject {
  private slots:
   void corotational_is_at_the_least_energy_data() { dimensions(); }
   void corotational_is_at_the_least_energy();
+  void quasi_newton_is_at_the_least_energy_data() { dimensions(); }
+  void quasi_newton_is_at_the_least_energy();
   void projective_is_at_the_least_energy_data() { dimensions(); }
   void projective_is_at_the_least_energy();
   void xpbd_rests_near_the_least_energy_data() { dimensions(); }
@@ -52,7 +54,7 @@ class ContestantsTest : public QObject {
 namespace {
 
 constexpr std::array methods{ElasticMethod::corotational, ElasticMethod::arap, ElasticMethod::xpbd,
-                             ElasticMethod::projective};
+                             ElasticMethod::projective, ElasticMethod::quasi_newton};
 
 enum class Object { sheet, solid, surface };
 
@@ -265,6 +267,31 @@ void ContestantsTest::corotational_is_at_the_least_energy() {
   QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
 }
 
+/// Stable neo-Hookean elasticity, in plane stress for a sheet. Its second parameter is λ + μ, so that small strains have
+/// the material's.
+void ContestantsTest::quasi_newton_is_at_the_least_energy() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  for (const double poisson : {0.0, 0.4}) {
+    const auto [mu, lambda] = moduli(*mesh, 3, poisson);
+    const double rest_volume = 1 + mu / (lambda + mu);
+    const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    const auto solver = make_elastic(ElasticMethod::quasi_newton, problem);
+    drag(*solver, *mesh, far);
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    const auto energy = [&, mu = mu, lambda = lambda](const std::vector<double>& displacements) {
+      double sum = 0;
+      for_each_shape(*mesh, displacements, [&](const Shape& shape) {
+        const double beyond = shape.deformation.determinant() - rest_volume;
+        sum += shape.volume / 2 * (mu * shape.deformation.squaredNorm() + (lambda + mu) * beyond * beyond);
+      });
+      return sum;
+    };
+    const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
+    QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
+  }
+}
+
 /// The springs take the material's λ, or 3/4 of its μ if that is less, and the cells the rest of μ.
 void ContestantsTest::projective_is_at_the_least_energy() {
   QFETCH(const int, object);
@@ -367,6 +394,7 @@ void ContestantsTest::too_few_iterations_are_told_data() {
   QTest::newRow("corotational FEM") << int(ElasticMethod::corotational);
   QTest::newRow("ARAP") << int(ElasticMethod::arap);
   QTest::newRow("XPBD") << int(ElasticMethod::xpbd);
+  QTest::newRow("quasi-Newton FEM") << int(ElasticMethod::quasi_newton);
   QTest::newRow("Projective Dynamics") << int(ElasticMethod::projective);
 }
 
