@@ -76,7 +76,7 @@ void add_physics(CLI::App& app, CompareArguments& options) {
                            "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
   options.calibrated =
       add_value(app, "--calibrated", "on|off",
-                "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on]");
+                "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on; with --suite: off]");
   for (CLI::Option* option : {options.grow, options.calibrated, options.reference, options.laws.materials,
                               options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
@@ -101,8 +101,8 @@ void add_suite(CLI::App& app, CompareArguments& options) {
 
 }  // namespace
 
-bool is_calibrated(const CompareArguments& arguments) {
-  const std::string calibrated = value_of(arguments.calibrated).value_or("on");
+bool is_calibrated(const CompareArguments& arguments, bool by_default) {
+  const std::string calibrated = value_of(arguments.calibrated).value_or(by_default ? "on" : "off");
   check_word("--calibrated", calibrated, {"on", "off"});
   return calibrated == "on";
 }

@@ -36,8 +36,8 @@ void refuse_pins(const CompareArguments& arguments);
 /// Gives built-in objects the frame of the option.
 std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments);
 
-/// Returns true if contestants are calibrated.
-bool is_calibrated(const CompareArguments& arguments);
+/// Returns true if contestants are calibrated; `by_default` without --calibrated.
+bool is_calibrated(const CompareArguments& arguments, bool by_default);
 
 /// Runs the experiments of the suite and writes the report. Throws Error before it writes anything.
 void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line);

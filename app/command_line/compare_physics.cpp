@@ -23,7 +23,7 @@ report::PhysicsOptions physics_options(const CompareArguments& arguments) {
   options.contest = contest_of(arguments, every_algorithm(), "0,1,3,10,30,100,equilibrium");
   options.contest.seconds = seconds_per_drag;
   std::ranges::sort(options.contest.sweeps);  // in ascending order, because a curve connects them
-  if (is_calibrated(arguments)) {
+  if (is_calibrated(arguments, true)) {
     options.calibrate = calibrator_for_reports(options.contest.scheme);
   }
   const std::string reference = value_of(arguments.reference).value_or("same-cells");

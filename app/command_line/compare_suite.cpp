@@ -82,15 +82,18 @@ void write(const report::Suite& suite, OutputFolder& folder, const std::vector<s
   outputs.add(folder.path() / "report.html", [&](std::ostream& out) { write_html(out, suite); });
   outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, suite); });
   outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, suite); });
-  const report::Plot plot = suite_plot(suite);
-  const bool has_plot = !plot.panels.empty();
-  if (has_plot) {
-    outputs.add(folder.path() / "overview.svg", [&](std::ostream& out) { write_svg(out, plot, plot_ink); });
+  std::set<std::string> plots;
+  for (const report::SpeedAgainstError& measure : report::speeds_against_error) {
+    if (const report::Plot plot = suite_plot(suite, measure); !plot.panels.empty()) {
+      const std::string name = std::string(measure.file) + ".svg";
+      plots.insert(name);
+      outputs.add(folder.path() / name, [plot](std::ostream& out) { write_svg(out, plot, plot_ink); });
+    }
   }
   outputs.add("-", [&](std::ostream& out) { write_text(out, suite); });
   outputs.commit();
   folder.keep();
-  folder.say_older_plots(has_plot ? std::set<std::string>{"overview.svg"} : std::set<std::string>{});
+  folder.say_older_plots(plots);
 }
 
 }  // namespace
@@ -105,7 +108,7 @@ void run_suite(const CLI::App& app, const CompareArguments& arguments, const std
   if (arguments.repetitions->count() > 0) {
     options.repetitions = static_cast<int>(whole_number_of(arguments.repetitions, 1, 1));
   }
-  if (is_calibrated(arguments)) {
+  if (is_calibrated(arguments, false)) {
     options.calibrate = calibrator_for_reports(RelaxationScheme::mean);
   }
   const std::vector<std::string> names = experiments_of(arguments);

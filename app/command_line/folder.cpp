@@ -64,7 +64,8 @@ void OutputFolder::make() {
 }
 
 void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
-  std::set<std::string> names{"overview.svg", "growth-time.svg", "growth-prepare.svg", "growth-error.svg"};
+  std::set<std::string> names{"overview.svg",    "fresh-grab.svg",     "after-cut.svg",
+                              "growth-time.svg", "growth-prepare.svg", "growth-error.svg"};
   std::error_code error;
   for (std::size_t i = 1; fs::exists(path_ / object_plot(i), error); ++i) {
     names.insert(object_plot(i));

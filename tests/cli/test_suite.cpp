@@ -53,11 +53,11 @@ void SuiteCommandTest::writes_a_report_of_the_schema() {
   const auto outcome = run((" --suite -o out" + QByteArray(short_run)).constData());
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
   QCOMPARE(QDir(program_->path("out")).entryList(QDir::Files),
-           (QStringList{"overview.svg", "report.csv", "report.html", "report.json"}));
+           (QStringList{"fresh-grab.svg", "overview.svg", "report.csv", "report.html", "report.json"}));
   const auto check = check_schemas({{"suite", program_->path("out/report.json")}}).front();
   QCOMPARE(check.fault, QString());
   QCOMPARE(check.accepted, QStringList());
-  for (const char* file : {"out/report.html", "out/overview.svg"}) {
+  for (const char* file : {"out/report.html", "out/overview.svg", "out/fresh-grab.svg"}) {
     QXmlStreamReader reader(program_->read(file));
     while (!reader.atEnd()) {
       reader.readNext();
@@ -70,6 +70,7 @@ void SuiteCommandTest::writes_a_report_of_the_schema() {
   // one drag of them.
   QCOMPARE(rows_of(program_->read("out/report.csv")).size(), 4 * 5 + 5);
   QVERIFY(outcome.out.contains("cantilever: Linear FEM, on the same cells ("));
+  QVERIFY(outcome.out.contains("cantilever, later move: on the front are "));
   QVERIFY(outcome.out.contains("observed"));
 }
 

@@ -18,10 +18,13 @@ elements on refined cells.</p>
 <p><b>Factorize</b> happens once for an object, its pins and cuts, <b>grab</b> once for each handle. <b>First</b> and
 <b>later</b> are moves after all preparation; <b>after cut</b> is the move after a cut in the middle of a drag, with all
 preparation that it repeats. Times are medians. <b>Bytes</b> is the memory of a solver after its first drag, without the
-mesh. A contestant that does not converge has no figures. <b>Calibrated</b> contestants have the softness that is closest
-to the reference on drags of other elements. The <b>time to an error</b> is the shortest with which a contestant comes
-below it, over all numbers of iterations or sweeps per move. Do not conclude from the times which method is faster: they
-stop by different rules, and not all prepare within the measured time.</p>
+mesh. A contestant that does not converge has no figures. The <b>time to an error</b> is the shortest with which a
+contestant comes below it, over all numbers of iterations or sweeps per move.</p>
+<p>One rule ends all <b>iterations</b>: a contestant makes the least number per move with which its answer at the end of the
+drag is within 1 % of its own limit, the answer after as many as it wants. A contestant is on the <b>front</b> if no other
+one is at least as fast and as close, and better in one of both. Where <b>regions bind</b> is 0, ChainMail's valid regions
+had no part in the answer: it is that of the energy. <b>Calibrated</b> contestants, with <code>--calibrated on</code>, have
+the softness that is closest to the reference on drags of other elements.</p>
 )";
 
 void write_runs(std::ostream& out, const Suite& suite) {
@@ -59,7 +62,11 @@ void write_html(std::ostream& out, const Suite& suite) {
   }
   if (const FigureTable summary = suite_summary(suite); !summary.rows.empty()) {
     write_html(out, summary);
-    write_figure(out, suite_plot(suite));
+    for (const SpeedAgainstError& measure : speeds_against_error) {
+      if (const Plot plot = suite_plot(suite, measure); !plot.panels.empty()) {
+        write_figure(out, plot);
+      }
+    }
   }
   out << how_to_read_suite;
   for (const SuiteResult& result : suite.results) {

@@ -9,42 +9,68 @@ namespace chainmail::report {
 namespace {
 
 constexpr double smallest_error = 1e-5;
+constexpr const char* front_colour = "#9a9a9a";
 
-void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean) {
-  if (!mean.relative || mean.drags < mean.of) {
+void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean, const SpeedAgainstError& measure) {
+  const auto& error = mean.*measure.error;
+  if (!error || mean.drags < mean.of) {
     return;
   }
   const auto algorithm = find_algorithm(mean.algorithm);
   if (!algorithm) {
-    panel.level = mean.algorithm == "nothing" ? std::optional(PlotLevel{*mean.relative, "nothing moves"}) : panel.level;
+    panel.level = mean.algorithm == "nothing" ? std::optional(PlotLevel{*error, "nothing moves"}) : panel.level;
     return;
   }
-  if (!mean.later_ms && !mean.after_cut_ms) {
+  const auto& ms = mean.*measure.ms;
+  if (!ms) {
     return;
   }
-  const double ms = mean.later_ms.value_or(0);
-  const bool calibrated = mean.contestant.find("calibrated") != std::string::npos;
-  const bool equilibrium = mean.contestant.find("equilibrium") != std::string::npos;
-  const std::string note = equilibrium ? (calibrated ? "eq. cal." : equilibrium_mark) : calibrated ? "cal." : "";
-  panel.marks.push_back(
-      {ms, ms, ms, *mean.relative, series_of(plot, *algorithm), calibrated || equilibrium, note,
-       mean.contestant + ": " + figure(ms) + " ms per later move, relative error " + figure(*mean.relative)});
+  const auto says = [&](const char* word) { return mean.contestant.find(word) != std::string::npos; };
+  const bool calibrated = says("calibrated"), equilibrium = says("equilibrium"), material = says("Material");
+  const std::string note = equilibrium  ? (calibrated ? "eq. cal." : equilibrium_mark)
+                           : calibrated ? "cal."
+                           : material   ? "mat."
+                                        : "";
+  panel.marks.push_back({*ms, *ms, *ms, *error, series_of(plot, *algorithm), calibrated || equilibrium || material,
+                         note,
+                         mean.contestant + ": " + figure(*ms) + " ms per " + std::string(measure.what) +
+                             ", relative error " + figure(*error)});
+}
+
+/// Adds a line through the contestants that no other one beats, in steps.
+void add_front(PlotPanel& panel, std::size_t series, const std::vector<SuiteMean>& means,
+               const SpeedAgainstError& measure) {
+  PlotCurve steps{series, {}};
+  for (const SuiteMean* one : front(means, measure)) {
+    const double ms = *(one->*measure.ms), error = *(one->*measure.error);
+    if (!steps.points.empty()) {
+      steps.points.push_back({ms, steps.points.back()[1]});
+    }
+    steps.points.push_back({ms, error});
+  }
+  if (steps.points.size() > 1) {
+    panel.curves.push_back(std::move(steps));
+  }
 }
 
 }  // namespace
 
-Plot suite_plot(const Suite& suite) {
+Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure) {
+  const std::string what(measure.what);
   Plot plot;
-  plot.title = "Time against error, means of the drags";
-  plot.x.title = "ms per later move";
+  plot.title = "Time per " + what + " against error, means of the drags";
+  plot.x.title = "ms per " + what;
   plot.y.title = "relative error";
   plot.y.smallest = smallest_error;
-  plot.legend_notes = {"hollow: with relaxation", "cal.: calibrated on other drags", equilibrium_note};
+  plot.legend_notes = {"hollow: with relaxation", "mat.: to the material, regions open", equilibrium_note};
+  plot.series.push_back({"front: none is faster and closer", 0, front_colour});
   for (const SuiteResult& result : suite.results) {
     PlotPanel panel{result.name, {}, {}};
-    for (const SuiteMean& mean : means_of(result)) {
-      add_mark(plot, panel, mean);
+    const auto means = means_of(result);
+    for (const SuiteMean& mean : means) {
+      add_mark(plot, panel, mean, measure);
     }
+    add_front(panel, 0, means, measure);
     if (!panel.marks.empty()) {
       plot.panels.push_back(std::move(panel));
     }

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "report/page/front.h"
 #include "report/page/plot.h"
 #include "report/run/suite.h"
 
 namespace chainmail::report {
 
-/// Returns the time of a later move against the mean relative error, with a panel per experiment and a mark per
-/// contestant.
-Plot suite_plot(const Suite& suite);
+/// Returns a plot of time against mean relative error, with a panel per experiment, a mark per contestant, and a line
+/// through those that no other one beats.
+Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure);
 
 }  // namespace chainmail::report

@@ -14,8 +14,13 @@ struct SuiteMean {
   int drags = 0;                               // number of drags with figures
   int of = 0;                                  // number of drags
   std::optional<double> relative, relative_turned, later_ms, after_cut_ms;
+  std::optional<double> fresh_ms;         // a grab and its first move
+  std::optional<double> relative_of_cut;  // error of the drags that are cut
 };
 std::vector<SuiteMean> means_of(const SuiteResult& result);
+/// Returns true if a contestant has figures of all drags, and is neither an object that does not move nor neo-Hookean
+/// FEM, which most references converge from.
+bool may_win(const SuiteMean& mean);
 
 /// The summary: the mean relative error of each contestant in each experiment with drags. The best error of each column
 /// has a star.
@@ -27,8 +32,8 @@ FigureTable order_table(const SuiteResult& result);
 /// All figures of one experiment with drags.
 FigureTable suite_table(const SuiteResult& result);
 
-/// Returns sentences that say who is closest in each experiment. Times are not compared: the methods stop by different
-/// rules.
+/// Returns sentences that say who is closest in each experiment, and who is on the fronts of speed against error (see
+/// front.h).
 std::vector<std::string> suite_findings(const Suite& suite);
 
 /// Writes findings, the summary, times and orders as text.

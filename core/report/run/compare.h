@@ -26,8 +26,9 @@ struct Relaxing {
       : sweeps(count), equilibrium(to_equilibrium), iterations(most) {}
 
   int sweeps;        // 0 with `equilibrium`
-  bool equilibrium;  // until the residual is below compared_residual, but at most `iterations`
+  bool equilibrium;  // until the residual is at most `until`, but at most `iterations`
   int iterations;
+  double until = compared_residual;
 
   bool is_none() const { return sweeps == 0 && !equilibrium; }
 };
@@ -57,6 +58,9 @@ struct CompareOptions {
   Precision precision = Precision::single_precision;
   /// Number of repetitions of each drag, without the warm-up; none: as many as fit in `seconds`, at least 5.
   std::optional<int> repetitions;
+  /// Share of the way that ends the iterations of every contestant alike: the number of iterations per move is the
+  /// least with which its answer at the end of a drag is so close to its own limit. 0: each stops by its own rule.
+  double own_limit = 0;
   double seconds = 4;                // total time for the repetitions of one drag with all contestants
   Clocks clocks = machine_clocks();  // of everything but passes, which measure themselves
 };

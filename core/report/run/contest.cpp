@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "mesh/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int min_repetitions = 3, max_repetitions = 51;
 constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated
+constexpr double own_limits_residual = 0.01;   // of the iterations to a contestant's own limit, over the wanted share
 constexpr double rounding_of_handle = 1e-4;    // mean rest lengths; positions are in float
 
 /// Returns true if the handle is where the reference has it.
@@ -40,8 +42,13 @@ bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>&
 /// One contestant with its solver and its times.
 class Contest::Participant {
  public:
-  Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options)
-      : object_(object), contestant_(contestant), options_(options), clocks_(options.clocks) {
+  Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options, bool is_timed)
+      : object_(object),
+        whole_(object),
+        contestant_(contestant),
+        options_(options),
+        is_timed_(is_timed),
+        clocks_(options.clocks) {
     if (!contestant.algorithm) {
       return;
     }
@@ -64,6 +71,7 @@ class Contest::Participant {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
+    limited_ = nullptr;
     if (!contestant_.algorithm) {
       PhysicsMeasurement& measured = entry_.measurement.emplace();
       measured.error = error_of_nothing_moving(*object_.mesh, reference);
@@ -79,7 +87,7 @@ class Contest::Participant {
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
-      if (preparing != nullptr && !prepares(contestant_)) {
+      if (is_timed_ && !prepares(contestant_)) {
         run(stop);  // prepares, so that no time of the next run contains this
         times_ = {};
       }
@@ -95,7 +103,33 @@ class Contest::Participant {
     }
   }
 
+  /// Call this after try_out(). From now on the drag runs with the least number of iterations per move with which the
+  /// answer at its end is close to that of try_out(), the own limit.
+  void limit_iterations(const RecordedMoves& moves, const ReferenceSolution& reference, const std::stop_token& stop) {
+    if (!entry_.measurement || contestant_.limit > 0) {
+      return;
+    }
+    ReferenceSolution own = reference;
+    own.displacements = displacements();
+    for (const int limit : limits_of(contestant_)) {
+      Participant& one = limited_to(limit);
+      one.try_out(moves, own, nullptr, stop);
+      if (one.entry_.measurement && one.entry_.measurement->error.relative <= options_.own_limit) {
+        one.measure(reference);
+        const Preparation prepare = entry_.measurement->prepare;
+        entry_.measurement = one.entry_.measurement;
+        entry_.measurement->prepare = prepare;
+        entry_.measurement->iterations = limit;
+        limited_ = &one;
+        return;
+      }
+    }
+  }
+
   int repetitions(double seconds) const {
+    if (limited_ != nullptr) {
+      return limited_->repetitions(seconds);
+    }
     if (!entry_.measurement || !runner_ || seconds_ > longest_repeated_drag) {
       return 0;
     }
@@ -103,6 +137,10 @@ class Contest::Participant {
   }
 
   void repeat(const std::stop_token& stop) {
+    if (limited_ != nullptr) {
+      limited_->repeat(stop);
+      return;
+    }
     if (!warm_) {
       times_ = {};  // the first run was a warm-up
       warm_ = true;
@@ -112,9 +150,10 @@ class Contest::Participant {
 
   PhysicsEntry result() {
     if (auto& measured = entry_.measurement; measured && runner_) {
-      measured->first_move = times_.spread(&DragTimes::first);
-      measured->ms_per_move = times_.spread(&DragTimes::later);
-      measured->move_after_cut = has_cut_ ? times_.spread(&DragTimes::after_cut) : TimeSpread();
+      const RepeatedDrag& times = limited_ != nullptr ? limited_->times_ : times_;
+      measured->first_move = times.spread(&DragTimes::first);
+      measured->ms_per_move = times.spread(&DragTimes::later);
+      measured->move_after_cut = has_cut_ ? times.spread(&DragTimes::after_cut) : TimeSpread();
     }
     return std::move(entry_);
   }
@@ -137,9 +176,34 @@ class Contest::Participant {
         .second;
   }
 
+  Participant& limited_to(int limit) {
+    std::unique_ptr<Participant>& one = by_limit_[limit];
+    if (!one) {
+      PhysicsContestant contestant = contestant_;
+      contestant.limit = limit;
+      one = std::make_unique<Participant>(whole_, contestant, options_, is_timed_);
+    }
+    return *one;
+  }
+
+  /// The displacements at the end of the last run.
+  std::vector<double> displacements() const {
+    const PositionView at = runner_->simulation().body().positions();
+    const auto n = std::size_t(object_.mesh->space_dimension);
+    std::vector<double> displacements(object_.mesh->rest.size());
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+      displacements[i] = at(ElementId(i / n), int(i % n)) - object_.mesh->rest[i];
+    }
+    return displacements;
+  }
+
   Relaxing relaxing() const {
-    return contestant_.limit > 0 ? Relaxing{contestant_.sweeps, contestant_.equilibrium, contestant_.limit}
-                                 : Relaxing{contestant_.sweeps, contestant_.equilibrium};
+    Relaxing relaxing(contestant_.sweeps, contestant_.equilibrium);
+    relaxing.iterations = contestant_.limit > 0 ? contestant_.limit : relaxing.iterations;
+    if (options_.own_limit > 0) {
+      relaxing.until = own_limits_residual * options_.own_limit;  // the own limit itself must be closer than that
+    }
+    return relaxing;
   }
 
   void run(const std::stop_token& stop) {
@@ -191,9 +255,12 @@ class Contest::Participant {
     return shape_figures(*object_.mesh, object_.softness, cuts, positions, view_of(at));
   }
 
-  Case object_;  // with the softness of the contestant
+  Case object_;        // with the softness of the contestant
+  const Case& whole_;  // as it was given
   PhysicsContestant contestant_;
   CompareOptions options_;
+  bool is_timed_;
+  std::map<int, std::unique_ptr<Participant>> by_limit_;  // by the number of iterations
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
   std::optional<std::uint64_t> bytes_;  // held after the first drag
@@ -206,13 +273,14 @@ class Contest::Participant {
   RepeatedDrag times_;
   double seconds_ = 0;
   bool warm_ = false, stopped_ = false;
+  Participant* limited_ = nullptr;  // runs in place of this one; one of by_limit_
 };
 
 Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options,
                  Measured measured)
     : options_(options), measured_(measured) {
   for (const PhysicsContestant& contestant : contestants) {
-    participants_.push_back(std::make_unique<Participant>(object, contestant, options_));
+    participants_.push_back(std::make_unique<Participant>(object, contestant, options_, measured_ != Measured::errors));
   }
 }
 
@@ -224,6 +292,9 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
   for (std::size_t i = 0; i < participants_.size() && !stop.stop_requested(); ++i) {
     tell(0.5 * double(i) / count);
     participants_[i]->try_out(moves, reference, measured_ == Measured::errors ? nullptr : &preparations_, stop);
+    if (options_.own_limit > 0 && measured_ != Measured::errors) {
+      participants_[i]->limit_iterations(moves, reference, stop);
+    }
   }
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
   // less often.

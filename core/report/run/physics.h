@@ -47,6 +47,7 @@ struct PhysicsMeasurement {
   TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
   Preparation prepare;
   PhysicalError error;
+  std::optional<int> iterations = {};   // per move, if CompareOptions::own_limit set them
   std::optional<double> residual = {};  // at the end of the drag, of contestants at equilibrium
   std::optional<bool> binds = {};       // true if valid regions change the equilibrium there
   std::optional<std::uint64_t> bytes;   // memory of the solver after its first drag; none where it is not known

@@ -1,6 +1,7 @@
 #include "report/run/physics_contestant.h"
 
 #include <algorithm>
+#include <array>
 
 namespace chainmail::report {
 namespace {
@@ -58,6 +59,15 @@ Softness softness_of(const PhysicsContestant& contestant, const Softness& object
 
 bool prepares(const PhysicsContestant& contestant) {
   return contestant.algorithm && info(*contestant.algorithm).elastic;
+}
+
+std::span<const int> limits_of(const PhysicsContestant& contestant) {
+  static constexpr std::array limits{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
+  static constexpr std::size_t of_equilibrium = 8;  // equilibrium_iterations end it
+  static_assert(limits[of_equilibrium - 1] == equilibrium_iterations);
+  const bool obeys = contestant.algorithm && info(*contestant.algorithm).obeys_iterations;
+  return contestant.equilibrium ? std::span<const int>(limits).first(of_equilibrium)
+                                : std::span<const int>(limits).first(obeys ? limits.size() : 0);
 }
 
 std::vector<PhysicsContestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,

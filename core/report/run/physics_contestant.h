@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ std::string name(const PhysicsContestant& contestant);
 std::string label(const PhysicsContestant& contestant);
 /// Returns true for methods of elasticity, which do some work before their first move.
 bool prepares(const PhysicsContestant& contestant);
+
+/// Returns the numbers of iterations per move to which a contestant can be limited, ascending; empty if it does not
+/// iterate.
+std::span<const int> limits_of(const PhysicsContestant& contestant);
 
 /// Returns the softness with which a contestant runs on an object of this softness.
 Softness softness_of(const PhysicsContestant& contestant, const Softness& object);

@@ -83,7 +83,7 @@ Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const cha
 void Runner::relax(Relaxing relaxing) {
   if (relaxing.equilibrium) {
     simulation_.apply(commands::Relax{std::uint32_t(relaxing.iterations), relax_step_, RelaxationScheme::equilibrium,
-                                      compared_residual});
+                                      relaxing.until});
   } else {
     simulation_.relax(relaxing.sweeps, relax_step_);
   }

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double turned_by = 45;  // degrees: ChainMail's boxes follow the axes, and differ most half way between them
 
+// A contestant that iterates stops where its answer is so close to its own limit (ratio to its way).
+constexpr double suite_own_limit = 0.01;
 constexpr double longest_reference = 20;  // seconds per drag
 
 using Tell = std::function<void(double)>;
@@ -67,6 +69,9 @@ SuiteRow row_of(const RecordedMoves& moves, const PhysicsEntry& entry) {
   }
   row.stretch = measured.shape.stretch;
   row.violation = measured.shape.violation;
+  if (measured.iterations) {
+    row.iterations = double(*measured.iterations);
+  }
   row.residual = measured.residual;
   if (measured.binds) {
     row.binds = *measured.binds ? 1 : 0;
@@ -148,7 +153,9 @@ void run_drags(Running& running, const Case& object) {
   const CompareOptions& contest_options = running.options.contest;
   const auto contestants = calibrated_contestants(running, object);
   DragReferences references(object, running.options.refine);
-  Contest contest(object, contestants, contest_options);
+  CompareOptions to_own_limit = contest_options;
+  to_own_limit.own_limit = suite_own_limit;
+  Contest contest(object, contestants, to_own_limit);
   TurnedContest turned(object, contestants, contest_options);
   for (std::size_t i = 0; i < object.drags.size() && !running.stop.stop_requested(); ++i) {
     const RecordedMoves& moves = object.drags[i];

@@ -24,6 +24,7 @@ struct SuiteRow {
   std::optional<double> hausdorff = {}, volume_change = {}, inverted_cells = {}, stretch = {}, violation = {};
   std::optional<double> factorize_ms = {}, grab_ms = {}, first_ms = {}, later_ms = {}, after_cut_ms = {};
   std::optional<double> bytes = {};
+  std::optional<double> iterations = {};            // per move: the least to its own limit
   std::optional<double> residual = {}, binds = {};  // binds: 1 if valid regions change the equilibrium, 0 if not
 };
 
@@ -42,6 +43,7 @@ inline constexpr std::array suite_figures{
     SuiteFigure{"later_ms", "move (ms)", "later", &SuiteRow::later_ms},
     SuiteFigure{"after_cut_ms", "move (ms)", "after cut", &SuiteRow::after_cut_ms},
     SuiteFigure{"bytes", "memory", "bytes", &SuiteRow::bytes},
+    SuiteFigure{"iterations", "own limit", "iterations per move", &SuiteRow::iterations},
     SuiteFigure{"residual", "equilibrium", "residual (ratio)", &SuiteRow::residual},
     SuiteFigure{"binds", "equilibrium", "regions bind", &SuiteRow::binds},
     SuiteFigure{"hausdorff", "shape", "Hausdorff (rest lengths)", &SuiteRow::hausdorff},

@@ -9,8 +9,6 @@ namespace chainmail::report {
 namespace {
 
 constexpr std::array sweeps_tried{0, 1, 3, 10, 30, 100, 300};
-constexpr std::array equilibrium_tried{1, 2, 5, 10, 20, 50, 100, 200};
-constexpr std::array iterations_tried{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
 
 /// A contestant with all numbers of iterations that it may use.
 struct Group {
@@ -30,12 +28,10 @@ std::vector<PhysicsContestant> variants_of(const PhysicsContestant& contestant) 
       all.back().*member = number;
     }
   };
-  if (contestant.equilibrium) {
-    add(equilibrium_tried, &PhysicsContestant::limit);
+  if (const auto limits = limits_of(contestant); !limits.empty()) {
+    add(limits, &PhysicsContestant::limit);
   } else if (has_sweeps(contestant)) {
     add(sweeps_tried, &PhysicsContestant::sweeps);
-  } else if (contestant.algorithm && info(*contestant.algorithm).obeys_iterations) {
-    add(iterations_tried, &PhysicsContestant::limit);
   } else {
     all.push_back(contestant);
   }

@@ -9,12 +9,14 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
+#include "report/page/front.h"
 #include "report/page/suite_csv.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"
 #include "report/run/drag_reference.h"
 #include "report/run/preparing.h"
+#include "report/run/runner.h"
 #include "report/run/suite.h"
 #include "report/run/suite_experiments.h"
 #include "report/run/time_to_error.h"
@@ -63,6 +65,8 @@ class SuiteTest : public QObject {
   void linear_fem_meets_the_beam();
   void a_handle_that_turns_has_a_reference();
   void limited_iterations_count_unlimited_ones_must_converge();
+  void iterations_end_at_the_own_limit_data();
+  void iterations_end_at_the_own_limit();
   void experiments_have_the_handles_that_they_say();
   void each_size_is_one_column();
   void times_grow_with_the_accuracy();
@@ -71,6 +75,7 @@ class SuiteTest : public QObject {
   void parts_are_joined();
   void an_experiment_twice_is_refused();
   void means_leave_out_the_cut();
+  void the_front_has_whom_no_one_beats();
   void unknown_experiments_are_refused();
 };
 
@@ -174,6 +179,61 @@ void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
   QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
   QVERIFY(entries[1].measurement && entries[1].refusal.empty());
   QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
+}
+
+void SuiteTest::iterations_end_at_the_own_limit_data() {
+  QTest::addColumn<PhysicsContestant>("contestant");
+  for (const Algorithm algorithm : {Algorithm::xpbd, Algorithm::projective, Algorithm::corotational}) {
+    QTest::newRow(std::string(info(algorithm).name).c_str()) << PhysicsContestant{algorithm};
+  }
+  QTest::newRow("material") << PhysicsContestant{
+      .algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
+}
+
+/// Each number of iterations per move runs alone here. The contest takes the least one whose answer is within the share
+/// of the converged one.
+void SuiteTest::iterations_end_at_the_own_limit() {
+  QFETCH(const PhysicsContestant, contestant);
+  Case object = twisted_bar(40);
+  object.softness = softness_of(contestant, object.softness);
+  const RecordedMoves& drag = object.drags.front();
+  CompareOptions options;
+  const auto ends_with = [&](int iterations) {
+    Case limited = object;
+    limited.elastic.iterations = std::uint32_t(iterations);
+    Relaxing relaxing(0, contestant.equilibrium, iterations);
+    relaxing.until = 1e-6;
+    Runner runner(limited, *contestant.algorithm, Precision::double_precision, options);
+    runner.run(drag, relaxing, std::stop_token());
+    std::vector<Point> ends;
+    for (ElementId e = 0; e < object.mesh->element_count(); ++e) {
+      const PositionView at = runner.simulation().body().positions();
+      ends.emplace_back(at(e, 0), at(e, 1), at(e, 2));
+    }
+    return ends;
+  };
+  const auto converged = ends_with(2000);
+  const auto relative = [&](const std::vector<Point>& ends) {
+    double apart = 0, way = 0;
+    const auto held = grabbed_by(drag);
+    for (ElementId e = 0; e < ends.size(); ++e) {
+      if (std::ranges::count(held, e) + std::ranges::count(object.pins, e) == 0) {
+        apart += (ends[e] - converged[e]).squaredNorm();
+        way += (converged[e] - object.mesh->rest_position(e)).squaredNorm();
+      }
+    }
+    return std::sqrt(apart / way);
+  };
+  options.own_limit = 0.01;
+  options.repetitions = 1;
+  Contest contest(object, {contestant}, options);
+  const auto reference = DragReferences(object, std::nullopt).at_end(drag);
+  const auto entries = contest.run(drag, reference.solution, [](double) {}, {});
+  QVERIFY2(entries[0].measurement.has_value(), entries[0].refusal.c_str());
+  const auto limits = limits_of(contestant);
+  const auto chosen = std::ranges::find(limits, entries[0].measurement->iterations.value());
+  QVERIFY2(relative(ends_with(*chosen)) <= 0.0101, qPrintable(QString::number(relative(ends_with(*chosen)))));
+  QVERIFY(chosen == limits.begin() || relative(ends_with(*(chosen - 1))) > 0.0099);
 }
 
 void SuiteTest::experiments_have_the_handles_that_they_say() {
@@ -305,6 +365,37 @@ void SuiteTest::means_leave_out_the_cut() {
   QCOMPARE(means[0].after_cut_ms.value(), 5.0);
   QVERIFY(means[0].drags == 2 && means[0].of == 2);
   QVERIFY(!means[1].relative && means[1].refusal == "it did not converge");
+}
+
+void SuiteTest::the_front_has_whom_no_one_beats() {
+  std::vector<SuiteMean> means;
+  const auto add = [&](const char* who, const char* algorithm, double ms, double error) {
+    SuiteMean& mean = means.emplace_back();
+    mean.contestant = who;
+    mean.algorithm = algorithm;
+    mean.drags = mean.of = 4;
+    mean.later_ms = ms;
+    mean.relative = error;
+  };
+  add("slow and close", "fem", 9, 0.1);
+  add("beaten in both", "fem", 9, 0.3);
+  add("as slow, less close", "fem", 2, 0.25);
+  add("middle", "arap", 2, 0.2);
+  add("fast", "xpbd", 0.5, 0.9);
+  add("slower and as close", "xpbd", 3, 0.2);
+  add("the same as the fast one", "bem", 0.5, 0.9);
+  add("Nothing moves", "nothing", 0, 1);
+  add("of the reference", "neo-hookean", 0.1, 0.01);
+  add("all but the hard drag", "fem", 0.1, 0.01);
+  means.back().drags = 3;
+  add("without a time", "fem", 0, 0.01);
+  means.back().later_ms.reset();
+  std::vector<std::string> names;
+  for (const SuiteMean* one : front(means, speeds_against_error[0])) {
+    names.push_back(one->contestant);
+  }
+  QCOMPARE(names, (std::vector<std::string>{"fast", "the same as the fast one", "middle", "slow and close"}));
+  QVERIFY(front(means, speeds_against_error[1]).empty());  // nobody has a time of a fresh grab
 }
 
 void SuiteTest::unknown_experiments_are_refused() {
