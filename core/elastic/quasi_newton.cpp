@@ -16,16 +16,6 @@
 namespace chainmail {
 namespace {
 
-// An answer has converged if the next step is below this share of the mean link length.
-constexpr double last_step_below = 1e-9;
-// Pairs of steps and changes of the gradient from which L-BFGS estimates the curvature.
-constexpr std::size_t most_pairs = 6;
-// Pairs of less curvature than this, over the lengths of both, are left out.
-constexpr double least_curvature = 1e-12;
-constexpr int most_halvings = 12;
-// Armijo condition: the energy must fall by at least this share of what the slope predicts, but for rounding.
-constexpr double share_of_slope = 1e-4, rounding_share = 1e-13;
-
 /// Stable neo-Hookean finite elements (Smith et al. 2018), minimised by a quasi-Newton method whose first estimate of
 /// the curvature is a Laplacian that never changes, factored once per grab (Liu et al. 2017).
 ///
@@ -56,6 +46,16 @@ class QuasiNewton final : public IteratedSolver {
   }
 
  private:
+  // An answer has converged if the next step is below this share of the mean link length.
+  static constexpr double last_step_below = 1e-9;
+  // Pairs of steps and changes of the gradient from which L-BFGS estimates the curvature.
+  static constexpr std::size_t most_pairs = 6;
+  // Pairs of less curvature than this, over the lengths of both, are left out.
+  static constexpr double least_curvature = 1e-12;
+  static constexpr int most_halvings = 12;
+  // Armijo condition: the energy must fall by at least this share of what the slope predicts, but for rounding.
+  static constexpr double share_of_slope = 1e-4, rounding_share = 1e-13;
+
   using Square = Eigen::Matrix<double, N, N>;
   using Corners = Eigen::Matrix<double, N, N + 1>;
   using Unknown = Eigen::Matrix<double, Eigen::Dynamic, N>;  // a row for each element that moves
