@@ -126,6 +126,12 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
             if (arguments.merge->count() > 0) {
               return merge_suites(*app, arguments);
             }
+            if (arguments.judge->count() > 0) {
+              return judge_answers(*app, arguments);
+            }
+            if (arguments.cases->count() > 0) {
+              return write_cases(*app, arguments);
+            }
             if (arguments.suite->count() > 0) {
               return run_suite(*app, arguments, command_line);
             }

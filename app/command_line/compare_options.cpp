@@ -74,9 +74,9 @@ void add_physics(CLI::App& app, CompareArguments& options) {
                 "answer changes by less than 2 % [same-cells]");
   options.grow = add_value(app, "--grow", "SECONDS",
                            "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]");
-  options.calibrated =
-      add_value(app, "--calibrated", "on|off",
-                "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 sweeps [on; with --suite: off]");
+  options.calibrated = add_value(app, "--calibrated", "on|off",
+                                 "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 "
+                                 "sweeps [on; with --suite: off]");
   for (CLI::Option* option : {options.grow, options.calibrated, options.reference, options.laws.materials,
                               options.laws.gent_limit, options.laws.fung_exponent}) {
     option->group("Against physics");
@@ -94,7 +94,12 @@ void add_suite(CLI::App& app, CompareArguments& options) {
   options.shard = add_value(app, "--shard", "I/N", "only part I of N of the suite, for several machines [1/1]");
   options.merge =
       app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
-  for (CLI::Option* option : {options.suite, options.experiments, options.shard, options.merge}) {
+  options.cases =
+      app.add_flag("--cases")->description("write drags of the suite as files for other solvers, in the folder of -o");
+  options.judge = app.add_flag("--judge")->description(
+      "measure what other solvers found: MESH are a file of --cases and the answers to it");
+  for (CLI::Option* option :
+       {options.suite, options.experiments, options.shard, options.merge, options.cases, options.judge}) {
     option->group("Suite");
   }
 }

@@ -21,6 +21,7 @@ struct CompareArguments {
   StrainLawArguments laws;
   CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
   CLI::Option *suite = nullptr, *experiments = nullptr, *shard = nullptr, *merge = nullptr;
+  CLI::Option *cases = nullptr, *judge = nullptr;
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
@@ -43,6 +44,15 @@ bool is_calibrated(const CompareArguments& arguments, bool by_default);
 void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line);
 /// Joins reports of the suite. Throws Error before it writes anything.
 void merge_suites(const CLI::App& app, const CompareArguments& arguments);
+
+/// Writes drags of the suite as cases for other solvers. Throws Error before it writes anything.
+void write_cases(const CLI::App& app, const CompareArguments& arguments);
+/// Judges answers of other solvers to a case. Throws Error.
+void judge_answers(const CLI::App& app, const CompareArguments& arguments);
+/// Throws Error for an option that the given mode does not take.
+void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken);
+/// Returns the organ of the samples; null if its file is missing.
+MeshPointer sample_organ();
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

@@ -23,15 +23,6 @@ namespace {
 
 constexpr int max_shards = 1000;
 
-/// Throws Error for an option that the given mode does not take.
-void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->count() > 0 && std::ranges::find(taken, option) == taken.end()) {
-      throw Error(option->get_name(), "it does not work with " + mode, "leave it out");
-    }
-  }
-}
-
 void add_bullet() {
 #ifdef CHAINMAIL_HAS_BULLET
   add_algorithm(bullet_soft_body());
@@ -64,13 +55,6 @@ std::vector<std::string> experiments_of(const CompareArguments& arguments) {
   return names;
 }
 
-/// Returns the organ of the samples; null if its file is missing.
-MeshPointer organ() {
-  const auto file = samples_folder() / "organ.msh";
-  std::error_code none;
-  return std::filesystem::is_regular_file(file, none) ? chainmail::open_mesh(file).mesh : nullptr;
-}
-
 bool needs_organ(const std::vector<std::string>& names) {
   return std::ranges::any_of(names, [](const std::string& name) { return name.ends_with("organ"); });
 }
@@ -98,6 +82,20 @@ void write(const report::Suite& suite, OutputFolder& folder, const std::vector<s
 
 }  // namespace
 
+void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() > 0 && std::ranges::find(taken, option) == taken.end()) {
+      throw Error(option->get_name(), "it does not work with " + mode, "leave it out");
+    }
+  }
+}
+
+MeshPointer sample_organ() {
+  const auto file = samples_folder() / "organ.msh";
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) ? chainmail::open_mesh(file).mesh : nullptr;
+}
+
 void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line) {
   refuse_others(app, "--suite",
                 {arguments.suite, arguments.shard, arguments.experiments, arguments.algorithms, arguments.repetitions,
@@ -113,7 +111,7 @@ void run_suite(const CLI::App& app, const CompareArguments& arguments, const std
   }
   const std::vector<std::string> names = experiments_of(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  options.organ = needs_organ(names) ? organ() : nullptr;
+  options.organ = needs_organ(names) ? sample_organ() : nullptr;
   ProgressLine line;
   report::Suite suite = report::run_suite(names, options, [&](double fraction, const std::string& text) {
     line.show([&] { return percent(fraction) + text; });

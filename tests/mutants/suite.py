@@ -40,6 +40,11 @@ class Test:
         return next((name for name in names if name.startswith("test_") or name == "pytest"), None)
 
 
+def words_of(name):
+    """Returns the words of a name in the singular: window_docks tests stiffness_dock.cpp."""
+    return {word.removesuffix("s") for word in re.findall(r"[a-z]+", name)} - {"test"}
+
+
 def recorded_seconds(root):
     """Returns the seconds that ctest has recorded in the release build."""
     costs = root / "build/release/Testing/Temporary/CTestCostData.txt"
@@ -97,10 +102,10 @@ class Suite:
         """Returns the tests: those of the fault's room first, then those with words of the file in their name, then the
         fast ones."""
         folder = next(folder for room, folder in FOLDERS.items() if fault.path.startswith(room + "/"))
-        words = set(re.findall(r"[a-z]+", pathlib.Path(fault.path).stem)) - {"test"}
+        words = words_of(pathlib.Path(fault.path).stem)
 
         def key(test):
-            return (test.folder != folder, -len(words & set(test.name.split("_"))), test.seconds)
+            return (test.folder != folder, -len(words & words_of(test.name)), test.seconds)
 
         return sorted(self.tests, key=key)
 

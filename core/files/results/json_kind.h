@@ -24,6 +24,8 @@ inline constexpr JsonKind deform{"deform", 1};
 inline constexpr JsonKind compare{"compare", 1};
 inline constexpr JsonKind physics{"physics", 1};
 inline constexpr JsonKind suite{"suite", 1};
+inline constexpr JsonKind peer_case{"case", 1};
+inline constexpr JsonKind peer_answer{"answer", 1};
 inline constexpr JsonKind calibrate{"calibrate", 1};
 inline constexpr JsonKind ramp{"ramp", 1};
 

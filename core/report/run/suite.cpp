@@ -19,7 +19,6 @@ constexpr double turned_by = 45;  // degrees: ChainMail's boxes follow the axes,
 
 // A contestant that iterates stops where its answer is so close to its own limit (ratio to its way).
 constexpr double suite_own_limit = 0.01;
-constexpr double longest_reference = 20;  // seconds per drag
 
 using Tell = std::function<void(double)>;
 
@@ -39,8 +38,7 @@ PhysicsOptions options_of(const SuiteOptions& suite) {
   options.contest.equilibrium = true;
   options.contest.repetitions = suite.repetitions;
   options.contest.seconds = suite.seconds;
-  options.refine = ConvergingOptions();
-  options.refine->seconds = longest_reference;
+  options.refine = suite_reference();
   options.calibrate = suite.calibrate;
   if (options.contest.algorithms.empty()) {
     for (const AlgorithmInfo& one : every_algorithm()) {

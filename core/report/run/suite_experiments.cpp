@@ -233,4 +233,10 @@ constexpr std::array experiments{
 
 std::span<const SuiteExperiment> suite_experiments() { return experiments; }
 
+ConvergingOptions suite_reference() {
+  ConvergingOptions options;
+  options.seconds = 20;  // per drag
+  return options;
+}
+
 }  // namespace chainmail::report

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/converging_reference.h"
 #include "report/run/cases.h"
 
 namespace chainmail::report {
@@ -23,7 +24,12 @@ struct SuiteExperiment {
   SuiteKind kind;
   /// Returns its objects. `organ` is the organ of the samples.
   std::vector<Case> (*cases)(const MeshPointer& organ);
+
+  bool needs_organ() const { return name.ends_with("organ"); }
 };
+
+/// Returns how the suite refines its references.
+ConvergingOptions suite_reference();
 
 std::span<const SuiteExperiment> suite_experiments();
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+
+#include "report/run/peer.h"
+
+namespace chainmail {
+
+/// Writes a case for another solver as JSON.
+void write_json(std::ostream& out, const report::PeerCase& object);
+
+/// Reads what write_json has written, or a case that someone else made. Throws Error.
+report::PeerCase read_peer_case(const std::filesystem::path& path);
+/// Reads the answer of another solver. Throws Error.
+report::PeerAnswer read_peer_answer(const std::filesystem::path& path);
+
+}  // namespace chainmail

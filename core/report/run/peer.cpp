@@ -1,0 +1,154 @@
+#include "report/run/peer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/cuts.h"
+#include "mesh/error.h"
+#include "report/run/preparing.h"
+#include "report/run/suite_experiments.h"
+
+namespace chainmail::report {
+namespace {
+
+// A prescribed element may be so far from its place (mean rest lengths): solvers compute in float too.
+constexpr double allowed_off = 1e-3;
+
+/// Returns the coordinates of points on the axes that exist.
+std::vector<double> on_axes(const Mesh& mesh, const std::vector<Point>& points) {
+  std::vector<double> all;
+  for (const Point& point : points) {
+    for (int k = 0; k < mesh.space_dimension; ++k) {
+      all.push_back(point[mesh.axes[std::size_t(k)]]);
+    }
+  }
+  return all;
+}
+
+ReferenceSolution reference_of(const PeerCase& object) {
+  const Mesh& mesh = *object.mesh;
+  ReferenceSolution reference;
+  reference.displacements = on_axes(mesh, object.reference);
+  std::ranges::transform(reference.displacements, mesh.rest, reference.displacements.begin(), std::minus());
+  for (const ElementId element : object.handle) {
+    const Point way = object.reference[element] - mesh.rest_position(element);
+    reference.handle_displacement = std::max(reference.handle_displacement, way.norm());
+  }
+  reference.prescribed = object.pins;
+  reference.prescribed.insert(reference.prescribed.end(), object.handle.begin(), object.handle.end());
+  reference.only_free = true;
+  return reference;
+}
+
+void check_place(const PeerCase& object, const PeerAnswer& answer, ElementId element, const Point& place,
+                 const std::string& what) {
+  const double off = (answer.positions[element] - place).norm();
+  if (!(off <= allowed_off * object.mesh->mean_link_length)) {
+    throw Error(answer.solver, "element " + std::to_string(element) + " of the " + what + " is not at its place",
+                "write the positions after the last move, with the " + what + " where the case has them");
+  }
+}
+
+void check(const PeerCase& object, const PeerAnswer& answer) {
+  if (answer.case_name != object.name) {
+    throw Error(answer.solver, "it answers another case, " + answer.case_name.substr(0, 60),
+                "judge it with the file of that case");
+  }
+  if (answer.positions.size() != object.mesh->element_count()) {
+    throw Error(answer.solver,
+                "it has positions of " + std::to_string(answer.positions.size()) + " elements, the case has " +
+                    std::to_string(object.mesh->element_count()),
+                "write one position for each element, in the order of the case");
+  }
+  if (!answer.moves_ms.empty() && answer.moves_ms.size() != object.moves.size()) {
+    throw Error(answer.solver,
+                "it has times of " + std::to_string(answer.moves_ms.size()) + " moves, the case has " +
+                    std::to_string(object.moves.size()),
+                "write the time of each move, or none");
+  }
+  for (const ElementId pin : object.pins) {
+    check_place(object, answer, pin, object.mesh->rest_position(pin), "pins");
+  }
+  for (std::size_t i = 0; i < object.handle.size(); ++i) {
+    check_place(object, answer, object.handle[i], object.moves.back()[i], "handle");
+  }
+}
+
+}  // namespace
+
+PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference) {
+  const Mesh& mesh = *object.mesh;
+  PeerCase one{object.name + "-" + drag.name,
+               drag.description,
+               object.mesh,
+               object.pins,
+               grabbed_by(drag),
+               {},
+               {},
+               {},
+               {},
+               std::nullopt};
+  one.material = object.elastic.material;
+  one.law = object.law;
+  std::ranges::sort(one.pins);
+  const Point middle = middle_of(mesh, one.handle);
+  for (std::size_t i = 0; i < drag.commands.size(); ++i) {
+    if (std::holds_alternative<commands::Drag>(drag.commands[i])) {
+      RecordedMoves so_far = drag;
+      so_far.commands.erase(so_far.commands.begin() + std::ptrdiff_t(i) + 1, so_far.commands.end());
+      const RigidMotion motion = motion_at_end(mesh, so_far);
+      std::vector<Point>& places = one.moves.emplace_back();
+      for (const ElementId element : one.handle) {
+        const Point rest = mesh.rest_position(element);
+        places.push_back(rest + motion.of(rest - middle));
+      }
+    }
+  }
+  const auto n = std::size_t(mesh.space_dimension);
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    Point at = mesh.rest_position(e);
+    for (std::size_t k = 0; k < n; ++k) {
+      at[mesh.axes[k]] += reference.solution.displacements[e * n + k];
+    }
+    one.reference.push_back(at);
+  }
+  if (reference.refined && !reference.refined->levels.empty()) {
+    one.reference_change = reference.refined->levels.back().change;
+  }
+  return one;
+}
+
+std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ) {
+  std::vector<PeerCase> cases;
+  for (const SuiteExperiment& one : suite_experiments()) {
+    if (one.kind == SuiteKind::time_to_error && (organ != nullptr || !one.needs_organ())) {
+      const Case object = one.cases(organ).front();
+      const RecordedMoves& drag = object.drags.front();
+      cases.push_back(peer_case(object, drag, DragReferences(object, suite_reference()).at_end(drag)));
+    }
+  }
+  return cases;
+}
+
+PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer) {
+  check(object, answer);
+  const Mesh& mesh = *object.mesh;
+  const std::vector<double> positions = on_axes(mesh, answer.positions), reference = on_axes(mesh, object.reference);
+  const auto view = [&](const std::vector<double>& all) {
+    return PositionView{all.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
+  };
+  PeerVerdict verdict;
+  verdict.error = measure_physical_error(mesh, view(positions), reference_of(object));
+  verdict.shape = shape_figures(mesh, Softness(), Cuts(object.mesh), view(positions), view(reference));
+  if (!answer.moves_ms.empty()) {
+    verdict.first_ms = answer.moves_ms.front();
+  }
+  if (answer.moves_ms.size() > 1) {
+    verdict.later_ms =
+        std::accumulate(answer.moves_ms.begin() + 1, answer.moves_ms.end(), 0.0) / double(answer.moves_ms.size() - 1);
+  }
+  return verdict;
+}
+
+}  // namespace chainmail::report

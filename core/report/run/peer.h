@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/physical_error.h"
+#include "report/run/drag_reference.h"
+#include "report/run/shape_figures.h"
+
+namespace chainmail::report {
+
+/// A drag of one object as another solver needs it, with its reference. Points have three coordinates (mesh units).
+struct PeerCase {
+  std::string name, description;
+  MeshPointer mesh;  // of tetrahedra, or of triangles in a plane
+  std::vector<ElementId> pins, handle;
+  std::vector<std::vector<Point>> moves;  // where each move puts the handle's elements, in their order
+  Material material;
+  StrainLaw law;
+  std::vector<Point> reference;            // positions of all elements after the last move
+  std::optional<double> reference_change;  // of the reference, by its last refinement (ratio)
+};
+
+/// What another solver found.
+struct PeerAnswer {
+  std::string solver, case_name;
+  std::vector<Point> positions;  // of all elements after the last move
+  std::optional<double> factorize_ms, grab_ms;
+  std::vector<double> moves_ms;  // of each move; empty if they were not timed
+};
+
+/// The figures of an answer, measured as those of the suite's contestants.
+struct PeerVerdict {
+  PhysicalError error;
+  ShapeFigures shape;
+  std::optional<double> first_ms, later_ms;  // of the first move, and mean of the others
+};
+
+/// Makes a case of a drag without a cut.
+PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
+/// Makes cases of the drags in which the suite measures the time to an error. `organ` as for the suite; null: without it.
+std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ);
+
+/// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a pin
+/// or an element of the handle is not where the last move puts it.
+PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer);
+
+}  // namespace chainmail::report
