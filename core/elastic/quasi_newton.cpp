@@ -46,8 +46,9 @@ class QuasiNewton final : public IteratedSolver {
   }
 
  private:
-  // An answer has converged if the next step is below this share of the mean link length.
-  static constexpr double last_step_below = 1e-9;
+  // An answer has converged if the next step is below this share of the mean link length. On objects of some thousand
+  // elements, rounding of the energy hides steps of 1e-8.
+  static constexpr double last_step_below = 1e-7;
   // Pairs of steps and changes of the gradient from which L-BFGS estimates the curvature.
   static constexpr std::size_t most_pairs = 6;
   // Pairs of less curvature than this, over the lengths of both, are left out.
