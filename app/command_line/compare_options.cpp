@@ -96,7 +96,8 @@ void add_suite(CLI::App& app, CompareArguments& options) {
       app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
   options.cases =
       app.add_flag("--cases")->description("write drags of the suite as files for other solvers, in the folder of -o");
-  options.judge = app.add_flag("--judge")->description(
+  options.judge = app.add_flag_callback(
+      "--judge", [output = options.output] { output->required(false); },  // it writes a table only
       "measure what other solvers found: MESH are a file of --cases and the answers to it");
   for (CLI::Option* option :
        {options.suite, options.experiments, options.shard, options.merge, options.cases, options.judge}) {

@@ -16,7 +16,17 @@
 namespace chainmail {
 
 /// A method of elasticity: a model of the static answer of an object to a handle.
-enum class ElasticMethod { linear_fem, neo_hookean, boundary, free_form, corotational, arap, xpbd, projective, quasi_newton };
+enum class ElasticMethod {
+  linear_fem,
+  neo_hookean,
+  boundary,
+  free_form,
+  corotational,
+  arap,
+  xpbd,
+  projective,
+  quasi_newton
+};
 
 /// An object and its pins.
 struct ElasticProblem {

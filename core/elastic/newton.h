@@ -24,8 +24,8 @@ class Newton {
   bool solve(std::vector<double>& displacements, const std::vector<double>& increment, const Progress& progress = {});
   /// Ends solve() after so many steps at most. It then returns true, converged or not.
   void limit_steps(std::uint32_t most);
-  /// Returns the longest change of a coordinate in the last step (mesh units) if the last solve() did not converge before
-  /// the limit; 0 if it did.
+  /// Returns the longest change of a coordinate in the last step (mesh units) if the last solve() did not converge
+  /// before the limit; 0 if it did.
   double unconverged() const { return unconverged_; }
 
   /// Energy (Young's modulus times mesh units to the power n), and its possible rounding error.

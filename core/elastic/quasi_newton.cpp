@@ -46,16 +46,17 @@ class QuasiNewton final : public IteratedSolver {
   }
 
  private:
-  // An answer has converged if the next step is below this share of the mean link length. On objects of some thousand
-  // elements, rounding of the energy hides steps of 1e-8.
-  static constexpr double last_step_below = 1e-7;
+  // An answer has converged if the next step is below this share of the mean link length.
+  static constexpr double last_step_below = 1e-9;
   // Pairs of steps and changes of the gradient from which L-BFGS estimates the curvature.
   static constexpr std::size_t most_pairs = 6;
   // Pairs of less curvature than this, over the lengths of both, are left out.
   static constexpr double least_curvature = 1e-12;
   static constexpr int most_halvings = 12;
   // Armijo condition: the energy must fall by at least this share of what the slope predicts, but for rounding.
-  static constexpr double share_of_slope = 1e-4, rounding_share = 1e-13;
+  static constexpr double share_of_slope = 1e-4;
+  // Rounding error of the energy, as a share of the magnitude of its terms.
+  static constexpr double rounding_share = 1e-15;
 
   using Square = Eigen::Matrix<double, N, N>;
   using Corners = Eigen::Matrix<double, N, N + 1>;
@@ -115,10 +116,11 @@ class QuasiNewton final : public IteratedSolver {
     return cofactors;
   }
 
-  /// Returns the energy, and leaves its derivatives in gradient_.
+  /// Returns the energy, and leaves its derivatives in gradient_ and the magnitude of its terms in magnitude_.
   double evaluate(const std::vector<double>& displacements) {
     std::ranges::fill(gradient_, 0.0);
     double sum = 0;
+    magnitude_ = 0;
     for (const Cell& cell : cells_) {
       Corners at;
       for (int k = 0; k <= N; ++k) {
@@ -127,8 +129,10 @@ class QuasiNewton final : public IteratedSolver {
       }
       const Square f = Square::Identity() + at * cell.gradients.transpose();
       const double beyond = f.determinant() - alpha_;
-      sum +=
-          cell.volume / 2 * (mu_ * (f.squaredNorm() - N) + lambda_ * (beyond * beyond - (1 - alpha_) * (1 - alpha_)));
+      const double shape = mu_ * f.squaredNorm(), size = lambda_ * beyond * beyond;
+      const double shape_at_rest = mu_ * N, size_at_rest = lambda_ * (1 - alpha_) * (1 - alpha_);
+      sum += cell.volume / 2 * (shape - shape_at_rest + size - size_at_rest);
+      magnitude_ += cell.volume / 2 * (shape + shape_at_rest + size + size_at_rest);
       const Corners forces = cell.volume * (mu_ * f + lambda_ * beyond * cofactors(f)) * cell.gradients;
       for (int k = 0; k <= N; ++k) {
         Eigen::Map<Eigen::Matrix<double, N, 1>>(gradient_.data() + cell.corners[std::size_t(k)] * N) += forces.col(k);
@@ -216,7 +220,7 @@ class QuasiNewton final : public IteratedSolver {
     for (int halving = 0; halving < most_halvings; ++halving, step /= 2) {
       scatter(from + step, displacements);
       const double energy = evaluate(displacements), share = std::ldexp(1.0, -halving);
-      if (energy <= energy_ + share_of_slope * share * expected + rounding_share * std::abs(energy_)) {
+      if (energy <= energy_ + share_of_slope * share * expected + rounding_share * magnitude_) {
         energy_ = energy;
         Unknown next = gather(gradient_);
         add_pair(std::move(step), next - slope);
@@ -282,6 +286,7 @@ class QuasiNewton final : public IteratedSolver {
   Cholesky factor_;
   std::vector<double> gradient_;  // of the energy, by all coordinates
   double energy_ = 0;             // of the last iterate
+  double magnitude_ = 0;          // of the terms whose difference is the last energy
   std::vector<Pair> pairs_;       // of this move
   std::vector<double> kept_;      // pairs of the last move, by all coordinates: step, change, step, …
   std::vector<double> last_;      // displacements after the last move

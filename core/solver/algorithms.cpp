@@ -157,7 +157,7 @@ std::vector<AlgorithmInfo> make_table() {
        .label = "Quasi-Newton FEM",
        .source = "Liu et al. 2017; Smith et al. 2018",
        .summary = "stable neo-Hookean cells, by L-BFGS with one matrix for all iterations",
-       .style = {"M-1.1-.35H-.35V-1.1H.35V1.1H-.35V.35H-1.1Z", "#007f8c"},  // a T that lies
+       .style = {"M-1.1-.35H-.35V-1.1H.35V1.1H-.35V.35H-1.1Z", "#94b9ff"},  // a T that lies
        .make = make_elastic_method<ElasticMethod::quasi_newton>,
        .elastic = ElasticMethod::quasi_newton,
        .needs_pins = true,

@@ -191,7 +191,7 @@ void PeersTest::wrong_answers_are_refused() {
   }
   write("answer.json", json);
   const auto outcome = program_->run("compare --judge case.json answer.json");
-  QCOMPARE(outcome.code, 1);
+  QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(outcome.error.contains(says.toUtf8()), outcome.error);
 }
@@ -235,7 +235,7 @@ void PeersTest::wrong_cases_are_refused() {
   change(case_);
   write("case.json", case_);
   const auto outcome = program_->run("compare --judge case.json answer.json");
-  QCOMPARE(outcome.code, 1);
+  QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: case.json"), outcome.error);
   QVERIFY2(outcome.error.contains(says.toUtf8()), outcome.error);
 }
@@ -247,7 +247,7 @@ void PeersTest::wrong_usage_data() {
   row("compare --judge", "--judge");
   row("compare --judge case.json", "--judge");
   row("compare --judge case.json answer.json --relax 3", "--relax");
-  row("compare --cases case.json", "MESH");
+  row("compare --cases case.json -o out", "MESH");
 }
 
 void PeersTest::wrong_usage() {

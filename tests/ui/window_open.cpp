@@ -305,12 +305,11 @@ class WindowOpen : public QObject {
     QVERIFY(size->value() > 1.1 * bench.document().mesh()->mean_link_length);
     QVERIFY(bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
     const auto* limits = bench.find<QLabel>("fillDetails");
-    QCOMPARE(
-        limits->text(),
-        QStringLiteral("Few enough for Linear FEM (30,000), ARAP, XPBD, Projective Dynamics (100,000). Too many for "
-                       "BEM (5,000), Neo-Hookean FEM, Corotational FEM (6,000)"));
+    QCOMPARE(limits->text(), QStringLiteral("Few enough for Linear FEM, Quasi-Newton FEM (30,000), ARAP, XPBD, "
+                                            "Projective Dynamics (100,000). Too many for "
+                                            "BEM (5,000), Neo-Hookean FEM, Corotational FEM (6,000)"));
     size->setValue(bench.document().mesh()->mean_link_length);
-    QVERIFY2(limits->text().endsWith(QStringLiteral("Corotational FEM (6,000), Linear FEM (30,000)")),
+    QVERIFY2(limits->text().endsWith(QStringLiteral("Corotational FEM (6,000), Linear FEM, Quasi-Newton FEM (30,000)")),
              qPrintable(limits->text()));
     QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
   }
@@ -388,7 +387,9 @@ class WindowOpen : public QObject {
     bench.settle();
     QVERIFY(bench.document().mesh()->element_count() < 10'000);
     QVERIFY(bench.find<QFrame>("fillBar")->isVisible());
-    QVERIFY2(bench.find<QLabel>("fillDetails")->text().startsWith(QStringLiteral("Few enough for Linear FEM (30,000)")),
+    QVERIFY2(bench.find<QLabel>("fillDetails")
+                 ->text()
+                 .startsWith(QStringLiteral("Few enough for Linear FEM, Quasi-Newton FEM (30,000)")),
              qPrintable(bench.find<QLabel>("fillDetails")->text()));
     bench.find<QPushButton>("fillAgree")->click();
     bench.settle();

@@ -168,8 +168,12 @@ Json to_json(const report::PhysicsEntry& entry) {
   json["grab_ms"] = spread_or_none(measured.prepare.grab);
   json["error"] = to_json(measured.error);
   json["shape"] = to_json(measured.shape);
-  json["residual"] = measured.residual ? Json(*measured.residual) : Json();
-  json["regions_bind"] = measured.binds ? Json(*measured.binds) : Json();
+  if (measured.residual) {
+    json["residual"] = *measured.residual;
+  }
+  if (measured.binds) {
+    json["regions_bind"] = *measured.binds;
+  }
   return json;
 }
 

@@ -106,7 +106,7 @@ class Contest::Participant {
   /// Call this after try_out(). From now on the drag runs with the least number of iterations per move with which the
   /// answer at its end is close to that of try_out(), the own limit.
   void limit_iterations(const RecordedMoves& moves, const ReferenceSolution& reference, const std::stop_token& stop) {
-    if (!entry_.measurement || contestant_.limit > 0) {
+    if (!entry_.measurement || !runner_ || contestant_.limit > 0) {
       return;
     }
     ReferenceSolution own = reference;

@@ -39,11 +39,12 @@ struct PeerVerdict {
 
 /// Makes a case of a drag without a cut.
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
-/// Makes cases of the drags in which the suite measures the time to an error. `organ` as for the suite; null: without it.
+/// Makes cases of the drags in which the suite measures the time to an error. `organ` as for the suite; null: without
+/// it.
 std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ);
 
-/// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a pin
-/// or an element of the handle is not where the last move puts it.
+/// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a
+/// pin or an element of the handle is not where the last move puts it.
 PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer);
 
 }  // namespace chainmail::report

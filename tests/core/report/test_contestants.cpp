@@ -267,8 +267,8 @@ void ContestantsTest::corotational_is_at_the_least_energy() {
   QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
 }
 
-/// Stable neo-Hookean elasticity, in plane stress for a sheet. Its second parameter is λ + μ, so that small strains have
-/// the material's.
+/// Stable neo-Hookean elasticity, in plane stress for a sheet. Its second parameter is λ + μ, so that small strains
+/// have the material's.
 void ContestantsTest::quasi_newton_is_at_the_least_energy() {
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));

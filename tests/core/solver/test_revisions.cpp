@@ -43,8 +43,8 @@ ElementBlocks all_blocks(const Mesh& mesh) {
 
 /// True for methods that start from the answer before.
 bool follows_path(Algorithm algorithm) {
-  constexpr std::array those{Algorithm::neo_hookean, Algorithm::corotational, Algorithm::arap, Algorithm::xpbd,
-                             Algorithm::projective, Algorithm::quasi_newton};
+  constexpr std::array those{Algorithm::neo_hookean, Algorithm::corotational, Algorithm::arap,
+                             Algorithm::xpbd,        Algorithm::projective,   Algorithm::quasi_newton};
   return std::ranges::find(those, algorithm) != those.end();
 }
 
