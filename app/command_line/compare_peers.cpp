@@ -20,6 +20,10 @@ std::string error_cell(double relative, const std::optional<double>& change) {
 report::FigureTable table_of(const report::PeerCase& object) {
   report::FigureTable table;
   table.caption = printable(object.name);
+  table.about = printable(object.description);
+  if (object.reference_change) {
+    table.about += "; the last refinement of the reference changed it by " + report::figure(*object.reference_change);
+  }
   table.corner = "solver";
   table.columns = {{"", "relative error"},        {"move (ms)", "first"},     {"move (ms)", "later"},
                    {"prepare (ms)", "factorize"}, {"prepare (ms)", "grab"},   {"shape", "Hausdorff"},

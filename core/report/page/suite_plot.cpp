@@ -63,17 +63,22 @@ Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure) {
   plot.y.title = "relative error";
   plot.y.smallest = smallest_error;
   plot.legend_notes = {"hollow: with relaxation", "mat.: to the material, regions open", equilibrium_note};
-  plot.series.push_back({"front: none is faster and closer", 0, front_colour});
+  std::vector<std::vector<SuiteMean>> shown;  // of each panel
   for (const SuiteResult& result : suite.results) {
     PlotPanel panel{result.name, {}, {}};
-    const auto means = means_of(result);
+    auto means = means_of(result);
     for (const SuiteMean& mean : means) {
       add_mark(plot, panel, mean, measure);
     }
-    add_front(panel, 0, means, measure);
     if (!panel.marks.empty()) {
       plot.panels.push_back(std::move(panel));
+      shown.push_back(std::move(means));
     }
+  }
+  // After those of the algorithms, which are found by their styles.
+  plot.series.push_back({"front: none is faster and closer", 0, front_colour});
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    add_front(plot.panels[i], plot.series.size() - 1, shown[i], measure);
   }
   return plot;
 }

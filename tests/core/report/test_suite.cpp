@@ -11,6 +11,7 @@
 #include "program.h"
 #include "report/page/front.h"
 #include "report/page/suite_csv.h"
+#include "report/page/suite_plot.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"
@@ -76,6 +77,7 @@ class SuiteTest : public QObject {
   void an_experiment_twice_is_refused();
   void means_leave_out_the_cut();
   void the_front_has_whom_no_one_beats();
+  void plots_name_everyone_and_the_front();
   void unknown_experiments_are_refused();
 };
 
@@ -396,6 +398,31 @@ void SuiteTest::the_front_has_whom_no_one_beats() {
   }
   QCOMPARE(names, (std::vector<std::string>{"fast", "the same as the fast one", "middle", "slow and close"}));
   QVERIFY(front(means, speeds_against_error[1]).empty());  // nobody has a time of a fresh grab
+}
+
+/// Every contestant of a plot is in its legend, and the line of the front is beside them.
+void SuiteTest::plots_name_everyone_and_the_front() {
+  SuiteResult result;
+  result.name = "bar";
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    SuiteRow& row = result.rows.emplace_back();
+    row.contestant = one.label;
+    row.algorithm = one.name;
+    row.relative = 1 / double(result.rows.size());
+    row.later_ms = double(result.rows.size());
+  }
+  Suite suite;
+  suite.results = {result};
+  const Plot plot = suite_plot(suite, speeds_against_error[0]);
+  QCOMPARE(plot.series.size(), result.rows.size() + 1);
+  const PlotPanel& panel = plot.panels.at(0);
+  for (std::size_t i = 0; i < panel.marks.size(); ++i) {
+    QCOMPARE(plot.series[panel.marks[i].series].label, result.rows[i].contestant);
+  }
+  QCOMPARE(panel.curves.size(), std::size_t{1});
+  QVERIFY(plot.series[panel.curves[0].series].label.starts_with("front"));
+  // In steps, from one to the next; neo-Hookean FEM may not win.
+  QCOMPARE(panel.curves[0].points.size(), 2 * (result.rows.size() - 1) - 1);
 }
 
 void SuiteTest::unknown_experiments_are_refused() {
