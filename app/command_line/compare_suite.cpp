@@ -14,6 +14,7 @@
 #include "report/page/suite_plot.h"
 #include "report/page/suite_table.h"
 #include "report/page/svg.h"
+#include "report/run/suite_experiments.h"
 #ifdef CHAINMAIL_HAS_BULLET
 #include "bullet/soft_body.h"
 #endif
@@ -56,7 +57,9 @@ std::vector<std::string> experiments_of(const CompareArguments& arguments) {
 }
 
 bool needs_organ(const std::vector<std::string>& names) {
-  return std::ranges::any_of(names, [](const std::string& name) { return name.ends_with("organ"); });
+  return std::ranges::any_of(report::suite_experiments(), [&](const report::SuiteExperiment& one) {
+    return one.needs_organ() && std::ranges::count(names, one.name) > 0;
+  });
 }
 
 void write(const report::Suite& suite, OutputFolder& folder, const std::vector<std::filesystem::path>& read) {

@@ -16,7 +16,7 @@
 namespace chainmail {
 namespace {
 
-// The object is at rest if a time step moves no coordinate by more than this (mean edge lengths).
+// The object is at rest if a time step moves no element by more than this (mean edge lengths).
 constexpr double at_rest_below = 1e-10;
 // It diverges if a time step moves one by this.
 constexpr double diverging_move = 100;
@@ -162,7 +162,7 @@ class Xpbd final : public IteratedSolver {
     }
   }
 
-  /// Makes a time step. Returns the longest way of a coordinate; infinity if it is not a number.
+  /// Makes a time step. Returns the longest way of an element; infinity if it is not a number.
   double step() {
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       motions_[e].before = elements_[e].at;
@@ -177,7 +177,7 @@ class Xpbd final : public IteratedSolver {
     double longest = 0;
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       motions_[e].velocity = elements_[e].at - motions_[e].before;
-      const double way = motions_[e].velocity.template lpNorm<Eigen::Infinity>();
+      const double way = motions_[e].velocity.norm();
       longest = way <= longest ? longest : way;  // also if it is not a number
     }
     return std::isfinite(longest) ? longest : std::numeric_limits<double>::infinity();

@@ -32,6 +32,7 @@ class PeersTest : public QObject {
   void wrong_answers_are_refused();
   void wrong_cases_are_refused_data();
   void wrong_cases_are_refused();
+  void a_case_in_which_nothing_moves_is_refused();
   void wrong_usage_data();
   void wrong_usage();
 
@@ -238,6 +239,16 @@ void PeersTest::wrong_cases_are_refused() {
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: case.json"), outcome.error);
   QVERIFY2(outcome.error.contains(says.toUtf8()), outcome.error);
+}
+
+/// Errors are relative to the way of the reference.
+void PeersTest::a_case_in_which_nothing_moves_is_refused() {
+  write("answer.json", answer("right"));
+  case_["reference"] = case_["positions"];
+  write("case.json", case_);
+  const auto outcome = program_->run("compare --judge case.json answer.json");
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome) && outcome.error.contains("its error is not a number"), outcome.error);
 }
 
 void PeersTest::wrong_usage_data() {

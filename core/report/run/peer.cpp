@@ -140,6 +140,10 @@ PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer) {
   };
   PeerVerdict verdict;
   verdict.error = measure_physical_error(mesh, view(positions), reference_of(object));
+  if (!std::isfinite(verdict.error.relative)) {
+    throw Error(answer.solver, "its error is not a number: positions are too large, or nothing moves in the case",
+                "check the positions of the answer and of the case");
+  }
   verdict.shape = shape_figures(mesh, Softness(), Cuts(object.mesh), view(positions), view(reference));
   if (!answer.moves_ms.empty()) {
     verdict.first_ms = answer.moves_ms.front();

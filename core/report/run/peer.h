@@ -44,7 +44,7 @@ PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragRefe
 std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ);
 
 /// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a
-/// pin or an element of the handle is not where the last move puts it.
+/// pin or an element of the handle is not where the last move puts it, and if the error is not a number.
 PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer);
 
 }  // namespace chainmail::report
