@@ -1,72 +1,75 @@
 #include "report/page/csv.h"
 
-#include "report/page/format.h"
+#include <vector>
+
+#include "report/page/csv_table.h"
 
 namespace chainmail::report {
-namespace {
+namespace compared_csv {
 
-void write_distance(std::ostream& out, const std::optional<Distance>& distance) {
-  out << ',' << (distance ? all_digits(distance->max) : "") << ',' << (distance ? all_digits(distance->rms) : "");
-}
+/// One contestant in one drag of one object.
+struct Row {
+  const CaseResult* object;
+  const DragResult* drag;
+  const Entry* entry;
+};
 
-void write_errors(std::ostream& out, const Errors& errors) {
-  out << ',' << all_digits(errors.violation.max) << ',' << all_digits(errors.violation.rms) << ','
-      << all_digits(errors.violation.fraction);
-  write_distance(out, errors.to_exact);
-  out << ',' << all_digits(errors.energy_over_exact);
-  write_distance(out, errors.float_to_double);
-  out << ',' << all_digits(errors.largest_over_handle);
-  write_distance(out, errors.to_equilibrium);
-}
+/// A member of what was measured, of the times of moves, or of the errors.
+template <auto... members>
+constexpr auto measured = at<Row, &Row::entry, &Entry::measurement, members...>;
+template <auto member>
+constexpr auto time = measured<&Measurement::ms_per_move, member>;
+template <auto... members>
+constexpr auto error = measured<&Measurement::errors, members...>;
 
-constexpr int shape_figures_written = 4;  // number of columns
+constexpr CsvColumn<Row> columns[]{
+    {"object", at<Row, &Row::object, &CaseResult::name>},
+    {"elements", at<Row, &Row::object, &CaseResult::elements>},
+    {"links", at<Row, &Row::object, &CaseResult::links>},
+    {"drag", at<Row, &Row::drag, &DragResult::name>},
+    {"moves", at<Row, &Row::drag, &DragResult::moves>},
+    {"algorithm", [](const Row& row) -> CsvField { return info(row.entry->contestant.algorithm).name; }},
+    {"sweeps", at<Row, &Row::entry, &Entry::contestant, &Contestant::sweeps>},
+    {"refusal", at<Row, &Row::entry, &Entry::refusal>},
+    {"repetitions", time<&TimeSpread::count>},
+    {"ms", time<&TimeSpread::median>},
+    {"ms_lower_quartile", time<&TimeSpread::lower_quartile>},
+    {"ms_upper_quartile", time<&TimeSpread::upper_quartile>},
+    {"ms_min", time<&TimeSpread::min>},
+    {"ms_max", time<&TimeSpread::max>},
+    {"worst_move_ms", measured<&Measurement::worst_move_ms>},
+    {"checked", measured<&Measurement::checked>},
+    {"moved", measured<&Measurement::moved>},
+    {"violation_max", error<&Errors::violation, &Violation::max>},
+    {"violation_rms", error<&Errors::violation, &Violation::rms>},
+    {"violation_fraction", error<&Errors::violation, &Violation::fraction>},
+    {"exact_distance_max", error<&Errors::to_exact, &Distance::max>},
+    {"exact_distance_rms", error<&Errors::to_exact, &Distance::rms>},
+    {"energy_over_exact", error<&Errors::energy_over_exact>},
+    {"float_double_max", error<&Errors::float_to_double, &Distance::max>},
+    {"float_double_rms", error<&Errors::float_to_double, &Distance::rms>},
+    {"largest_over_hand", error<&Errors::largest_over_handle>},
+    {"equilibrium_distance_max", error<&Errors::to_equilibrium, &Distance::max>},
+    {"equilibrium_distance_rms", error<&Errors::to_equilibrium, &Distance::rms>},
+    {"equilibrium", at<Row, &Row::entry, &Entry::contestant, &Contestant::equilibrium>},
+    {"hausdorff", error<&Errors::shape, &ShapeFigures::hausdorff>},
+    {"volume_change", error<&Errors::shape, &ShapeFigures::volume_change>},
+    {"inverted_cells", error<&Errors::shape, &ShapeFigures::inverted_cells>},
+    {"largest_stretch", error<&Errors::shape, &ShapeFigures::stretch>},
+};
 
-void write_shape(std::ostream& out, const ShapeFigures& shape) {
-  out << ',' << all_digits(shape.hausdorff) << ',' << all_digits(shape.volume_change) << ','
-      << (shape.inverted_cells ? std::to_string(*shape.inverted_cells) : "") << ',' << all_digits(shape.stretch);
-}
-
-void write_measurement(std::ostream& out, const Measurement& measurement) {
-  const TimeSpread& ms = measurement.ms_per_move;
-  out << ',' << ms.count;
-  for (const double time : {ms.median, ms.lower_quartile, ms.upper_quartile, ms.min, ms.max}) {
-    out << ',' << all_digits(time);
-  }
-  out << ',' << all_digits(measurement.worst_move_ms) << ',' << measurement.checked << ',' << measurement.moved;
-  write_errors(out, measurement.errors);
-}
-
-constexpr int comparison_figures = 20;  // number of columns of a measurement
-
-}  // namespace
+}  // namespace compared_csv
 
 void write_csv(std::ostream& out, const Comparison& comparison) {
-  out << "object,elements,links,drag,moves,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,"
-         "ms_upper_quartile,ms_min,ms_max,worst_move_ms,checked,moved,violation_max,violation_rms,violation_fraction,"
-         "exact_distance_max,exact_distance_rms,energy_over_exact,float_double_max,float_double_rms,largest_over_hand,"
-         "equilibrium_distance_max,equilibrium_distance_rms,equilibrium,hausdorff,volume_change,inverted_cells,"
-         "largest_stretch\n";
+  std::vector<compared_csv::Row> rows;
   for (const CaseResult& object : comparison.cases) {
     for (const DragResult& drag : object.drags) {
       for (const Entry& entry : drag.entries) {
-        out << csv_field(object.name) << ',' << object.elements << ',' << object.links << ',' << csv_field(drag.name)
-            << ',' << drag.moves << ',' << info(entry.contestant.algorithm).name << ',' << entry.contestant.sweeps
-            << ',' << csv_field(entry.refusal);
-        if (entry.measurement) {
-          write_measurement(out, *entry.measurement);
-        } else {
-          out << std::string(comparison_figures, ',');
-        }
-        out << ',' << (entry.contestant.equilibrium ? 1 : 0);
-        if (entry.measurement) {
-          write_shape(out, entry.measurement->errors.shape);
-        } else {
-          out << std::string(shape_figures_written, ',');
-        }
-        out << '\n';
+        rows.push_back({&object, &drag, &entry});
       }
     }
   }
+  write_csv(out, compared_csv::columns, rows);
 }
 
 }  // namespace chainmail::report

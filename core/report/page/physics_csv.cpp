@@ -1,115 +1,165 @@
 #include "report/page/physics_csv.h"
 
-#include "report/page/format.h"
+#include <vector>
+
+#include "report/page/csv_table.h"
 
 namespace chainmail::report {
-namespace {
+namespace physics_csv {
 
-constexpr int physics_figures = 29;  // number of columns of a measurement
+/// One contestant in one drag of one object, or at one size of a growing object. What was not measured is none.
+struct Row {
+  std::string object;
+  std::uint64_t elements = 0;
+  std::optional<std::uint64_t> pins = {};
+  std::string drag = {};
+  std::optional<double> displacement = {};
+  const PhysicsContestant* contestant = nullptr;
+  std::string refusal = {};
+  std::optional<int> repetitions = {};
+  std::optional<double> ms = {}, prepare_ms = {};
+  const PhysicalError* error = nullptr;
+  std::optional<std::uint64_t> moving = {};
+  const PhysicsMeasurement* measured = nullptr;
+  std::optional<std::uint64_t> handle = {};
+  const Symmetry* symmetry = nullptr;
+};
 
-/// Writes median, quartiles and repetitions; empty fields if nothing was timed.
-void write_spread(std::ostream& out, const TimeSpread& ms) {
-  if (ms.count == 0) {
-    out << ",,,,";
-    return;
+Row row_of(const PhysicsObject& object, const PhysicsDrag& drag, const PhysicsEntry& entry) {
+  Row row{.object = object.name,
+          .elements = object.elements,
+          .pins = object.pins,
+          .drag = drag.name,
+          .displacement = drag.handle_displacement,
+          .contestant = &entry.contestant,
+          .refusal = entry.refusal,
+          .handle = drag.handle,
+          .symmetry = find_symmetry(object.symmetry, entry.contestant)};
+  if (entry.measurement) {
+    row.measured = &*entry.measurement;
+    row.repetitions = row.measured->ms_per_move.count;
+    row.ms = row.measured->ms_per_move.median;
+    row.prepare_ms = row.measured->prepare.ms();
+    row.error = &row.measured->error;
+    row.moving = row.error->moving;
   }
-  out << ',' << all_digits(ms.median) << ',' << all_digits(ms.lower_quartile) << ',' << all_digits(ms.upper_quartile)
-      << ',' << ms.count;
+  return row;
 }
 
-void write_measurement(std::ostream& out, const PhysicsMeasurement& measured) {
-  const TimeSpread& ms = measured.ms_per_move;
-  const PhysicalError& error = measured.error;
-  out << ',' << ms.count;
-  for (const double number : {ms.median, ms.lower_quartile, ms.upper_quartile, ms.min, ms.max, measured.prepare.ms(),
-                              error.rms, error.max, error.moving_rms, error.moving_max}) {
-    out << ',' << all_digits(number);
-  }
-  out << ',' << error.moving << ',' << all_digits(error.relative);
-  write_spread(out, measured.first_move);
-  write_spread(out, measured.move_after_cut);
-  write_spread(out, measured.prepare.factorize);
-  write_spread(out, measured.prepare.grab);
+Row row_of(const PhysicsGrowth& growth, const GrowthSeries& series, const GrowthPoint& point) {
+  return {.object = "growing " + growth.name,
+          .elements = point.elements,
+          .contestant = &series.contestant,
+          .repetitions = 1,
+          .ms = point.ms_per_move,
+          .prepare_ms = point.prepare_ms,
+          .error = point.error ? &*point.error : nullptr};
 }
 
-constexpr int physics_shape_figures = 5;  // number of columns
+template <auto... members>
+constexpr auto measured = at<Row, &Row::measured, members...>;
+template <auto member>
+constexpr auto later = measured<&PhysicsMeasurement::ms_per_move, member>;
+template <auto member>
+constexpr auto shape = measured<&PhysicsMeasurement::shape, member>;
+template <auto member>
+constexpr auto error = at<Row, &Row::error, member>;
+template <auto member>
+constexpr auto contestant = at<Row, &Row::contestant, member>;
 
-void write_physics_shape(std::ostream& out, const ShapeFigures& shape) {
-  out << ',' << all_digits(shape.hausdorff) << ',' << all_digits(shape.volume_change) << ','
-      << (shape.inverted_cells ? std::to_string(*shape.inverted_cells) : "") << ',' << all_digits(shape.stretch) << ','
-      << all_digits(shape.violation);
+/// Returns a member of a spread of times; none if nothing was timed.
+template <auto times, auto member>
+CsvField timed(const Row& row) {
+  const TimeSpread* ms = row.measured == nullptr ? nullptr : &times(*row.measured);
+  return ms != nullptr && ms->count > 0 ? CsvField(ms->*member) : CsvField();
+}
+constexpr auto first = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.first_move; };
+constexpr auto after_cut = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.move_after_cut; };
+constexpr auto factorize = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.prepare.factorize; };
+constexpr auto grab = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.prepare.grab; };
+
+/// Returns by how much the contestant differs on the turned object.
+template <std::size_t angle, auto member>
+CsvField turned(const Row& row) {
+  const bool known = row.symmetry != nullptr && angle < row.symmetry->turns.size();
+  return known ? CsvField(row.symmetry->turns[angle].*member) : CsvField();
 }
 
-/// Writes how close the contestant is to its equilibrium; empty fields if it has none.
-void write_equilibrium(std::ostream& out, const std::optional<PhysicsMeasurement>& measured) {
-  out << ',' << (measured ? all_digits(measured->residual) : "") << ','
-      << (measured && measured->binds ? (*measured->binds ? "1" : "0") : "");
-}
+constexpr CsvColumn<Row> columns[]{
+    {"object", at<Row, &Row::object>},
+    {"elements", at<Row, &Row::elements>},
+    {"pins", at<Row, &Row::pins>},
+    {"drag", at<Row, &Row::drag>},
+    {"hand", at<Row, &Row::displacement>},
+    {"algorithm", [](const Row& row) -> CsvField { return name(*row.contestant); }},
+    {"sweeps", contestant<&PhysicsContestant::sweeps>},
+    {"refusal", at<Row, &Row::refusal>},
+    {"repetitions", at<Row, &Row::repetitions>},
+    {"ms", at<Row, &Row::ms>},
+    {"ms_lower_quartile", later<&TimeSpread::lower_quartile>},
+    {"ms_upper_quartile", later<&TimeSpread::upper_quartile>},
+    {"ms_min", later<&TimeSpread::min>},
+    {"ms_max", later<&TimeSpread::max>},
+    {"prepare_ms", at<Row, &Row::prepare_ms>},
+    {"error_rms", error<&PhysicalError::rms>},
+    {"error_max", error<&PhysicalError::max>},
+    {"moving_rms", error<&PhysicalError::moving_rms>},
+    {"moving_max", error<&PhysicalError::moving_max>},
+    {"moving_elements", at<Row, &Row::moving>},
+    {"relative", error<&PhysicalError::relative>},
+    {"first_ms", timed<first, &TimeSpread::median>},
+    {"first_lower_quartile", timed<first, &TimeSpread::lower_quartile>},
+    {"first_upper_quartile", timed<first, &TimeSpread::upper_quartile>},
+    {"first_repetitions", timed<first, &TimeSpread::count>},
+    {"after_cut_ms", timed<after_cut, &TimeSpread::median>},
+    {"after_cut_lower_quartile", timed<after_cut, &TimeSpread::lower_quartile>},
+    {"after_cut_upper_quartile", timed<after_cut, &TimeSpread::upper_quartile>},
+    {"after_cut_repetitions", timed<after_cut, &TimeSpread::count>},
+    {"factorize_ms", timed<factorize, &TimeSpread::median>},
+    {"factorize_lower_quartile", timed<factorize, &TimeSpread::lower_quartile>},
+    {"factorize_upper_quartile", timed<factorize, &TimeSpread::upper_quartile>},
+    {"factorize_repetitions", timed<factorize, &TimeSpread::count>},
+    {"grab_ms", timed<grab, &TimeSpread::median>},
+    {"grab_lower_quartile", timed<grab, &TimeSpread::lower_quartile>},
+    {"grab_upper_quartile", timed<grab, &TimeSpread::upper_quartile>},
+    {"grab_repetitions", timed<grab, &TimeSpread::count>},
+    {"handle", at<Row, &Row::handle>},
+    {"calibrated", [](const Row& row) -> CsvField { return row.contestant->calibrated.has_value(); }},
+    {"equilibrium", contestant<&PhysicsContestant::equilibrium>},
+    {"open_regions", contestant<&PhysicsContestant::open_regions>},
+    {"hausdorff", shape<&ShapeFigures::hausdorff>},
+    {"volume_change", shape<&ShapeFigures::volume_change>},
+    {"inverted_cells", shape<&ShapeFigures::inverted_cells>},
+    {"largest_stretch", shape<&ShapeFigures::stretch>},
+    {"violation_max", shape<&ShapeFigures::violation>},
+    {"turned_45_max", turned<0, &TurnDifference::max>},
+    {"turned_45_relative", turned<0, &TurnDifference::relative>},
+    {"turned_90_max", turned<1, &TurnDifference::max>},
+    {"turned_90_relative", turned<1, &TurnDifference::relative>},
+    {"residual", measured<&PhysicsMeasurement::residual>},
+    {"regions_bind", measured<&PhysicsMeasurement::binds>},
+};
+static_assert(symmetry_angles == std::array{45.0, 90.0}, "the columns turned_… name the angles");
 
-/// Writes by how much the contestant differs on the turned object; empty fields if that was not measured.
-void write_symmetry(std::ostream& out, const PhysicsObject& object, const PhysicsContestant& contestant) {
-  const Symmetry* symmetry = find_symmetry(object.symmetry, contestant);
-  for (std::size_t i = 0; i < symmetry_angles.size(); ++i) {
-    const bool known = symmetry != nullptr && i < symmetry->turns.size();
-    out << ',' << (known ? all_digits(symmetry->turns[i].max) : "") << ','
-        << (known ? all_digits(symmetry->turns[i].relative) : "");
-  }
-}
-
-void write_growth(std::ostream& out, const PhysicsGrowth& growth) {
-  for (const GrowthSeries& series : growth.series) {
-    for (const GrowthPoint& point : series.points) {
-      const PhysicalError error = point.error.value_or(PhysicalError{});
-      const auto known = [&](double number) { return point.error ? all_digits(number) : ""; };
-      out << csv_field("growing " + growth.name) << ',' << point.elements << ",,,," << name(series.contestant) << ','
-          << series.contestant.sweeps << ",,1," << all_digits(point.ms_per_move) << ",,,,,"
-          << all_digits(point.prepare_ms) << ',' << known(error.rms) << ',' << known(error.max) << ','
-          << known(error.moving_rms) << ',' << known(error.moving_max) << ",," << known(error.relative)
-          << std::string(16, ',') << ",,," << (series.contestant.equilibrium ? 1 : 0) << ','
-          << (series.contestant.open_regions ? 1 : 0)
-          << std::string(physics_shape_figures + 2 * symmetry_angles.size() + 2, ',') << '\n';
-    }
-  }
-}
-
-}  // namespace
+}  // namespace physics_csv
 
 void write_csv(std::ostream& out, const PhysicsReport& report) {
-  out << "object,elements,pins,drag,hand,algorithm,sweeps,refusal,repetitions,ms,ms_lower_quartile,ms_upper_quartile,"
-         "ms_min,ms_max,prepare_ms,error_rms,error_max,moving_rms,moving_max,moving_elements,relative,"
-         "first_ms,first_lower_quartile,first_upper_quartile,first_repetitions,"
-         "after_cut_ms,after_cut_lower_quartile,after_cut_upper_quartile,after_cut_repetitions,"
-         "factorize_ms,factorize_lower_quartile,factorize_upper_quartile,factorize_repetitions,"
-         "grab_ms,grab_lower_quartile,grab_upper_quartile,grab_repetitions,handle,calibrated,equilibrium,open_regions,"
-         "hausdorff,volume_change,inverted_cells,largest_stretch,violation_max,"
-         "turned_45_max,turned_45_relative,turned_90_max,turned_90_relative,residual,regions_bind\n";
+  std::vector<physics_csv::Row> rows;
   for (const PhysicsObject& object : report.objects) {
     for (const PhysicsDrag& drag : object.drags) {
       for (const PhysicsEntry& entry : drag.entries) {
-        out << csv_field(object.name) << ',' << object.elements << ',' << object.pins << ',' << csv_field(drag.name)
-            << ',' << all_digits(drag.handle_displacement) << ',' << name(entry.contestant) << ','
-            << entry.contestant.sweeps << ',' << csv_field(entry.refusal);
-        if (entry.measurement) {
-          write_measurement(out, *entry.measurement);
-        } else {
-          out << std::string(physics_figures, ',');
-        }
-        out << ',' << drag.handle << ',' << (entry.contestant.calibrated ? 1 : 0) << ','
-            << (entry.contestant.equilibrium ? 1 : 0) << ',' << (entry.contestant.open_regions ? 1 : 0);
-        if (entry.measurement) {
-          write_physics_shape(out, entry.measurement->shape);
-        } else {
-          out << std::string(physics_shape_figures, ',');
-        }
-        write_symmetry(out, object, entry.contestant);
-        write_equilibrium(out, entry.measurement);
-        out << '\n';
+        rows.push_back(physics_csv::row_of(object, drag, entry));
       }
     }
   }
   for (const PhysicsGrowth& growth : report.growths) {
-    write_growth(out, growth);
+    for (const GrowthSeries& series : growth.series) {
+      for (const GrowthPoint& point : series.points) {
+        rows.push_back(physics_csv::row_of(growth, series, point));
+      }
+    }
   }
+  write_csv(out, physics_csv::columns, rows);
 }
 
 }  // namespace chainmail::report

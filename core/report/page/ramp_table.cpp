@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "report/page/csv_table.h"
 #include "report/page/format.h"
 
 namespace chainmail::report {
@@ -99,13 +100,19 @@ void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine) {
 }
 
 void write_csv(std::ostream& out, const Ramp& ramp) {
-  out << "width,elements,links,algorithm,passes,median_ms,p99_ms,mean_moved,repeated,real_time\n";
-  for (const RampRow& row : ramp.rows) {
-    out << std::to_string(row.width) << ',' << std::to_string(row.elements) << ',' << std::to_string(row.links) << ','
-        << info(row.algorithm).name << ',' << std::to_string(row.passes) << ',' << all_digits(row.median_ms) << ','
-        << all_digits(row.p99_ms) << ',' << all_digits(row.mean_moved) << ',' << (row.repeated ? 1 : 0) << ','
-        << (row.in_real_time ? 1 : 0) << '\n';
-  }
+  constexpr CsvColumn<RampRow> columns[]{
+      {"width", at<RampRow, &RampRow::width>},
+      {"elements", at<RampRow, &RampRow::elements>},
+      {"links", at<RampRow, &RampRow::links>},
+      {"algorithm", [](const RampRow& row) -> CsvField { return info(row.algorithm).name; }},
+      {"passes", at<RampRow, &RampRow::passes>},
+      {"median_ms", at<RampRow, &RampRow::median_ms>},
+      {"p99_ms", at<RampRow, &RampRow::p99_ms>},
+      {"mean_moved", at<RampRow, &RampRow::mean_moved>},
+      {"repeated", at<RampRow, &RampRow::repeated>},
+      {"real_time", at<RampRow, &RampRow::in_real_time>},
+  };
+  write_csv(out, columns, ramp.rows);
 }
 
 }  // namespace chainmail::report

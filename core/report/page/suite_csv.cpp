@@ -1,77 +1,93 @@
 #include "report/page/suite_csv.h"
 
-#include <string>
+#include <vector>
 
-#include "report/page/format.h"
+#include "report/page/csv_table.h"
 
 namespace chainmail::report {
-namespace {
+namespace suite_csv {
 
-/// The columns that a line fills in, besides the figures of a row.
-struct Line {
-  std::string drag = {}, handle = {}, has_cut = {}, elements = {}, below = {};
-  std::string ms_per_move = {}, fresh_grab_ms = {};
+/// One contestant in one drag, on one mesh of the refinement, or below one error.
+struct Row {
+  const SuiteResult* result;
+  std::optional<std::uint64_t> handle = {};
+  std::optional<bool> has_cut = {};
+  SuiteRow figures = {};
+  std::optional<std::uint64_t> elements = {};
+  std::optional<double> below = {}, ms_per_move = {}, fresh_grab_ms = {};
 };
 
-void write_line(std::ostream& out, const SuiteResult& result, const Line& line, const SuiteRow& row) {
-  out << result.name << ',' << csv_field(line.drag) << ',' << line.handle << ',' << line.has_cut << ','
-      << csv_field(row.contestant) << ',' << row.algorithm << ',' << csv_field(row.refusal) << ',' << line.elements
-      << ',' << line.below << ',' << line.ms_per_move << ',' << line.fresh_grab_ms;
-  for (const SuiteFigure& figure : suite_figures) {
-    out << ',' << all_digits(row.*figure.value);
-  }
-  out << '\n';
+constexpr CsvColumn<Row> columns[]{
+    {"experiment", at<Row, &Row::result, &SuiteResult::name>},
+    {"drag", at<Row, &Row::figures, &SuiteRow::drag>},
+    {"handle", at<Row, &Row::handle>},
+    {"has_cut", at<Row, &Row::has_cut>},
+    {"contestant", at<Row, &Row::figures, &SuiteRow::contestant>},
+    {"algorithm", at<Row, &Row::figures, &SuiteRow::algorithm>},
+    {"refusal", at<Row, &Row::figures, &SuiteRow::refusal>},
+    {"elements", at<Row, &Row::elements>},
+    {"below", at<Row, &Row::below>},
+    {"ms_per_move", at<Row, &Row::ms_per_move>},
+    {"fresh_grab_ms", at<Row, &Row::fresh_grab_ms>},
+};
+
+/// Returns the columns, then one for each of `suite_figures`.
+std::vector<CsvColumn<Row>> all_columns() {
+  std::vector<CsvColumn<Row>> all(std::begin(columns), std::end(columns));
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (all.push_back({suite_figures[i].key, at<Row, &Row::figures, suite_figures[i].value>}), ...);
+  }(std::make_index_sequence<suite_figures.size()>());
+  return all;
 }
 
-SuiteRow row_named(const std::string& contestant, const std::string& algorithm, const std::string& refusal) {
+/// Returns a row without figures.
+template <class Result>
+SuiteRow named(const Result& of) {
   SuiteRow row;
-  row.contestant = contestant;
-  row.algorithm = algorithm;
-  row.refusal = refusal;
+  row.contestant = of.contestant;
+  row.algorithm = of.algorithm;
+  row.refusal = of.refusal;
   return row;
 }
 
-void write_orders(std::ostream& out, const SuiteResult& result) {
-  for (const SuiteOrder& order : result.orders) {
-    SuiteRow row = row_named(order.contestant, order.algorithm, order.refusal);
-    if (order.sizes.empty()) {
-      write_line(out, result, {}, row);
-    }
-    for (const SuiteOrder::Size& size : order.sizes) {
-      row.relative = size.relative;
-      write_line(out, result, {.elements = std::to_string(size.elements)}, row);
-    }
+void add_order(std::vector<Row>& rows, const SuiteResult& result, const SuiteOrder& order) {
+  Row row{.result = &result, .figures = named(order)};
+  if (order.sizes.empty()) {
+    rows.push_back(row);
+  }
+  for (const SuiteOrder::Size& size : order.sizes) {
+    row.elements = size.elements;
+    row.figures.relative = size.relative;
+    rows.push_back(row);
   }
 }
 
-void write_times(std::ostream& out, const SuiteResult& result) {
-  for (const SuiteTime& time : result.times) {
-    const SuiteRow row = row_named(time.contestant, time.algorithm, time.refusal);
-    for (std::size_t i = 0; i < suite_errors.size(); ++i) {
-      const Line line{.below = all_digits(suite_errors[i]),
-                      .ms_per_move = all_digits(time.ms_per_move[i]),
-                      .fresh_grab_ms = all_digits(time.fresh_ms[i])};
-      write_line(out, result, line, row);
-    }
+void add_times(std::vector<Row>& rows, const SuiteResult& result, const SuiteTime& time) {
+  for (std::size_t i = 0; i < suite_errors.size(); ++i) {
+    rows.push_back({.result = &result,
+                    .figures = named(time),
+                    .below = suite_errors[i],
+                    .ms_per_move = time.ms_per_move[i],
+                    .fresh_grab_ms = time.fresh_ms[i]});
   }
 }
 
-}  // namespace
+}  // namespace suite_csv
 
 void write_csv(std::ostream& out, const Suite& suite) {
-  out << "experiment,drag,handle,has_cut,contestant,algorithm,refusal,elements,below,ms_per_move,fresh_grab_ms";
-  for (const SuiteFigure& figure : suite_figures) {
-    out << ',' << figure.key;
-  }
-  out << '\n';
+  std::vector<suite_csv::Row> rows;
   for (const SuiteResult& result : suite.results) {
     for (const SuiteRow& row : result.rows) {
-      const Line line{.drag = row.drag, .handle = std::to_string(row.handle), .has_cut = row.has_cut ? "1" : "0"};
-      write_line(out, result, line, row);
+      rows.push_back({.result = &result, .handle = row.handle, .has_cut = row.has_cut, .figures = row});
     }
-    write_orders(out, result);
-    write_times(out, result);
+    for (const SuiteOrder& order : result.orders) {
+      suite_csv::add_order(rows, result, order);
+    }
+    for (const SuiteTime& time : result.times) {
+      suite_csv::add_times(rows, result, time);
+    }
   }
+  write_csv(out, suite_csv::all_columns(), rows);
 }
 
 }  // namespace chainmail::report
