@@ -106,7 +106,9 @@ ReferenceDrags reference_drags(const MeshPointer& mesh, const Cuts& cuts, const 
   std::mt19937_64 random(options.seed);
   const std::vector<ElementId> free = without(handles(*mesh, options.pins), options.not_these);
   const std::vector<double> at_rest(options.pins.size() * static_cast<std::size_t>(mesh->space_dimension), 0.0);
-  ReferenceSolver solver({mesh, cuts, options.pins, at_rest, options.elastic, options.law}, progress.part(0, 0.1));
+  ElasticOptions elastic = options.elastic;
+  elastic.law = options.law;
+  ReferenceSolver solver({mesh, cuts, options.pins, at_rest, elastic}, progress.part(0, 0.1));
   const double fitted = 0.1 + 0.9 * options.drags / (options.drags + options.held_out);
   ReferenceDrags drags;
   drags.fitted = draw(solver, *mesh, free, options.drags, random, progress.part(0.1, fitted));

@@ -36,7 +36,6 @@ struct ElasticProblem {
   /// Displacements of the pins from rest, space_dimension coordinates each, in their order (mesh units).
   std::vector<double> pinned;
   ElasticOptions options;
-  StrainLaw law = {};  // of neo-Hookean FEM; the other methods are linear or have none
 };
 
 /// A handle: elements that move as one rigid body. Displacements and arms have space_dimension coordinates per element

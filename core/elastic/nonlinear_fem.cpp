@@ -185,8 +185,9 @@ class NonlinearFem final : public ElasticSolver {
 }  // namespace
 
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress) {
-  check(problem.law, problem.options.material);
-  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.law), std::nullopt, problem, progress);
+  check(problem.options.law, problem.options.material);
+  return std::make_unique<NonlinearFem>("neo-Hookean FEM", model_of(problem.options.law), std::nullopt, problem,
+                                        progress);
 }
 
 std::unique_ptr<ElasticSolver> make_corotational(const ElasticProblem& problem, const Progress& progress) {

@@ -4,14 +4,14 @@
 
 namespace chainmail {
 
-Unknowns::Unknowns(int dimension, ElementId elements, std::span<const ElementId> order,
+Unknowns::Unknowns(int dimension, ElementId elements, std::span<const ElementId> elimination,
                    std::span<const ElementId> prescribed)
     : dimension_(dimension), first_(elements, none) {
   std::vector<bool> is_prescribed(elements, false);
   for (const ElementId element : prescribed) {
     is_prescribed[element] = true;
   }
-  for (const ElementId element : order) {
+  for (const ElementId element : elimination) {
     if (!is_prescribed[element]) {
       first_[element] = static_cast<std::int32_t>(count_);
       count_ += dimension_;
@@ -47,9 +47,12 @@ void Unknowns::scatter(const Eigen::MatrixXd& unknown, Eigen::Ref<Eigen::MatrixX
 
 namespace {
 
+constexpr std::size_t max_corner_coordinates = 12;  // of a tetrahedron
+
 /// Returns the unknown of each coordinate of the corners of a simplex, or none.
-std::array<std::int32_t, 12> unknowns_of(const Simplices& simplices, std::size_t simplex, const Unknowns& unknowns) {
-  std::array<std::int32_t, 12> all{};
+std::array<std::int32_t, max_corner_coordinates> unknowns_of(const Simplices& simplices, std::size_t simplex,
+                                                             const Unknowns& unknowns) {
+  std::array<std::int32_t, max_corner_coordinates> all{};
   const auto n = static_cast<std::size_t>(simplices.dimension);
   const auto corners = simplices.corners_of(simplex);
   for (std::size_t i = 0; i < n * (n + 1); ++i) {
@@ -83,7 +86,8 @@ Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns, const
   std::vector<Eigen::Triplet<double>> entries;
   const auto n = static_cast<std::size_t>(simplices.dimension);
   const std::size_t count = simplices.count() * n * (n + 1) * n * (n + 1);
-  const Progress collecting = progress.part(0, 0.3), finding = progress.part(0.6, 1);
+  const Progress collecting = progress.part(0, 0.3),
+                 finding = progress.part(0.6, 1);  // setFromTriplets does not report
   for_each_entry(simplices, unknowns, [&](std::size_t entry, std::int32_t row, std::int32_t column) {
     collecting.report(entry, count);
     entries.emplace_back(row, column, 0);

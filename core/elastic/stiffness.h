@@ -12,19 +12,21 @@
 
 namespace chainmail {
 
-/// The unknowns of an object: n per element that has a cell and no prescribed displacement.
+/// The unknowns of an object: one per coordinate of each element (a point, not a cell) that has a cell and no
+/// prescribed displacement.
 class Unknowns {
  public:
-  /// Numbers the unknowns in the order of `order`, which lists all elements that have a cell, without the prescribed
-  /// ones.
-  Unknowns(int dimension, ElementId elements, std::span<const ElementId> order, std::span<const ElementId> prescribed);
+  /// Numbers the unknowns in the order of elimination, which keeps the factor of their matrix sparse (see
+  /// dissection.h) and lists all elements that have a cell.
+  Unknowns(int dimension, ElementId elements, std::span<const ElementId> elimination,
+           std::span<const ElementId> prescribed);
 
   static constexpr std::int32_t none = -1;
   /// Returns the first unknown of an element, or `none`.
   std::int32_t of(ElementId element) const { return first_[element]; }
   Eigen::Index count() const { return count_; }
 
-  /// Copies the unknown entries out of a field of all elements (n each), and back.
+  /// Copies the unknown entries out of a field of all elements (`dimension` each), and back.
   Eigen::VectorXd gather(const std::vector<double>& all) const;
   void scatter(const Eigen::VectorXd& unknown, std::vector<double>& all) const;
   /// The same for several fields, one per column.

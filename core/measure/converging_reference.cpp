@@ -161,7 +161,7 @@ void ConvergingReference::add_level() {
   auto level = std::make_shared<Level>();
   level->refinement = refine(coarse);
   const MeshPointer& mesh = level->refinement.mesh;
-  level->problem = {mesh, Cuts(mesh), {}, {}, before.problem.options, before.problem.law};
+  level->problem = {mesh, Cuts(mesh), {}, {}, before.problem.options};
   add_pins(level->problem, before.problem, level->refinement);
   level->simplices = build_simplices(*mesh, level->problem.cuts);
   level->order = elimination_order(level->simplices, *mesh);
@@ -182,7 +182,7 @@ std::vector<double> ConvergingReference::from_rest(Level& level, const std::vect
         step == steps ? motion : RigidMotion{turn_of(share * rotation), share * motion.translation};
     solver.move(elastic_motion(mesh, part), progress.part(double(step - 1) / steps, share));
     if (!solver.remark().empty()) {
-      throw Error(label(level.problem.law) + " FEM", solver.remark(), "drag less far, or use a finer mesh");
+      throw Error(label(level.problem.options.law) + " FEM", solver.remark(), "drag less far, or use a finer mesh");
     }
   }
   return solver.displacements();
@@ -196,7 +196,7 @@ std::vector<double> ConvergingReference::from_start(Level& level, const std::vec
     prescribed.insert(prescribed.end(), elements.begin(), elements.end());
     level.newton = std::make_unique<Newton>(level.simplices, lame(level.problem.options.material),
                                             level.refinement.mesh->element_count(), level.order, prescribed,
-                                            model_of(level.problem.law));
+                                            model_of(level.problem.options.law));
     level.handle = elements;
   }
   if (!level.newton->solve(displacements, std::vector<double>(displacements.size(), 0.0), progress)) {

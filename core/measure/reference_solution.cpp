@@ -10,7 +10,7 @@ namespace chainmail {
 
 ReferenceSolver::ReferenceSolver(const ElasticProblem& problem, const Progress& progress)
     : mesh_(problem.mesh),
-      law_(problem.law),
+      law_(problem.options.law),
       pins_(problem.pins),
       solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
 

@@ -162,14 +162,9 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   solver_.reset();
   held_ = {};
   pinned_ = pin_displacements(body);
-  solver_ = make_elastic(method_,
-                         {body.mesh_pointer(),
-                          body.cuts(),
-                          {body.pins().begin(), body.pins().end()},
-                          pinned_,
-                          body.elastic(),
-                          body.elastic().law},
-                         progress);
+  solver_ = make_elastic(
+      method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
+      progress);
   const bool remembers = !memory_.empty() && made_for_ == revisions && positions_ == positions;
   made_for_ = revisions;
   positions_ = positions;

@@ -370,7 +370,7 @@ void write_in_place(const fs::path& path, const std::string& content) {
   bool written = descriptor >= 0 && fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   if (written && static_cast<std::size_t>(status.st_size) < content.size()) {
     const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(content.size()));
-    written = error == 0 || error == EINVAL || error == EOPNOTSUPP;
+    written = error == 0 || error == EINVAL || error == EOPNOTSUPP;  // the last two: it cannot reserve space
     if (!written) {
       static_cast<void>(ftruncate(descriptor, status.st_size));
       errno = error;

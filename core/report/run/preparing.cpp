@@ -123,7 +123,7 @@ ElasticProblem elastic_problem(const Case& object, const std::vector<LinkId>& cu
 
 ElasticProblem reference_problem(const Case& object, const std::vector<LinkId>& cut) {
   ElasticProblem problem = elastic_problem(object, cut);
-  problem.law = object.law;
+  problem.options.law = object.law;
   return problem;
 }
 

@@ -29,6 +29,7 @@ class ApiMeasuresTest : public QObject {
  private slots:
   void measures_are_those_of_core();
   void the_reference_solution_is_that_of_core();
+  void the_reference_solution_has_the_law_of_the_body();
   void bad_measures_are_refused();
   void jobs_are_cancelled();
   void methods_are_compared();
@@ -100,6 +101,24 @@ void ApiMeasuresTest::the_reference_solution_is_that_of_core() {
   QVERIFY(cm::physical_error_of_rest(found).relative > 0.5);
   body.set_positions(reference);
   QVERIFY(cm::physical_error(body, found).max < 1e-12);
+}
+
+void ApiMeasuresTest::the_reference_solution_has_the_law_of_the_body() {
+  cm::Body body(organ());
+  body.pin(body.mesh().side("left"));
+  std::vector<double> positions = body.mesh().rest_positions();
+  const cm::ElementId tip = body.mesh().side("right").back();
+  positions[3 * tip] += 0.5;
+  body.set_positions(positions);
+  const std::vector<double> plain = cm::reference_solution(body, {tip}).positions();
+  body.set_elasticity({.law = cm::StrainLaw::gent, .gent_limit = 0.05});
+  const cm::ReferenceSolution stiffening = cm::reference_solution(body, {tip});
+  QVERIFY(stiffening.positions() != plain);
+  cm::Deformer deformer(body.mesh(), "neo-hookean");
+  deformer.body().pin(body.mesh().side("left"));
+  deformer.body().set_elasticity(body.elasticity());
+  deformer.move(tip, {positions[3 * tip], positions[3 * tip + 1], positions[3 * tip + 2]});
+  QVERIFY(cm::physical_error(deformer.body(), stiffening).relative < 1e-5);
 }
 
 void ApiMeasuresTest::bad_measures_are_refused() {

@@ -331,7 +331,7 @@ void ElasticTest::the_limit_of_strain_is_kept() {
   for (const auto& [law, far, reached] : {std::tuple(StrainLaw(), 8.0, true), std::tuple(gent, 8.0, false),
                                           std::tuple(gent, 2.0, true), std::tuple(fung, 2.0, true)}) {
     ElasticProblem problem = pinned(bar, layer(*bar, *find_side("left")), 0.45);
-    problem.law = law;
+    problem.options.law = law;
     const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
     const std::vector<ElementId> end = layer(*bar, *find_side("right"));
     const std::vector<double> none(3 * end.size(), 0.0);

@@ -86,7 +86,8 @@ struct Scene {
   }
   /// Returns the positions that neo-Hookean finite elements find.
   std::vector<double> finite_elements(std::span<const double> by, const Cuts& cuts) const {
-    const ElasticProblem problem{mesh, cuts, pins, std::vector<double>(pins.size() * by.size(), 0.0), {material}, law};
+    ElasticProblem problem{mesh, cuts, pins, std::vector<double>(pins.size() * by.size(), 0.0), {material}};
+    problem.options.law = law;
     const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
     ElasticHandle held;
     held.elements = handle;
