@@ -163,7 +163,7 @@ std::string result_of(const std::string& where, const WorkLimits& limits, const 
 
 }  // namespace
 
-bool is_in_second_half(const WorkLimits& limits) {
+bool has_used_half(const WorkLimits& limits) {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   return std::uint64_t(used.ru_utime.tv_sec + used.ru_stime.tv_sec) >= limits.seconds / 2;

@@ -6,7 +6,8 @@
 
 namespace chainmail::command_line {
 
-/// Limits of work in a process of its own, with the programs that it starts.
+/// Limits of work in a process of its own, with the programs that it starts. `chainmail thumbnail` works so: file
+/// managers run it on files that nobody has looked at.
 struct WorkLimits {
   std::uint64_t seconds = 2;  // of processor time, an even number: programs that the work starts get half of it
   std::uint64_t memory = 0;   // address space of each process (bytes)
@@ -20,8 +21,9 @@ struct WorkLimits {
 /// Call this on the only thread of a process.
 std::string run_limited(const std::string& where, const WorkLimits& limits, const std::function<std::string()>& work);
 
-/// For the work, before it starts a program: true if it has used the half of the time that is for programs.
-bool is_in_second_half(const WorkLimits& limits);
+/// For the work, before it starts a program: true if it has used half of its time itself, so that none is left for a
+/// program.
+bool has_used_half(const WorkLimits& limits);
 
 /// For the work, when all its files are read: counts the processor time of programs that it started, and enters a
 /// sandbox in which it can only compute and answer.

@@ -42,7 +42,7 @@ LoadedScene session_of(const std::filesystem::path& path) {
     const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
     std::error_code none;
     const bool is_sample = !exists(beside, none) && exists(sample, none);
-    if (is_in_second_half(work_limits)) {
+    if (has_used_half(work_limits)) {
       throw Error(chainmail::shown(path), "it takes too long to read", "open it in the workbench");
     }
     return chainmail::open_mesh(is_sample ? sample : beside, {}, progress).mesh;

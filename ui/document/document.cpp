@@ -156,7 +156,7 @@ void Document::carryOut(const Change& change, const Contents& before) {
   if (!change.unpin.empty()) {
     post(commands::Unpin{change.unpin});
   }
-  postSettings(before, after, false);
+  postSettings(before, after, SolversHave::thisObject);
   if (change.resets) {
     post(commands::Reset{});
   }
@@ -165,10 +165,10 @@ void Document::carryOut(const Change& change, const Contents& before) {
   }
 }
 
-/// Posts the settings that a saved state does not contain. The solvers still have the previous mesh if `neutral` is
-/// true. Then Natural Queue runs instead of an algorithm that may not work on that mesh. Exact is not replaced: it
-/// works on any mesh and stores positions in its own way.
-void Document::postSettings(const Contents& from, const Contents& to, bool neutral) {
+/// Posts the settings that a saved state does not contain. While the solvers have another object, Natural Queue runs
+/// instead of an algorithm that may not work on it. Exact is not replaced: it works on any mesh and stores positions in
+/// its own way.
+void Document::postSettings(const Contents& from, const Contents& to, SolversHave have) {
   if (to.relaxation != from.relaxation) {
     post(to.relaxation);
   }
@@ -178,7 +178,8 @@ void Document::postSettings(const Contents& from, const Contents& to, bool neutr
   for (const int panel : panelsToSwitch(from, to)) {
     const Algorithm target = to.algorithms[std::size_t(panel)];
     if (target != from.algorithms[std::size_t(panel)]) {
-      postAlgorithm(panel, neutral && target != Algorithm::exact ? Algorithm::natural_queue : target);
+      postAlgorithm(
+          panel, have == SolversHave::anotherObject && target != Algorithm::exact ? Algorithm::natural_queue : target);
     }
   }
 }

@@ -119,7 +119,9 @@ class Document : public QObject {
   // Apply changes to the solvers and the contents.
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
   void carryOut(const Change& change, const Contents& before);
-  void postSettings(const Contents& from, const Contents& to, bool neutral);
+  /// The object of the solvers when settings are posted: undo and redo post them before they restore another one.
+  enum class SolversHave { thisObject, anotherObject };
+  void postSettings(const Contents& from, const Contents& to, SolversHave have);
   void show(Change& change, const Contents& from, const Contents& to, bool done);
   void showParts(const Change& change, bool done);
   void showCuts(const std::vector<LinkId>& links, bool cut);

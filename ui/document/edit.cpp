@@ -60,7 +60,8 @@ bool Edit::mergeWith(const QUndoCommand* later) {
 void Edit::exchange(const Contents& from, const Contents& to, bool done) {
   const commands::StateId now = document_.newState();
   document_.post(commands::KeepState{now});
-  document_.postSettings(from, to, from.object != to.object);
+  document_.postSettings(
+      from, to, from.object != to.object ? Document::SolversHave::anotherObject : Document::SolversHave::thisObject);
   document_.post(commands::RestoreState{*state_});
   document_.post(commands::DropState{*state_});
   state_ = now;

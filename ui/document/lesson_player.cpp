@@ -68,7 +68,7 @@ void LessonPlayer::goToEnd() {
 void LessonPlayer::close() {
   clock_.stop();
   closed_ = std::exchange(session_, nullptr);
-  propagation_.setFollows(true);
+  propagation_.setShowsNewest(true);
   emit openChanged();
 }
 
@@ -102,10 +102,10 @@ void LessonPlayer::show(std::size_t step, bool animated) {
   setPanels(algorithms(step).size());
   emit stepChanged();
   const bool samePass = steps[step].candidate && animated && steps[step].until == before;
-  if (samePass && !propagation_.follows() && document_.moves().isInLesson(position_, algorithms(step))) {
+  if (samePass && !propagation_.showsNewest() && document_.moves().isInLesson(position_, algorithms(step))) {
     candidate_ = steps[step - 1].candidate.value_or(0);
   } else {
-    propagation_.setFollows(true);
+    propagation_.setShowsNewest(true);
     goTo(position_, steps[step].candidate && position_ == steps[step].until);
   }
   clock_.start(moveMilliseconds);

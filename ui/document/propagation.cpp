@@ -21,16 +21,16 @@ Propagation::Propagation(Document& document) : document_(document), players_(Doc
   connect(&document.solvers(), &PanelSolvers::frameReady, this, &Propagation::awaitPass);
   connect(&document.highlight(), &Highlight::changed, this, [this] {
     if (document_.highlight().marks().grabbed) {
-      setFollows(true);
+      setShowsNewest(true);
     }
     awaitPass();
   });
-  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] { setFollows(true); });
+  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] { setShowsNewest(true); });
   connect(&document, &Document::meshChanged, this, &Propagation::forget);
   connect(&document, &Document::panelLeaves, this, &Propagation::forget);
   connect(&document, &Document::panelsChanged, this, &Propagation::forget);
   connect(&document, &Document::algorithmChanged, this, [this](int panel) {
-    setFollows(true);
+    setShowsNewest(true);
     players_[std::size_t(panel)].reset();
     emit changed();
   });
@@ -56,7 +56,7 @@ void Propagation::setShown(bool shown) {
   }
   shown_ = shown;
   clock_.stop();
-  if (!follows_) {
+  if (!showsNewest_) {
     for (int panel = 0; panel < document_.panels(); ++panel) {
       show(panel);
     }
@@ -67,7 +67,7 @@ void Propagation::setShown(bool shown) {
 
 void Propagation::forget() {
   letGo();
-  follows_ = true;
+  showsNewest_ = true;
   chosen_ = std::min(chosen_, Document::minPanels - 1);  // other panels may be removed
   for (auto& player : players_) {
     player.reset();
@@ -75,12 +75,12 @@ void Propagation::forget() {
   emit changed();
 }
 
-void Propagation::setFollows(bool follows) {
-  if (!open_ || follows == follows_ || (!follows && !hasPass())) {
+void Propagation::setShowsNewest(bool newest) {
+  if (!open_ || newest == showsNewest_ || (!newest && !hasPass())) {
     return;
   }
-  follows_ = follows;
-  if (follows) {
+  showsNewest_ = newest;
+  if (newest) {
     letGo();
     awaitPass();
   } else {
@@ -103,7 +103,7 @@ void Propagation::letGo() {
 }
 
 void Propagation::awaitPass() {
-  if (isShown() && (follows_ || lacksPass()) && !fetch_.isActive()) {
+  if (isShown() && (showsNewest_ || lacksPass()) && !fetch_.isActive()) {
     fetch_.start(fetchMilliseconds);
   }
 }
@@ -129,7 +129,7 @@ void Propagation::takePasses() {
   bool any = false;
   for (int panel = 0; panel < document_.panels(); ++panel) {
     auto& player = players_[std::size_t(panel)];
-    if (player && !follows_) {
+    if (player && !showsNewest_) {
       continue;
     }
     const Frame* frame = document_.solvers().frame(panel);
@@ -139,7 +139,7 @@ void Propagation::takePasses() {
     if (stepped && frame != nullptr && pass->mesh == frame->mesh && pass->algorithm == document_.algorithm(panel)) {
       player = std::make_unique<PassPlayer>(std::move(pass), frame->statistics);
       any = true;
-      if (!follows_ && together_) {
+      if (!showsNewest_ && together_) {
         player->setStep(step);
         show(panel);
       }
@@ -189,7 +189,7 @@ void Propagation::setStep(int panel, std::size_t step) {
   if (!open_ || !hasPass()) {
     return;
   }
-  follows_ = false;
+  showsNewest_ = false;
   chosen_ = panel;
   for (int one = 0; one < document_.panels(); ++one) {
     if (auto& player = players_[std::size_t(one)]; player && (together_ || one == panel)) {

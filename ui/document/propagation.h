@@ -30,8 +30,8 @@ class Propagation : public QObject {
   bool isShown() const { return open_ && shown_; }
   /// While held, propagation stays as it is although its dock is hidden.
   void setHeld(bool held) { held_ = held; }
-  bool follows() const { return follows_; }
-  void setFollows(bool follows);
+  bool showsNewest() const { return showsNewest_; }
+  void setShowsNewest(bool newest);
 
   /// Returns the pass of a panel; null while there is none of the current object.
   const PassPlayer* player(int panel) const { return players_[std::size_t(panel)].get(); }
@@ -77,7 +77,7 @@ class Propagation : public QObject {
   bool open_ = false;
   bool shown_ = false;
   bool held_ = false;
-  bool follows_ = true;
+  bool showsNewest_ = true;
   bool together_ = true;
   int chosen_ = 0;
   QTimer fetch_;  // limits how often passes are fetched

@@ -125,7 +125,7 @@ void Film::showNext() {
 /// Takes a picture when the panels show the move, then starts the next move.
 void Film::takeNext() {
   const bool behind = video_ ? ffmpeg_.bytesToWrite() > maxUnsent : waiting_ >= maxWaiting;
-  if (ofPass_ && propagation_.follows()) {
+  if (ofPass_ && propagation_.showsNewest()) {
     fail(QStringLiteral("%1: the object has left the pass before the film was complete; save it again").arg(path_));
     return;
   }
@@ -290,7 +290,7 @@ void Film::end() {
   stopWriters();
   folder_.reset();
   if (ofPass_) {
-    propagation_.setFollows(true);
+    propagation_.setShowsNewest(true);
   } else {
     document_.moves().goTo(before_);
   }

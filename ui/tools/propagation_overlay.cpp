@@ -121,7 +121,7 @@ QString PropagationOverlay::note(int panel) const {
   }
   const QLocale locale;
   QString note = QStringLiteral("pass %1").arg(locale.toString(qulonglong(player->pass().in_drag)));
-  if (!propagation_.follows()) {
+  if (!propagation_.showsNewest()) {
     note += QStringLiteral(", candidate %1 of %2")
                 .arg(locale.toString(qulonglong(player->step())), locale.toString(qulonglong(player->stepCount())));
   }
@@ -133,7 +133,7 @@ QString PropagationOverlay::note(int panel) const {
 
 bool PropagationOverlay::isInMidPass(int panel) const {
   const PassPlayer* player = this->player(panel);
-  return player != nullptr && !propagation_.follows() && player->step() < player->stepCount();
+  return player != nullptr && !propagation_.showsNewest() && player->step() < player->stepCount();
 }
 
 void PropagationOverlay::draw(const Canvas& canvas) {
@@ -180,7 +180,7 @@ void PropagationOverlay::drawFront(const Canvas& canvas, const PassPlayer& playe
   };
   const float disc = discSize(canvas);
   mark(player.pass().handle, colours::lit, grabbedSize, ObjectDrawing::Mark::disc);
-  if (propagation_.follows()) {
+  if (propagation_.showsNewest()) {
     return;
   }
   std::vector<ElementId> waiting;

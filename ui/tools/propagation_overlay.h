@@ -13,6 +13,7 @@ class PropagationOverlay : public Overlay {
   void setArrows(bool arrows) { arrows_ = arrows; }
   bool arrows() const { return arrows_; }
 
+  /// Neutral, so that only the candidates have colours; none for a panel whose pass is not shown.
   std::optional<ObjectDrawing::Paint> paint(int panel) const override;
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;

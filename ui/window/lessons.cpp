@@ -204,7 +204,7 @@ LessonStep Lessons::look() const {
   if (propagation_.isShown()) {
     look.dock = "propagation";
     const PassPlayer* pass = propagation_.player(propagation_.chosen());
-    if (!propagation_.follows() && pass != nullptr) {
+    if (!propagation_.showsNewest() && pass != nullptr) {
       look.candidate = std::uint32_t(pass->step());
     }
   }

@@ -122,7 +122,7 @@ void PropagationDock::makeActions() {
   connect(play_, &QAction::triggered, &propagation_, &Propagation::setPlays);
   connect(forward_, &QAction::triggered, this, [this] { propagation_.stepBy(1); });
   connect(last_, &QAction::triggered, this, [this] { propagation_.goTo(propagation_.stepCount()); });
-  connect(follow_, &QAction::triggered, &propagation_, &Propagation::setFollows);
+  connect(follow_, &QAction::triggered, &propagation_, &Propagation::setShowsNewest);
   first_->setIcon(icon("toStart"));
   back_->setIcon(icon("stepBack"));
   forward_->setIcon(icon("stepForward"));
@@ -212,7 +212,7 @@ void PropagationDock::refreshActions() {
   }
   play_->setChecked(propagation_.plays());
   play_->setIcon(icon(propagation_.plays() ? "pause" : "play"));
-  follow_->setChecked(propagation_.follows());
+  follow_->setChecked(propagation_.showsNewest());
 }
 
 }  // namespace chainmail
