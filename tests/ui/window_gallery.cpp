@@ -1,6 +1,9 @@
 // Tests the gallery of samples in a real window.
 
+#include <QApplication>
 #include <QLabel>
+#include <QPushButton>
+#include <QScreen>
 #include <QToolButton>
 
 #include "docks/gallery.h"
@@ -13,6 +16,12 @@ namespace chainmail::window_gallery {
 
 class WindowGallery : public QObject {
   Q_OBJECT
+
+  /// Opens the popover and returns the button of a sample.
+  static QToolButton* open(const Workbench& bench, const char* file) {
+    bench.find<QPushButton>("openSamples")->click();
+    return bench.find<QToolButton>(qPrintable(QStringLiteral("sample %1").arg(QLatin1String(file))));
+  }
 
  private slots:
   void init() { failOnWarnings(); }
@@ -28,9 +37,10 @@ class WindowGallery : public QObject {
     const Sample& sample = samples()[std::size_t(which)];
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    auto* button = bench.find<QToolButton>(qPrintable(QStringLiteral("sample %1").arg(QLatin1String(sample.file))));
+    auto* button = open(bench, sample.file);
     QVERIFY(button != nullptr && button->isVisible());
     button->click();
+    QVERIFY(!button->isVisible());  // the popover has closed
     bench.settle();
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
     QCOMPARE(bench.document().mesh()->element_count(), sample.elements);  // the number in its tool tip
@@ -43,10 +53,8 @@ class WindowGallery : public QObject {
 
   void thumbnailsFollowTheTheme() {
     Workbench bench;
-    const auto picture = [&bench] {
-      const auto* button = bench.find<QToolButton>("sample sphere.obj");
-      return button->icon().pixmap(button->iconSize(), 2).toImage();
-    };
+    const auto* button = open(bench, "sphere.obj");
+    const auto picture = [button] { return button->icon().pixmap(button->iconSize(), 2).toImage(); };
     const QImage dark = picture();
     applyGround(colours::Ground::light);
     QTRY_VERIFY(picture() != dark);
@@ -56,6 +64,7 @@ class WindowGallery : public QObject {
 
   void eachHasAThumbnailATitleAndATooltip() {
     Workbench bench;
+    open(bench, "sphere.obj");
     const auto buttons = bench.window.findChild<Gallery*>()->findChildren<QToolButton*>();
     QCOMPARE(std::size_t(buttons.size()), samples().size());
     for (const QToolButton* button : buttons) {
@@ -73,9 +82,30 @@ class WindowGallery : public QObject {
     }
   }
 
+  void theKeyboardOpensASampleAndEscapeClosesTheGallery() {
+    Workbench bench;
+    const auto* first = open(bench, samples().front().file);
+    QTRY_VERIFY(first->hasFocus());
+    QTest::keyClick(bench.window.findChild<Gallery*>(), Qt::Key_Escape);
+    QVERIFY(!first->isVisible());
+    open(bench, samples().front().file);
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Space);
+    bench.settle();
+    QCOMPARE(bench.document().mesh()->element_count(), samples().front().elements);
+  }
+
+  void theGalleryFitsOnTheScreen() {
+    Workbench bench;
+    open(bench, samples().front().file);
+    const auto* gallery = bench.window.findChild<Gallery*>();
+    QVERIFY(gallery->screen()->availableGeometry().contains(gallery->frameGeometry()));
+  }
+
   void withoutSamplesItSaysSo() {
+    QPushButton button;
+    button.show();
     Gallery gallery{QString()};
-    gallery.show();
+    gallery.openBelow(button);
     QTRY_VERIFY(gallery.findChild<QLabel*>(QStringLiteral("noSamples")) != nullptr);
     QVERIFY(gallery.findChildren<QToolButton*>().isEmpty());
   }

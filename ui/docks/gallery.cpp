@@ -5,9 +5,9 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QScrollBar>
-#include <QTimer>
+#include <QScreen>
 #include <QToolButton>
+#include <algorithm>
 
 #include "common/colours.h"
 #include "io/samples.h"
@@ -15,10 +15,9 @@
 namespace chainmail {
 namespace {
 
-constexpr int galleryColumns = 3;
-constexpr QSize thumbnail{52, 39};  // logical pixels: all fit on a screen of 900 pixels
+constexpr int galleryColumns = 4;
+constexpr QSize thumbnail{52, 39};  // logical pixels
 constexpr int pixelRatio = 2;       // of the thumbnail files
-constexpr int smallestHeight = 76;  // one row
 
 QIcon iconOf(const Sample& sample) {
   QPixmap picture(QStringLiteral(":/") + thumbnailOf(sample, colours::ground()));
@@ -28,27 +27,32 @@ QIcon iconOf(const Sample& sample) {
 
 }  // namespace
 
-Gallery::Gallery(const QString& folder) : folder_(folder), grid_(new QGridLayout) {
+Gallery::Gallery(const QString& folder, QWidget* parent)
+    : QFrame(parent, Qt::Popup), folder_(folder), grid_(new QGridLayout(this)) {
   setObjectName(QStringLiteral("gallery"));
   setAccessibleName(QStringLiteral("Samples"));
-  setWidgetResizable(true);
-  setFrameShape(QFrame::NoFrame);
-  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setFocusPolicy(Qt::NoFocus);  // the buttons take the focus
-  setMinimumHeight(smallestHeight);
-  auto* content = new QWidget;
-  content->setLayout(grid_);
-  grid_->setContentsMargins(0, 0, 0, 0);
-  grid_->setSpacing(0);
-  grid_->setAlignment(Qt::AlignTop);
-  setWidget(content);
+  setFrameShape(QFrame::StyledPanel);
+  grid_->setContentsMargins(6, 6, 6, 6);
+  grid_->setSpacing(2);
 }
 
-/// Loads the thumbnails after the window is painted for the first time.
+void Gallery::openBelow(const QWidget& button) {
+  if (grid_->isEmpty()) {
+    fill();
+  }
+  adjustSize();
+  const QRect screen = button.screen()->availableGeometry();
+  const QPoint below = button.mapToGlobal(QPoint(0, button.height()));
+  move(std::clamp(below.x(), screen.left(), std::max(screen.left(), screen.right() - width())),
+       std::clamp(below.y(), screen.top(), std::max(screen.top(), screen.bottom() - height())));
+  show();
+}
+
+/// The keyboard begins at the first sample.
 void Gallery::showEvent(QShowEvent* event) {
-  QScrollArea::showEvent(event);
-  if (!std::exchange(filled_, true)) {
-    QTimer::singleShot(0, this, &Gallery::fill);
+  QFrame::showEvent(event);
+  if (auto* first = grid_->isEmpty() ? nullptr : grid_->itemAt(0)->widget()) {
+    first->setFocus(Qt::PopupFocusReason);
   }
 }
 
@@ -68,11 +72,14 @@ void Gallery::fill() {
     button->setIconSize(thumbnail);
     button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
     button->setAutoRaise(true);
-    button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     button->setToolTip(
         QStringLiteral("%1: %2 elements (%3)\nClick: replaces the object with this sample")
             .arg(QString::fromUtf8(sample.what), QLocale().toString(sample.elements), QFileInfo(path).fileName()));
-    connect(button, &QToolButton::clicked, this, [this, path] { emit chosen(path); });
+    connect(button, &QToolButton::clicked, this, [this, path] {
+      hide();
+      emit chosen(path);
+    });
     grid_->addWidget(button, index / galleryColumns, index % galleryColumns);
     ++index;
   }

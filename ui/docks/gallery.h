@@ -1,19 +1,21 @@
 #pragma once
 
-#include <QScrollArea>
+#include <QFrame>
 
 class QGridLayout;
-class QLabel;
 
 namespace chainmail {
 
-/// Thumbnails of the samples; a click opens one.
-class Gallery : public QScrollArea {
+/// A popover with thumbnails of the samples; a click opens one.
+class Gallery : public QFrame {
   Q_OBJECT
 
  public:
   /// Shows the samples in `folder`. An empty string means that there is no such folder.
-  explicit Gallery(const QString& folder);
+  explicit Gallery(const QString& folder, QWidget* parent = nullptr);
+
+  /// Opens below a button, or where there is room on its screen.
+  void openBelow(const QWidget& button);
 
  signals:
   void chosen(const QString& path);
@@ -26,7 +28,6 @@ class Gallery : public QScrollArea {
 
   QString folder_;
   QGridLayout* grid_;
-  bool filled_ = false;
 };
 
 }  // namespace chainmail

@@ -113,12 +113,21 @@ void MeshDock::arrange() {
   column->addLayout(form);
   column->addWidget(spacing_);
   column->addWidget(build_);
-  column->addWidget(new QLabel(QStringLiteral("Samples")));
-  auto* gallery = new Gallery(samplesFolder());
-  connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);
-  column->addWidget(gallery, 1);
+  column->addWidget(makeSamples());
+  column->addStretch();
   adaptToKind();
   setWidget(new DockScroll(content));  // does not fit on a screen of 768 pixels
+}
+
+QWidget* MeshDock::makeSamples() {
+  auto* button = new QPushButton(QStringLiteral("Samples…"));
+  button->setObjectName(QStringLiteral("openSamples"));
+  button->setIcon(icon("mesh"));
+  button->setToolTip(QStringLiteral("Shows objects to try: a click on one replaces the object with it"));
+  auto* gallery = new Gallery(samplesFolder(), this);
+  connect(gallery, &Gallery::chosen, this, &MeshDock::sampleRequested);
+  connect(button, &QPushButton::clicked, gallery, [gallery, button] { gallery->openBelow(*button); });
+  return button;
 }
 
 void MeshDock::adaptToKind() {

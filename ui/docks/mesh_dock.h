@@ -40,6 +40,7 @@ class MeshDock : public QDockWidget {
  private:
   const MeshKindInfo& kind() const { return mesh_kinds()[std::size_t(kind_->currentIndex())]; }
   QLayout* makeSizes();
+  QWidget* makeSamples();
   void arrange();
   void adaptToKind();
   MeshRecipe recipe() const;
