@@ -174,8 +174,9 @@ void PanelArea::setTool(Tool& tool) {
 }
 
 void PanelArea::setDrawOptions(const DrawOptions& options) {
-  drawOptions_.faces = options.faces;
-  drawOptions_.links = options.links;
+  const auto section = drawOptions_.section;
+  drawOptions_ = options;
+  drawOptions_.section = section;
   for (Panel* panel : panels_) {
     panel->view().setDrawOptions(drawOptions_);
   }

@@ -9,7 +9,8 @@
 
 namespace chainmail {
 
-/// The View menu's choice of what all panels show of the object: links, surface, or both. The choice is stored. Sheets
+/// The View menu's choice of what all panels show of the object: links, surface, or both, and how surfaces in space are
+/// shaded. The choices are stored. Sheets
 /// with a picture have a separate stored choice, because links would cover the picture.
 class ShowMenu : public QObject {
   Q_OBJECT
@@ -36,10 +37,12 @@ class ShowMenu : public QObject {
   void changed();
 
  private:
+  void addMatcap();
   void adapt();
 
   const Document& document_;
   QMenu* menu_ = nullptr;
+  QAction* matcap_ = nullptr;
   std::map<QString, QAction*> actions_;  // by name
   std::map<QString, QString> shown_;     // not stored; by the key of the stored choice
 };
