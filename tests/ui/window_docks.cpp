@@ -29,6 +29,41 @@ class WindowDocks : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
+  void aDockFoldsToItsTitleAndRemembersIt() {
+    {
+      Workbench bench;
+      auto* dock = bench.find<QDockWidget>("relaxationDock");
+      auto* arrow = bench.find<QToolButton>("relaxationDockFold");
+      QTRY_VERIFY(arrow->isVisible());
+      const int whole = dock->height(), neighbour = bench.find<QDockWidget>("stiffnessDock")->height();
+      arrow->click();
+      QTRY_VERIFY(dock->height() < whole / 2 && !dock->widget()->isVisible());
+      QTRY_VERIFY(bench.find<QDockWidget>("stiffnessDock")->height() > neighbour);  // it takes the room
+    }
+    Workbench bench;
+    auto* dock = bench.find<QDockWidget>("relaxationDock");
+    auto* arrow = bench.find<QToolButton>("relaxationDockFold");
+    QTRY_VERIFY(arrow->isVisible() && !dock->widget()->isVisible());
+    arrow->click();
+    QTRY_VERIFY(dock->widget()->isVisible());
+    QTRY_VERIFY(dock->height() >= dock->minimumSizeHint().height() && dock->widget()->height() > 40);
+  }
+
+  void aDockAmongTabsCannotFoldAndResetUnfolds() {
+    Workbench bench;
+    auto* arrow = bench.find<QToolButton>("stiffnessDockFold");
+    QTRY_VERIFY(arrow->isVisible());
+    bench.trigger("showPhysics");
+    QTRY_VERIFY(!arrow->isVisible() && !bench.find<QToolButton>("physicsDockFold")->isVisible());
+    bench.trigger("showPhysics");
+    QTRY_VERIFY(arrow->isVisible());
+    arrow->click();
+    auto* dock = bench.find<QDockWidget>("stiffnessDock");
+    QTRY_VERIFY(!dock->widget()->isVisible());
+    bench.trigger("resetLayout");
+    QTRY_VERIFY(dock->widget()->isVisible() && dock->widget()->height() > 100);
+  }
+
   void everyDockOfTheTableIsNamedAndDescribed() {
     QSet<QString> names;
     for (const DockEntry& entry : dockEntries()) {

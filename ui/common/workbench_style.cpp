@@ -58,7 +58,9 @@ void WorkbenchStyle::drawControl(ControlElement element, const QStyleOption* opt
   QFont bold = painter->font();
   bold.setBold(true);
   painter->setFont(bold);
-  QProxyStyle::drawControl(element, option, painter, widget);
+  auto title = *static_cast<const QStyleOptionDockWidget*>(option);
+  title.rect.setLeft(title.rect.left() + (widget != nullptr ? widget->property(titleIndent).toInt() : 0));
+  QProxyStyle::drawControl(element, &title, painter, widget);
   painter->restore();
 }
 

@@ -22,6 +22,7 @@ namespace {
 
 constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
 constexpr int swatchSize = 10;        // pixels, at the usual size of texts
+constexpr int leastHeight = 28;       // pixels
 constexpr int listMargin = 30;        // pixels, for the scroll bar and the frame of the list
 
 QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
@@ -152,8 +153,9 @@ void PanelHead::arrange(View& view) {
   name->setFont(bold);
   followTheme(*this, [this] { fitSwatch(); });  // its style sheet hides changes of the palette from the swatch
   connect(&document_, &Document::algorithmChanged, swatch_, [this] { fitSwatch(); });
-  row_->setContentsMargins(8, 6, 4, 6);
+  row_->setContentsMargins(8, 1, 4, 1);
   row_->setSpacing(8);
+  setMinimumHeight(leastHeight);
   row_->addWidget(swatch_);
   row_->addWidget(name);
   row_->addWidget(selector_);

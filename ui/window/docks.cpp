@@ -69,8 +69,7 @@ QDockWidget* makePhysics(const DockParts& parts, const Docks& made) {
   auto* dock = new PhysicsDock(parts.document, parts.pinLayers, parts.jobs);
   auto& stiffness = made.get<StiffnessDock>();
   QObject::connect(dock, &PhysicsDock::presetRequested, &stiffness, [&stiffness] {
-    stiffness.show();
-    stiffness.raise();
+    bringUp(stiffness);
     stiffness.presets().save();
   });
   return dock;
@@ -281,7 +280,10 @@ void raiseWhenShown(QDockWidget& dock) {
 
 std::span<const DockEntry> dockEntries() { return entries; }
 
-Docks::Docks(const DockParts& parts) : window_(parts.window), sizes_(std::make_unique<DockSizes>(parts.window)) {
+Docks::Docks(const DockParts& parts)
+    : window_(parts.window),
+      sizes_(std::make_unique<DockSizes>(parts.window)),
+      folds_(std::make_unique<DockFolds>(parts.window)) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
   for (const DockEntry& entry : entries) {
     add(entry, parts);
@@ -303,6 +305,7 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
   }
   docks_.push_back(dock);
   sizes_->follow(*dock);
+  folds_->follow(*dock);
 }
 
 void Docks::place(const DockEntry& entry, QDockWidget& dock) const {
@@ -334,6 +337,7 @@ void Docks::fill(QMenu& menu) const {
 }
 
 void Docks::reset() const {
+  folds_->unfoldAll();
   {
     // A layout that reacts to each dock alone moves the others several times.
     window_.layout()->setEnabled(false);

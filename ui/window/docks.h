@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "window/dock_folds.h"
 #include "window/dock_sizes.h"
 
 class QActionGroup;
@@ -103,6 +104,7 @@ class Docks {
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;  // owned by the window
   std::unique_ptr<DockSizes> sizes_;
+  std::unique_ptr<DockFolds> folds_;
 };
 
 }  // namespace chainmail

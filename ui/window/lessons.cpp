@@ -15,6 +15,7 @@
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "panels/panel_area.h"
+#include "window/dock_folds.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
 #include "window/lesson_editor.h"
@@ -257,8 +258,7 @@ void Lessons::chooseDock(const QString& name) {
   QDockWidget* wanted = dock(name);
   if (wanted != nullptr && !wanted->isVisible()) {
     dock_ = name;
-    wanted->show();
-    wanted->raise();
+    bringUp(*wanted);
   }
 }
 
