@@ -226,6 +226,25 @@ class WindowComfort : public QObject {
     QVERIFY(any.pixmap(QSize(16, 16), 1.0).toImage() != dark);
   }
 
+  /// Otherwise the next click would hit something else.
+  void aMessageMovesNothing() {
+    Workbench bench;
+    const auto place = [&bench] { return QRect(bench.view(0).mapTo(&bench.window, QPoint()), bench.view(0).size()); };
+    const QRect before = place();
+    MessageBar& bar = bench.window.messages();
+    bar.say(QStringLiteral("A long sentence that says what failed and what to do. ").repeated(8));
+    bench.settle();
+    QCOMPARE(place(), before);
+    QVERIFY(bar.isVisible() && bench.window.area().rect().contains(
+                                   QRect(bench.window.area().mapFromGlobal(bar.mapToGlobal(QPoint())), bar.size())));
+    const auto* text = bench.find<QLabel>("message");
+    QVERIFY(text->height() >= text->heightForWidth(text->width()));
+    bench.window.resize(bench.window.size() - QSize(0, 60));
+    bench.settle();
+    QVERIFY(bench.window.area().rect().contains(
+        QRect(bench.window.area().mapFromGlobal(bar.mapToGlobal(QPoint())), bar.size())));
+  }
+
   void messagesWaitAndAreDismissedOneByOne() {
     Workbench bench;
     MessageBar& bar = bench.window.messages();

@@ -149,7 +149,6 @@ void MainWindow::arrange() {
   column->setSpacing(0);
   column->addWidget(&sessions_->recoveryBar());
   column->addWidget(&sessions_->reloadBar());
-  column->addWidget(messages_);
   column->addWidget(&files_->sheets().bar());
   column->addWidget(&files_->volumes().bar());
   column->addWidget(&files_->repair().bar());
@@ -159,6 +158,7 @@ void MainWindow::arrange() {
   column->addWidget(area_, 1);
   column->addWidget(&lessons_->bar());
   column->addWidget(&help_->hints());
+  messages_->lieOver(*area_);
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));

@@ -1,6 +1,7 @@
 #include "window/message_bar.h"
 
 #include <QAccessible>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t maxMessages = 50;  // older ones are removed
 constexpr int signSize = 18;             // pixels
+constexpr int distance = 6;              // pixels, from the edges of the views
 
 struct SeverityStyle {
   const char* icon;
@@ -33,6 +35,7 @@ MessageBar::MessageBar()
     : sign_(new QLabel), text_(new QLabel), waiting_(new QLabel), all_(new QToolButton), close_(new QToolButton) {
   setObjectName(QStringLiteral("messageBar"));
   setAutoFillBackground(true);
+  setFrameShape(QFrame::StyledPanel);
   text_->setObjectName(QStringLiteral("message"));
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
@@ -61,6 +64,37 @@ MessageBar::MessageBar()
   followTheme(*this, [this] { paintGround(); });
 }
 
+void MessageBar::lieOver(QWidget& views) {
+  views_ = &views;
+  setParent(views.parentWidget());
+  views.installEventFilter(this);
+}
+
+bool MessageBar::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize || event->type() == QEvent::Move) {
+    place();
+  }
+  return QFrame::eventFilter(watched, event);
+}
+
+/// A longer sentence, or a larger font, needs more lines.
+bool MessageBar::event(QEvent* event) {
+  const bool handled = QFrame::event(event);
+  if (event->type() == QEvent::LayoutRequest) {
+    place();
+  }
+  return handled;
+}
+
+void MessageBar::place() {
+  if (views_ != nullptr) {
+    const QRect whole = views_->geometry().adjusted(distance, distance, -distance, -distance);
+    const int height = layout()->totalHeightForWidth(whole.width());
+    setGeometry(whole.left(), whole.bottom() + 1 - height, whole.width(), height);
+    raise();
+  }
+}
+
 void MessageBar::add(Severity severity, const QString& sentence) {
   const Message message{severity, sentence};
   std::erase(messages_, message);  // a repeated message becomes the newest
@@ -69,6 +103,7 @@ void MessageBar::add(Severity severity, const QString& sentence) {
     messages_.erase(messages_.begin());
   }
   refresh();
+  place();
   show();
   QAccessibleEvent alert(this, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);
