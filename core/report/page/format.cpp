@@ -54,7 +54,7 @@ std::string_view entity_of(char character) {
   }
 }
 
-constexpr const char* thousands_space = "\u202f";  // narrow no-break space
+constexpr const char* thousands_separator = ",";
 constexpr const char* figure_space = "\u2007";     // as wide as a digit
 constexpr const char* point_space = "\u2008";      // as wide as a point
 constexpr double least_grouped = 1e3, max_grouped = 1e6;
@@ -62,8 +62,8 @@ constexpr double least_grouped = 1e3, max_grouped = 1e6;
 /// Returns the number of digits behind the point of a figure such as '0.12', '1.5%' or '12'; none for other texts.
 std::optional<std::size_t> decimals_of(const std::string& text) {
   std::string number = text.substr(0, text.ends_with('%') ? text.size() - 1 : text.size());
-  for (auto at = number.find(thousands_space); at != std::string::npos; at = number.find(thousands_space)) {
-    number.erase(at, std::string_view(thousands_space).size());
+  for (auto at = number.find(thousands_separator); at != std::string::npos; at = number.find(thousands_separator)) {
+    number.erase(at, std::string_view(thousands_separator).size());
   }
   if (number.empty() || number.find_first_not_of("0123456789.-") != std::string::npos) {
     return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<std::size_t> decimals_of(const std::string& text) {
 std::string thousands(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t end = text.size(); end > 3; end -= 3) {
-    text.insert(end - 3, thousands_space);
+    text.insert(end - 3, thousands_separator);
   }
   return text;
 }

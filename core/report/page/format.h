@@ -14,7 +14,7 @@ namespace chainmail::report {
 /// 1,000 to a million are written as whole numbers with separated thousands.
 std::string figure(double number, int digits = 3);
 std::string figure(const std::optional<double>& number);
-/// Formats a count for people: a narrow no-break space separates the thousands.
+/// Formats a count for people: a comma separates the thousands, as in the window.
 std::string thousands(std::uint64_t count);
 /// Pads the figures of a column with spaces as wide as digits, so that their decimal points stand below each other when
 /// they are aligned to the right. Texts that are not one number stay.
