@@ -18,7 +18,7 @@ class WindowGallery : public QObject {
   Q_OBJECT
 
   /// Opens the popover and returns the button of a sample.
-  static QToolButton* open(const Workbench& bench, const char* file) {
+  static QToolButton* open(Workbench& bench, const char* file) {
     bench.find<QPushButton>("openSamples")->click();
     return bench.find<QToolButton>(qPrintable(QStringLiteral("sample %1").arg(QLatin1String(file))));
   }

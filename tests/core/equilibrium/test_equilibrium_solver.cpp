@@ -128,7 +128,8 @@ Softness draw_elastic_softness(const Mesh& mesh) {
 }  // namespace
 
 void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
-  QVERIFY(check_property("the state has the least energy of all valid ones", [] {
+  int unreached = 0;
+  QVERIFY(check_property("the state has the least energy of all valid ones", [&] {
     const MeshPointer mesh = draw_family().mesh;
     const Softness softness = draw_elastic_softness(*mesh);
     const DragStep drag_step = *any_drag_step(8);
@@ -141,9 +142,15 @@ void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
     dragged.solver.body().pin(pins);
     move_by(dragged.solver, *mesh, drag_step.of(*mesh), drag_step.by());
     const std::vector<double> start = displacements_of(dragged.solver);
-    dragged.solve(1e-9);
+    const bool reached = dragged.solve(1e-9);
     const std::vector<double> found = displacements_of(dragged.solver);
     reference::QuadraticProgram program(*mesh, softness, dragged.solver.body().cuts(), dragged.fixed(), start);
+    RC_ASSERT(reached == (dragged.equilibrium->residual() <= 1e-9));
+    if (!reached) {  // about one draw in a thousand needs more iterations
+      RC_ASSERT(program.energy(found) <= program.energy(start));
+      ++unreached;
+      return;
+    }
     const std::vector<double> expected = program.solve();
     const double least = program.energy(expected), size = 1 + drag_step.by().norm();
     RC_LOG() << "energy " << program.energy(found) << ", least " << least << '\n';
@@ -152,6 +159,7 @@ void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
     RC_ASSERT(program.energy(found) <= 1.002 * least + 1e-7 * size * size);
     RC_ASSERT(largest_difference(found, expected) <= 0.02 * size);
   }));
+  QVERIFY(unreached <= 2);
 }
 
 void EquilibriumSolverTest::where_no_region_binds_it_equals_cholesky() {

@@ -8,6 +8,7 @@
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/material_energy.h"
 #include "measure/violation.h"
+#include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
@@ -96,7 +97,7 @@ struct Scene {
     solver->hold(held, {});
     solver->move(ElasticMotion::by(by), {});
     if (!solver->remark().empty()) {
-      qWarning("%s", solver->remark().c_str());
+      throw Error("finite elements", solver->remark(), "drag less far");
     }
     std::vector<double> at = mesh->rest;
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -476,7 +477,7 @@ void MaterialTest::random_scenes_equal_finite_elements() {
         try {
           expected = scene.finite_elements(by, body.cuts());
         } catch (const Error&) {
-          return;  // a part without pins
+          return;  // a part without pins, or Newton's method finds no minimum
         }
         RC_ASSERT(solver->solve(body, scene.handle, 1e-8, 5000));
         // Elements that no cell holds stay at rest in finite elements.
