@@ -45,6 +45,10 @@ void describe(QCommandLineParser& parser) {
 
 /// Reads the arguments, opens the window and runs until it is closed. Returns the exit status.
 int run(int argc, char** argv) {
+  if (std::any_of(argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--version"; })) {
+    std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), qPrintable(chainmail::licenceInWords()));
+    return 0;
+  }
   if (!has_display(argc, argv)) {
     return fail(
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
@@ -62,10 +66,6 @@ int run(int argc, char** argv) {
   describe(parser);
   if (!parser.parse(QCoreApplication::arguments())) {
     return fail(parser.errorText().remove(QLatin1Char('.')) + QStringLiteral("; see workbench --help"));
-  }
-  if (parser.isSet(QStringLiteral("version"))) {
-    std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), qPrintable(chainmail::licenceInWords()));
-    return 0;
   }
   if (parser.isSet(QStringLiteral("help")) || parser.isSet(QStringLiteral("help-all"))) {
     parser.process(application);

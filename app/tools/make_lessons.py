@@ -110,7 +110,7 @@ def why_order_matters():
     lesson.moves.append({"do": "release"})
     lesson.step("A fast drag",
                 "Now the handle runs around quickly. The coloured links are longer, shorter or more slanted than "
-                "they may be: in A more with every pass, in B none.")
+                "they may be: in A about a fifth of all links, in B none.")
     lesson.step("The order decides",
                 "Panel A follows one chain of neighbours to its end before it returns, so far elements are placed "
                 "before near ones, and the sheet tangles. Panel B works outward in rings and stays calm. "
@@ -129,7 +129,7 @@ def waiting_list():
     lesson.drag([at(3, 3)], [[1.5, 1.2, 0]], 1, release=False)
     lesson.step("Only the handle has moved",
                 "The handle is at its target and its four neighbours wait in the list. Nothing else has moved yet. "
-                "The next candidate is at the top of the list.", candidate=0)
+                "The next candidate is in bold.", candidate=0)
     lesson.step("The first candidate",
                 "The first candidate moves just far enough to be valid again. The arrow comes from its sponsor, the "
                 "neighbour that moved before it. Its own neighbours now wait, too.", candidate=1)
@@ -149,7 +149,7 @@ def exact_and_taut():
     lesson.pin([at(0, y) for y in range(9)])
     lesson.step("A pinned sheet",
                 "The left edge of the sheet is pinned. Panel A runs Natural Queue ChainMail, panel B Exact ChainMail. "
-                "Next pulls the right edge.", colour="violation", tool="drag")
+                "Next pulls the middle of the right edge.", colour="violation", tool="drag")
     handle = [at(11, y) for y in range(3, 6)]
     lesson.drag(handle, [[1.5, 0, 0]], 40, release=False)
     lesson.step("Within reach",
@@ -267,7 +267,7 @@ def warp_a_face():
     lesson.drag([at(200, 155)], [[0, -28, 0]], 40)
     lesson.step("Surprise",
                 "Drag the face yourself. File > Save warped picture saves the result of a panel at full resolution, "
-                "and any PNG or JPEG opens the same way.")
+                "and File > Open makes a sheet of any PNG or JPEG.")
     return lesson
 
 

@@ -136,7 +136,7 @@ void FrameRateDock::addActions() {
   auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
   picture->setIcon(icon("picture"));
   picture->setObjectName(QStringLiteral("saveRatePicture"));
-  picture->setStatusTip(QStringLiteral("Saves the present plot with its legend as PNG, or as PDF for print"));
+  picture->setStatusTip(QStringLiteral("Saves the present plot with its legend as PNG, or as SVG or PDF for print"));
 }
 
 void FrameRateDock::receive(int panel) {

@@ -31,9 +31,9 @@ constexpr const char* help =
     "  --version  print version and licence, and exit";
 constexpr const char* version_text =
     "chainmail-import " CHAINMAIL_VERSION
-    "\nGPL-3 or later, because it links CGAL (GPL-3 or later) and Gmsh (GPL-2 or later). "
-    "It also links teem (LGPL-2.1 or\n"
-    "later) and libseccomp (LGPL-2.1). Its own source is under the MIT licence.";
+    "\nGPL-3 or later, because it links CGAL (GPL-3 or later) and Gmsh (GPL-2 or later).\n"
+    "It also links pugixml (MIT), teem (LGPL-2.1 or later) and libseccomp (LGPL-2.1). Its own source is under the MIT "
+    "licence.";
 constexpr const char* sandboxed = "Sandbox: Landlock and seccomp. The libraries can read only the file that is opened.";
 constexpr const char* sandboxed_without_landlock =
     "Sandbox: seccomp only. The libraries can read your other files, because this system has no Landlock (Linux 5.13 "
