@@ -18,7 +18,8 @@ enum class Algorithm {
   arap,
   xpbd,
   projective,
-  quasi_newton
+  quasi_newton,
+  neo_hookean_xpbd
 };
 
 }  // namespace chainmail

@@ -88,6 +88,8 @@ constexpr std::array methods{
                 [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); }, make_projective},
     MethodEntry{ElasticMethod::quasi_newton, linear_limit[3],
                 [](const Mesh& mesh) { check_fem("quasi-Newton FEM", mesh, linear_limit); }, make_quasi_newton},
+    MethodEntry{ElasticMethod::neo_hookean_xpbd, edge_limit[3],
+                [](const Mesh& mesh) { check_fem("neo-Hookean XPBD", mesh, edge_limit); }, make_neo_hookean_xpbd},
 };
 
 const MethodEntry& entry_of(ElasticMethod method) { return *std::ranges::find(methods, method, &MethodEntry::method); }

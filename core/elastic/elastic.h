@@ -25,7 +25,8 @@ enum class ElasticMethod {
   arap,
   xpbd,
   projective,
-  quasi_newton
+  quasi_newton,
+  neo_hookean_xpbd
 };
 
 /// An object and its pins.

@@ -18,6 +18,7 @@ std::unique_ptr<ElasticSolver> make_arap(const ElasticProblem& problem, const Pr
 std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_projective(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_quasi_newton(const ElasticProblem& problem, const Progress& progress);
+std::unique_ptr<ElasticSolver> make_neo_hookean_xpbd(const ElasticProblem& problem, const Progress& progress);
 
 /// Throws Error if boundary elements do not support so many triangles, or so many elements of a volume (0 for a
 /// surface).

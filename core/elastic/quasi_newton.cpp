@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -6,6 +5,7 @@
 #include <span>
 
 #include "elastic/cholesky.h"
+#include "elastic/cofactors.h"
 #include "elastic/corotated.h"
 #include "elastic/elimination.h"
 #include "elastic/iterated.h"
@@ -101,19 +101,6 @@ class QuasiNewton final : public IteratedSolver {
         }
       }
     }
-  }
-
-  /// The derivatives of the determinant.
-  static Square cofactors(const Square& f) {
-    Square cofactors;
-    if constexpr (N == 3) {
-      cofactors << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
-    } else if constexpr (N == 2) {
-      cofactors << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0);
-    } else {
-      cofactors << 1;
-    }
-    return cofactors;
   }
 
   /// Returns the energy, and leaves its derivatives in gradient_ and the magnitude of its terms in magnitude_.

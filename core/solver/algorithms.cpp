@@ -162,6 +162,16 @@ std::vector<AlgorithmInfo> make_table() {
        .elastic = ElasticMethod::quasi_newton,
        .needs_pins = true,
        .obeys_iterations = true},
+      {.algorithm = Algorithm::neo_hookean_xpbd,
+       .name = "neo-hookean-xpbd",
+       .label = "Neo-Hookean XPBD",
+       .source = "Macklin and Mueller 2021; Ton-That et al. 2023",
+       .summary = "stable neo-Hookean cells as constraints that give way, in small steps of time",
+       .style = {"M-1-1.1H1L-1 1.1H1Z", "#702890"},  // hourglass
+       .make = make_elastic_method<ElasticMethod::neo_hookean_xpbd>,
+       .elastic = ElasticMethod::neo_hookean_xpbd,
+       .needs_pins = true,
+       .obeys_iterations = true},
   };
 }
 

@@ -15,7 +15,8 @@ MESHES = {
     "block": lambda: chainmail.make_block(4, 3, 3),
     "tetra": lambda: chainmail.make_tetra(4, 3, 3, spacing=0.5),
 }
-FOLLOW_THE_PATH = {"neo-hookean", "corotational", "arap", "xpbd", "projective", "quasi-newton"}  # far from rest, to other answers
+# Far from rest, they go to other answers.
+FOLLOW_THE_PATH = {"neo-hookean", "corotational", "arap", "xpbd", "projective", "quasi-newton", "neo-hookean-xpbd"}
 STEPS = int(os.environ.get("CHAINMAIL_LIFE_STEPS", "400"))
 
 

@@ -306,7 +306,7 @@ class WindowOpen : public QObject {
     QVERIFY(bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
     const auto* limits = bench.find<QLabel>("fillDetails");
     QCOMPARE(limits->text(), QStringLiteral("Few enough for Linear FEM, Quasi-Newton FEM (30,000), ARAP, XPBD, "
-                                            "Projective Dynamics (100,000). Too many for "
+                                            "Projective Dynamics, Neo-Hookean XPBD (100,000). Too many for "
                                             "BEM (5,000), Neo-Hookean FEM, Corotational FEM (6,000)"));
     size->setValue(bench.document().mesh()->mean_link_length);
     QVERIFY2(limits->text().endsWith(QStringLiteral("Corotational FEM (6,000), Linear FEM, Quasi-Newton FEM (30,000)")),

@@ -32,7 +32,8 @@ struct MethodInfo {
 /// 1998), 3d (Frisken-Gibson 1997), exact (this project), fem (Bro-Nielsen and Cotin 1996), neo-hookean (Bonet and Wood
 /// 1997), bem (James and Pai 1999), ffd (Sederberg and Parry 1986; Hsu et al. 1992), corotational (Mueller and Gross
 /// 2004; Sifakis and Barbic 2012), arap (Sorkine and Alexa 2007; Chao et al. 2010), xpbd (Macklin et al. 2016,
-/// 2019), projective (Bouaziz et al. 2014) and quasi-newton (Liu et al. 2017; Smith et al. 2018).
+/// 2019), projective (Bouaziz et al. 2014), quasi-newton (Liu et al. 2017; Smith et al. 2018) and neo-hookean-xpbd
+/// (Macklin and Mueller 2021; Ton-That et al. 2023).
 std::vector<MethodInfo> methods();
 
 /// Returns what is known about a method. Throws Error, with all names, if there is none with this name.

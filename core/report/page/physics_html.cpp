@@ -84,12 +84,12 @@ void write_html(std::ostream& out, const PhysicsReport& report, const Origin& or
   write_growths(out, report);
   const Material& material = report.elastic.material;
   const auto& lattice = report.elastic.lattice;
-  end_page(
-      out, origin, report.options.contest,
-      {{"material", "Young’s modulus " + figure(material.young) + ", Poisson’s ratio " + figure(material.poisson)},
-       {"FFD", std::to_string(lattice[0]) + " × " + std::to_string(lattice[1]) + " × " + std::to_string(lattice[2]) +
-                   " control points"},
-       {"XPBD, Projective Dynamics", "at most " + std::to_string(report.elastic.iterations) + " iterations per move"}});
+  end_page(out, origin, report.options.contest,
+           {{"material", "Young’s modulus " + figure(material.young) + ", Poisson’s ratio " + figure(material.poisson)},
+            {"FFD", std::to_string(lattice[0]) + " × " + std::to_string(lattice[1]) + " × " +
+                        std::to_string(lattice[2]) + " control points"},
+            {"XPBD, neo-Hookean XPBD, Projective Dynamics",
+             "at most " + std::to_string(report.elastic.iterations) + " iterations per move"}});
 }
 
 }  // namespace chainmail::report

@@ -28,7 +28,8 @@ std::string outcome_of(const Action& action, cm::Deformer& deformer, std::option
 
 /// Largest difference of positions that two answers of a method to one state may have, in sizes of the object.
 double tolerance_of(const std::string& method) {
-  for (const char* follows_path : {"neo-hookean", "corotational", "arap", "xpbd", "projective", "quasi-newton"}) {
+  for (const char* follows_path :
+       {"neo-hookean", "corotational", "arap", "xpbd", "projective", "quasi-newton", "neo-hookean-xpbd"}) {
     if (method == follows_path) {
       return std::numeric_limits<double>::infinity();  // far from rest, there are several answers
     }

@@ -94,7 +94,7 @@ void ApiStateTest::objects_are_loaded_as_they_were() {
 
 void ApiStateTest::deformers_continue_bit_for_bit_data() {
   QTest::addColumn<QString>("method");
-  for (const char* name : {"natural-queue", "generalized", "exact", "fem", "neo-hookean", "xpbd"}) {
+  for (const char* name : {"natural-queue", "generalized", "exact", "fem", "neo-hookean", "xpbd", "neo-hookean-xpbd"}) {
     QTest::newRow(name) << name;
   }
 }

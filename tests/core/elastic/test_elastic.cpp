@@ -475,9 +475,10 @@ void ElasticTest::limits_of_solids_are_those_of_the_checks() {
     }
     return std::string();
   };
-  for (const auto method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::boundary,
-                            ElasticMethod::corotational, ElasticMethod::arap, ElasticMethod::xpbd,
-                            ElasticMethod::projective, ElasticMethod::quasi_newton, ElasticMethod::free_form}) {
+  for (const auto method :
+       {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::boundary, ElasticMethod::corotational,
+        ElasticMethod::arap, ElasticMethod::xpbd, ElasticMethod::projective, ElasticMethod::quasi_newton,
+        ElasticMethod::neo_hookean_xpbd, ElasticMethod::free_form}) {
     check(method, *small);
     const auto most = max_solid_elements(method);
     QCOMPARE(most.has_value(), method != ElasticMethod::free_form);

@@ -2,11 +2,14 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <QtTest>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "core/elastic/elastic_problems.h"
 #include "core/report/plain_minimum.h"
+#include "elastic/neo_hookean_xpbd.h"
 #include "elastic/xpbd.h"
 #include "mesh/error.h"
 #include "program.h"
@@ -15,7 +18,8 @@ namespace chainmail::test_contestants {
 
 using namespace chainmail::test;
 
-/// Corotational FEM, ARAP, XPBD and Projective Dynamics, against their energies' minima and under rotations.
+/// Corotational and quasi-Newton FEM, ARAP, both XPBDs and Projective Dynamics, against their energies' minima and
+/// under rotations.
 class ContestantsTest : public QObject {
   Q_OBJECT
 
@@ -30,6 +34,12 @@ class ContestantsTest : public QObject {
   void xpbd_rests_near_the_least_energy();
   void xpbd_swings();
   void xpbd_comes_to_rest();
+  void neo_hookean_constraints_have_their_gradients();
+  void neo_hookean_xpbd_rests_near_the_least_energy_data() { dimensions(); }
+  void neo_hookean_xpbd_rests_near_the_least_energy();
+  void neo_hookean_xpbd_survives_far_moves_data() { dimensions(); }
+  void neo_hookean_xpbd_survives_far_moves();
+  void neo_hookean_xpbd_refuses_surfaces_in_space();
   void too_few_iterations_are_told_data();
   void too_few_iterations_are_told();
   void what_has_no_cells_is_refused();
@@ -53,8 +63,8 @@ class ContestantsTest : public QObject {
 
 namespace {
 
-constexpr std::array methods{ElasticMethod::corotational, ElasticMethod::arap, ElasticMethod::xpbd,
-                             ElasticMethod::projective, ElasticMethod::quasi_newton};
+constexpr std::array methods{ElasticMethod::corotational, ElasticMethod::arap,         ElasticMethod::xpbd,
+                             ElasticMethod::projective,   ElasticMethod::quasi_newton, ElasticMethod::neo_hookean_xpbd};
 
 enum class Object { sheet, solid, surface };
 
@@ -211,6 +221,21 @@ Moduli moduli(const Mesh& mesh, double young, double poisson) {
                                            : young * poisson / ((1 + poisson) * (1 - 2 * poisson))};
 }
 
+/// Stable neo-Hookean elasticity, in plane stress for a sheet. Its second parameter is λ + μ, so that small strains
+/// have the material's.
+std::function<double(const std::vector<double>&)> stable_neo_hookean(const Mesh& mesh, double poisson) {
+  const Moduli material = moduli(mesh, 3, poisson);
+  return
+      [&mesh, mu = material.mu, of_volume = material.lambda + material.mu](const std::vector<double>& displacements) {
+        double sum = 0;
+        for_each_shape(mesh, displacements, [&](const Shape& shape) {
+          const double beyond = shape.deformation.determinant() - 1 - mu / of_volume;
+          sum += shape.volume / 2 * (mu * shape.deformation.squaredNorm() + of_volume * beyond * beyond);
+        });
+        return sum;
+      };
+}
+
 /// The closest rotation, by singular values.
 Eigen::MatrixXd rotation_of(const Eigen::MatrixXd& deformation) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(deformation, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -267,27 +292,16 @@ void ContestantsTest::corotational_is_at_the_least_energy() {
   QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
 }
 
-/// Stable neo-Hookean elasticity, in plane stress for a sheet. Its second parameter is λ + μ, so that small strains
-/// have the material's.
 void ContestantsTest::quasi_newton_is_at_the_least_energy() {
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
   for (const double poisson : {0.0, 0.4}) {
-    const auto [mu, lambda] = moduli(*mesh, 3, poisson);
-    const double rest_volume = 1 + mu / (lambda + mu);
     const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
     const auto solver = make_elastic(ElasticMethod::quasi_newton, problem);
     drag(*solver, *mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
-    const auto energy = [&, mu = mu, lambda = lambda](const std::vector<double>& displacements) {
-      double sum = 0;
-      for_each_shape(*mesh, displacements, [&](const Shape& shape) {
-        const double beyond = shape.deformation.determinant() - rest_volume;
-        sum += shape.volume / 2 * (mu * shape.deformation.squaredNorm() + (lambda + mu) * beyond * beyond);
-      });
-      return sum;
-    };
-    const double apart = largest_step(solver->displacements(), least(*mesh, problem, far, energy));
+    const auto exact = least(*mesh, problem, far, stable_neo_hookean(*mesh, poisson));
+    const double apart = largest_step(solver->displacements(), exact);
     QVERIFY2(apart < 1e-6, qPrintable(QString::number(apart)));
   }
 }
@@ -389,12 +403,117 @@ void ContestantsTest::xpbd_comes_to_rest() {
   }
 }
 
+namespace {
+
+/// Compares both constraints of a simplex with their definitions, and their derivatives with central differences.
+template <int N>
+double error_of_gradients(std::mt19937_64& random) {
+  using Square = Eigen::Matrix<double, N, N>;
+  using Corners = Eigen::Matrix<double, N, N + 1>;
+  Corners rest, now;
+  for (int i = 0; i < rest.size(); ++i) {
+    rest(i) = uniform(random, -1, 1);
+    now(i) = uniform(random, -1, 1);
+  }
+  const auto edges_of = [](const Corners& corners) {
+    return Square(corners.template rightCols<N>().colwise() - corners.col(0));
+  };
+  const Square inverse = edges_of(rest).inverse();
+  const auto constraints = [&](const Corners& corners) {
+    const Square f = edges_of(corners) * inverse;
+    return std::array{std::sqrt((f.transpose() * f).trace()), f.determinant()};
+  };
+  const NeoHookeanConstraints<N> found(edges_of(now), inverse.transpose());
+  const auto [shape, volume] = constraints(now);
+  const double scale = 1 + inverse.norm() + std::pow(inverse.norm(), N);
+  double worst = std::max(std::abs(std::sqrt(found.shape) - shape), std::abs(found.volume - volume)) / scale;
+  constexpr double by = 1e-6;
+  for (int i = 0; i < now.size(); ++i) {
+    Corners above = now, below = now;
+    above(i) += by;
+    below(i) -= by;
+    const auto [shape_above, volume_above] = constraints(above);
+    const auto [shape_below, volume_below] = constraints(below);
+    const double of_shape = found.by_shape(i) / shape - (shape_above - shape_below) / (2 * by);
+    const double of_volume = found.by_volume(i) - (volume_above - volume_below) / (2 * by);
+    worst = std::max({worst, std::abs(of_shape) / scale, std::abs(of_volume) / scale});
+  }
+  return worst;
+}
+
+}  // namespace
+
+void ContestantsTest::neo_hookean_constraints_have_their_gradients() {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 100; ++i) {
+    for (const double error : {error_of_gradients<2>(random), error_of_gradients<3>(random)}) {
+      QVERIFY2(error < 1e-8, qPrintable(QString::number(error)));
+    }
+  }
+}
+
+/// The distance from the least energy is in proportion to the square of the time step, as that of XPBD.
+void ContestantsTest::neo_hookean_xpbd_rests_near_the_least_energy() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  for (const double poisson : {0.0, 0.1, 0.4}) {
+    ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
+    problem.options.iterations = 100'000;
+    const auto exact = least(*mesh, problem, far, stable_neo_hookean(*mesh, poisson));
+    std::vector<double> apart;
+    for (const double square : {0.08, 0.02, 0.005}) {
+      const auto solver = make_neo_hookean_xpbd(problem, {.springs_over_inertia = square}, {});
+      drag(*solver, *mesh, far);
+      QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+      apart.push_back(largest_step(solver->displacements(), exact));
+    }
+    for (std::size_t i = 1; i < apart.size(); ++i) {
+      const double ratio = apart[i] / apart[i - 1];
+      QVERIFY2(ratio > 0.2 && ratio < 0.3, qPrintable(QString::number(ratio)));
+    }
+    QVERIFY2(apart.back() < 2e-3, qPrintable(QString::number(apart.back())));
+  }
+}
+
+/// Half the width of the object in one move, into it, across it and out of it, and back: inverted cells recover.
+void ContestantsTest::neo_hookean_xpbd_survives_far_moves() {
+  QFETCH(const int, object);
+  const MeshPointer mesh = make(Object(object));
+  const double width = mesh->box[1].x() - mesh->box[0].x();
+  for (const Point& direction : {Point(-1, 0, 0), Point(0, -1, 0), Point(1, 0, 0), Point(-0.6, -0.8, 0)}) {
+    const auto solver = make_elastic(ElasticMethod::neo_hookean_xpbd, pinned(mesh, first_column(*mesh), 0.45));
+    drag(*solver, *mesh, width / 2 * direction);
+    const std::string& remark = solver->remark();
+    QVERIFY2(remark.empty() || remark.starts_with("it did not converge") || remark.starts_with("it diverged"),
+             remark.c_str());
+    for (const double displacement : solver->displacements()) {
+      QVERIFY(std::abs(displacement) < 2 * width);  // so it is a number
+    }
+    for (int again = 0; again == 0 || (again < 100 && !solver->remark().empty()); ++again) {
+      drag(*solver, *mesh, Point::Zero());
+    }
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return std::abs(one) < 1e-6; }));
+  }
+}
+
+void ContestantsTest::neo_hookean_xpbd_refuses_surfaces_in_space() {
+  try {
+    check(ElasticMethod::neo_hookean_xpbd, *make(Object::surface));
+    QFAIL("it accepts a surface in space");
+  } catch (const Error& error) {
+    QVERIFY2(QString(error.what()).contains("the object has no tetrahedra or hexahedra, so it is not a solid"),
+             error.what());
+  }
+}
+
 void ContestantsTest::too_few_iterations_are_told_data() {
   QTest::addColumn<int>("method");
   QTest::newRow("corotational FEM") << int(ElasticMethod::corotational);
   QTest::newRow("ARAP") << int(ElasticMethod::arap);
   QTest::newRow("XPBD") << int(ElasticMethod::xpbd);
   QTest::newRow("quasi-Newton FEM") << int(ElasticMethod::quasi_newton);
+  QTest::newRow("neo-Hookean XPBD") << int(ElasticMethod::neo_hookean_xpbd);
   QTest::newRow("Projective Dynamics") << int(ElasticMethod::projective);
 }
 

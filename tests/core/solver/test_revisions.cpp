@@ -43,8 +43,9 @@ ElementBlocks all_blocks(const Mesh& mesh) {
 
 /// True for methods that start from the answer before.
 bool follows_path(Algorithm algorithm) {
-  constexpr std::array those{Algorithm::neo_hookean, Algorithm::corotational, Algorithm::arap,
-                             Algorithm::xpbd,        Algorithm::projective,   Algorithm::quasi_newton};
+  constexpr std::array those{
+      Algorithm::neo_hookean,  Algorithm::corotational,    Algorithm::arap, Algorithm::xpbd, Algorithm::projective,
+      Algorithm::quasi_newton, Algorithm::neo_hookean_xpbd};
   return std::ranges::find(those, algorithm) != those.end();
 }
 
@@ -300,7 +301,8 @@ void RevisionsTest::each_elastic_move_is_that_of_a_new_solver() {
   const auto holds = [] {
     live(make_mesh(MeshKind::tetra, {4, 3, 3}),
          {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::corotational, Algorithm::arap, Algorithm::xpbd,
-          Algorithm::projective, Algorithm::quasi_newton, Algorithm::boundary_elements, Algorithm::free_form},
+          Algorithm::projective, Algorithm::quasi_newton, Algorithm::neo_hookean_xpbd, Algorithm::boundary_elements,
+          Algorithm::free_form},
          {0, 4, 8, 12, 16, 20, 24, 28, 32}, 8, 4);
   };
   QVERIFY(check_property("each elastic move is that of a new solver in the same state", holds));
