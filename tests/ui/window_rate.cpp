@@ -190,7 +190,8 @@ class WindowRate : public QObject {
     edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::equilibrium});
     const auto lags = [&](double below) {
       const QPolygonF points = bench.points(0);
-      return std::ranges::any_of(points, [&](const QPointF& point) { return point.y() < below; });  // 0: no energy is left
+      return std::ranges::any_of(points,
+                                 [&](const QPointF& point) { return point.y() < below; });  // 0: no energy is left
     };
     QVERIFY(bench.shakeUntilShown());
     QTRY_VERIFY_WITH_TIMEOUT(lags(1e-3), 12'000);

@@ -15,12 +15,12 @@ struct Row {
 };
 
 /// A member of what was measured, of the times of moves, or of the errors.
-template <auto... members>
-constexpr auto measured = at<Row, &Row::entry, &Entry::measurement, members...>;
-template <auto member>
-constexpr auto time = measured<&Measurement::ms_per_move, member>;
-template <auto... members>
-constexpr auto error = measured<&Measurement::errors, members...>;
+template <auto... Members>
+constexpr auto measured = at<Row, &Row::entry, &Entry::measurement, Members...>;
+template <auto Member>
+constexpr auto time = measured<&Measurement::ms_per_move, Member>;
+template <auto... Members>
+constexpr auto error = measured<&Measurement::errors, Members...>;
 
 constexpr CsvColumn<Row> columns[]{
     {"object", at<Row, &Row::object, &CaseResult::name>},

@@ -46,9 +46,9 @@ CsvField follow(const Value& value, Members... members) {
   }
 }
 /// The field of a column that shows a member of a member of a row: `at<Row, &Row::object, &CaseResult::name>`.
-template <class Row, auto... members>
+template <class Row, auto... ValueMembers>
 CsvField at(const Row& row) {
-  return follow(row, members...);
+  return follow(row, ValueMembers...);
 }
 
 /// Writes the names of the columns, then the rows.

@@ -55,8 +55,8 @@ std::string_view entity_of(char character) {
 }
 
 constexpr const char* thousands_separator = ",";
-constexpr const char* figure_space = "\u2007";     // as wide as a digit
-constexpr const char* point_space = "\u2008";      // as wide as a point
+constexpr const char* figure_space = "\u2007";  // as wide as a digit
+constexpr const char* point_space = "\u2008";   // as wide as a point
 constexpr double least_grouped = 1e3, max_grouped = 1e6;
 
 /// Returns the number of digits behind the point of a figure such as '0.12', '1.5%' or '12'; none for other texts.

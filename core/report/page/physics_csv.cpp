@@ -56,22 +56,22 @@ Row row_of(const PhysicsGrowth& growth, const GrowthSeries& series, const Growth
           .error = point.error ? &*point.error : nullptr};
 }
 
-template <auto... members>
-constexpr auto measured = at<Row, &Row::measured, members...>;
-template <auto member>
-constexpr auto later = measured<&PhysicsMeasurement::ms_per_move, member>;
-template <auto member>
-constexpr auto shape = measured<&PhysicsMeasurement::shape, member>;
-template <auto member>
-constexpr auto error = at<Row, &Row::error, member>;
-template <auto member>
-constexpr auto contestant = at<Row, &Row::contestant, member>;
+template <auto... Members>
+constexpr auto measured = at<Row, &Row::measured, Members...>;
+template <auto Member>
+constexpr auto later = measured<&PhysicsMeasurement::ms_per_move, Member>;
+template <auto Member>
+constexpr auto shape = measured<&PhysicsMeasurement::shape, Member>;
+template <auto Member>
+constexpr auto error = at<Row, &Row::error, Member>;
+template <auto Member>
+constexpr auto contestant = at<Row, &Row::contestant, Member>;
 
 /// Returns a member of a spread of times; none if nothing was timed.
-template <auto times, auto member>
+template <auto Times, auto Member>
 CsvField timed(const Row& row) {
-  const TimeSpread* ms = row.measured == nullptr ? nullptr : &times(*row.measured);
-  return ms != nullptr && ms->count > 0 ? CsvField(ms->*member) : CsvField();
+  const TimeSpread* ms = row.measured == nullptr ? nullptr : &Times(*row.measured);
+  return ms != nullptr && ms->count > 0 ? CsvField(ms->*Member) : CsvField();
 }
 constexpr auto first = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.first_move; };
 constexpr auto after_cut = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.move_after_cut; };
@@ -79,10 +79,10 @@ constexpr auto factorize = [](const PhysicsMeasurement& m) -> const TimeSpread& 
 constexpr auto grab = [](const PhysicsMeasurement& m) -> const TimeSpread& { return m.prepare.grab; };
 
 /// Returns by how much the contestant differs on the turned object.
-template <std::size_t angle, auto member>
+template <std::size_t Angle, auto Member>
 CsvField turned(const Row& row) {
-  const bool known = row.symmetry != nullptr && angle < row.symmetry->turns.size();
-  return known ? CsvField(row.symmetry->turns[angle].*member) : CsvField();
+  const bool known = row.symmetry != nullptr && Angle < row.symmetry->turns.size();
+  return known ? CsvField(row.symmetry->turns[Angle].*Member) : CsvField();
 }
 
 constexpr CsvColumn<Row> columns[]{

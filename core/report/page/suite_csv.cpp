@@ -36,7 +36,8 @@ std::vector<CsvColumn<Row>> all_columns() {
   std::vector<CsvColumn<Row>> all(std::begin(columns), std::end(columns));
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (all.push_back({suite_figures[i].key, at<Row, &Row::figures, suite_figures[i].value>}), ...);
-  }(std::make_index_sequence<suite_figures.size()>());
+  }
+  (std::make_index_sequence<suite_figures.size()>());
   return all;
 }
 
