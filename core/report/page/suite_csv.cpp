@@ -34,8 +34,8 @@ constexpr CsvColumn<Row> columns[]{
 /// Returns the columns, then one for each of `suite_figures`.
 std::vector<CsvColumn<Row>> all_columns() {
   std::vector<CsvColumn<Row>> all(std::begin(columns), std::end(columns));
-  [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (all.push_back({suite_figures[i].key, at<Row, &Row::figures, suite_figures[i].value>}), ...);
+  [&]<std::size_t... Index>(std::index_sequence<Index...>) {
+    (all.push_back({suite_figures[Index].key, at<Row, &Row::figures, suite_figures[Index].value>}), ...);
   }
   (std::make_index_sequence<suite_figures.size()>());
   return all;
