@@ -45,7 +45,7 @@ void describe(QCommandLineParser& parser) {
 
 /// Reads the arguments, opens the window and runs until it is closed. Returns the exit status.
 int run(int argc, char** argv) {
-  if (std::any_of(argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--version"; })) {
+  if (std::any_of(argv + 1, argv + argc, [](std::string_view one) { return one == "--version" || one == "-v"; })) {
     std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), qPrintable(chainmail::licenceInWords()));
     return 0;
   }

@@ -3,7 +3,6 @@
 #include <QEvent>
 #include <QMainWindow>
 #include <QSettings>
-#include <QTimer>
 #include <QToolButton>
 #include <algorithm>
 
@@ -27,6 +26,15 @@ void bringUp(QDockWidget& dock) {
   dock.raise();
 }
 
+DockFolds::DockFolds(QMainWindow& window) : window_(window) {
+  later_.setSingleShot(true);
+  connect(&later_, &QTimer::timeout, this, [this] {
+    for (auto& [dock, fold] : folds_) {
+      adapt(*dock, fold);
+    }
+  });
+}
+
 void DockFolds::follow(QDockWidget& dock) {
   auto* arrow = new QToolButton(&dock);
   arrow->setObjectName(arrowName(dock));
@@ -37,11 +45,13 @@ void DockFolds::follow(QDockWidget& dock) {
   arrow->setFocusPolicy(Qt::TabFocus);
   arrow->resize(arrowSize, arrowSize);
   arrow->hide();
-  const bool wanted = QSettings().value(settingsKey(dock)).toBool();
-  arrow->setChecked(!wanted);
-  folds_[&dock] = {arrow, wanted};
-  connect(arrow, &QToolButton::toggled, this, [this, &dock](bool whole) { choose(dock, !whole); });
-  const auto later = [this] { QTimer::singleShot(0, this, qOverload<>(&DockFolds::adapt)); };
+  arrow->setChecked(!QSettings().value(settingsKey(dock)).toBool());
+  Fold& fold = folds_[&dock] = {arrow};
+  connect(arrow, &QToolButton::toggled, this, [this, &dock, &fold](bool whole) {
+    QSettings().setValue(settingsKey(dock), !whole);
+    adapt(dock, fold);
+  });
+  const auto later = [this] { later_.start(); };
   connect(&dock, &QDockWidget::visibilityChanged, this, later);
   connect(&dock, &QDockWidget::dockLocationChanged, this, later);
   connect(&dock, &QDockWidget::topLevelChanged, this, later);
@@ -65,7 +75,7 @@ bool DockFolds::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) {
     auto& dock = static_cast<QDockWidget&>(*watched);
     const Fold& fold = folds_.at(&dock);
-    const int title = fold.folded || dock.widget() == nullptr ? dock.height() : dock.widget()->y();
+    const int title = dock.widget()->isHidden() ? dock.height() : dock.widget()->y();
     fold.arrow->move(2, std::max(0, (title - arrowSize) / 2));
   }
   return QObject::eventFilter(watched, event);
@@ -79,28 +89,15 @@ bool DockFolds::canFold(const QDockWidget& dock) const {
                              [](const QDockWidget* other) { return other->isHidden(); });
 }
 
-void DockFolds::choose(QDockWidget& dock, bool folded) {
-  folds_.at(&dock).wanted = folded;
-  QSettings().setValue(settingsKey(dock), folded);
-  adapt(dock, folds_.at(&dock));
-}
-
-void DockFolds::adapt() {
-  for (auto& [dock, fold] : folds_) {
-    adapt(*dock, fold);
-  }
-}
-
 void DockFolds::adapt(QDockWidget& dock, Fold& fold) {
-  const bool can = canFold(dock), folded = can && fold.wanted;
+  const bool can = canFold(dock), folded = can && !fold.arrow->isChecked();
   fold.arrow->setVisible(can);
   fold.arrow->setArrowType(folded ? Qt::RightArrow : Qt::DownArrow);
   dock.setProperty(WorkbenchStyle::titleIndent, can ? arrowSize : 0);
   dock.update();
-  if (folded == fold.folded) {
+  if (folded == dock.widget()->isHidden()) {
     return;
   }
-  fold.folded = folded;
   if (folded) {
     fold.height = dock.height();
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QDockWidget>
+#include <QTimer>
 #include <map>
 
 class QMainWindow;
@@ -8,14 +9,13 @@ class QToolButton;
 
 namespace chainmail {
 
-/// Folds docks to their titles, by an arrow at the left of each title. The choice is remembered. Only docks in the
-/// columns at the left and at the right fold, one that shares its place as a tab not: docks beside each other have one
-/// height.
+/// Folds docks to their titles, by an arrow at the left of each title. The choice is remembered. Docks that share a
+/// height cannot fold: those at the top and at the bottom, and those behind each other's tabs.
 class DockFolds : public QObject {
   Q_OBJECT
 
  public:
-  explicit DockFolds(QMainWindow& window) : window_(window) {}
+  explicit DockFolds(QMainWindow& window);
 
   void follow(QDockWidget& dock);
   void unfoldAll();
@@ -25,18 +25,15 @@ class DockFolds : public QObject {
 
  private:
   struct Fold {
-    QToolButton* arrow;
-    bool wanted = false;  // by the user
-    bool folded = false;
-    int height = 0;  // before it was folded (pixels); 0: it was not seen since
+    QToolButton* arrow;  // checked if the user wants the whole dock
+    int height = 0;      // before it was folded (pixels)
   };
 
   bool canFold(const QDockWidget& dock) const;
-  void choose(QDockWidget& dock, bool folded);
-  void adapt();
   void adapt(QDockWidget& dock, Fold& fold);
 
   QMainWindow& window_;
+  QTimer later_;  // adapts all docks once after several changes
   std::map<QDockWidget*, Fold> folds_;
 };
 

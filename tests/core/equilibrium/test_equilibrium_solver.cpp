@@ -143,14 +143,13 @@ void EquilibriumSolverTest::it_equals_a_dense_quadratic_program() {
     move_by(dragged.solver, *mesh, drag_step.of(*mesh), drag_step.by());
     const std::vector<double> start = displacements_of(dragged.solver);
     const bool reached = dragged.solve(1e-9);
+    RC_ASSERT(reached == (dragged.equilibrium->residual() <= 1e-9));
+    if (!reached) {  // one draw in a thousand needs more iterations
+      ++unreached;
+      dragged.solve(1e-9, 60'000);
+    }
     const std::vector<double> found = displacements_of(dragged.solver);
     reference::QuadraticProgram program(*mesh, softness, dragged.solver.body().cuts(), dragged.fixed(), start);
-    RC_ASSERT(reached == (dragged.equilibrium->residual() <= 1e-9));
-    if (!reached) {  // about one draw in a thousand needs more iterations
-      RC_ASSERT(program.energy(found) <= program.energy(start));
-      ++unreached;
-      return;
-    }
     const std::vector<double> expected = program.solve();
     const double least = program.energy(expected), size = 1 + drag_step.by().norm();
     RC_LOG() << "energy " << program.energy(found) << ", least " << least << '\n';

@@ -95,7 +95,11 @@ struct Scene {
     held.arms.assign(handle.size() * by.size(), 0);
     held.displacements.assign(handle.size() * by.size(), 0);
     solver->hold(held, {});
-    solver->move(ElasticMotion::by(by), {});
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {  // Newton's method does not always reach the end in one step
+      std::vector<double> part(by.begin(), by.end());
+      std::ranges::for_each(part, [share](double& one) { one *= share; });
+      solver->move(ElasticMotion::by(part), {});
+    }
     if (!solver->remark().empty()) {
       throw Error("finite elements", solver->remark(), "drag less far");
     }
@@ -477,7 +481,7 @@ void MaterialTest::random_scenes_equal_finite_elements() {
         try {
           expected = scene.finite_elements(by, body.cuts());
         } catch (const Error&) {
-          return;  // a part without pins, or Newton's method finds no minimum
+          return;  // a part without pins
         }
         RC_ASSERT(solver->solve(body, scene.handle, 1e-8, 5000));
         // Elements that no cell holds stay at rest in finite elements.
