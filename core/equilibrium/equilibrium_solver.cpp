@@ -372,6 +372,7 @@ class Equilibrator final : public EquilibriumSolver {
       material_step(progress);
       return;
     }
+    frees_below_ = iterations_ == 0 ? frees_below : frees_below_;
     constrained_ ? constrained_step(progress) : free_step(progress);
     ++iterations_;
     if (!constrained_ && residual_ < binds_below && !is_valid(iterate_)) {
@@ -585,8 +586,10 @@ class Equilibrator final : public EquilibriumSolver {
     gradient_is_outdated_ = true;
     const auto step = regions_.step(links(), iterate_);
     residual_ = std::sqrt(std::max(step.outside, step.stepped) / (step.size + unseen_energy()));
-    if (!step.forced && residual_ < frees_below && is_valid(iterate_)) {
+    if (!step.forced && residual_ < frees_below_ && is_valid(iterate_)) {
       end_constraints();
+      frees_below_ /=
+          10;  // if regions bind after all, the forces were 0 only on their way: that must not repeat forever
     } else if (regions_.adapt(step)) {
       penalise();
     }
@@ -729,6 +732,7 @@ class Equilibrator final : public EquilibriumSolver {
   int steps_since_gradient_ = 0;
   double energy_of_iterate_ = 0;
   double residual_ = 0;
+  double frees_below_ = frees_below;  // falls each time in one problem
   int iterations_ = 0;
 
   MaterialMinimum<D> material_;
