@@ -20,7 +20,7 @@ QString settingsKey(const QDockWidget& dock) { return QStringLiteral("folds/") +
 
 void bringUp(QDockWidget& dock) {
   if (auto* arrow = dock.findChild<QToolButton*>(arrowName(dock), Qt::FindDirectChildrenOnly)) {
-    arrow->setChecked(true);
+    arrow->setChecked(false);
   }
   dock.show();
   dock.raise();
@@ -38,17 +38,17 @@ DockFolds::DockFolds(QMainWindow& window) : window_(window) {
 void DockFolds::follow(QDockWidget& dock) {
   auto* arrow = new QToolButton(&dock);
   arrow->setObjectName(arrowName(dock));
-  arrow->setAccessibleName(QStringLiteral("Content of the dock %1").arg(dock.windowTitle()));
-  arrow->setToolTip(QStringLiteral("Shows only the title of this dock, or the whole dock again"));
+  arrow->setAccessibleName(QStringLiteral("Fold the dock %1").arg(dock.windowTitle()));
+  arrow->setToolTip(QStringLiteral("Folds this dock to its title, or unfolds it"));
   arrow->setCheckable(true);
   arrow->setAutoRaise(true);
   arrow->setFocusPolicy(Qt::TabFocus);
   arrow->resize(arrowSize, arrowSize);
   arrow->hide();
-  arrow->setChecked(!QSettings().value(settingsKey(dock)).toBool());
+  arrow->setChecked(QSettings().value(settingsKey(dock)).toBool());
   Fold& fold = folds_[&dock] = {arrow};
-  connect(arrow, &QToolButton::toggled, this, [this, &dock, &fold](bool whole) {
-    QSettings().setValue(settingsKey(dock), !whole);
+  connect(arrow, &QToolButton::toggled, this, [this, &dock, &fold](bool folded) {
+    QSettings().setValue(settingsKey(dock), folded);
     adapt(dock, fold);
   });
   const auto later = [this] { later_.start(); };
@@ -57,7 +57,7 @@ void DockFolds::follow(QDockWidget& dock) {
   connect(&dock, &QDockWidget::topLevelChanged, this, later);
   connect(dock.toggleViewAction(), &QAction::triggered, arrow, [arrow](bool shown) {
     if (shown) {
-      arrow->setChecked(true);
+      arrow->setChecked(false);
     }
   });
   dock.installEventFilter(this);
@@ -66,7 +66,7 @@ void DockFolds::follow(QDockWidget& dock) {
 
 void DockFolds::unfoldAll() {
   for (auto& [dock, fold] : folds_) {
-    fold.arrow->setChecked(true);
+    fold.arrow->setChecked(false);
   }
 }
 
@@ -90,7 +90,7 @@ bool DockFolds::canFold(const QDockWidget& dock) const {
 }
 
 void DockFolds::adapt(QDockWidget& dock, Fold& fold) {
-  const bool can = canFold(dock), folded = can && !fold.arrow->isChecked();
+  const bool can = canFold(dock), folded = can && fold.arrow->isChecked();
   fold.arrow->setVisible(can);
   fold.arrow->setArrowType(folded ? Qt::RightArrow : Qt::DownArrow);
   dock.setProperty(WorkbenchStyle::titleIndent, can ? arrowSize : 0);

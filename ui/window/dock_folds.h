@@ -25,7 +25,7 @@ class DockFolds : public QObject {
 
  private:
   struct Fold {
-    QToolButton* arrow;  // checked if the user wants the whole dock
+    QToolButton* arrow;  // checked if the user wants only the title
     int height = 0;      // before it was folded (pixels)
   };
 
