@@ -6,6 +6,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "common/dock_scroll.h"
 #include "common/workbench_style.h"
 
 namespace chainmail {
@@ -14,6 +15,7 @@ namespace {
 constexpr int arrowSize = 16;  // pixels
 
 QString arrowName(const QDockWidget& dock) { return dock.objectName() + QStringLiteral("Fold"); }
+DockScroll* contentOf(const QDockWidget& dock) { return qobject_cast<DockScroll*>(dock.widget()); }
 QString settingsKey(const QDockWidget& dock) { return QStringLiteral("folds/") + dock.objectName(); }
 
 }  // namespace
@@ -36,6 +38,9 @@ DockFolds::DockFolds(QMainWindow& window) : window_(window) {
 }
 
 void DockFolds::follow(QDockWidget& dock) {
+  if (contentOf(dock) == nullptr) {
+    return;
+  }
   auto* arrow = new QToolButton(&dock);
   arrow->setObjectName(arrowName(dock));
   arrow->setAccessibleName(QStringLiteral("Fold the dock %1").arg(dock.windowTitle()));
@@ -74,9 +79,8 @@ void DockFolds::unfoldAll() {
 bool DockFolds::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) {
     auto& dock = static_cast<QDockWidget&>(*watched);
-    const Fold& fold = folds_.at(&dock);
-    const int title = dock.widget()->isHidden() ? dock.height() : dock.widget()->y();
-    fold.arrow->move(2, std::max(0, (title - arrowSize) / 2));
+    const int title = contentOf(dock)->isFolded() ? dock.height() : dock.widget()->y();
+    folds_.at(&dock).arrow->move(2, std::max(0, (title - arrowSize) / 2));
   }
   return QObject::eventFilter(watched, event);
 }
@@ -95,13 +99,13 @@ void DockFolds::adapt(QDockWidget& dock, Fold& fold) {
   fold.arrow->setArrowType(folded ? Qt::RightArrow : Qt::DownArrow);
   dock.setProperty(WorkbenchStyle::titleIndent, can ? arrowSize : 0);
   dock.update();
-  if (folded == dock.widget()->isHidden()) {
+  if (folded == contentOf(dock)->isFolded()) {
     return;
   }
   if (folded) {
     fold.height = dock.height();
   }
-  dock.widget()->setVisible(!folded);
+  contentOf(dock)->setFolded(folded);
   dock.setMaximumHeight(folded ? dock.minimumSizeHint().height() : QWIDGETSIZE_MAX);
   if (!folded && can) {
     window_.resizeDocks({&dock}, {std::max(fold.height, dock.sizeHint().height())}, Qt::Vertical);

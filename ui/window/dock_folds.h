@@ -9,8 +9,9 @@ class QToolButton;
 
 namespace chainmail {
 
-/// Folds docks to their titles, by an arrow at the left of each title. The choice is remembered. Docks that share a
-/// height cannot fold: those at the top and at the bottom, and those behind each other's tabs.
+/// Folds docks whose content is a DockScroll to their titles, by an arrow at the left of each title. The choice is
+/// remembered. Docks that share a height cannot fold: those at the top and at the bottom, and those behind each other's
+/// tabs.
 class DockFolds : public QObject {
   Q_OBJECT
 
