@@ -16,6 +16,7 @@
 #include "report/page/svg.h"
 #include "report/run/suite_experiments.h"
 #ifdef CHAINMAIL_HAS_BULLET
+#include "bullet/deformable_fem.h"
 #include "bullet/soft_body.h"
 #endif
 
@@ -24,9 +25,13 @@ namespace {
 
 constexpr int max_shards = 1000;
 
-void add_bullet() {
+/// Adds Bullet's methods. Its FEM needs minutes for an experiment, so that it takes part only where it is named.
+void add_bullet([[maybe_unused]] bool with_fem) {
 #ifdef CHAINMAIL_HAS_BULLET
   add_algorithm(bullet_soft_body());
+  if (with_fem) {
+    add_algorithm(bullet_fem());
+  }
 #endif
 }
 
@@ -103,7 +108,7 @@ void run_suite(const CLI::App& app, const CompareArguments& arguments, const std
   refuse_others(app, "--suite",
                 {arguments.suite, arguments.shard, arguments.experiments, arguments.algorithms, arguments.repetitions,
                  arguments.calibrated, arguments.output});
-  add_bullet();
+  add_bullet(value_of(arguments.algorithms).value_or("").find("bullet-fem") != std::string::npos);
   report::SuiteOptions options;
   options.algorithms = algorithms_of(arguments.algorithms, every_algorithm());
   if (arguments.repetitions->count() > 0) {
@@ -128,7 +133,7 @@ void merge_suites(const CLI::App& app, const CompareArguments& arguments) {
   if (arguments.meshes->count() == 0) {
     throw Error("--merge", "the files are missing", "name the report.json of each part");
   }
-  add_bullet();
+  add_bullet(true);
   OutputFolder folder(*value_of(arguments.output));
   std::vector<report::Suite> parts;
   std::vector<std::filesystem::path> read;
