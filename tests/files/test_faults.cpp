@@ -48,6 +48,7 @@ class FaultsTest : public QObject {
  private slots:
   void nothing_is_lost_data();
   void nothing_is_lost();
+  void old_content_that_cannot_go_back_is_kept();
   void a_file_system_without_unnamed_files_is_written_to();
 
  private:
@@ -138,6 +139,27 @@ void FaultsTest::nothing_is_lost() {
     QVERIFY(!words.contains(QStringLiteral("LOST")));
   }
   QVERIFY(faults >= 12);  // each error at least at an open, a write and a rename
+}
+
+/// The second of two files cannot be replaced, and the first one cannot be taken back either.
+void FaultsTest::old_content_that_cannot_go_back_is_kept() {
+  const QTemporaryDir temporary;
+  const fs::path folder = temporary.path().toStdString();
+  put_file(folder / "a", "old a");
+  put_file(folder / "b", "old b");
+  const QString said = error_of([&] {
+    Outputs outputs;
+    outputs.add(folder / "a", text("new"));
+    outputs.add(folder / "b", text("new"));
+    arm_fault(folder.string(), FileCall::rename, 2, EIO, true);
+    outputs.commit();
+  });
+  QVERIFY(disarm_fault() && !said.isEmpty());
+  QStringList kept;
+  for (const auto& [name, content] : contentOf(folder)) {
+    kept << QString::fromStdString(content);
+  }
+  QVERIFY2(kept.contains("old a") && kept.contains("old b"), qPrintable(kept.join(", ")));
 }
 
 /// The new content has no name at first. Where a file system has no such files, it has a temporary name.

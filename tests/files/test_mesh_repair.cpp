@@ -82,6 +82,7 @@ class MeshRepairTest : public QObject {
   void holes_that_meet_at_an_element_are_two();
   void duplicates_are_welded_and_a_seam_is_no_hole();
   void a_polygon_with_welded_corners_becomes_a_triangle();
+  void a_polygon_that_becomes_a_point_is_left_out();
   void faces_that_become_equal_are_left_out();
   void loose_points_are_removed();
   void corners_of_faces_are_not_loose();
@@ -170,6 +171,13 @@ void MeshRepairTest::a_polygon_with_welded_corners_becomes_a_triangle() {
   QVERIFY(welded.mesh->polygons.empty());
   QCOMPARE(welded.mesh->triangles, (std::vector<std::array<ElementId, 3>>{{0, 1, 2}, {1, 3, 2}}));
   QCOMPARE(welded.mesh->link_count(), LinkId{5});
+}
+
+void MeshRepairTest::a_polygon_that_becomes_a_point_is_left_out() {
+  const auto welded = weld(*obj("v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 5 6\n"));
+  QVERIFY(welded.mesh->polygons.empty());
+  QCOMPARE(welded.mesh->triangles, (std::vector<std::array<ElementId, 3>>{{0, 1, 2}}));
+  QCOMPARE(welded.mesh->link_count(), LinkId{3});
 }
 
 void MeshRepairTest::faces_that_become_equal_are_left_out() {

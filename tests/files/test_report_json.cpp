@@ -2,16 +2,21 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QtTest>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "files/results/report_json.h"
+#include "files/results/suite_json.h"
+#include "files/support.h"
 #include "program.h"
 
 namespace chainmail::test_report_json {
 
+using namespace chainmail::test;
+
 using namespace chainmail::report;
 
-/// Tests the JSON of a comparison.
+/// Tests the JSON of comparisons.
 class ReportJsonTest : public QObject {
   Q_OBJECT
 
@@ -19,6 +24,9 @@ class ReportJsonTest : public QObject {
   void has_every_figure();
   void holds_null_where_there_is_none();
   void names_from_outside_do_no_harm();
+  void growth_is_described();
+  void a_suite_comes_back();
+  void a_suite_with_missing_times_is_refused();
 };
 
 namespace {
@@ -50,6 +58,45 @@ Comparison comparison() {
               {{{Algorithm::enhanced, 10}, measurement, ""}, {{Algorithm::chainmail_3d, 0}, {}, "no grid"}},
               ""}}}},
           false};
+}
+
+/// A suite in which every text, list and figure has a value.
+Suite suite() {
+  SuiteResult result;
+  result.name = "bar";
+  result.description = "a bar that bends";
+  result.reference = "FEM on refined cells";
+  result.references = {{{{9, {}}, {25, 0.5}}, 1.5, true, "it has converged"}};
+  result.elements = 12;
+  result.links = 20;
+  result.pins = 3;
+  result.seconds = 1.5;
+  result.notes = {"a note"};
+  SuiteRow row{"bend", 4, true, "Exact", "exact", "no grid"};
+  for (const SuiteFigure& figure : suite_figures) {
+    row.*figure.value = double(&figure - suite_figures.data()) + 0.5;
+  }
+  result.rows = {row};
+  result.orders = {{"FEM", "fem", "no mesh", {{9, 0.5}, {25, 0.25}}, 1.25}};
+  SuiteTime time{"Exact", "exact", "no time", 0.25, 7};
+  time.ms_per_move = {1, 2, 3, {}};
+  time.fresh_ms = {4, 5, {}, {}};
+  result.times = {time};
+  return {{{{{"a processor", 2, "a compiler", "Release"}, "a line", "today", "1"}, "1/4", {"bar"}}}, {result}};
+}
+
+std::string text_of(const Suite& suite) {
+  std::ostringstream out;
+  write_json(out, suite);
+  return out.str();
+}
+
+/// Returns what the program reads from a file with this text.
+Suite read_text_of_suite(const std::string& text) {
+  const QTemporaryDir folder;
+  const auto path = std::filesystem::path(folder.path().toStdString()) / "suite.json";
+  put_file(path, text);
+  return read_suite(path);
 }
 
 }  // namespace
@@ -94,6 +141,33 @@ void ReportJsonTest::names_from_outside_do_no_harm() {
   Comparison one = comparison();
   one.cases[0].name = "a\"b\n\xff";
   QCOMPARE(written(one)["objects"][0]["name"].toString(), QString("a\"b\n\ufffd"));
+}
+
+void ReportJsonTest::growth_is_described() {
+  PhysicsReport report;
+  report.growths = {{"bar", "bars of growing length", {}}};
+  std::ostringstream out;
+  write_json(out, report, Origin());
+  const auto growth = QJsonDocument::fromJson(QByteArray::fromStdString(out.str())).object()["growths"][0];
+  QCOMPARE(growth["name"].toString(), QString("bar"));
+  QCOMPARE(growth["description"].toString(), QString("bars of growing length"));
+}
+
+/// Parts of a suite are read again to be merged. Nothing of them may get lost.
+void ReportJsonTest::a_suite_comes_back() {
+  const std::string text = text_of(suite());
+  const Suite again = read_text_of_suite(text);
+  QCOMPARE(again.results[0].reference, std::string("FEM on refined cells"));
+  QCOMPARE(again.results[0].times[0].fresh_ms[1], std::optional<double>(5));
+  QCOMPARE(QString::fromStdString(text_of(again)), QString::fromStdString(text));
+}
+
+void ReportJsonTest::a_suite_with_missing_times_is_refused() {
+  auto json = nlohmann::json::parse(text_of(suite()));
+  json["experiments"][0]["times"][0]["below"].erase(3);
+  const QString error = error_of([&] { read_text_of_suite(json.dump()); });
+  QVERIFY2(error.endsWith("suite.json: 'below' does not have 4 entries; give the file as it was written"),
+           qPrintable(error));
 }
 
 CHAINMAIL_TEST(ReportJsonTest)

@@ -1,6 +1,7 @@
 #include <QtTest>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "files/text/text.h"
 #include "program.h"
@@ -19,6 +20,7 @@ class TextTest : public QObject {
   void counts();
   void lines_end_in_any_way();
   void words_are_parted_by_blanks();
+  void long_texts_are_written_whole();
   void messages_stay_one_line_of_text();
   void long_texts_are_shortened_between_characters();
   void statements_are_told_from_prose();
@@ -99,6 +101,23 @@ void TextTest::words_are_parted_by_blanks() {
   QCOMPARE(take_word(line), std::string_view("two"));
   QCOMPARE(take_word(line), std::string_view("three"));
   QVERIFY(take_word(line).empty());
+  std::string_view part = std::string_view("one  two").substr(0, 3);  // a blank follows, but not in this text
+  QCOMPARE(take_word(part), std::string_view("one"));
+  QVERIFY(take_word(part).empty() && part.empty());
+}
+
+void TextTest::long_texts_are_written_whole() {
+  std::ostringstream out;
+  TextBlocks blocks(out);
+  std::string expected;
+  char letter = 'a';
+  for (const std::size_t size : {1, 65'450, 70, 0, 31, 65'536, 500'000, 3}) {  // a block has 65,536 characters
+    const std::string text(size, letter++);
+    blocks << text << '\n';
+    expected += text + '\n';
+  }
+  blocks.flush();
+  QVERIFY(out.str() == expected);
 }
 
 void TextTest::messages_stay_one_line_of_text() {
