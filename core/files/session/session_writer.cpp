@@ -34,7 +34,7 @@ class Digits {
       return "-0.0";  // -0 would be a whole number
     }
     const auto single = static_cast<float>(number);
-    if (precision == Precision::single_precision && double(single) == number) {
+    if (precision == Precision::single_precision) {
       const std::string_view shorter = text(single);
       double back = 0;
       std::from_chars(shorter.data(), shorter.data() + shorter.size(), back);
