@@ -33,6 +33,7 @@ class SplitTest : public QObject {
   void a_sphere_is_cut_in_two_or_in_front_alone();
   void polygons_stay_polygons();
   void perspective_places_elements_on_the_stroke();
+  void nothing_at_or_behind_the_eye_is_split();
   void cuts_pins_and_softness_go_over();
   void every_number_and_the_frame_of_a_softness_go_over();
   void positions_go_over_data();
@@ -331,6 +332,22 @@ void SplitTest::perspective_places_elements_on_the_stroke() {
   for (ElementId e = 4; e < split->after->element_count(); ++e) {
     const Point at = split->after->rest_position(e);
     QVERIFY(std::abs(at.y() * 20 / (1 - depth * at.z()) - 12) < 1e-4);
+  }
+}
+
+/// The eye does not see such an element, so the stroke crosses none of its sides. Of both faces, it then crosses only
+/// one side, and does not divide them.
+void SplitTest::nothing_at_or_behind_the_eye_is_split() {
+  const MeshPointer mesh = regular_sheet(2, 2);
+  const auto links = every_link(*mesh);
+  const Stroke stroke{{10.3, -10}, {9.7, 30}};
+  QCOMPARE(split_along(*mesh, seen(*mesh), stroke, links).removed.size(), std::size_t{2});
+  for (const ElementId corner : {0U, 3U}) {  // both faces have it
+    for (const double distance : {0.0, -1.0}) {
+      auto places = seen(*mesh);
+      places[corner].distance = distance;
+      QVERIFY(split_along(*mesh, places, stroke, links).empty());
+    }
   }
 }
 
