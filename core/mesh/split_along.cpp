@@ -68,7 +68,7 @@ std::vector<Crossing> StrokeInView::crossings(ElementId a, ElementId b) const {
   const ViewPlace &from = places_[std::min(a, b)], &to = places_[std::max(a, b)];
   std::vector<Crossing> result;
   if ((from.at.cwiseMin(to.at).array() > high_.array()).any() ||
-      (from.at.cwiseMax(to.at).array() < low_.array()).any() || from.distance <= 0 || to.distance <= 0) {
+      (from.at.cwiseMax(to.at).array() < low_.array()).any()) {
     return result;
   }
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
@@ -302,12 +302,12 @@ void FaceDivider::find_tip(std::uint32_t face, const FaceCrossing& at, const Vec
 }
 
 /// Returns the shares of the three corners of a triangle at a position in the view; none if the triangle is seen from
-/// its edge or if a corner is behind the eye.
+/// its edge.
 std::optional<Eigen::Vector3d> FaceDivider::shares_at(std::uint32_t face, const Vector2d& seen) const {
   const auto corners = faces_[face];
   const auto &a = stroke_.place(corners[0]), &b = stroke_.place(corners[1]), &c = stroke_.place(corners[2]);
   const double area = cross(b.at - a.at, c.at - a.at);
-  if (area == 0 || std::min({a.distance, b.distance, c.distance}) <= 0) {
+  if (area == 0) {
     return std::nullopt;
   }
   // In perspective, the shares in the view are those on the object, times the distance.
