@@ -46,7 +46,6 @@ void Object::attach(std::string_view method) {
   api::Body taken = std::move(body());
   deformer_.emplace(std::move(taken), method);
   deformer_->set_job(job());
-  alone_.reset();
   is_attached_ = true;
   note_method(method);
 }

@@ -76,7 +76,7 @@ class Object {
   void note_method(std::string_view method);
 
   Busy busy_;
-  std::optional<api::Body> alone_;
+  std::optional<api::Body> alone_;  // moved from when there is a deformer
   std::optional<api::Deformer> deformer_;
   bool is_attached_ = false;
   bool is_slow_ = false;
