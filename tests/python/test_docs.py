@@ -28,6 +28,13 @@ def test_every_public_name_is_in_the_reference(source):
     assert named == set(chainmail.__all__) - {"__version__"}
 
 
+def test_softness_says_its_limits():
+    """The errors of numbers beyond the limits name these, too."""
+    assert chainmail.LinkSoftness.compression.__doc__.endswith(". From 0.0 to 1.0.")
+    assert chainmail.LinkSoftness.exponent.__doc__.endswith(". From -4.0 to 4.0.")
+    assert chainmail.LinkSoftness.stretch.__doc__.endswith(". From 1.0.")  # it has no upper limit
+
+
 def test_sphinx_has_no_warnings(source, tmp_path):
     pytest.importorskip("sphinx")
     shown = subprocess.run(

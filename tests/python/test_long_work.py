@@ -113,6 +113,35 @@ def test_control_c_ends_a_preparation_and_the_next_move_works():
     assert (shown.stdout, shown.stderr) == ("interrupted True True\nTrue\n", "")
 
 
+CONTROL_C_IN_A_RELAXATION = """
+import os, signal, threading
+import chainmail
+
+deformer = chainmail.Deformer(chainmail.make_tetra(20, 20, 20))
+deformer.move(0, (-5, -5, -5))
+job = chainmail.Job()
+deformer.set_job(job)
+
+def interrupt():
+    while job.share == 0:  # until the first sweep has ended
+        pass
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Thread(target=interrupt, daemon=True).start()
+try:
+    deformer.relax(10_000)
+except KeyboardInterrupt:
+    print("interrupted", job.is_cancelled, deformer.relax(1))
+"""
+
+
+def test_control_c_ends_a_relaxation_and_the_next_one_works():
+    shown = subprocess.run(
+        [sys.executable, "-c", CONTROL_C_IN_A_RELAXATION], capture_output=True, text=True, timeout=200
+    )
+    assert (shown.stdout, shown.stderr) == ("interrupted True 1\n", "")
+
+
 def test_reference_solutions_report_progress():
     body = beam()
     deformer = chainmail.Deformer(body)
