@@ -81,6 +81,10 @@ void ApiTest::arrays_make_a_mesh() {
   QCOMPARE(line.rest_length(1), 2.0);
   QVERIFY((line.rest_position(2) == cm::Vector3{3, 5, 0}));
   QCOMPARE(cm::make_mesh({.positions = chain, .links = links, .space_dimension = 2}).space_dimension(), 2);
+
+  std::vector<double> millions(7'500'000);  // x, y and z
+  millions[3] = 1;
+  QCOMPARE(cm::make_mesh({.positions = millions, .links = links}).element_count(), 2'500'000U);
 }
 
 void ApiTest::bad_arrays_are_refused_data() {

@@ -522,6 +522,8 @@ void PhysicsTest::objects_grow() {
     }
     QCOMPARE(seen.size(), every_algorithm().size());
   }
+  const PhysicsOptions without_time = quick({Algorithm::exact}, {0});
+  QVERIFY(compare_with_physics({pinned_sheet(9, {}, {})}, without_time).growths.empty());
 }
 
 void PhysicsTest::it_stops_at_once() {

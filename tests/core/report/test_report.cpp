@@ -33,6 +33,7 @@ class ReportTest : public QObject {
   void a_plot_is_well_formed();
   void lines_and_texts_have_the_ink();
   void marks_stand_where_their_values_are();
+  void notes_do_not_cover_each_other();
   void a_long_legend_fits();
   void a_page_is_well_formed_and_needs_nothing_else();
   void a_page_says_where_it_comes_from();
@@ -262,6 +263,28 @@ void ReportTest::marks_stand_where_their_values_are() {
   // The first mark is at the origin, the second at the far ends of both axes.
   QCOMPARE(positions[0], QPointF(0, 210));
   QCOMPARE(positions[1], QPointF(250, 0));
+}
+
+/// A note stands above its mark, or below it if there is one above already. A third one is left out.
+void ReportTest::notes_do_not_cover_each_other() {
+  Plot plot;
+  plot.series = {{"one", 0}};
+  PlotPanel& panel = plot.panels.emplace_back();
+  for (const char* note : {"first", "second", "third"}) {
+    panel.marks.push_back({0.1, 0.1, 0.1, 1, 0, false, note, ""});
+  }
+  panel.marks.push_back({1, 1, 1, 10, 0, false, "", ""});
+  panel.marks.push_back({10, 10, 10, 100, 0, false, "far", ""});
+  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
+  QMap<QString, double> heights;  // y of each note
+  while (!reader.atEnd()) {
+    if (reader.readNext() == QXmlStreamReader::StartElement && reader.attributes().value("font-size") == u"9") {
+      const double y = reader.attributes().value("y").toDouble();
+      heights[reader.readElementText()] = y;
+    }
+  }
+  QCOMPARE(heights.keys(), (QStringList{"far", "first", "second"}));
+  QVERIFY(heights["first"] < 210 && heights["second"] > 210 && heights["far"] < 0);  // the marks are at 210 and 0
 }
 
 void ReportTest::a_long_legend_fits() {
