@@ -136,7 +136,6 @@ Texture readPictureFile(const QString& path, const Progress& progress) {
     const uchar* row = image.constScanLine(y);
     picture.texels.insert(picture.texels.end(), row, row + qsizetype(4) * image.width());
   }
-  picture.box = {Point::Zero(), Point(image.width(), image.height(), 0)};
   progress.report(1);
   return picture;
 }

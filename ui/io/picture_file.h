@@ -18,7 +18,8 @@ bool isPicture(const QString& path);
 /// Error if the file is not a PNG or JPEG by its signature, is not complete, or has more than picture_limit pixels.
 QSize pictureSize(const QString& path);
 
-/// Reads a picture with four channels, the bottom row first. Throws Error if it is damaged, and Cancelled.
+/// Reads a picture with four channels, the bottom row first. It has no box: make_sheet() sets one. Throws Error if it
+/// is damaged, and Cancelled.
 Texture readPictureFile(const QString& path, const Progress& progress = {});
 
 /// Writes a PNG or JPEG, by the extension of the path, completely or not at all. JPEG has no transparency, so the

@@ -343,8 +343,11 @@ void ReplayDock::askWhereFilm(bool video, bool ofPass) {
   const QString path =
       video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")}, name)
             : askFolder(*window(), QStringLiteral("Save pictures into a folder"));
-  const std::size_t earlier = video || path.isEmpty() ? 0 : Film::picturesIn(path);
-  if (!path.isEmpty() && (earlier == 0 || askBeforeReplacingFilm(*window(), path, earlier))) {
+  if (path.isEmpty()) {
+    return;
+  }
+  const std::size_t earlier = video ? 0 : Film::picturesIn(path);
+  if (earlier == 0 || askBeforeReplacingFilm(*window(), path, earlier)) {
     ofPass ? savePass(path) : saveFilm(path);
   }
 }

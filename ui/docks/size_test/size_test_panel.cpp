@@ -81,7 +81,7 @@ void SizeTestPanel::receive() {
     halt();
     emit failed(QString::fromStdString(error));
   }
-  const bool holds = running_ && frame.mesh == mesh_ && drag_ < drags_.size();
+  const bool holds = running_ && frame.mesh == mesh_;
   view_->show(frame, holds ? std::optional(drags_[drag_].element) : std::nullopt);
   if (!holds || (moving_ && frame.statistics.passes == passesSeen_)) {
     return;
