@@ -16,6 +16,7 @@
 #include "io/sessions.h"
 #include "mesh/mesh.h"
 #include "tools/grab_brush.h"
+#include "tools/rotation_ring.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -445,6 +446,23 @@ class WindowHandle : public QObject {
     bench.trigger("toolPin");
     bench.settle();
     QVERIFY(bench.distanceFromColour(1, pivot + QPointF(0, -radius), colours::selected) > 60);
+  }
+
+  void theAngleIsShownInTheViewUnderTheCursor() {
+    Workbench bench;
+    RotationRing ring(bench.document());
+    const QPointF cursor(120, 80);
+    for (const auto& [degrees, words] : {std::pair(200.0, "200°"), std::pair(-20.4, "−20°"), std::pair(0.0, "0°")}) {
+      ring.showRotation(square, 1, cursor, degrees);
+      const std::vector<Annotation> shown = ring.annotations(bench.view(1));
+      QCOMPARE(shown.size(), std::size_t{1});
+      QCOMPARE(shown.front().words, QString::fromUtf8(words));
+      QVERIFY(QLineF(shown.front().line.p1(), bench.view(1).viewPosition(squareMiddle)).length() < 0.5);
+      QCOMPARE(shown.front().line.p2(), cursor);
+      QVERIFY(ring.annotations(bench.view(0)).empty());
+    }
+    ring.hideRotation();
+    QVERIFY(ring.annotations(bench.view(1)).empty());
   }
 
   void thereIsNoRingWhereNothingCanRotate_data() {

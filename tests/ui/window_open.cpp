@@ -149,6 +149,20 @@ class WindowOpen : public QObject {
     QVERIFY(!bench.window.findChild<FileActions*>()->volumes().bar().isVisible());
   }
 
+  /// One voxel per element is a choice as any other: a large volume then keeps all its voxels.
+  void theChosenNumberOfVoxelsPerElementCounts() {
+    Workbench bench;
+    bench.open(sourceFile("tests/files/foreign/vtk.mha"));
+    const auto& bar = bench.window.findChild<FileActions*>()->volumes().bar();
+    auto* every = bench.find<QSpinBox>("volumeEvery");
+    QCOMPARE(every->text(), QStringLiteral("auto"));
+    QVERIFY(!bar.options().every);
+    for (const int voxels : {1, 2}) {
+      every->setValue(voxels);
+      QVERIFY(bar.options().every == std::uint32_t(voxels));
+    }
+  }
+
   void aClosedSurfaceIsFilled() {
     Workbench bench;
     auto* fill = bench.window.findChild<QAction*>(QStringLiteral("fillSurface"));

@@ -92,6 +92,32 @@ class WindowPresets : public QObject {
     QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("built in")));
   }
 
+  void aPresetWhoseValuesChangeIsNoLongerShown() {
+    PresetBench bench;
+    bench.pick("Rubber");
+    bench.pick("Standard");
+    bench.set("stretchSpin", 1.3);
+    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
+  }
+
+  void ofTwoPresetsWithTheSameValuesTheOneThatWasPickedIsShown() {
+    const QTemporaryDir folder;
+    QFile file(folder.filePath(QStringLiteral("presets.json")));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(
+        "{\"version\": 1, \"presets\": ["
+        "{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, \"shear\": 0.25},"
+        "{\"name\": \"wool\", \"compression\": 0.5, \"stretch\": 1.5, \"shear\": 0.25}]}");
+    file.close();
+    PresetBench bench;
+    bench.row().importPath(file.fileName());
+    for (const char* name : {"wool", "felt", "wool"}) {
+      bench.pick(name);
+      QCOMPARE(bench.document().softness(), (LinkSoftness{0.5, 1.5, 0.25}));
+      QCOMPARE(bench.shown(), QString::fromLatin1(name));
+    }
+  }
+
   void oneOfTheUsersIsSavedRenamedDeletedAndKept() {
     {
       PresetBench bench;
@@ -154,6 +180,23 @@ class WindowPresets : public QObject {
     QVERIFY(bench.window.messages().isVisible());
     QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
     QCOMPARE(bench.shown(), QStringLiteral("b"));
+  }
+
+  void aNameThatTheUserLeavesIsNotSaved() {
+    PresetBench bench;
+    bench.set("stretchSpin", 1.25);
+    bench.trigger("savePreset");
+    auto* line = bench.find<QLineEdit>("presetName");
+    QTRY_VERIFY(line->hasFocus());
+    QTest::keyClicks(line, QStringLiteral("clay"));
+    // The user looks something up in another program and returns.
+    QFocusEvent toAnother(QEvent::FocusOut, Qt::ActiveWindowFocusReason);
+    QApplication::sendEvent(line, &toAnother);
+    QVERIFY(line->isVisible());
+    bench.find<QDoubleSpinBox>("stretchSpin")->setFocus(Qt::MouseFocusReason);
+    QVERIFY(!line->isVisible() && bench.field().isVisible());
+    QVERIFY(!bench.has("clay"));
+    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
   }
 
   void presetsGoFromOneUserToAnother() {

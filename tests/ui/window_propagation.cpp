@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTreeView>
 
@@ -248,6 +249,21 @@ class WindowPropagation : public QObject {
     }
     if (lecture) {
       bench.trigger("lectureMode");
+    }
+  }
+
+  /// Where there is room for the three columns, they fill the list, and nothing scrolls.
+  void theColumnsFillAWideList() {
+    Workbench bench;
+    openAndDrag(bench);
+    auto* dock = bench.find<QDockWidget>("propagationDock");
+    dock->setFloating(true);
+    dock->resize(1000, 500);
+    for (int panel = 0; panel < bench.document().panels(); ++panel) {
+      const auto* view = bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)));
+      QTRY_VERIFY(view->viewport()->width() > 400);
+      QTRY_COMPARE(view->columnWidth(0) + view->columnWidth(1) + view->columnWidth(2), view->viewport()->width());
+      QVERIFY(!view->horizontalScrollBar()->isVisible());
     }
   }
 

@@ -8,6 +8,8 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QFile>
+#include <QJsonDocument>
+#include <QJsonValue>
 #include <QLabel>
 #include <QProcess>
 #include <QPushButton>
@@ -52,6 +54,13 @@ std::optional<Session> workOnDisk() {
   } catch (const Error&) {
     return std::nullopt;  // removed at this moment
   }
+}
+
+/// Returns the file that has the object, as the work on the disk names it; empty if the work has the object itself.
+QString objectOfWork() {
+  QFile file(inFolder(qPrintable(autosaved().value(0))));
+  const QByteArray text = file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+  return QJsonDocument::fromJson(text)[QStringLiteral("mesh")][QStringLiteral("file")].toString();
 }
 
 /// Writes a file into the folder of saved work, with this age in seconds.
@@ -313,6 +322,7 @@ class WindowRecovery : public QObject {
     bench.save();
     const auto first = objects();
     QCOMPARE(first.size(), std::size_t{1});
+    QCOMPARE(objectOfWork(), first.front().first);  // the work names it, and does not write it again
     edits::setPinned(bench.document(), {4}, true);
     bench.save();
     QCOMPARE(objects(), first);

@@ -7,6 +7,7 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QScrollBar>
+#include <QSplitter>
 #include <set>
 
 #include "document/edits.h"
@@ -80,6 +81,21 @@ class WindowReport : public QObject {
     const QStringList lines = QApplication::clipboard()->text().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
     QCOMPARE(lines.size(), 13);
     QCOMPARE(lines.last().count(QLatin1Char('\t')), bench.table().columnCount() - 1);
+  }
+
+  void theTableIsBesideThePlotOnlyWhereBothHaveRoom() {
+    ReportBench bench;
+    bench.choose("reportSweeps", 0);
+    bench.run();
+    const auto* split = bench.find<QSplitter>("reportSplitter");
+    const int table = bench.results().tableWidth();
+    QVERIFY(table > 300);
+    bench.results().resize(4 * table, 300);
+    QCOMPARE(split->orientation(), Qt::Horizontal);
+    bench.results().resize(table + 50, 100);  // beside the table, the plot would have 50 pixels
+    QCOMPARE(split->orientation(), Qt::Vertical);
+    bench.results().resize(4 * table, 4 * table);  // both have their full width below each other
+    QCOMPARE(split->orientation(), Qt::Vertical);
   }
 
   void aLongNameDoesNotWidenTheDock() {
