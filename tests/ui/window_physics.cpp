@@ -96,6 +96,7 @@ class WindowPhysics : public QObject {
     QVERIFY(!limit->parentWidget()->isHidden() && exponent->parentWidget()->isHidden());
     limit->setValue(3);
     QCOMPARE(bench.document().elastic().law.gent_limit, 3.0);
+    QCOMPARE(limit->value(), 3.0);
     // A material that hardly changes its volume is needed: the field shows what is there.
     bench.find<QDoubleSpinBox>("poissonSpin")->setValue(0);
     QCOMPARE(bench.document().elastic().material.poisson, 0.3);
@@ -105,6 +106,13 @@ class WindowPhysics : public QObject {
     bench.document().undo();
     QVERIFY(bench.document().elastic() == ElasticOptions());
     QCOMPARE(law->currentData().toInt(), int(StrainLaw::Kind::neo_hookean));
+    choose(StrainLaw::Kind::fung);
+    QVERIFY(limit->parentWidget()->isHidden() && !exponent->parentWidget()->isHidden());
+    exponent->setValue(0.25);
+    QCOMPARE(bench.document().elastic().law.fung_exponent, 0.25);
+    QCOMPARE(exponent->value(), 0.25);
+    bench.document().undo();
+    QCOMPARE(exponent->value(), StrainLaw().fung_exponent);
   }
 
   void materialAndLatticeAreStepsOfUndo() {
