@@ -227,22 +227,36 @@ class WindowComfort : public QObject {
   }
 
   /// Otherwise the next click would hit something else.
-  void aMessageMovesNothing() {
+  void aMessageAndHintsMoveNothing() {
     Workbench bench;
     const auto place = [&bench] { return QRect(bench.view(0).mapTo(&bench.window, QPoint()), bench.view(0).size()); };
+    const auto whole = [&bench](const QWidget& one) {
+      return QRect(bench.window.area().mapFromGlobal(one.mapToGlobal(QPoint())), one.size());
+    };
     const QRect before = place();
     MessageBar& bar = bench.window.messages();
+    bench.trigger("showHints");
     bar.say(QStringLiteral("A long sentence that says what failed and what to do. ").repeated(8));
     bench.settle();
     QCOMPARE(place(), before);
-    QVERIFY(bar.isVisible() && bench.window.area().rect().contains(
-                                   QRect(bench.window.area().mapFromGlobal(bar.mapToGlobal(QPoint())), bar.size())));
+    const auto* hints = bench.find<QFrame>("hints");
     const auto* text = bench.find<QLabel>("message");
-    QVERIFY(text->height() >= text->heightForWidth(text->width()));
+    const auto bothAreWhole = [&] {
+      const QRect area = bench.window.area().rect();
+      return bar.isVisible() && hints->isVisible() && area.contains(whole(bar)) && area.contains(whole(*hints)) &&
+             !whole(bar).intersects(whole(*hints)) && text->height() >= text->heightForWidth(text->width());
+    };
+    QVERIFY(bothAreWhole());
     bench.window.resize(bench.window.size() - QSize(0, 60));
     bench.settle();
-    QVERIFY(bench.window.area().rect().contains(
-        QRect(bench.window.area().mapFromGlobal(bar.mapToGlobal(QPoint())), bar.size())));
+    QVERIFY(bothAreWhole());
+    // Where they were, the views get the mouse again.
+    const QPoint there = whole(bar).center();
+    QVERIFY(!bench.window.area().isAncestorOf(bench.window.childAt(bench.window.area().mapTo(&bench.window, there))));
+    bar.clear();
+    QTest::mouseClick(bench.find<QPushButton>("hintsDone"), Qt::LeftButton);
+    bench.settle();
+    QVERIFY(bench.window.area().isAncestorOf(bench.window.childAt(bench.window.area().mapTo(&bench.window, there))));
   }
 
   void messagesWaitAndAreDismissedOneByOne() {

@@ -5,12 +5,14 @@
 #include <QAbstractSpinBox>
 #include <QComboBox>
 #include <QDialog>
+#include <QDockWidget>
 #include <QKeySequenceEdit>
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QSlider>
 #include <QTabBar>
 #include <QTest>
+#include <QToolBar>
 #include <QTreeWidget>
 
 #include "window.h"
@@ -39,6 +41,22 @@ QChar mnemonicOf(const QAction& action) {
 }
 
 /// Returns the name of a control for a screen reader.
+/// Returns the dock, panel or tool bar that contains a control, or the window.
+QWidget* partOf(QWidget* control) {
+  QWidget* part = control;
+  while (!part->isWindow() && qobject_cast<QDockWidget*>(part) == nullptr && qobject_cast<Panel*>(part) == nullptr &&
+         qobject_cast<QToolBar*>(part) == nullptr) {
+    part = part->parentWidget();
+  }
+  return part;
+}
+
+/// Returns where a control is visible in its window, after scrolling; empty if it is not.
+QRect placeOf(const QWidget& control) {
+  const QRect whole(control.mapTo(control.window(), QPoint()), control.size());
+  return control.isVisible() ? whole.intersected(control.window()->rect()) : QRect();
+}
+
 QString nameOf(const QWidget& control, const QWidget& window) {
   if (!control.accessibleName().isEmpty()) {
     return control.accessibleName();
@@ -141,6 +159,30 @@ class WindowKeyboard : public QObject {
                              "compressionSpin", "compressionSlider", "relaxationOn"}) {
       QVERIFY2(reached.contains(QLatin1String(name)), name);
     }
+  }
+
+  /// Each press of Tab shows the focus at another place, further down or to the right, and a dock or a panel is left
+  /// only when all of it was reached.
+  void tabStopsOnceAtEachControlInTheOrderOfTheScreen() {
+    Workbench bench;
+    bench.view(0).setFocus();
+    QSet<QWidget*> stops, left;
+    QWidget* before = QApplication::focusWidget();
+    const QWidget* first = partOf(before);
+    do {
+      QTest::keyClick(before, Qt::Key_Tab);
+      QWidget* now = QApplication::focusWidget();
+      const QString step = whatItIs(*before) + QStringLiteral(" > ") + whatItIs(*now);
+      QVERIFY2(!stops.contains(now) && !placeOf(*now).isEmpty(), qPrintable(step));
+      stops += now;
+      if (partOf(now) == partOf(before)) {
+        QVERIFY2(placeOf(*now).bottom() > placeOf(*before).top(), qPrintable(step));
+      } else {
+        left += partOf(before);
+        QVERIFY2(!left.contains(partOf(now)) || partOf(now) == first, qPrintable(step));
+      }
+      before = now;
+    } while (before != &bench.view(0));
   }
 
   void keysMoveTheCameraOfTheViewThatHasThem() {

@@ -22,6 +22,7 @@
 #include "panels/algorithm_delegate.h"
 #include "panels/colour_selector.h"
 #include "panels/legend.h"
+#include "panels/state_chips.h"
 #include "panels/violation_line.h"
 #include "window.h"
 
@@ -339,6 +340,30 @@ class WindowWords : public QObject {
     bench.document().undoStack().undo();
     bench.settle();
     QVERIFY(bench.document().pins().empty() && button->isVisible());
+  }
+
+  /// What the head has no room for is neither hidden nor shortened, and the object does not move.
+  void statesThatDoNotFitInTheHeadAreChipsOverTheView() {
+    Workbench bench;
+    const auto* head = bench.find<QLabel>("state0");
+    const auto* chips = bench.window.panel(0).findChild<StateChips*>();
+    const auto shown = [&] {
+      const QStringList inHead = head->text().split(QStringLiteral(" · "), Qt::SkipEmptyParts);
+      return inHead + chips->states();
+    };
+    edits::setPinned(bench.document(), {0}, true);
+    QTRY_COMPARE(shown(), QStringList{QStringLiteral("1 pinned")});
+    QVERIFY(!chips->isVisible());
+    const QRect before = bench.view(0).geometry();
+    bench.document().undoStack().undo();
+    edits::setPinned(bench.document(), {0, 1}, true);
+    bench.chooseGhost(0, QStringLiteral("Panel B"));
+    const QStringList both{QStringLiteral("2 pinned"), QStringLiteral("ghost of B, 50 %")};
+    bench.window.resize(bench.window.minimumSizeHint());
+    QTRY_COMPARE(shown(), both);
+    QVERIFY(chips->isVisible() && !chips->states().isEmpty());
+    QVERIFY(bench.view(0).geometry().contains(chips->geometry()));
+    QCOMPARE(bench.view(0).geometry().top(), before.top());
   }
 
   void lectureModeShowsOnlyThePanelsAndRestoresTheWindow() {

@@ -14,6 +14,7 @@
 #include "common/text.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"
+#include "panels/state_chips.h"
 
 namespace chainmail {
 namespace {
@@ -72,6 +73,7 @@ void Panel::arrange() {
   column->addWidget(legend_);
   column->addWidget(view_, 1);
   column->addLayout(foot);
+  connect(head_, &PanelHead::leftOver, new StateChips(*view_), &StateChips::setStates);
 }
 
 void Panel::listen() {
@@ -194,7 +196,7 @@ void Panel::showStatistics() {
   if (document_.solvers().frame(panel_) != nullptr) {
     const Statistics& statistics = document_.solvers().statistics(panel_);
     update(statistics);
-    head_->showState(states(statistics).join(QStringLiteral(" · ")));
+    head_->showStates(states(statistics));
   }
 }
 

@@ -25,6 +25,8 @@ constexpr int swatchSize = 10;        // pixels, at the usual size of texts
 constexpr int leastHeight = 28;       // pixels
 constexpr int listMargin = 30;        // pixels, for the scroll bar and the frame of the list
 
+QString joined(const QStringList& states) { return states.join(QStringLiteral(" · ")); }
+
 QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
 
 }  // namespace
@@ -130,7 +132,7 @@ void PanelHead::changeEvent(QEvent* event) {
   if (event->type() == QEvent::FontChange) {
     fitList();
     fitSwatch();
-    fitState();
+    fitStates();
   }
 }
 
@@ -165,26 +167,24 @@ void PanelHead::arrange(View& view) {
   row_->addWidget(alone_);
 }
 
-void PanelHead::showState(const QString& state) {
-  state_->setToolTip(state);
-  fitState();
+void PanelHead::showStates(const QStringList& states) {
+  states_ = states;
+  state_->setToolTip(joined(states));
+  fitStates();
 }
 
-/// Shortens the state only as far as the room requires, to whole words.
-void PanelHead::fitState() {
-  const QString state = state_->toolTip();
-  QString fitting = state_->fontMetrics().elidedText(state, Qt::ElideRight, state_->width());
-  if (fitting != state) {
-    fitting.truncate(std::max(0, int(fitting.lastIndexOf(QLatin1Char(' ')))));
-    const bool says = std::ranges::any_of(fitting, [](QChar one) { return one.isLetter(); });
-    fitting = says ? fitting + QStringLiteral(" …") : QString();
+void PanelHead::fitStates() {
+  qsizetype fitting = states_.size();
+  while (fitting > 0 && state_->fontMetrics().horizontalAdvance(joined(states_.first(fitting))) > state_->width()) {
+    --fitting;
   }
-  state_->setText(fitting);
+  state_->setText(joined(states_.first(fitting)));
+  emit leftOver(states_.sliced(fitting));
 }
 
 bool PanelHead::eventFilter(QObject* watched, QEvent* event) {
   if (watched == state_ && event->type() == QEvent::Resize) {
-    fitState();
+    fitStates();
   }
   return QWidget::eventFilter(watched, event);
 }
@@ -198,6 +198,7 @@ void PanelHead::setActions(const QList<QAction*>& actions) {
     button->setObjectName(action->objectName().chopped(5) + QStringLiteral("Button%1").arg(panel_));
     button->setAutoRaise(true);
     row_->addWidget(button);
+    setTabOrder(buttons_.isEmpty() ? alone_ : buttons_.last(), button);
     buttons_ << button;
     connect(action, &QAction::changed, button, [this] { showActions(shownActions_); });
   }

@@ -22,7 +22,8 @@ class PanelHead : public QWidget {
   PanelHead(Document& document, View& view, int panel);
 
   QComboBox& selector() { return *selector_; }
-  void showState(const QString& state);
+  /// Shows as many states, from the first on, as there is room for.
+  void showStates(const QStringList& states);
   /// Shows on the button whether the panel is shown alone.
   void showAlone(bool alone);
   /// Adds buttons for actions. A button is visible if its action is enabled and `showActions` was called with it.
@@ -31,6 +32,8 @@ class PanelHead : public QWidget {
 
  signals:
   void aloneToggled();
+  /// The states for which there is no room have changed.
+  void leftOver(const QStringList& states);
   /// The user wants to pin the bottom, because the algorithm has no solution without pins.
   void pinWanted();
 
@@ -41,7 +44,7 @@ class PanelHead : public QWidget {
 
  private:
   void fillSelector();
-  void fitState();
+  void fitStates();
   void fitList();
   void fitSwatch();
   void showAlgorithm();
@@ -54,6 +57,7 @@ class PanelHead : public QWidget {
   QComboBox* selector_;
   QLabel* swatch_;
   QLabel* state_;
+  QStringList states_;
   QToolButton* alone_;
   QToolButton* pin_;
   QHBoxLayout* row_;

@@ -8,6 +8,7 @@
 
 #include "common/dock_scroll.h"
 #include "common/workbench_style.h"
+#include "window/dock_layout.h"
 
 namespace chainmail {
 namespace {
@@ -17,6 +18,21 @@ constexpr int arrowSize = 16;  // pixels
 QString arrowName(const QDockWidget& dock) { return dock.objectName() + QStringLiteral("Fold"); }
 DockScroll* contentOf(const QDockWidget& dock) { return qobject_cast<DockScroll*>(dock.widget()); }
 QString settingsKey(const QDockWidget& dock) { return QStringLiteral("folds/") + dock.objectName(); }
+
+/// Lets Tab reach a button of the title before the content. A new child comes last in the order of the focus.
+void focusBeforeContent(QWidget& button, const QDockWidget& dock) {
+  QWidgetList content;
+  for (QWidget* one = dock.nextInFocusChain(); one != &button; one = one->nextInFocusChain()) {
+    if (dock.isAncestorOf(one) && (one->focusPolicy() & Qt::TabFocus) != 0 && one->focusProxy() == nullptr) {
+      content << one;
+    }
+  }
+  QWidget* before = &button;
+  for (QWidget* one : content) {
+    QWidget::setTabOrder(before, one);
+    before = one;
+  }
+}
 
 }  // namespace
 
@@ -34,6 +50,7 @@ DockFolds::DockFolds(QMainWindow& window) : window_(window) {
     for (auto& [dock, fold] : folds_) {
       adapt(*dock, fold);
     }
+    skipLoneTabs(window_);
   });
 }
 
@@ -48,6 +65,7 @@ void DockFolds::follow(QDockWidget& dock) {
   arrow->setCheckable(true);
   arrow->setAutoRaise(true);
   arrow->setFocusPolicy(Qt::TabFocus);
+  focusBeforeContent(*arrow, dock);
   arrow->resize(arrowSize, arrowSize);
   arrow->hide();
   arrow->setChecked(QSettings().value(settingsKey(dock)).toBool());

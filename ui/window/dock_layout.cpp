@@ -267,4 +267,10 @@ void applyDockLayout(QMainWindow& window, const QJsonArray& layout) {
   }
 }
 
+void skipLoneTabs(const QMainWindow& window) {
+  for (QTabBar* bar : window.findChildren<QTabBar*>(Qt::FindDirectChildrenOnly)) {
+    bar->setFocusPolicy(bar->count() > 1 ? Qt::TabFocus : Qt::NoFocus);
+  }
+}
+
 }  // namespace chainmail

@@ -21,4 +21,7 @@ QJsonArray dockLayout(const QMainWindow& window);
 /// onto the screen.
 void applyDockLayout(QMainWindow& window, const QJsonArray& layout);
 
+/// Keeps the focus from tab bars with a single tab, which Qt moves beyond the edge of the window but does not hide.
+void skipLoneTabs(const QMainWindow& window);
+
 }  // namespace chainmail

@@ -28,7 +28,7 @@ void HelpMenu::fill(QMenu& menu) {
   keys->setStatusTip(QStringLiteral("Lists all actions with their keys and effects; keys can be changed"));
   auto* again = menu.addAction(QStringLiteral("Show &hints"), hints_, &Hints::present);
   again->setObjectName(QStringLiteral("showHints"));
-  again->setStatusTip(QStringLiteral("Shows the three hints of the first start below the views"));
+  again->setStatusTip(QStringLiteral("Shows the three hints of the first start"));
   menu.addSeparator();
   auto* about = menu.addAction(QStringLiteral("&About ChainMail workbench"), this, &HelpMenu::showAbout);
   about->setObjectName(QStringLiteral("showAbout"));

@@ -4,7 +4,7 @@
 
 namespace chainmail {
 
-/// Three short hints for the first start. They are below the views and do not cover them.
+/// Three short hints for the first start.
 class Hints : public QFrame {
   Q_OBJECT
 

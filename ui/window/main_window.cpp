@@ -42,6 +42,7 @@
 #include "tools/pin_bar.h"
 #include "tools/pin_layers.h"
 #include "tools/simplifying.h"
+#include "window/bars_over_views.h"
 #include "window/camera_actions.h"
 #include "window/dock_layout.h"
 #include "window/docks.h"
@@ -157,8 +158,9 @@ void MainWindow::arrange() {
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
   column->addWidget(&lessons_->bar());
-  column->addWidget(&help_->hints());
-  messages_->lieOver(*area_);
+  auto* bars = new BarsOverViews(*area_);
+  bars->add(help_->hints());
+  bars->add(*messages_);
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
   statusBar()->addPermanentWidget(new JobBar(jobs_));

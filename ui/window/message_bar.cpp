@@ -1,7 +1,6 @@
 #include "window/message_bar.h"
 
 #include <QAccessible>
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <algorithm>
@@ -14,7 +13,6 @@ namespace {
 
 constexpr std::size_t maxMessages = 50;  // older ones are removed
 constexpr int signSize = 18;             // pixels
-constexpr int distance = 6;              // pixels, from the edges of the views
 
 struct SeverityStyle {
   const char* icon;
@@ -64,37 +62,6 @@ MessageBar::MessageBar()
   followTheme(*this, [this] { paintGround(); });
 }
 
-void MessageBar::lieOver(QWidget& views) {
-  views_ = &views;
-  setParent(views.parentWidget());
-  views.installEventFilter(this);
-}
-
-bool MessageBar::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize || event->type() == QEvent::Move) {
-    place();
-  }
-  return QFrame::eventFilter(watched, event);
-}
-
-/// A longer sentence, or a larger font, needs more lines.
-bool MessageBar::event(QEvent* event) {
-  const bool handled = QFrame::event(event);
-  if (event->type() == QEvent::LayoutRequest) {
-    place();
-  }
-  return handled;
-}
-
-void MessageBar::place() {
-  if (views_ != nullptr) {
-    const QRect whole = views_->geometry().adjusted(distance, distance, -distance, -distance);
-    const int height = layout()->totalHeightForWidth(whole.width());
-    setGeometry(whole.left(), whole.bottom() + 1 - height, whole.width(), height);
-    raise();
-  }
-}
-
 void MessageBar::add(Severity severity, const QString& sentence) {
   const Message message{severity, sentence};
   std::erase(messages_, message);  // a repeated message becomes the newest
@@ -103,7 +70,6 @@ void MessageBar::add(Severity severity, const QString& sentence) {
     messages_.erase(messages_.begin());
   }
   refresh();
-  place();
   show();
   QAccessibleEvent alert(this, QAccessible::Alert);
   QAccessible::updateAccessibility(&alert);

@@ -11,15 +11,12 @@ namespace chainmail {
 enum class Severity { info, warning, error };
 
 /// Shows messages: one sentence that says what happened and what to do. The bar shows the newest message. Older
-/// messages appear when the newer ones are dismissed. The bar lies over the lower edge of the views: what is below it
-/// does not move, so that the next click hits what it was aimed at.
+/// messages appear when the newer ones are dismissed.
 class MessageBar : public QFrame {
   Q_OBJECT
 
  public:
   MessageBar();
-  /// Lies over the lower edge of a widget from now on.
-  void lieOver(QWidget& views);
 
   /// Shows an error: something failed.
   void say(const QString& sentence) { add(Severity::error, sentence); }
@@ -41,8 +38,6 @@ class MessageBar : public QFrame {
   int count() const { return int(messages_.size()); }
 
  protected:
-  bool event(QEvent* event) override;
-  bool eventFilter(QObject* watched, QEvent* event) override;
   void hideEvent(QHideEvent* event) override;
 
  private:
@@ -54,10 +49,8 @@ class MessageBar : public QFrame {
 
   void add(Severity severity, const QString& sentence);
   void refresh();
-  void place();
   void paintGround();
 
-  QWidget* views_ = nullptr;
   std::vector<Message> messages_;  // the newest last
   QLabel* sign_;
   QLabel* text_;
