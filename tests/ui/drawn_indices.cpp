@@ -9,8 +9,10 @@
 #include <set>
 
 #include "drawing/coarse_level.h"
+#include "drawing/drawn_parts.h"
 #include "mesh/generate.h"
 #include "program.h"
+#include "scene.h"
 
 namespace chainmail::drawn_indices {
 
@@ -64,6 +66,13 @@ MeshPointer plainCloth(ElementId width, ElementId height) {
     parts.triangles.push_back({place[a], place[b], place[c]});
   }
   return build_mesh(std::move(parts));
+}
+
+/// Chooses the parts of an object to draw.
+void choose(DrawnParts& parts, const Scene& in, const DrawOptions& options = {}, std::size_t maxShapes = 100'000) {
+  ObjectDrawing::Scene scene{in.camera.toView(), in.camera.toClip(in.view), in.view, {}, {}};
+  scene.maxShapes = maxShapes;
+  parts.choose(scene, {.colour = {}, .scale = {}, .options = options}, 1 / in.camera.unitsPerPixel(in.view));
 }
 
 }  // namespace
@@ -163,6 +172,39 @@ class DrawnIndices : public QObject {
     }
     QVERIFY(!joined(level, cuts, side(false), side(true)));
     QVERIFY(faceCount(level, cuts) < level->faces.size());
+  }
+
+  void facesAndLinksAreLeftOutAlone() {
+    for (const unsigned dimensions : {2U, 3U}) {
+      const Scene scene({MeshKind::cloth, {5, 4, 1}, 1, dimensions});
+      const Cuts none(scene.frame.mesh);
+      DrawnParts parts(std::make_shared<MeshLevels>());
+      parts.setFrame(scene.frame, none);
+      const auto drawn = [&](bool faces, bool links) {
+        DrawOptions options;
+        options.faces = faces;
+        options.links = links;
+        choose(parts, scene, options);
+        return std::pair(parts.faces().size() / 3, parts.links().ends.size() / 2);
+      };
+      const std::size_t all = scene.frame.mesh->triangles.size(), links = scene.frame.mesh->link_count();
+      QCOMPARE(drawn(true, true), std::pair(all, links));
+      QCOMPARE(drawn(false, true), std::pair(std::size_t{0}, links));
+      QCOMPARE(drawn(true, false), std::pair(all, std::size_t{0}));
+    }
+  }
+
+  /// The whole cloth has 111,303 links and faces, its next coarser level about a quarter of them.
+  void aPartInViewIsDrawnInFullDetail() {
+    Scene scene({MeshKind::cloth, {150, 150, 1}, 1, {}});
+    const Cuts none(scene.frame.mesh);
+    DrawnParts parts(std::make_shared<MeshLevels>());
+    parts.setFrame(scene.frame, none);
+    choose(parts, scene);
+    QVERIFY(parts.step() > 1);
+    scene.camera.zoom(4, {400, 300}, scene.view);
+    choose(parts, scene);
+    QCOMPARE(parts.step(), 1U);
   }
 
   void fewElementsAreAllKeptAndManyThinnedEvenly() {

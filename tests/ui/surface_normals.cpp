@@ -96,6 +96,22 @@ class SurfaceNormalsTest : public QObject {
     QVERIFY(updated.changedBlocks().empty());
   }
 
+  /// The graphics card gets no more of a large surface than has changed.
+  void farFromWhatMovesNothingIsComputedAnew() {
+    const auto mesh = test::sphere(120, 80);
+    Frame frame = frameOf(mesh);
+    SurfaceNormals normals;
+    normals.setFaces(cornersOf(*mesh), mesh->element_count());
+    normals.follow(frame);
+    const ElementId last = mesh->element_count() - 1;  // a pole
+    move(frame, last, last + 1);
+    normals.follow(frame);
+    QVERIFY(!normals.changedBlocks().empty());
+    for (const auto& range : normals.changedBlocks()) {
+      QVERIFY(range[0] > frame.changed.size() / 2);
+    }
+  }
+
   void elementsAtACreaseHaveNoNormal() {
     const auto block = generate({MeshKind::tetra, {5, 5, 5}, 1, {}});
     const Surface surface(std::make_shared<CellTable>(block));
