@@ -46,7 +46,7 @@ void LessonPlayer::adopt() {
   const bool sameCaptions = isOpen() && lesson.session == session_ && lesson.captions == captions_;
   session_ = lesson.session == closed_ ? nullptr : lesson.session;
   captions_ = lesson.captions;
-  step_ = session_ ? std::min(lesson.step, captions_->steps.size() - 1) : 0;
+  step_ = session_ ? lesson.step : 0;
   position_ = document_.moves().history().position();
   dragged_.clear();
   sameCaptions ? emit stepChanged() : emit openChanged();
