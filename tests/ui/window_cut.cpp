@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 
+#include "common/colours.h"
 #include "document/edits.h"
 #include "window.h"
 
@@ -32,8 +33,11 @@ class WindowCut : public QObject {
     bench.stroke(0, places, false);
     QCOMPARE(bench.document().highlight().marks().links.size(), 7U);  // one per row
     QCOMPARE(bench.document().cuts().count(), 0U);
+    const QPointF between = (bench.view(0).viewPosition(30) + bench.view(0).viewPosition(40)) / 2;  // two rows
+    QVERIFY(bench.distanceFromColour(0, between, colours::marked) < 20);  // the stroke is drawn
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
     bench.settle();
+    QVERIFY(bench.distanceFromColour(0, between, colours::marked) > 20);
     QCOMPARE(bench.document().cuts().count(), 7U);
     for (ElementId row = 0; row < 7; ++row) {
       const auto link = find_link(*bench.document().mesh(), 9 * row + 3, 9 * row + 4);

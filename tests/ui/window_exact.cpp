@@ -205,6 +205,11 @@ class WindowExact : public QObject {
     QVERIFY(now > 4.01);
     QTRY_VERIFY2(readout(bench).contains(figure(now)), qPrintable(readout(bench)));
 
+    bench.trigger("addPanel");
+    bench.settle();
+    const QPointF middleOfLine = (bench.view(2).viewPosition(27) + bench.view(2).viewPosition(31)) / 2;
+    QVERIFY(bench.distanceFromColour(2, middleOfLine, colours::marked) < 20);
+
     QTest::keyClick(&bench.window, Qt::Key_Escape);
     QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
   }

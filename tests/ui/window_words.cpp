@@ -91,6 +91,8 @@ class WindowWords : public QObject {
                                << QStringLiteral("13 % of links violated, worst 100 × rest length");
     QTest::newRow("almost a hundred") << 0.13 << 99.7 << true
                                       << QStringLiteral("13 % of links violated, worst 100 × rest length");
+    QTest::newRow("between 99 and a hundred")
+        << 0.13 << 99.5 << true << QStringLiteral("13 % of links violated, worst 100 × rest length");
     QTest::newRow("far") << 0.13 << 11234.4 << true
                          << QStringLiteral("13 % of links violated, worst 11,234 × rest length");
     QTest::newRow("unknown") << std::nan("") << std::nan("") << true
