@@ -114,6 +114,14 @@ void ApiStateTest::deformers_continue_bit_for_bit() {
     QCOMPARE(again.relax(3), deformer.relax(3));
     QVERIFY(same_numbers(again.body().positions(), deformer.body().positions()));
   }
+  // After a release, relaxation goes on with what the last sweep left.
+  deformer.release();
+  cm::Deformer released(deformer.body(), method.toStdString());
+  cm::load(released, cm::save(deformer));
+  const int sweeps = deformer.relax(3);
+  QCOMPARE(sweeps, cm::method_info(method.toStdString()).family == cm::MethodFamily::elastic ? 0 : 3);
+  QCOMPARE(released.relax(3), sweeps);
+  QVERIFY(same_numbers(released.body().positions(), deformer.body().positions()));
   cm::Deformer other(deformer.body(), method == "exact" ? "generalized" : "exact");
   QVERIFY(has(refusal_of([&] { cm::load(other, state); }), "of the method '" + method.toStdString() + "'"));
 }

@@ -93,6 +93,7 @@ class RegionAxesTest : public QObject {
  private slots:
   void a_turned_object_answers_as_the_object_does_data();
   void a_turned_object_answers_as_the_object_does();
+  void a_rotated_handle_is_where_its_motion_puts_it_after_a_cut();
   void without_a_frame_a_turned_object_answers_differently();
   void principal_axes_turn_with_the_object();
   void principal_axes_of_a_symmetric_object_are_those_of_the_world();
@@ -140,6 +141,26 @@ void RegionAxesTest::a_turned_object_answers_as_the_object_does() {
       return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions());
     };
     QVERIFY(std::abs(energy(*one) - energy(*other)) < 1e-3 * energy(*one));
+  }
+}
+
+/// A cut while dragging: the next pass begins anew, with a handle that has rotated already.
+void RegionAxesTest::a_rotated_handle_is_where_its_motion_puts_it_after_a_cut() {
+  const Scene scene = space_scene();
+  const auto solver = make_solver(scene.mesh, Algorithm::exact, Precision::double_precision);
+  Body& body = solver->body();
+  body.set_softness(Softness{{0.7, 1.3, 0.4}, {}, standard_energy, {AxesKind::given, turn(Point(1, 2, 3), 40)}});
+  Handle handle(body, {160, 169, 170});
+  for (const double degrees : {4.0, 9.0}) {
+    const Pose target{handle.grabbed().pivot + Point(0.1, 0.02, -0.03) * degrees, turn(Point(2, 0, 1), degrees)};
+    solver->move(handle, target);
+    QVERIFY2(solver->remark().empty(), solver->remark().c_str());
+    for (std::size_t i = 0; i < handle.elements().size(); ++i) {
+      const Point at = point_of(*scene.mesh, body.positions(), handle.elements()[i]);
+      const double off = (at - handle.target(i, handle.motion(target))).norm();
+      QVERIFY2(off < 1e-12, qPrintable(QString::number(off)));
+    }
+    body.cut(scene.cuts);
   }
 }
 

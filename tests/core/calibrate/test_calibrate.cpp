@@ -1,4 +1,5 @@
 #include <QtTest>
+#include <numeric>
 #include <set>
 
 #include "calibrate/calibrate.h"
@@ -36,6 +37,7 @@ class CalibrateTest : public QObject {
   void the_equilibrium_comes_closer();
   void drags_go_as_far_as_documented();
   void drags_held_out_are_others();
+  void drags_without_a_reference_are_given_up();
   void it_is_the_same_each_time();
   void more_evaluations_are_no_worse();
   void it_tells_its_progress_and_is_cancelled();
@@ -339,6 +341,23 @@ void CalibrateTest::drags_held_out_are_others() {
   }
 }
 
+/// Only one element is free, and each drag would take it beyond its pinned neighbours, which inverts cells.
+void CalibrateTest::drags_without_a_reference_are_given_up() {
+  const MeshPointer large = make_mesh(MeshKind::cloth, {31, 31, 1});
+  CalibrationOptions options;
+  options.pins.resize(large->element_count());
+  std::iota(options.pins.begin(), options.pins.end(), ElementId{0});
+  std::erase(options.pins, large->element_count() / 2);
+  options.drags = 2;
+  try {
+    reference_drags(large, Cuts(large), options, {});
+    QFAIL("it has references");
+  } catch (const Error& error) {
+    QVERIFY2(QString(error.what()).startsWith("reference solution: too many of the drags do not converge: "),
+             error.what());
+  }
+}
+
 void CalibrateTest::it_is_the_same_each_time() {
   const CalibrationResult first = found(quick());
   QVERIFY(found(quick()) == first);
@@ -357,8 +376,10 @@ void CalibrateTest::more_evaluations_are_no_worse() {
   double last = std::numeric_limits<double>::infinity();
   for (const int evaluations : {1, 20, 80}) {
     CalibrationOptions options = quick();
+    options.drags = 1;  // the fewest
     options.evaluations = evaluations;
     const CalibrationResult result = found(options);
+    QCOMPARE(result.fitted.drags.size(), std::size_t{1});
     QVERIFY(result.evaluations <= evaluations);
     QVERIFY(result.fitted.after.relative <= result.fitted.before.relative);
     QVERIFY(result.fitted.after.relative <= last);

@@ -29,6 +29,7 @@ class ElasticTest : public QObject {
   void stiffening_equals_linear_elasticity_at_small_strains();
   void stretches_are_those_of_the_closed_form();
   void the_limit_of_strain_is_kept();
+  void an_inverted_cell_has_no_energy();
   void a_bent_sheet_converges();
   void a_bent_solid_converges();
   void a_cantilever_bends_as_beams_do();
@@ -342,6 +343,24 @@ void ElasticTest::the_limit_of_strain_is_kept() {
   QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::gent, 0.1, 1}, Material{1, 0.3}));
   QVERIFY_THROWS_EXCEPTION(Error, check(StrainLaw{StrainLaw::Kind::fung, 1, 0.8}, Material{1, 0.3}));
   check(StrainLaw{StrainLaw::Kind::fung, 1, 0.75}, Material{1, 0.3});
+}
+
+/// Flat, or reflected at a side: no finite energy gets there, whatever the material.
+void ElasticTest::an_inverted_cell_has_no_energy() {
+  const Lame material = lame({3, 0.45});
+  for (const int dimension : {1, 2, 3}) {
+    const MeshPointer mesh = of_dimension(dimension);
+    const Simplices simplices = build_simplices(*mesh, Cuts(mesh));
+    for (const double stretch : {0.0, -0.01, -1.0}) {
+      CornerDisplacements at = CornerDisplacements::Zero(dimension, dimension + 1);
+      for (int a = 0; a <= dimension; ++a) {
+        at(0, a) = (stretch - 1) * mesh->rest_position(simplices.corners_of(0)[std::size_t(a)]).x();
+      }
+      for (const StrainLaw& law : {StrainLaw(), gent, fung}) {
+        QVERIFY(model_of(law)(simplices, 0, at, material, Want::energy).inverted);
+      }
+    }
+  }
 }
 
 /// A cantilever under an end load in plane stress (Timoshenko and Goodier 1951). Both ends have the displacements of

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <QtTest>
 #include <numeric>
 
@@ -19,6 +20,7 @@ class ElasticObjectsTest : public QObject {
   void hexahedra_have_cells();
   void wrong_objects_are_refused();
   void a_cut_part_is_named();
+  void cells_that_are_too_small_to_hold_are_told();
   void what_does_not_converge_is_told();
 };
 
@@ -127,6 +129,52 @@ void ElasticObjectsTest::a_cut_part_is_named() {
   }
   QVERIFY(
       sentence([&] { make_elastic(ElasticMethod::linear_fem, problem); }).startsWith("the part of element 3: fewer"));
+}
+
+namespace {
+
+void add_tetrahedron(MeshParts& parts, std::array<ElementId, 4> corners) {
+  const Point a = parts.rest[corners[0]], b = parts.rest[corners[1]], c = parts.rest[corners[2]];
+  if ((b - a).cross(c - a).dot(parts.rest[corners[3]] - a) < 0) {
+    std::swap(corners[2], corners[3]);
+  }
+  parts.tetrahedra.push_back(corners);
+}
+
+/// A pinned tetrahedron from which others hang. What joins them is so small that it is lost in the sums of stiffness:
+/// then rounding decides about each of them whether anything holds it.
+MeshPointer hung_on_almost_nothing() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  add_tetrahedron(parts, {0, 1, 2, 3});
+  std::mt19937_64 random(8);
+  for (int hung = 0; hung < 40; ++hung) {
+    const auto first = ElementId(parts.rest.size());
+    for (const double size : {1e-25, 1.0}) {
+      for (int k = 0; k < 3; ++k) {
+        parts.rest.push_back(
+            size * (Point::Unit(k) + Point(uniform(random, 0, 0.2), uniform(random, 0, 0.2), uniform(random, 0, 0.2))));
+      }
+    }
+    add_tetrahedron(parts, {0, first, first + 1, first + 2});
+    add_tetrahedron(parts, {first, first + 3, first + 4, first + 5});
+  }
+  add_links_along_edges(parts);
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace
+
+void ElasticObjectsTest::cells_that_are_too_small_to_hold_are_told() {
+  const MeshPointer mesh = hung_on_almost_nothing();
+  for (const auto& [method, name] :
+       {std::pair(ElasticMethod::arap, "ARAP"), std::pair(ElasticMethod::projective, "Projective Dynamics")}) {
+    const QString told = sentence([&, method = method] {
+      make_elastic(method, pinned(mesh, {0, 1, 2, 3}))->hold(ElasticHandle::of(mesh->element_count() - 1));
+    });
+    QVERIFY2(told.startsWith(QString(name) + ": its matrix is not positive definite: cells are too thin; "),
+             qPrintable(told));
+  }
 }
 
 /// The handle is pushed through the wall that holds the object. Cells cannot follow without inverting.

@@ -31,6 +31,7 @@ class MaterialTest : public QObject {
   void it_is_found_from_any_start();
   void materials_that_stiffen_equal_finite_elements_data();
   void materials_that_stiffen_equal_finite_elements();
+  void the_unit_of_length_does_not_matter();
   void it_is_found_after_half_the_width_in_one_move();
   void no_iteration_raises_the_energy();
   void a_cut_gives_the_minimum_of_the_cut_object();
@@ -289,6 +290,26 @@ void MaterialTest::materials_that_stiffen_equal_finite_elements() {
   QVERIFY(relative_error(found, right, *scene.mesh) < 1e-6);
   scene.law = {};
   QVERIFY(relative_error(found, scene.finite_elements(by), *scene.mesh) > 1e-3);  // the law counts
+}
+
+/// An atom in light years or a galaxy in metres: steps are found in float, whose range the squares of these leave.
+void MaterialTest::the_unit_of_length_does_not_matter() {
+  const auto found = [](double unit) {
+    const Scene scene(generate({MeshKind::tetra, {5, 5, 5}, unit, {}}), 1.1 * unit);
+    const std::vector<double> by{0.8 * unit, -0.6 * unit, 0.3 * unit};
+    Body body = scene.body();
+    body.set_positions(scene.moved(by));
+    const bool reached = EquilibriumSolver::make(3)->solve(body, scene.handle, 1e-8, 1000);
+    std::vector<double> at = positions_of(body);
+    std::ranges::for_each(at, [unit](double& one) { one /= unit; });
+    return reached ? at : std::vector<double>(at.size());
+  };
+  const MeshPointer mesh = generate({MeshKind::tetra, {5, 5, 5}, 1, {}});
+  const std::vector<double> right = found(1);
+  for (const double unit : {1e-20, 1e20}) {
+    const double error = relative_error(found(unit), right, *mesh);
+    QVERIFY2(error < 1e-6, qPrintable(QString("%1 for %2").arg(error).arg(unit)));
+  }
 }
 
 void MaterialTest::it_is_found_after_half_the_width_in_one_move() {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/scenarios.h"
+#include "equilibrium/small_quadratic.h"
 #include "measure/violation.h"
 #include "program.h"
 
@@ -23,6 +24,7 @@ class RelaxationTest : public QObject {
   void a_cut_link_does_not_pull();
   void the_held_element_stays();
   void the_rest_shape_stays();
+  void an_energy_of_nothing_leaves_the_box_alone();
   void one_region_per_rest_vector_or_per_link_is_the_same();
   void from_a_valid_state_every_link_stays_valid();
   void from_a_valid_state_the_energy_never_rises();
@@ -209,6 +211,15 @@ void RelaxationTest::the_rest_shape_stays() {
       QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});
     }
   }
+}
+
+/// Without a link that has stiffness, an element stays, or goes to the nearest position of its box.
+void RelaxationTest::an_energy_of_nothing_leaves_the_box_alone() {
+  const SmallQuadratic<2> nothing;
+  const Eigen::Vector2d low(-1, -2), high(3, 1);
+  QCOMPARE(nothing.least_inside(low, high), Eigen::Vector2d(0, 0));
+  QCOMPARE(nothing.least_inside({1, -2}, high), Eigen::Vector2d(1, 0));
+  QCOMPARE(nothing.least_inside(low, {-0.5, -0.25}), Eigen::Vector2d(-0.5, -0.25));
 }
 
 void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {

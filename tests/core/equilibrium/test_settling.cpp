@@ -23,6 +23,7 @@ class SettlingTest : public QObject {
   void another_scheme_begins_at_once();
   void softness_is_felt_without_a_pass();
   void positions_from_elsewhere_stay();
+  void a_solver_moves_nothing_before_it_is_woken();
   void a_cancelled_iteration_moves_nothing_and_goes_on();
   void a_thread_settles_between_passes();
 };
@@ -221,6 +222,33 @@ void SettlingTest::positions_from_elsewhere_stay() {
   QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().residual);
   simulation.relax(5, 1);  // an object at rest is at equilibrium
   QVERIFY(same_bits(positions_of(simulation), simulation.mesh().rest));
+}
+
+/// A solver sleeps at first, after positions were set, and when it is told to. Then an iteration costs and moves
+/// nothing.
+void SettlingTest::a_solver_moves_nothing_before_it_is_woken() {
+  Solver solver(made_grid(), Algorithm::exact, Precision::double_precision);
+  const Mesh& mesh = solver.body().mesh();
+  solver.body().pin(std::vector<ElementId>{0});
+  solver.set_relaxation(RelaxationScheme::equilibrium);
+  const auto moves = [&] {
+    const auto before = positions_of(solver, mesh);
+    const RelaxationResult result = solver.relax(1, mesh.element_count(), std::array{handle});
+    const bool same = same_bits(positions_of(solver, mesh), before);
+    return result.visited != 0 || !same;
+  };
+  solver.move(handle, mesh.rest_position(handle) + Point(0.4, 0.3, 0));
+  QVERIFY(!moves());
+  solver.wake_all();
+  QVERIFY(moves());
+  std::vector<double> elsewhere = mesh.rest;
+  elsewhere[2 * 60] += 0.2;
+  solver.body().set_positions(elsewhere);
+  QVERIFY(!moves());
+  solver.wake_all();
+  QVERIFY(moves());
+  solver.sleep();
+  QVERIFY(!moves());
 }
 
 void SettlingTest::a_cancelled_iteration_moves_nothing_and_goes_on() {

@@ -38,6 +38,7 @@ class PreparingTest : public QObject {
   void can_be_cancelled_data();
   void can_be_cancelled();
   void a_thread_prepares_what_it_is_told();
+  void a_thread_prepares_nothing_between_commands();
 };
 
 void PreparingTest::changes_no_bit() {
@@ -171,6 +172,24 @@ void PreparingTest::a_thread_prepares_what_it_is_told() {
   solver.post(commands::SetSoftness{{{1, 1.001, 0}, {}}});
   QVERIFY(wait_until([&] { return solver.prepared() > prepared; }));
   QCOMPARE(visits_of_a_drag(30, 4), std::uint64_t{0});  // a new softness is a pass too
+}
+
+/// While commands come, nothing is prepared, however long the pointer has been on the element: the next command would
+/// make it outdated.
+void PreparingTest::a_thread_prepares_nothing_between_commands() {
+  const auto mesh = jittered_triangles(8, 8, 5);
+  SolverThread solver(mesh, Algorithm::exact, [] {});
+  solver.prepare(30);
+  QVERIFY(wait_until([&] { return solver.prepared() == 1; }));
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 40; ++i) {
+    const std::uint64_t before = solver.latest_frame().number;
+    solver.post(commands::SetSoftness{{{1, 1 + 0.001 * (i % 2), 0}, {}}});
+    QVERIFY(wait_until([&] { return solver.idle() && solver.latest_frame().number > before; }));
+  }
+  const int prepared = solver.prepared() - 1;
+  // A machine that pauses gives it time. It waits for 80 ms without a command.
+  QVERIFY2(prepared <= (std::chrono::steady_clock::now() - start) / 80ms, qPrintable(QString::number(prepared)));
 }
 
 CHAINMAIL_TEST(PreparingTest)

@@ -315,16 +315,20 @@ void SimulationTest::relaxation_runs_in_idle_time_and_sleeps() {
 }
 
 void SimulationTest::relaxation_stops_when_switched_off() {
-  auto simulation = grid_simulation();
-  carry_out(simulation, commands::SetRelaxation{true, 1});
-  drag_by(simulation, 0, Point(-2, -1, 0));
-  QVERIFY(simulation.continue_relaxation());
-  carry_out(simulation, commands::SetRelaxation{false, 1});
-  const auto before = positions_of(simulation);
-  QVERIFY(!simulation.continue_relaxation());
-  drag_by(simulation, 0, Point(0, 0, 0));
-  QVERIFY(!simulation.continue_relaxation());
-  QVERIFY(same_bits(before, positions_of(simulation)));
+  // Off, the scheme may be another one: it is for sweeps that are asked for.
+  for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
+    auto simulation = grid_simulation();
+    carry_out(simulation, commands::SetRelaxation{true, 1, RelaxationScheme::mean});
+    drag_by(simulation, 0, Point(-2, -1, 0));
+    QVERIFY(simulation.continue_relaxation());
+    carry_out(simulation, commands::SetRelaxation{false, 1, scheme});
+    QVERIFY(!simulation.statistics().relaxing);
+    const auto before = positions_of(simulation);
+    QVERIFY(!simulation.continue_relaxation());
+    drag_by(simulation, 0, Point(0, 0, 0));
+    QVERIFY(!simulation.continue_relaxation());
+    QVERIFY(same_bits(before, positions_of(simulation)));
+  }
 }
 
 void SimulationTest::a_cut_under_tension_is_felt() {
