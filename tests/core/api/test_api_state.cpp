@@ -122,7 +122,7 @@ void ApiStateTest::deformers_continue_bit_for_bit() {
 /// The elements that wait for the next sweep are neither those that the last pass moved nor their neighbours.
 void ApiStateTest::relaxation_goes_on_where_it_has_spread_to() {
   cm::Deformer deformer(cm::make_grid(20, 20), "natural-queue");
-  deformer.move(210, {10.7, 10.6, 0});  // from 10, 10
+  deformer.move(210, {10.7, 10.6, 0});     // from 10, 10
   QVERIFY(deformer.moved().size() < 100);  // of 400
   QCOMPARE(deformer.relax(5), 5);
   cm::Deformer again(deformer.body(), "natural-queue");

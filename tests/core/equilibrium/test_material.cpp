@@ -292,7 +292,8 @@ void MaterialTest::materials_that_stiffen_equal_finite_elements() {
   QVERIFY(relative_error(found, scene.finite_elements(by), *scene.mesh) > 1e-3);  // the law counts
 }
 
-/// An atom in light years or a galaxy in metres: steps are found in float, whose range the squares of these leave.
+/// An atom in light years or a galaxy in metres. The preconditioner works in float, and the squares of such lengths are
+/// outside its range.
 void MaterialTest::the_unit_of_length_does_not_matter() {
   const auto found = [](double unit) {
     const Scene scene(generate({MeshKind::tetra, {5, 5, 5}, unit, {}}), 1.1 * unit);
