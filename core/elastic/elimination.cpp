@@ -23,9 +23,6 @@ Graph graph_of(const Simplices& simplices, const Mesh& mesh) {
   }
   const auto count = static_cast<Eigen::Index>(mesh.element_count());
   Graph graph(count, count);
-  if (count == 0 || pairs.empty()) {
-    return graph;
-  }
   graph.setFromTriplets(pairs.begin(), pairs.end(), [](char, char) { return char(1); });
   return graph;
 }
