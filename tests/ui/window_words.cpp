@@ -2,6 +2,7 @@
 // mode, and the tool bar in narrow windows.
 
 #include <QAbstractItemView>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenu>
@@ -342,6 +343,23 @@ class WindowWords : public QObject {
     bench.document().undoStack().undo();
     bench.settle();
     QVERIFY(bench.document().pins().empty() && button->isVisible());
+  }
+
+  void aNameThatIsTooLongForItsSelectorEndsInAnEllipsis() {
+    const auto picture = [](const QString& text, int width) {
+      QComboBox selector;
+      selector.addItem(text);
+      selector.resize(width, selector.sizeHint().height());
+      return selector.grab().toImage();
+    };
+    const QString name = QStringLiteral("Generalized ChainMail");
+    constexpr int narrow = 100;
+    bool isShortened = false;
+    for (qsizetype length = 1; length < name.size(); ++length) {
+      isShortened = isShortened || picture(name, narrow) == picture(name.first(length) + QChar(0x2026), narrow);
+    }
+    QVERIFY(isShortened);
+    QVERIFY(picture(name, 3 * narrow) != picture(name.first(name.size() - 1), 3 * narrow));
   }
 
   /// What the head has no room for is neither hidden nor shortened, and the object does not move.

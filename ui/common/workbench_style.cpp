@@ -12,6 +12,8 @@ namespace {
 
 constexpr double buttonRadius = 3;     // pixels, at a button's corners
 constexpr float borderOpacity = 0.4F;  // of the border of a floating dock
+constexpr int iconSpace = 4;           // pixels, beside the icon of a selector, as in Qt
+constexpr int textMargin = 2;          // pixels, around the text of a selector, as in Qt
 constexpr int extensionWidth = 24;     // pixels, of the button that opens the rest of a tool bar
 
 }  // namespace
@@ -50,6 +52,16 @@ void WorkbenchStyle::drawPrimitive(PrimitiveElement element, const QStyleOption*
 
 void WorkbenchStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
                                  const QWidget* widget) const {
+  const auto* selector = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+  if (element == CE_ComboBoxLabel && selector != nullptr) {  // Qt cuts a long text in the middle of a letter
+    QStyleOptionComboBox shortened = *selector;
+    const int icon = selector->currentIcon.isNull() ? 0 : selector->iconSize.width() + iconSpace;
+    const QRect field = subControlRect(CC_ComboBox, selector, SC_ComboBoxEditField, widget);
+    shortened.currentText =
+        selector->fontMetrics.elidedText(selector->currentText, Qt::ElideRight, field.width() - icon - textMargin);
+    QProxyStyle::drawControl(element, &shortened, painter, widget);
+    return;
+  }
   if (element != CE_DockWidgetTitle) {
     QProxyStyle::drawControl(element, option, painter, widget);
     return;
