@@ -67,10 +67,10 @@ std::vector<double> BulletBody::velocities() const {
 }
 
 void BulletBody::set_velocities(std::span<const double> velocities) {
-  for (int i = 0; i < body_.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = body_.m_nodes[i];
+  for (std::size_t i = 0; 3 * i < velocities.size(); ++i) {
+    btSoftBody::Node& node = body_.m_nodes[int(i)];
     for (int k = 0; k < 3 && node.m_im > 0; ++k) {
-      node.m_v[k] = node.m_vn[k] = btScalar(velocities[std::size_t(3 * i + k)]);
+      node.m_v[k] = node.m_vn[k] = btScalar(velocities[3 * i + std::size_t(k)]);
     }
   }
 }

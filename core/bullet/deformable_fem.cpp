@@ -3,8 +3,11 @@
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableNeoHookeanForce.h>
 
-#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "bullet/bullet_body.h"
@@ -31,15 +34,12 @@ class BulletTetrahedra final : public BulletBody {
     const Mesh& mesh = *of.stored_mesh();
     const Simplices cells = build_simplices(mesh, of.cuts(), progress.part(0.5, 0.8));
     for (std::size_t s = 0; s < cells.count(); ++s) {
-      const auto corners = cells.corners_of(s);
-      const bool mirrored = cells.gradients_of(s).rightCols<3>().determinant() < 0;  // all are, or none
-      body().appendTetra(int(corners[0]), int(corners[1]), int(corners[mirrored ? 3 : 2]),
-                         int(corners[mirrored ? 2 : 3]));
+      add_tetrahedron(cells.corners_of(s));
     }
     take_masses(mesh, cells);
     body().initializeDmInverse();
-    body().m_tetraScratches.resize(body().m_tetras.size());
-    body().m_tetraScratchesTn.resize(body().m_tetras.size());
+    body().m_tetraScratches.resize(body().m_tetras.size(), at_rest());
+    body().m_tetraScratchesTn.resize(body().m_tetras.size(), at_rest());
     body().setActivationState(DISABLE_DEACTIVATION);
     body().m_sleepingThreshold = 0;
     body().m_bUpdateRtCst = false;
@@ -57,6 +57,28 @@ class BulletTetrahedra final : public BulletBody {
     const double scale = stiffness_over_inertia / double(bullet_frame_time * bullet_frame_time) / material.mu;
     const double mu = 4.0 / 3 * material.mu, lambda = material.lambda + 5.0 / 8 * mu;
     return {btScalar(scale * mu), btScalar(scale * lambda), btScalar(damping)};
+  }
+
+  /// Bullet's own constructor leaves the matrices without values.
+  static btSoftBody::TetraScratch at_rest() {
+    btSoftBody::TetraScratch scratch;
+    scratch.m_F.setIdentity();
+    scratch.m_cofF.setIdentity();
+    scratch.m_corotation.setIdentity();
+    scratch.m_trace = 3;
+    scratch.m_J = 1;
+    return scratch;
+  }
+
+  /// The cells of an object have one orientation, which may be the other one than Bullet's.
+  void add_tetrahedron(std::span<const ElementId> corners) {
+    std::array<int, 4> nodes{};
+    std::ranges::transform(corners, nodes.begin(), [](ElementId corner) { return int(corner); });
+    const auto edge = [&](std::size_t k) { return body().m_nodes[nodes[k]].m_x - body().m_nodes[nodes[0]].m_x; };
+    if (edge(1).cross(edge(2)).dot(edge(3)) < 0) {
+      std::swap(nodes[2], nodes[3]);
+    }
+    body().appendTetra(nodes[0], nodes[1], nodes[2], nodes[3]);
   }
 
   /// Gives each element a quarter of the volume of its cells, over the mean of all.

@@ -322,8 +322,13 @@ class WindowComfort : public QObject {
     bench.window.welcome();
     auto* hints = bench.find<QWidget>("hints");
     QVERIFY(hints->isVisible());
-    const QRect ofView(bench.view(0).mapToGlobal(QPoint()), bench.view(0).size());
-    QVERIFY(!QRect(hints->mapToGlobal(QPoint()), hints->size()).intersects(ofView));  // the hints cover no view
+    // The hints lie over the views, but neither over what is dragged nor over a sentence.
+    const QRect ofHints(hints->mapToGlobal(QPoint()), hints->size());
+    for (int panel = 0; panel < 2; ++panel) {
+      const auto* sentence = bench.find<QWidget>(qPrintable(QStringLiteral("violation%1").arg(panel)));
+      QVERIFY(!ofHints.contains(bench.view(panel).mapToGlobal(bench.place(panel, moved))));
+      QVERIFY(!ofHints.intersects(QRect(sentence->mapToGlobal(QPoint()), sentence->size())));
+    }
     QTRY_VERIFY(bench.position(0, moved) != rest[0] && bench.position(1, moved) != rest[1]);
     QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, {3, 3});
     QCOMPARE(bench.position(0, moved), rest[0]);  // at the moment of the press, not later

@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "common/text_scale.h"
@@ -146,7 +147,8 @@ void PanelArea::removePanel() {
       panel->view().setGhost({std::nullopt, panel->view().ghost().blend});
     }
   }
-  delete panels_.back();
+  // Deleting it moves the others, whose listeners may ask which panels there are.
+  const std::unique_ptr<Panel> removed(panels_.back());
   panels_.pop_back();
   std::erase(order_, number);
   shown_.pop_back();

@@ -15,7 +15,7 @@ constexpr int distance = 6;  // pixels, from the edges of the views and between 
 }  // namespace
 
 BarsOverViews::BarsOverViews(PanelArea& area)
-    : QWidget(area.parentWidget()), area_(area), column_(new QVBoxLayout(this)) {
+    : QWidget(area.parentWidget()), area_(&area), column_(new QVBoxLayout(this)) {
   column_->setContentsMargins(0, 0, 0, 0);
   column_->setSpacing(distance);
   column_->setSizeConstraint(QLayout::SetNoConstraint);  // a long sentence does not widen the window
@@ -27,10 +27,14 @@ BarsOverViews::BarsOverViews(PanelArea& area)
   place();
 }
 
-void BarsOverViews::add(QWidget& bar) { column_->addWidget(&bar); }
+void BarsOverViews::add(QWidget& bar) {
+  column_->addWidget(&bar);
+  bar.installEventFilter(this);
+}
 
 bool BarsOverViews::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize || event->type() == QEvent::Move) {
+  const bool ofBar = watched->parent() == this;
+  if (ofBar ? event->type() == QEvent::Show : event->type() == QEvent::Resize || event->type() == QEvent::Move) {
     place();
   }
   return QWidget::eventFilter(watched, event);
@@ -46,12 +50,15 @@ bool BarsOverViews::event(QEvent* event) {
 }
 
 void BarsOverViews::place() {
+  if (area_ == nullptr) {
+    return;
+  }
   int bottom = 0;
-  for (const int panel : area_.inSight()) {
-    const View& view = area_.panels()[std::size_t(panel)]->view();
+  for (const int panel : area_->inSight()) {
+    const View& view = area_->panels()[std::size_t(panel)]->view();
     bottom = std::max(bottom, view.mapTo(parentWidget(), QPoint(0, view.height())).y());
   }
-  const QRect whole = area_.geometry().adjusted(distance, distance, -distance, 0);
+  const QRect whole = area_->geometry().adjusted(distance, distance, -distance, 0);
   const int height = column_->isEmpty() ? 0 : column_->totalHeightForWidth(whole.width());
   setGeometry(whole.left(), bottom - distance - height, whole.width(), height);
   raise();

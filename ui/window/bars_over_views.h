@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPointer>
 #include <QWidget>
 
 class QVBoxLayout;
@@ -27,7 +28,7 @@ class BarsOverViews : public QWidget {
  private:
   void place();
 
-  PanelArea& area_;
+  QPointer<PanelArea> area_;  // its panels may still move while it is deleted
   QVBoxLayout* column_;
 };
 

@@ -22,6 +22,7 @@ class BulletFemTest : public QObject {
   void a_copy_goes_on_as_the_first();
   void a_cancelled_move_moves_nothing();
   void cells_with_cut_links_are_left_out();
+  void a_mirrored_object_is_the_mirror_of_the_first();
   void a_plane_is_refused();
 };
 
@@ -185,6 +186,20 @@ void BulletFemTest::cells_with_cut_links_are_left_out() {
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     const double way = (position_of(solver, *mesh, e) - mesh->rest_position(e)).norm();
     QVERIFY2(mesh->rest_position(e)[0] < middle ? way < 1e-5 : way > 0.1, qPrintable(QString::number(way)));
+  }
+}
+
+/// Its tetrahedra have the other orientation.
+void BulletFemTest::a_mirrored_object_is_the_mirror_of_the_first() {
+  const MeshPointer mesh = bar();
+  const auto mirrored = [](const Point& at) { return Point(at[0], -at[1], at[2]); };
+  const MeshPointer other_mesh = build_mesh(placed(*mesh, mirrored));
+  Solver solver = solver_of(mesh, bullet_fem_number()), other = solver_of(other_mesh, bullet_fem_number());
+  Handle one(solver.body(), at_end(*mesh, 1)), two(other.body(), at_end(*other_mesh, 1));
+  pull(solver, one, {0.2, 1, 0});
+  pull(other, two, {0.2, -1, 0});
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    QVERIFY((mirrored(position_of(other, *other_mesh, e)) - position_of(solver, *mesh, e)).norm() < 1e-3);
   }
 }
 
