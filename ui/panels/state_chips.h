@@ -6,8 +6,8 @@
 
 namespace chainmail {
 
-/// The states of a panel's object for which its head has no room, as chips that wrap. They lie over the upper edge of the
-/// view, which they do not move, and let the mouse through.
+/// The states of a panel's object for which its head has no room, as chips that wrap. They lie over the upper edge of
+/// the view, which they do not move, and let the mouse through.
 class StateChips : public QWidget {
   Q_OBJECT
 

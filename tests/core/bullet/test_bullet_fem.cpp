@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
 
 #include "bullet/deformable_fem.h"
@@ -193,7 +194,15 @@ void BulletFemTest::cells_with_cut_links_are_left_out() {
 void BulletFemTest::a_mirrored_object_is_the_mirror_of_the_first() {
   const MeshPointer mesh = bar();
   const auto mirrored = [](const Point& at) { return Point(at[0], -at[1], at[2]); };
-  const MeshPointer other_mesh = build_mesh(placed(*mesh, mirrored));
+  const Simplices cells = build_simplices(*mesh, {});
+  MeshParts parts;
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    parts.rest.push_back(mirrored(mesh->rest_position(e)));
+  }
+  for (std::size_t s = 0; s < cells.count(); ++s) {
+    std::ranges::copy(cells.corners_of(s), parts.tetrahedra.emplace_back().begin());
+  }
+  const MeshPointer other_mesh = build_mesh(std::move(parts));
   Solver solver = solver_of(mesh, bullet_fem_number()), other = solver_of(other_mesh, bullet_fem_number());
   Handle one(solver.body(), at_end(*mesh, 1)), two(other.body(), at_end(*other_mesh, 1));
   pull(solver, one, {0.2, 1, 0});
