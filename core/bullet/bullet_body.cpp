@@ -106,8 +106,8 @@ namespace {
 constexpr double diverging_move = 50;
 constexpr const char* diverged_remark = "it diverged; the elements stay, but for the handle";
 
-/// Answers moves with Bullet. It keeps what resists, and perhaps velocities, but no positions: each move starts from
-/// those of the body.
+/// Answers moves with Bullet. It keeps links or cells, and velocities if wanted, but no positions: each move starts
+/// from those of the body.
 class BulletMethod final : public Method {
  public:
   BulletMethod(MakeBulletBody make, bool keeps_velocities) : make_(make), keeps_velocities_(keeps_velocities) {}
@@ -150,8 +150,9 @@ class BulletMethod final : public Method {
     if (!nodes_ || mesh_ != body.stored_mesh() || cuts_ != body.revisions().cuts ||
         material_ != body.elastic().material) {
       nodes_ = make_(body, progress);
-      // Velocities along other axes, or of another object, are of no use.
-      left_ = mesh_ == nullptr || mesh_ == body.stored_mesh() ? left_ : std::vector<double>();
+      if (mesh_ != nullptr && mesh_ != body.stored_mesh()) {
+        left_.clear();  // the velocities are along other axes
+      }
       mesh_ = body.stored_mesh();
       cuts_ = body.revisions().cuts;
       material_ = body.elastic().material;

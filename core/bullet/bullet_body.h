@@ -3,7 +3,6 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,7 +65,7 @@ class BulletBody {
   std::vector<btScalar> inverse_masses_;
 };
 
-/// Makes a body of Bullet with what resists in it.
+/// Makes Bullet's body of an object, with its links or cells.
 using MakeBulletBody = std::unique_ptr<BulletBody> (*)(const Body& body, const Progress& progress);
 
 /// Returns a method whose moves set the handle to its target and run frames until the object rests: at most
