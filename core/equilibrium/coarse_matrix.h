@@ -44,25 +44,52 @@ struct CoarseMatrix {
   BlockRows<Square> rows;
 };
 
-/// A row of a sparse matrix while it is being summed up.
+/// A row of a sparse matrix while it is being summed up. A block is found by its column at once.
 template <class Block>
-struct RowSum {
+class RowSum {
+ public:
   void clear() {
     columns.clear();
     blocks.clear();
+    std::ranges::fill(places_, 0);
   }
   Block& at(std::uint32_t column) {
-    const auto found = std::ranges::find(columns, column);
-    if (found != columns.end()) {
-      return blocks[static_cast<std::size_t>(found - columns.begin())];
+    if (2 * columns.size() >= places_.size()) {
+      grow();
     }
-    columns.push_back(column);
-    blocks.push_back(Block::Zero());
-    return blocks.back();
+    std::uint32_t& place = place_of(column);
+    if (place == 0) {
+      columns.push_back(column);
+      blocks.push_back(Block::Zero());
+      place = static_cast<std::uint32_t>(columns.size());
+    }
+    return blocks[place - 1];
   }
 
   std::vector<std::uint32_t> columns;
   std::vector<Block> blocks;
+
+ private:
+  static constexpr std::size_t least_places = 16;
+
+  /// Returns where the number of a column stands, or where it would stand.
+  std::uint32_t& place_of(std::uint32_t column) {
+    constexpr std::uint32_t spread = 2654435769U;  // 2³² over the golden ratio (Knuth 1973)
+    const std::size_t mask = places_.size() - 1;
+    std::size_t at = column * spread >> 16U & mask;
+    while (places_[at] != 0 && columns[places_[at] - 1] != column) {
+      at = (at + 1) & mask;
+    }
+    return places_[at];
+  }
+  void grow() {
+    places_.assign(std::max(least_places, 2 * places_.size()), 0);
+    for (std::uint32_t i = 0; i < columns.size(); ++i) {
+      place_of(columns[i]) = i + 1;
+    }
+  }
+
+  std::vector<std::uint32_t> places_;  // a power of two; number of the block from 1, or 0
 };
 
 }  // namespace chainmail

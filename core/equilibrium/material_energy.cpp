@@ -358,15 +358,40 @@ void MaterialEnergy<D>::find_stress(const Matrix& strain, const Lanes& volume, L
   }
 }
 
+/// Returns ln s for the stretch s on the axes that are free of stress, as log_of_free_stretch() of elastic/energy.cpp
+/// does, for all lanes at once.
+template <int D>
+auto MaterialEnergy<D>::log_of_free_stretch(const Lanes& log_volume) const -> Lanes {
+  constexpr int most = 60;
+  constexpr double free_axes = 3 - D;
+  const auto [mu, lambda] = lame_;
+  Lanes a = -lambda / (2 * mu + free_axes * lambda) * log_volume, step;
+  for (int turn = 0; turn < most; ++turn) {
+    const Lanes squared = (2 * a).exp();
+    step = (mu * (squared - 1) + lambda * (log_volume + free_axes * a)) / (2 * mu * squared + free_axes * lambda);
+    a -= step;
+    if ((step.abs() <= 1e-15 * (1 + a.abs())).all()) {
+      break;
+    }
+  }
+  return a;
+}
+
 template <int D>
 void MaterialEnergy<D>::find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
                                      Lanes& by_volume) const {
-  if (D == 3 && is_neo_hookean_) {
+  if (is_neo_hookean_) {
+    constexpr double free_axes = 3 - D;
     const auto [mu, lambda] = lame_;
     const double slope = density_.slope_below(), curvature = density_.curvature_below();
     const Lanes inside = determinant.max(density_.least_volume()), below = determinant - inside;
-    const Lanes log = inside.log();
-    value = mu / 2 * shape + log * (lambda / 2 * log - mu) + below * (slope + curvature / 2 * below);
+    Lanes log = inside.log();  // of the whole volume: with the axes that are free of stress
+    if constexpr (D < 3) {
+      log += free_axes * log_of_free_stretch(log);
+    }
+    // The free axes add μ/2 (s² − 1) each, which is −λ/2 ln J for the stretch s that minimizes W.
+    value = mu / 2 * shape + log * (lambda / 2 * log - mu - free_axes * lambda / 2) +
+            below * (slope + curvature / 2 * below);
     by_shape.setConstant(mu / 2);
     by_volume = (lambda * log - mu) / inside + curvature * below;
     return;

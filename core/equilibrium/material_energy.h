@@ -86,6 +86,7 @@ class MaterialEnergy {
   static Matrix cofactor_of(const Matrix& f);
   static void add_forces(const Batch& batch, const Matrix& stress, Vectors& force, ElementId low);
   void find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant, Matrix* stress) const;
+  Lanes log_of_free_stretch(const Lanes& log_volume) const;
   void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
                     Lanes& by_volume) const;
   double add_loose_links(const Vectors& displacements, Vectors* force) const;

@@ -212,12 +212,22 @@ class MultigridStage {
   }
 
   template <class Matrix>
-  static std::vector<std::uint32_t> with_neighbours(const Matrix& matrix, const std::vector<std::uint32_t>& rows) {
-    std::vector<std::uint32_t> result = rows;
+  std::vector<std::uint32_t> with_neighbours(const Matrix& matrix, const std::vector<std::uint32_t>& rows) {
+    std::vector<std::uint32_t> result;
+    const auto add = [&](std::uint32_t row) {
+      if (std::exchange(is_found_[row], 1) == 0) {
+        result.push_back(row);
+      }
+    };
+    is_found_.resize(matrix.size());
     for (const std::uint32_t row : rows) {
-      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square&) { result.push_back(column); });
+      add(row);
+      matrix.for_each_in_row(row, [&](std::uint32_t column, const Square&) { add(column); });
     }
-    make_unique(result);
+    for (const std::uint32_t row : result) {
+      is_found_[row] = 0;
+    }
+    std::ranges::sort(result);
     return result;
   }
 
@@ -464,6 +474,7 @@ class MultigridStage {
   BlockRows<Transfer> transfer_;
   Vectors product_, step_;
   std::vector<RowSum<typename Coarse::Square>> sums_;
+  std::vector<std::uint8_t> is_found_;  // of each row, while rows are searched; else all 0
   RowSum<Transfer> transfer_sum_, product_sum_;
 };
 
