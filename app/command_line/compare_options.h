@@ -4,6 +4,7 @@
 #include "command_line/softness.h"
 #include "report/run/cases.h"
 #include "report/run/compare.h"
+#include "report/run/suite_experiments.h"
 
 namespace chainmail::command_line {
 
@@ -52,7 +53,7 @@ void judge_answers(const CLI::App& app, const CompareArguments& arguments);
 /// Throws Error for an option that the given mode does not take.
 void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken);
 /// Returns the organ of the samples; null if its file is missing.
-MeshPointer sample_organ();
+report::SampleOrgans sample_organs();
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

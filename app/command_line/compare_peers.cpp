@@ -12,11 +12,6 @@ namespace {
 
 std::string cell_of(const std::optional<double>& number) { return number ? report::figure(*number) : "-"; }
 
-/// Formats an error. One below the change of the reference says no more than that.
-std::string error_cell(double relative, const std::optional<double>& change) {
-  return change && relative < *change ? "below " + report::figure(*change) : report::figure(relative);
-}
-
 report::FigureTable table_of(const report::PeerCase& object) {
   report::FigureTable table;
   table.caption = printable(object.name);
@@ -35,7 +30,7 @@ report::FigureTable::Row row_of(const report::PeerCase& object, const report::Pe
   const report::PeerVerdict verdict = report::judge(object, answer);
   const auto& inverted = verdict.shape.inverted_cells;
   return {printable(answer.solver),
-          {error_cell(verdict.error.relative, object.reference_change), cell_of(verdict.first_ms),
+          {report::error_figure(verdict.error.relative, object.reference_change), cell_of(verdict.first_ms),
            cell_of(verdict.later_ms), cell_of(answer.factorize_ms), cell_of(answer.grab_ms),
            cell_of(verdict.shape.hausdorff), cell_of(verdict.shape.volume_change),
            inverted ? std::to_string(*inverted) : "-"},
@@ -47,7 +42,7 @@ report::FigureTable::Row row_of(const report::PeerCase& object, const report::Pe
 void write_cases(const CLI::App& app, const CompareArguments& arguments) {
   refuse_others(app, "--cases", {arguments.cases, arguments.output});
   OutputFolder folder(*value_of(arguments.output));
-  const auto cases = report::peer_cases_of_suite(sample_organ());
+  const auto cases = report::peer_cases_of_suite(sample_organs());
   folder.make();
   Outputs outputs;
   for (const report::PeerCase& one : cases) {

@@ -51,6 +51,7 @@ std::vector<std::string> experiments_of(const CompareArguments& arguments) {
   std::vector<std::string> names = report::suite_names();
   if (const auto list = value_of(arguments.experiments)) {
     const auto wanted = words_of("--experiments", *list);
+    names = report::all_suite_names();
     std::ranges::for_each(wanted, [&](const std::string& name) { check_word("--experiments", name, names); });
     std::erase_if(names, [&](const std::string& name) { return std::ranges::find(wanted, name) == wanted.end(); });
   }
@@ -98,10 +99,13 @@ void refuse_others(const CLI::App& app, const std::string& mode, const std::vect
   }
 }
 
-MeshPointer sample_organ() {
-  const auto file = samples_folder() / "organ.msh";
-  std::error_code none;
-  return std::filesystem::is_regular_file(file, none) ? chainmail::open_mesh(file).mesh : nullptr;
+report::SampleOrgans sample_organs() {
+  const auto opened = [](const char* name) {
+    const auto file = samples_folder() / name;
+    std::error_code none;
+    return std::filesystem::is_regular_file(file, none) ? chainmail::open_mesh(file).mesh : nullptr;
+  };
+  return {opened("organ.msh"), opened("organ-coarse.msh")};
 }
 
 void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line) {
@@ -119,7 +123,9 @@ void run_suite(const CLI::App& app, const CompareArguments& arguments, const std
   }
   const std::vector<std::string> names = experiments_of(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  options.organ = needs_organ(names) ? sample_organ() : nullptr;
+  if (needs_organ(names)) {
+    options.organs = sample_organs();
+  }
   ProgressLine line;
   report::Suite suite = report::run_suite(names, options, [&](double fraction, const std::string& text) {
     line.show([&] { return percent(fraction) + text; });

@@ -3,8 +3,8 @@
 
     app/tools/make_samples.py [FOLDER]
 
-Needs only Python's standard library, and the program gmsh (4.8 or later) to fill the organ. The result is the same each
-time, except for the output of gmsh, which depends on its version.
+Needs only Python's standard library, and the programs gmsh (4.8 or later) to fill the organ and chainmail to make it
+coarse. The result is the same each time, except for the output of gmsh, which depends on its version.
 """
 
 import gzip
@@ -103,6 +103,18 @@ def write_filled(path, points, triangles):
         Path(folder + "/organ.geo").write_text(
             'Merge "organ.stl";\nSurface Loop(1) = {1};\nVolume(1) = {1};\nPhysical Volume("organ") = {1};\n')
         subprocess.run(["gmsh", "-3", "-format", "msh41", "-o", str(path), folder + "/organ.geo", "-v", "2"], check=True)
+
+
+def write_coarse(path, points, triangles, elements=100, scale=0.25):
+    """Makes the organ smaller, simplifies its surface and fills it, so that links are about one mesh unit long again."""
+    if not shutil.which("chainmail"):
+        print("chainmail is not in the PATH: " + str(path) + " stays as it is")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        surface, coarse = folder + "/organ.obj", folder + "/coarse.obj"
+        write_obj(surface, [[scale * x for x in point] for point in points], triangles)
+        subprocess.run(["chainmail", "simplify", surface, "--elements", str(elements), "-o", coarse], check=True)
+        subprocess.run(["chainmail", "fill", coarse, "--edge", "0.9", "-o", str(path)], check=True)
 
 
 # A block of tetrahedra with inner elements slightly displaced from their lattice.
@@ -244,6 +256,7 @@ def main():
     points, triangles = organ()
     write_obj(folder / "organ.obj", points, triangles)
     write_filled(folder / "organ.msh", points, triangles)
+    write_coarse(folder / "organ-coarse.msh", points, triangles)
     write_jittered(folder / "jittered.vtk")
     write_inclusion(folder / "inclusion.chainmail")
     write_picture(folder / "face.png")

@@ -52,6 +52,22 @@ void Cholesky::analyze(const Sparse& lower) {
     size += one.rows.size() * static_cast<std::size_t>(one.width);
   }
   panels_.assign(size, 0);
+  updates_.assign(supernodes_.size(), {});
+  has_factors_ = has_updates_ = false;
+}
+
+void Cholesky::drop_updates() {
+  keeps_ = has_updates_ = false;
+  updates_.assign(supernodes_.size(), {});
+}
+
+std::size_t Cholesky::update_count() const {
+  std::size_t count = 0;
+  for (const Supernode& one : supernodes_) {
+    const auto below = static_cast<std::size_t>(one.height() - one.width);
+    count += below * (below + 1) / 2;
+  }
+  return count;
 }
 
 void Cholesky::find_supernodes(const Sparse& lower) {
@@ -102,8 +118,7 @@ void Cholesky::find_rows(const Sparse& lower) {
 
 /// Returns the lower triangle of the front of a supernode before elimination: its columns of the matrix plus the
 /// updates of its children.
-Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& lower,
-                                   std::vector<Eigen::MatrixXd>& updates) {
+Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& lower) {
   Eigen::MatrixXd front = Eigen::MatrixXd::Zero(supernode.height(), supernode.height());
   for (int i = 0; i < supernode.height(); ++i) {
     front_rows_[static_cast<std::size_t>(supernode.rows[static_cast<std::size_t>(i)])] = i;
@@ -119,13 +134,15 @@ Eigen::MatrixXd Cholesky::front_of(const Supernode& supernode, const Sparse& low
     const Supernode& below = supernodes_[child];
     to.clear();
     std::transform(below.rows.begin() + below.width, below.rows.end(), std::back_inserter(to), front_row);
-    Eigen::MatrixXd& update = updates[child];
-    for (Eigen::Index j = 0; j < update.cols(); ++j) {
-      for (Eigen::Index i = j; i < update.rows(); ++i) {
-        front(to[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(j)]) += update(i, j);
+    const double* next = updates_[child].data();
+    for (auto column = to.begin(); column != to.end(); ++column) {
+      for (auto row = column; row != to.end(); ++row) {
+        front(*row, *column) += *next++;
       }
     }
-    update.resize(0, 0);
+    if (!keeps_) {
+      updates_[child] = {};
+    }
   }
   return front;
 }
@@ -169,19 +186,49 @@ bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progr
 }  // namespace
 
 bool Cholesky::factor(const Sparse& lower, const Progress& progress) {
-  std::vector<Eigen::MatrixXd> updates(supernodes_.size());
+  has_updates_ = keeps_;
+  return factor_some(std::vector<bool>(supernodes_.size(), true), lower, progress);
+}
+
+bool Cholesky::refactor(const Sparse& lower, std::span<const int> columns, const Progress& progress) {
+  if (!has_updates_ || !has_factors_) {
+    return factor(lower, progress);
+  }
+  std::vector<bool> which(supernodes_.size(), false);
+  for (const int column : columns) {
+    const auto next = std::ranges::upper_bound(supernodes_, column, {}, &Supernode::first);
+    which[static_cast<std::size_t>(next - supernodes_.begin()) - 1] = true;
+  }
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const auto& children = supernodes_[s].children;
+    which[s] = which[s] || std::ranges::any_of(children, [&](std::size_t child) { return bool(which[child]); });
+  }
+  return factor_some(which, lower, progress);
+}
+
+/// Factors these supernodes. The updates of the other ones are those of the last factorization.
+bool Cholesky::factor_some(const std::vector<bool>& which, const Sparse& lower, const Progress& progress) {
+  has_factors_ = false;
   const double count = double(supernodes_.size());
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    if (!which[s]) {
+      continue;
+    }
     const Supernode& one = supernodes_[s];
-    Eigen::MatrixXd front = front_of(one, lower, updates);
+    Eigen::MatrixXd front = front_of(one, lower);
     if (!eliminate(front, one.width, progress.part(double(s) / count, double(s + 1) / count))) {
       return false;
     }
-    if (const Eigen::Index below = one.height() - one.width; below > 0) {
-      updates[s] = front.bottomRightCorner(below, below);
+    Update& update = updates_[s];
+    update.clear();
+    update.reserve(static_cast<std::size_t>((front.rows() - one.width) * (front.rows() - one.width + 1) / 2));
+    for (Eigen::Index j = one.width; j < front.cols(); ++j) {
+      const double* column = front.col(j).data();
+      update.insert(update.end(), column + j, column + front.rows());
     }
     Eigen::Map<Eigen::MatrixXd>(panels_.data() + one.panel, one.height(), one.width) = front.leftCols(one.width);
   }
+  has_factors_ = true;
   return true;
 }
 

@@ -1,37 +1,72 @@
 #include <Eigen/LU>
+#include <algorithm>
+#include <optional>
 
-#include "elastic/cholesky.h"
+#include "elastic/cut_stiffness.h"
+#include "elastic/cut_update.h"
 #include "elastic/elimination.h"
 #include "elastic/energy.h"
 #include "elastic/methods.h"
 #include "elastic/response.h"
-#include "elastic/stiffness.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
 
-/// Linear elasticity on linear elements. The matrix is factored once per object and pins.
-class LinearFem final : public LinearResponse {
+/// Returns the corners of the cells that are not gone, without their shapes.
+Simplices corners_of_rest(const CellSimplices& cells, const std::vector<bool>& is_gone) {
+  Simplices rest;
+  rest.dimension = cells.simplices.dimension;
+  for (std::size_t s = 0; s < cells.simplices.count(); ++s) {
+    if (!is_gone[cells.cell_of[s]]) {
+      const auto corners = cells.simplices.corners_of(s);
+      rest.corners.insert(rest.corners.end(), corners.begin(), corners.end());
+      rest.volumes.push_back(cells.simplices.volumes[s]);
+    }
+  }
+  return rest;
+}
+
+/// Linear elasticity on linear elements. The matrix is factored once per object and pins, and updated after cuts.
+class LinearFem final : public LinearResponse, public CutUpdate {
  public:
   LinearFem(const ElasticProblem& problem, const Progress& progress)
       : LinearResponse(problem),
+        mesh_(problem.mesh),
         pins_(problem.pins),
+        pinned_(displacements()),
         lame_(lame(problem.options.material)),
-        simplices_(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.1))),
-        order_((check_held(simplices_, *problem.mesh, problem.pins),
-                elimination_order(simplices_, *problem.mesh, progress.part(0.1, 0.2)))),
-        unknowns_(simplices_.dimension, problem.mesh->element_count(), order_, problem.pins) {
-    std::vector<double> base = displacements();
-    Eigen::Map<Eigen::MatrixXd> fields(base.data(), static_cast<Eigen::Index>(base.size()), 1);
-    if (!solved(unknowns_, factor_, fields, progress.part(0.2, 1))) {
-      // A part that hangs on one element turns about it, until the handle holds it, too.
-      can_turn_ = fields.isZero(0);
-      if (!can_turn_) {
-        throw not_positive_definite();
+        cells_(checked_cells(problem, progress.part(0, 0.1))),
+        order_(elimination_order(cells_.simplices, *mesh_, progress.part(0.1, 0.2))),
+        is_gone_(gone_cells(cells_, problem.cuts)),
+        was_gone_(is_gone_),
+        base_(cells_, lame_, mesh_->element_count(), order_, pins_) {
+    find_base(progress.part(0.2, 1));
+  }
+
+  /// A cell that was gone from the beginning may be flat.
+  bool recut(const Cuts& cuts, const Progress& progress) override {
+    std::vector<bool> is_gone = gone_cells(cells_, cuts);
+    bool is_any_left = false;
+    for (std::size_t cell = 0; cell < is_gone.size(); ++cell) {
+      if (was_gone_[cell] && !is_gone[cell]) {
+        return false;
       }
+      is_any_left = is_any_left || !is_gone[cell];
     }
-    set_base(std::move(base));
+    if (!is_any_left) {
+      return false;
+    }
+    check_held(corners_of_rest(cells_, is_gone), *mesh_, pins_);
+    is_gone_ = std::move(is_gone);
+    forget_handle();
+    if (std::ranges::all_of(pinned_, [](double one) { return one == 0; })) {
+      base_is_outdated_ = true;  // a handle of many elements does not need it
+      set_base(pinned_);
+    } else {
+      find_base(progress);
+    }
+    return true;
   }
 
  private:
@@ -45,35 +80,63 @@ class LinearFem final : public LinearResponse {
         "mesh the object again, lower Poisson's ratio, or pin more of the part"};
   }
 
+  /// Returns all cells. Throws Error if an uncut one is flat or inverted, or a part is not held.
+  static CellSimplices checked_cells(const ElasticProblem& problem, const Progress& progress) {
+    check_held(build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.4)), *problem.mesh, problem.pins);
+    return build_cell_simplices(*problem.mesh, progress.part(0.4, 1));
+  }
+
+  /// Computes the field of the pins alone.
+  void find_base(const Progress& progress) {
+    std::vector<double> base = pinned_;
+    Eigen::Map<Eigen::MatrixXd> fields(base.data(), static_cast<Eigen::Index>(base.size()), 1);
+    // A part that hangs on one element turns about it, until the handle holds it, too.
+    can_turn_ = !solved(base_, fields, progress);
+    if (can_turn_ && !fields.isZero(0)) {
+      throw not_positive_definite();
+    }
+    base_is_outdated_ = false;
+    set_base(std::move(base));
+  }
+
   /// Factors the stiffness matrix of the unknowns, and computes them in each field from the prescribed displacements.
   /// Returns false if it is not positive definite.
-  bool solved(const Unknowns& unknowns, Cholesky& factor, Fields fields, const Progress& progress) const {
-    Stiffness stiffness(simplices_, unknowns, progress.part(0, 0.05));
+  bool solved(CutStiffness& stiffness, Fields fields, const Progress& progress) const {
+    if (!stiffness.factor(is_gone_, progress)) {
+      return false;
+    }
+    const Unknowns& unknowns = stiffness.unknowns();
     Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(unknowns.count(), fields.cols());
-    for (std::size_t s = 0; s < simplices_.count(); ++s) {
-      progress.part(0.05, 0.1).report(s, simplices_.count());
-      const CornerMatrix of_simplex = chainmail::stiffness(simplices_, s, lame_);
-      stiffness.add(s, of_simplex);
-      for (Eigen::Index column = 0; column < fields.cols(); ++column) {
-        add_load(s, of_simplex, unknowns, fields.col(column), loads.col(column));
+    for (std::size_t s = 0; s < cells_.simplices.count(); ++s) {
+      if (!is_gone_[cells_.cell_of[s]]) {
+        add_loads(s, unknowns, fields, loads);
       }
     }
     if (unknowns.count() > 0) {
-      factor.analyze(stiffness.matrix());
-      if (!factor.factor(stiffness.matrix(), progress.part(0.1, 1))) {
-        return false;
-      }
-      unknowns.scatter(factor.solve(std::move(loads)), fields);
+      unknowns.scatter(stiffness.solve(std::move(loads)), fields);
     }
     progress.report(1.0);
     return true;
   }
 
+  /// Adds the forces that prescribed displacements of a simplex' corners exert on the unknowns, in each field.
+  void add_loads(std::size_t simplex, const Unknowns& unknowns, const Fields& fields, Eigen::MatrixXd& loads) const {
+    const auto corners = cells_.simplices.corners_of(simplex);
+    const auto is_prescribed = [&](ElementId corner) { return unknowns.of(corner) == Unknowns::none; };
+    if (std::ranges::none_of(corners, is_prescribed) || std::ranges::all_of(corners, is_prescribed)) {
+      return;
+    }
+    const CornerMatrix of_simplex = chainmail::stiffness(cells_.simplices, simplex, lame_);
+    for (Eigen::Index column = 0; column < fields.cols(); ++column) {
+      add_load(simplex, of_simplex, unknowns, fields.col(column), loads.col(column));
+    }
+  }
+
   /// Adds the forces that prescribed displacements of a field exert on the unknowns.
   void add_load(std::size_t simplex, const CornerMatrix& of_simplex, const Unknowns& unknowns,
                 const Eigen::Ref<const Eigen::VectorXd>& field, Eigen::Ref<Eigen::VectorXd> load) const {
-    const int n = simplices_.dimension;
-    const auto corners = simplices_.corners_of(simplex);
+    const int n = cells_.simplices.dimension;
+    const auto corners = cells_.simplices.corners_of(simplex);
     CornerVector prescribed = CornerVector::Zero(of_simplex.rows());
     bool any = false;
     for (int a = 0; a <= n; ++a) {
@@ -96,25 +159,32 @@ class LinearFem final : public LinearResponse {
 
   Eigen::MatrixXd respond(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
                           const Progress& progress) override {
-    return elements.size() == 1 && !can_turn_ ? respond_to_one(elements[0])
-                                              : respond_to_many(elements, prescribed, progress);
+    if (elements.size() > 1) {
+      return respond_to_many(elements, prescribed, progress);
+    }
+    if (base_is_outdated_) {
+      find_base(progress);
+    }
+    return can_turn_ ? respond_to_many(elements, prescribed, progress) : respond_to_one(elements[0]);
   }
 
   /// Factors the stiffness matrix once more, without the handle's unknowns: for more than a few elements, that is
-  /// faster than the compliance of all of them.
+  /// faster than the compliance of all of them. After a cut, the factors of the same handle are updated.
   Eigen::MatrixXd respond_to_many(std::span<const ElementId> elements, const Eigen::MatrixXd& prescribed,
-                                  const Progress& progress) const {
-    const int n = simplices_.dimension;
-    std::vector<ElementId> held = pins_;
-    held.insert(held.end(), elements.begin(), elements.end());
-    const Unknowns unknowns(n, static_cast<ElementId>(displacements().size() / static_cast<std::size_t>(n)), order_,
-                            held);
+                                  const Progress& progress) {
+    const int n = cells_.simplices.dimension;
+    base_.drop_updates();
+    if (!held_ || !std::ranges::equal(held_elements_, elements)) {
+      held_elements_.assign(elements.begin(), elements.end());
+      std::vector<ElementId> held = pins_;
+      held.insert(held.end(), elements.begin(), elements.end());
+      held_.emplace(cells_, lame_, mesh_->element_count(), order_, held);
+    }
     Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(Eigen::Index(displacements().size()), prescribed.cols());
     for (std::size_t i = 0; i < elements.size(); ++i) {
       fields.middleRows(Eigen::Index{elements[i]} * n, n) = prescribed.middleRows(Eigen::Index(i) * n, n);
     }
-    Cholesky factor;
-    if (!solved(unknowns, factor, fields, progress)) {
+    if (!solved(*held_, fields, progress)) {
       throw not_positive_definite();
     }
     return fields;
@@ -122,31 +192,37 @@ class LinearFem final : public LinearResponse {
 
   /// Applies unit forces to the element, and scales them so that they displace it by one (Schur complement of the
   /// compliance).
-  Eigen::MatrixXd respond_to_one(ElementId element) const {
-    const int n = simplices_.dimension;
+  Eigen::MatrixXd respond_to_one(ElementId element) {
+    const int n = cells_.simplices.dimension;
+    held_.reset();
     const auto size = static_cast<Eigen::Index>(displacements().size());
     Eigen::MatrixXd response = Eigen::MatrixXd::Zero(size, n);
-    const std::int32_t first = unknowns_.of(element);
+    const Unknowns& unknowns = base_.unknowns();
+    const std::int32_t first = unknowns.of(element);
     if (first != Unknowns::none) {
-      Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(unknowns_.count(), n);
+      Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(unknowns.count(), n);
       forces.middleRows(first, n).setIdentity();
-      Eigen::MatrixXd fields = factor_.solve(std::move(forces));
+      Eigen::MatrixXd fields = base_.solve(std::move(forces));
       const SmallMatrix compliance = fields.middleRows(first, n);
       fields *= compliance.inverse();
-      unknowns_.scatter(fields, response);
+      unknowns.scatter(fields, response);
     }
     // The grabbed element is exactly at its target, without rounding. If it has no cell, it moves alone.
     response.middleRows(Eigen::Index{element} * n, n).setIdentity();
     return response;
   }
 
+  MeshPointer mesh_;
   std::vector<ElementId> pins_;
+  std::vector<double> pinned_;  // field of the pins' displacements, 0 elsewhere
   Lame lame_;
-  Simplices simplices_;
-  std::vector<ElementId> order_;  // of the unknowns
-  Unknowns unknowns_;
-  Cholesky factor_;  // not if a part can turn
-  bool can_turn_ = false;
+  CellSimplices cells_;                   // whole, so that all cuts have one order of elimination
+  std::vector<ElementId> order_;          // of the unknowns
+  std::vector<bool> is_gone_, was_gone_;  // cells with a cut link: now, and in the beginning
+  CutStiffness base_;                     // without a handle; not factored if a part can turn
+  bool base_is_outdated_ = false, can_turn_ = false;
+  std::optional<CutStiffness> held_;  // with the last handle of many elements
+  std::vector<ElementId> held_elements_;
 };
 
 }  // namespace

@@ -28,6 +28,8 @@ class LinearResponse : public ElasticSolver {
   /// Sets the field while only the pins are prescribed (n coordinates per element). The constructor of a method calls
   /// this.
   void set_base(std::vector<double> displacements);
+  /// Forgets the response to the handle, because the object has changed.
+  void forget_handle() { response_.resize(0, 0); }
   /// Returns the response of the field to displacements of some elements (ascending), while the pins stay: one column
   /// for each column of `prescribed`, which has n rows per element. At the elements themselves it is what is
   /// prescribed.

@@ -82,7 +82,7 @@ void for_each_entry(const Simplices& simplices, const Unknowns& unknowns, Visit 
 }  // namespace
 
 Stiffness::Stiffness(const Simplices& simplices, const Unknowns& unknowns, const Progress& progress)
-    : simplices_(simplices), matrix_(unknowns.count(), unknowns.count()) {
+    : simplices_(simplices), unknowns_(unknowns), matrix_(unknowns.count(), unknowns.count()) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto n = static_cast<std::size_t>(simplices.dimension);
   const std::size_t count = simplices.count() * n * (n + 1) * n * (n + 1);
@@ -114,6 +114,31 @@ void Stiffness::add(std::size_t simplex, const CornerMatrix& stiffness) {
       matrix_.valuePtr()[*index] += value;
     }
     ++index;
+  }
+}
+
+void Stiffness::clear(const std::vector<bool>& columns) {
+  for (Eigen::Index column = 0; column < matrix_.cols(); ++column) {
+    if (columns[static_cast<std::size_t>(column)]) {
+      std::fill(matrix_.valuePtr() + matrix_.outerIndexPtr()[column],
+                matrix_.valuePtr() + matrix_.outerIndexPtr()[column + 1], 0.0);
+    }
+  }
+}
+
+void Stiffness::add(std::size_t simplex, const CornerMatrix& stiffness, const std::vector<bool>& columns) {
+  const auto width = static_cast<std::size_t>(stiffness.rows());
+  const auto all = unknowns_of(simplices_, simplex, unknowns_);
+  for (std::size_t j = 0; j < width; ++j) {
+    if (all[j] == Unknowns::none || !columns[static_cast<std::size_t>(all[j])]) {
+      continue;
+    }
+    const std::int32_t* index = indices_.data() + (simplex * width + j) * width;
+    for (std::size_t i = 0; i < width; ++i) {
+      if (index[i] != Unknowns::none) {
+        matrix_.valuePtr()[index[i]] += stiffness(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+    }
   }
 }
 

@@ -25,6 +25,8 @@ class Unknowns {
   /// Returns the first unknown of an element, or `none`.
   std::int32_t of(ElementId element) const { return first_[element]; }
   Eigen::Index count() const { return count_; }
+  /// Number of elements, whether they have unknowns or not.
+  ElementId elements() const { return static_cast<ElementId>(first_.size()); }
 
   /// Copies the unknown entries out of a field of all elements (`dimension` each), and back.
   Eigen::VectorXd gather(const std::vector<double>& all) const;
@@ -44,15 +46,21 @@ class Stiffness {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
 
-  /// Throws Cancelled.
+  /// Simplices and unknowns must outlive it. Throws Cancelled.
   Stiffness(const Simplices& simplices, const Unknowns& unknowns, const Progress& progress = {});
 
   const Sparse& matrix() const { return matrix_; }
   void clear();
   void add(std::size_t simplex, const CornerMatrix& stiffness);
+  /// The same for some columns of the matrix only.
+  void clear(const std::vector<bool>& columns);
+  void add(std::size_t simplex, const CornerMatrix& stiffness, const std::vector<bool>& columns);
+  /// Gives an unknown that nothing resists a unit of its own.
+  void add_unit(Eigen::Index unknown) { matrix_.valuePtr()[matrix_.outerIndexPtr()[unknown]] += 1; }
 
  private:
   const Simplices& simplices_;
+  const Unknowns& unknowns_;
   std::vector<std::int32_t> indices_;  // index in the matrix of each entry of each simplex, column by column, or none
   Sparse matrix_;
 };

@@ -209,9 +209,10 @@ std::vector<double> ConvergingReference::from_start(Level& level, const std::vec
 bool ConvergingReference::is_last(ConvergedReference& result, double expected) const {
   const auto& change = result.levels.back().change;
   result.converged = change && *change < options_.change;
-  if (result.converged) {
+  const bool is_highest = int(result.levels.size()) >= options_.max_levels;
+  if (result.converged && (is_highest || !options_.every_level)) {
     result.end = "it has converged";
-  } else if (int(result.levels.size()) >= options_.max_levels) {
+  } else if (is_highest) {
     result.end = "there are no further levels";
   } else if (expected > options_.seconds) {
     result.end = "its time is used up";

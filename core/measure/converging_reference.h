@@ -50,6 +50,7 @@ struct ConvergingOptions {
   double seconds = 30;  // no level is begun that would probably exceed it
   int max_levels = 6;
   std::array<std::uint64_t, 4> max_elements{0, 100'000, 50'000, 12'000};  // by space dimension
+  bool every_level = false;  // true: goes on to max_levels after it has converged
 };
 
 /// Computes the reference solution on cells that are refined uniformly until the answer at the object's own elements

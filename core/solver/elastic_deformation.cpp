@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "body/body_view.h"
+#include "elastic/cut_update.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -30,6 +31,12 @@ ElasticHandle elastic_handle(const Mesh& mesh, const Handle& handle) {
     }
   }
   return result;
+}
+
+/// Returns true if a solver could be updated to other cuts.
+bool is_updated(ElasticSolver& solver, const Cuts& cuts, const Progress& progress) {
+  auto* update = dynamic_cast<CutUpdate*>(&solver);
+  return update != nullptr && update->recut(cuts, progress);
 }
 
 // Largest rotation in one step of a method that depends on the path (radians).
@@ -159,8 +166,19 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
     }
     return;
   }
-  solver_.reset();
+  std::unique_ptr<ElasticSolver> old = std::move(solver_);
   held_ = {};
+  Revisions before_cuts = revisions;
+  before_cuts.cuts = made_for_.cuts;
+  const bool only_cuts_differ = before_cuts == made_for_ && pin_displacements(body) == pinned_;
+  if (old && only_cuts_differ && is_updated(*old, body.cuts(), progress)) {
+    solver_ = std::move(old);
+    made_for_ = revisions;
+    positions_ = positions;
+    take_positions(body);
+    return;
+  }
+  old.reset();
   pinned_ = pin_displacements(body);
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},

@@ -132,7 +132,7 @@ class WarmStarts {
 };
 
 void run(const report::SuiteExperiment& experiment) {
-  const report::Case object = experiment.cases(nullptr).front();
+  const report::Case object = experiment.cases({}).front();
   for (const report::RecordedMoves& drag : object.drags) {
     WarmStarts starts(object, drag);
     for (const Command& command : drag.commands) {

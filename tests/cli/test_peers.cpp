@@ -80,7 +80,7 @@ void PeersTest::cases_follow_their_schema() {
 void PeersTest::the_bar_is_that_of_the_suite() {
   using namespace chainmail::report;
   const auto all = suite_experiments();
-  const Case object = std::ranges::find(all, "time-bar", &SuiteExperiment::name)->cases(nullptr).front();
+  const Case object = std::ranges::find(all, "time-bar", &SuiteExperiment::name)->cases({}).front();
   const RecordedMoves& drag = object.drags.front();
   const PeerCase now = peer_case(object, drag, DragReferences(object, suite_reference()).at_end(drag));
   const PeerCase written = read_peer_case(source_file("tests/peers/bar-bend.json"));

@@ -1,11 +1,15 @@
+#include <Eigen/Geometry>
 #include <QtTest>
 #include <algorithm>
+#include <cmath>
 
 #include "files/mesh/open_mesh.h"
 #include "files/results/summary.h"
 #include "files/session/session.h"
 #include "files/support.h"
 #include "folders.h"
+#include "mesh/layers.h"
+#include "mesh/refine.h"
 #include "program.h"
 
 namespace chainmail::test_samples {
@@ -21,6 +25,7 @@ class SamplesTest : public QObject {
   void samples();
   void the_inclusion_is_stiff_and_its_body_is_not();
   void the_organ_is_filled_from_its_surface();
+  void the_coarse_organ_keeps_its_shape_when_it_is_refined();
   void the_phantom_is_stiff_where_it_is_dense();
   void every_file_in_the_folder_opens();
 
@@ -43,6 +48,7 @@ void SamplesTest::samples_data() {
   QTest::newRow("torus") << "torus.obj" << 384U << 768U << 2 * 384U << 3;
   QTest::newRow("organ") << "organ.obj" << 1212U << 3630U << 2420U << 3;
   QTest::newRow("organ, filled") << "organ.msh" << 2240U << 13340U << 0U << 3;
+  QTest::newRow("organ, coarse") << "organ-coarse.msh" << 114U << 564U << 0U << 3;
   QTest::newRow("jittered") << "jittered.vtk" << 792U << 4563U << 0U << 3;
   QTest::newRow("phantom") << "phantom.nrrd" << 8120U << 22884U << 0U << 3;
   QTest::newRow("scan") << "scan.mha" << 2624U << 7132U << 0U << 3;
@@ -77,6 +83,46 @@ void SamplesTest::the_organ_is_filled_from_its_surface() {
     QVERIFY((filled->rest_position(element) - hollow->rest_position(element)).norm() <
             1e-6);  // rounded by STL in between
   }
+}
+
+/// It is the organ at a quarter of its size. Each refinement has eight cells of
+/// an eighth of the volume for each cell, keeps its elements, and its surface is the same.
+void SamplesTest::the_coarse_organ_keeps_its_shape_when_it_is_refined() {
+  const auto fine = open("organ.msh");
+  MeshPointer mesh = open("organ-coarse.msh");
+  const auto volume_of = [](const Mesh& of, const std::array<ElementId, 4>& cell) {
+    const Point a = of.rest_position(cell[0]);
+    return (of.rest_position(cell[1]) - a).cross(of.rest_position(cell[2]) - a).dot(of.rest_position(cell[3]) - a) / 6;
+  };
+  const auto volume = [&](const Mesh& of) {
+    double sum = 0;
+    for (const auto& cell : of.tetrahedra) {
+      sum += volume_of(of, cell);
+    }
+    return sum;
+  };
+  QVERIFY(std::abs(std::abs(volume(*mesh)) * 64 / std::abs(volume(*fine)) - 1) < 0.1);
+  for (int level = 0; level < 2; ++level) {
+    const Refinement finer = refine(*mesh);
+    QCOMPARE(finer.mesh->tetrahedra.size(), 8 * mesh->tetrahedra.size());
+    for (std::size_t i = 0; i < finer.mesh->tetrahedra.size(); ++i) {
+      const double whole = volume_of(*mesh, mesh->tetrahedra[i / 8]);
+      QVERIFY(std::abs(8 * volume_of(*finer.mesh, finer.mesh->tetrahedra[i]) / whole - 1) < 1e-9);
+    }
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      QCOMPARE(finer.mesh->rest_position(e), mesh->rest_position(e));
+    }
+    const std::vector<ElementId> before = boundary(*mesh), after = boundary(*finer.mesh);
+    for (const ElementId e : after) {
+      if (e >= mesh->element_count()) {
+        for (const ElementId parent : finer.parents[e - mesh->element_count()]) {
+          QVERIFY(std::ranges::binary_search(before, parent));
+        }
+      }
+    }
+    mesh = finer.mesh;
+  }
+  QVERIFY(mesh->tetrahedra.size() > 20'000 && mesh->tetrahedra.size() < 77'000);
 }
 
 void SamplesTest::the_phantom_is_stiff_where_it_is_dense() {

@@ -74,6 +74,10 @@ std::optional<std::size_t> decimals_of(const std::string& text) {
 
 }  // namespace
 
+std::string error_figure(double error, const std::optional<double>& change) {
+  return change && error < *change ? "below " + figure(*change) : figure(error);
+}
+
 std::string thousands(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t end = text.size(); end > 3; end -= 3) {

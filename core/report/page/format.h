@@ -14,6 +14,9 @@ namespace chainmail::report {
 /// 1,000 to a million are written as whole numbers with separated thousands.
 std::string figure(double number, int digits = 3);
 std::string figure(const std::optional<double>& number);
+/// Formats an error for people. One below the change of its reference by the last refinement says no more than that:
+/// `below 0.02`.
+std::string error_figure(double error, const std::optional<double>& change);
 /// Formats a count for people: a comma separates the thousands, as in the window.
 std::string thousands(std::uint64_t count);
 /// Pads the figures of a column with spaces as wide as digits, so that their decimal points stand below each other when

@@ -31,10 +31,10 @@ void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean, const SpeedAg
                            : calibrated ? "cal."
                            : material   ? "mat."
                                         : "";
-  panel.marks.push_back({*ms, *ms, *ms, *error, series_of(plot, *algorithm), calibrated || equilibrium || material,
-                         note,
+  panel.marks.push_back({*ms, *ms, *ms, counted_error(mean, measure), series_of(plot, *algorithm),
+                         calibrated || equilibrium || material, note,
                          mean.contestant + ": " + figure(*ms) + " ms per " + std::string(measure.what) +
-                             ", relative error " + figure(*error)});
+                             ", relative error " + error_figure(*error, mean.*measure.change)});
 }
 
 /// Adds a line through the contestants that no other one beats, in steps.
@@ -42,7 +42,7 @@ void add_front(PlotPanel& panel, std::size_t series, const std::vector<SuiteMean
                const SpeedAgainstError& measure) {
   PlotCurve steps{series, {}};
   for (const SuiteMean* one : front(means, measure)) {
-    const double ms = *(one->*measure.ms), error = *(one->*measure.error);
+    const double ms = *(one->*measure.ms), error = counted_error(*one, measure);
     if (!steps.points.empty()) {
       steps.points.push_back({ms, steps.points.back()[1]});
     }

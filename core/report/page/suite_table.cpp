@@ -16,6 +16,20 @@ constexpr std::string_view of_reference = "neo-hookean", null_model = "nothing";
 
 std::string cell_of(const std::optional<double>& value) { return value ? figure(*value) : "-"; }
 
+/// Returns a figure of a row. Errors below the change of the reference say no more than that.
+std::string cell_of(const SuiteRow& row, const SuiteFigure& of) {
+  const auto& value = row.*of.value;
+  const bool is_error = of.value == &SuiteRow::relative || of.value == &SuiteRow::relative_turned;
+  return value && is_error ? error_figure(*value, row.reference_change) : cell_of(value);
+}
+
+/// Returns by how much the last refinement changed the reference of the first drag.
+std::optional<double> change_of_first(const SuiteResult& result) {
+  return result.references.empty() || result.references.front().levels.empty()
+             ? std::nullopt
+             : result.references.front().levels.back().change;
+}
+
 /// A mean of the values that exist.
 class Mean {
  public:
@@ -44,7 +58,7 @@ std::vector<std::string> contestants_in(const std::vector<SuiteRow>& rows) {
 
 SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
   SuiteMean mean;
-  Mean relative, turned, later, fresh, cut, relative_of_cut;
+  Mean relative, turned, later, fresh, cut, relative_of_cut, change, change_of_cut;
   for (const SuiteRow& row : result.rows) {
     if (row.contestant != contestant) {
       continue;
@@ -54,12 +68,14 @@ SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
     cut.add(row.after_cut_ms);
     if (row.has_cut) {
       relative_of_cut.add(row.relative);
+      change_of_cut.add(row.reference_change);
       continue;
     }
     ++mean.of;
     mean.drags += row.relative ? 1 : 0;
     mean.refusal = row.refusal.empty() ? mean.refusal : row.refusal;
     relative.add(row.relative);
+    change.add(row.reference_change);
     turned.add(row.relative_turned);
     later.add(row.later_ms);
     fresh.add(row.first_ms ? std::optional(*row.first_ms + row.grab_ms.value_or(0)) : std::nullopt);
@@ -70,37 +86,52 @@ SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
   mean.after_cut_ms = cut.value();
   mean.fresh_ms = fresh.value();
   mean.relative_of_cut = relative_of_cut.value();
+  mean.change = change.value();
+  mean.change_of_cut = change_of_cut.value();
   return mean;
 }
 
-const SuiteMean* closest(const std::vector<SuiteMean>& means) {
-  const SuiteMean* best = nullptr;
+double counted(const SuiteMean& mean) { return counted_error(mean, speeds_against_error.front()); }
+
+/// Returns the contestants with the least error: several, if the change of the reference is not less than theirs.
+std::vector<const SuiteMean*> closest(const std::vector<SuiteMean>& means) {
+  std::vector<const SuiteMean*> best;
   for (const SuiteMean& mean : means) {
-    if (may_win(mean) && (best == nullptr || *mean.relative < *best->relative)) {
-      best = &mean;
+    if (may_win(mean) && (best.empty() || counted(mean) <= counted(*best.front()))) {
+      if (!best.empty() && counted(mean) < counted(*best.front())) {
+        best.clear();
+      }
+      best.push_back(&mean);
     }
   }
   return best;
 }
 
-std::string summary_cell(const SuiteMean& mean, const SuiteMean* best) {
+std::string summary_cell(const SuiteMean& mean, const std::vector<const SuiteMean*>& best) {
   if (!mean.relative) {
     return "-";
   }
-  const std::string number =
-      figure(*mean.relative) + (best != nullptr && best->contestant == mean.contestant ? "*" : "");
+  const bool is_best = std::ranges::find(best, mean.contestant, &SuiteMean::contestant) != best.end();
+  const std::string number = error_figure(*mean.relative, mean.change) + (is_best ? "*" : "");
   return mean.drags == mean.of ? number
                                : number + " (" + std::to_string(mean.drags) + " of " + std::to_string(mean.of) + ")";
 }
 
-std::string error_of(const SuiteMean& mean) { return mean.contestant + " (" + figure(*mean.relative) + ")"; }
+/// Returns the contestants with their errors: `Linear FEM (0.085)`.
+std::string errors_of(const std::vector<const SuiteMean*>& means) {
+  std::string text;
+  for (const SuiteMean* mean : means) {
+    text += (text.empty() ? "" : ", ") + mean->contestant + " (" + error_figure(*mean->relative, mean->change) + ")";
+  }
+  return text;
+}
 
 /// Returns the contestants with their times and errors: `Linear FEM (0.02 ms, 0.085)`.
 std::string listed(const std::vector<const SuiteMean*>& means, const SpeedAgainstError& measure) {
   std::string text;
   for (const SuiteMean* mean : means) {
     text += (text.empty() ? "" : ", ") + mean->contestant + " (" + figure(*(mean->*measure.ms)) + " ms, " +
-            figure(*(mean->*measure.error)) + ")";
+            error_figure(*(mean->*measure.error), mean->*measure.change) + ")";
   }
   return text;
 }
@@ -132,13 +163,15 @@ bool may_win(const SuiteMean& mean) {
 }
 
 FigureTable suite_summary(const Suite& suite) {
-  FigureTable table{"Summary",
-                    "mean relative error over the drags of an experiment without a cut. 1: as wrong as an object that "
-                    "does not move. *: the closest, without neo-Hookean FEM, the material of most references",
-                    "detail",
-                    "contestant",
-                    {},
-                    {}};
+  FigureTable table{
+      "Summary",
+      "mean relative error over the drags of an experiment without a cut. 1: as wrong as an object that "
+      "does not move. *: the closest, without neo-Hookean FEM, the material of most references. Below: less than "
+      "the reference itself changed in its last refinement",
+      "detail",
+      "contestant",
+      {},
+      {}};
   std::vector<std::vector<SuiteMean>> columns;
   for (const SuiteResult& result : suite.results) {
     if (!result.rows.empty()) {
@@ -174,12 +207,13 @@ FigureTable time_table(const SuiteResult& result) {
     table.columns.push_back({"ms from a fresh grab, below", figure(error)});
   }
   table.columns.push_back({"prepare (ms)", "factorize"});
+  const auto change = change_of_first(result);
   for (const SuiteTime& time : result.times) {
     FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{time.contestant, {}, time.refusal});
     if (!time.refusal.empty()) {
       continue;
     }
-    row.cells.push_back(cell_of(time.least_error));
+    row.cells.push_back(time.least_error ? error_figure(*time.least_error, change) : "-");
     for (const auto* times : {&time.ms_per_move, &time.fresh_ms}) {
       std::ranges::transform(*times, std::back_inserter(row.cells), [](const auto& ms) { return cell_of(ms); });
     }
@@ -228,7 +262,7 @@ FigureTable suite_table(const SuiteResult& result) {
     FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{where + one.contestant, {}, one.refusal});
     for (const SuiteFigure& figure : suite_figures) {
       if (one.refusal.empty()) {
-        row.cells.push_back(cell_of(one.*figure.value));
+        row.cells.push_back(cell_of(one, figure));
       }
     }
   }
@@ -239,8 +273,8 @@ std::vector<std::string> suite_findings(const Suite& suite) {
   std::vector<std::string> sentences;
   for (const SuiteResult& result : suite.results) {
     const auto means = means_of(result);
-    if (const SuiteMean* best = closest(means)) {
-      sentences.push_back(result.name + ": " + error_of(*best) + " is closest");
+    if (const auto best = closest(means); !best.empty()) {
+      sentences.push_back(result.name + ": " + errors_of(best) + (best.size() == 1 ? " is closest" : " are closest"));
     }
     for (const SpeedAgainstError& measure : speeds_against_error) {
       if (const auto winners = front(means, measure); !winners.empty()) {

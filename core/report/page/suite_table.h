@@ -14,8 +14,9 @@ struct SuiteMean {
   int drags = 0;                               // number of drags with figures
   int of = 0;                                  // number of drags
   std::optional<double> relative, relative_turned, later_ms, after_cut_ms;
-  std::optional<double> fresh_ms;         // a grab and its first move
-  std::optional<double> relative_of_cut;  // error of the drags that are cut
+  std::optional<double> fresh_ms;               // a grab and its first move
+  std::optional<double> relative_of_cut;        // error of the drags that are cut
+  std::optional<double> change, change_of_cut;  // of their references by the last refinement
 };
 std::vector<SuiteMean> means_of(const SuiteResult& result);
 /// Returns true if a contestant has figures of all drags, and is neither an object that does not move nor neo-Hookean

@@ -119,13 +119,13 @@ PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragRefe
   return one;
 }
 
-std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ) {
+std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs) {
   std::vector<PeerCase> cases;
   for (const SuiteExperiment& one : suite_experiments()) {
-    if (one.kind == SuiteKind::time_to_error && (organ != nullptr || !one.needs_organ())) {
-      const Case object = one.cases(organ).front();
+    if (one.kind == SuiteKind::time_to_error && (organs.fine != nullptr || !one.needs_organ())) {
+      const Case object = one.cases(organs).front();
       const RecordedMoves& drag = object.drags.front();
-      cases.push_back(peer_case(object, drag, DragReferences(object, suite_reference()).at_end(drag)));
+      cases.push_back(peer_case(object, drag, DragReferences(object, reference_of(one)).at_end(drag)));
     }
   }
   return cases;

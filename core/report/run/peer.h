@@ -7,6 +7,7 @@
 #include "measure/physical_error.h"
 #include "report/run/drag_reference.h"
 #include "report/run/shape_figures.h"
+#include "report/run/suite_experiments.h"
 
 namespace chainmail::report {
 
@@ -41,7 +42,7 @@ struct PeerVerdict {
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
 /// Makes cases of the drags in which the suite measures the time to an error. `organ` as for the suite; null: without
 /// it.
-std::vector<PeerCase> peer_cases_of_suite(const MeshPointer& organ);
+std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs);
 
 /// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a
 /// pin or an element of the handle is not where the last move puts it, and if the error is not a number.

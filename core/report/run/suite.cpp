@@ -31,14 +31,14 @@ struct Running {
   SuiteResult result;
 };
 
-PhysicsOptions options_of(const SuiteOptions& suite) {
+PhysicsOptions options_of(const SuiteOptions& suite, const SuiteExperiment& experiment) {
   PhysicsOptions options;
   options.contest.algorithms = suite.algorithms;
   options.contest.sweeps = {0};
   options.contest.equilibrium = true;
   options.contest.repetitions = suite.repetitions;
   options.contest.seconds = suite.seconds;
-  options.refine = suite_reference();
+  options.refine = reference_of(experiment);
   options.calibrate = suite.calibrate;
   if (options.contest.algorithms.empty()) {
     for (const AlgorithmInfo& one : every_algorithm()) {
@@ -83,6 +83,12 @@ SuiteRow row_of(const RecordedMoves& moves, const PhysicsEntry& entry) {
     row.bytes = double(*measured.bytes);
   }
   return row;
+}
+
+/// Returns by how much the last refinement changed a reference, as a share of its RMS displacement.
+std::optional<double> change_of(const DragReference& reference) {
+  return reference.refined && !reference.refined->levels.empty() ? reference.refined->levels.back().change
+                                                                 : std::nullopt;
 }
 
 /// Notes what the answers of a drag are compared with.
@@ -165,6 +171,9 @@ void run_drags(Running& running, const Case& object) {
       for (const PhysicsEntry& entry : contest.run(
                moves, reference.solution, [](double) {}, running.stop)) {
         running.result.rows.push_back(row_of(moves, entry));
+        if (entry.measurement) {
+          running.result.rows.back().reference_change = change_of(reference);
+        }
       }
       if (handle_of(moves) == handle_of(object.drags.front()) && cuts_of(moves).empty()) {
         turned.add_errors(i, reference.solution, &running.result.rows[first], running.stop);
@@ -225,12 +234,12 @@ void run_time_to_error(Running& running, const Case& object) {
 
 SuiteResult result_of(const SuiteExperiment& experiment, const SuiteOptions& options, const Tell& tell,
                       const std::stop_token& stop) {
-  Running running{experiment, options_of(options), tell, stop, {}};
+  Running running{experiment, options_of(options, experiment), tell, stop, {}};
   running.result.name = experiment.name;
   running.result.description = experiment.description;
   const Clocks clocks = machine_clocks();
   const double begin = clocks.wall();
-  const std::vector<Case> cases = experiment.cases(options.organ);
+  const std::vector<Case> cases = experiment.cases(options.organs);
   switch (experiment.kind) {
     case SuiteKind::drags:
       run_drags(running, cases.front());
@@ -261,10 +270,20 @@ const SuiteExperiment& experiment_named(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> suite_names() {
+std::vector<std::string> all_suite_names() {
   std::vector<std::string> names;
   for (const SuiteExperiment& one : suite_experiments()) {
     names.emplace_back(one.name);
+  }
+  return names;
+}
+
+std::vector<std::string> suite_names() {
+  std::vector<std::string> names;
+  for (const SuiteExperiment& one : suite_experiments()) {
+    if (!one.only_named) {
+      names.emplace_back(one.name);
+    }
   }
   return names;
 }
@@ -309,7 +328,7 @@ Suite merged(const std::vector<Suite>& parts) {
       all.results.push_back(result);
     }
   }
-  const auto names = suite_names();
+  const auto names = all_suite_names();
   std::ranges::stable_sort(all.results, {}, [&](const SuiteResult& result) {
     return std::ranges::find(names, result.name) - names.begin();
   });

@@ -10,6 +10,7 @@
 
 #include "report/run/machine.h"
 #include "report/run/physics.h"
+#include "report/run/suite_experiments.h"
 
 namespace chainmail::report {
 
@@ -21,6 +22,7 @@ struct SuiteRow {
   std::string contestant, algorithm;  // label for readers; name in files
   std::string refusal;                // empty if there are figures
   std::optional<double> relative = {}, relative_turned = {};
+  std::optional<double> reference_change = {};  // by the last refinement: errors below it say no more than that
   std::optional<double> hausdorff = {}, volume_change = {}, inverted_cells = {}, stretch = {}, violation = {};
   std::optional<double> factorize_ms = {}, grab_ms = {}, first_ms = {}, later_ms = {}, after_cut_ms = {};
   std::optional<double> bytes = {};
@@ -37,6 +39,7 @@ struct SuiteFigure {
 inline constexpr std::array suite_figures{
     SuiteFigure{"relative", "relative error (ratio)", "as it is", &SuiteRow::relative},
     SuiteFigure{"relative_turned", "relative error (ratio)", "turned by 45°", &SuiteRow::relative_turned},
+    SuiteFigure{"reference_change", "relative error (ratio)", "r of the reference", &SuiteRow::reference_change},
     SuiteFigure{"factorize_ms", "prepare (ms)", "factorize", &SuiteRow::factorize_ms},
     SuiteFigure{"grab_ms", "prepare (ms)", "grab", &SuiteRow::grab_ms},
     SuiteFigure{"first_ms", "move (ms)", "first", &SuiteRow::first_ms},
@@ -108,7 +111,7 @@ struct SuiteOptions {
   std::optional<int> repetitions;     // of each drag; none: as many as fit
   double seconds = 1;                 // for the repetitions of one drag with all contestants
   Calibrator calibrate;               // empty: no contestant is calibrated
-  MeshPointer organ;                  // the solid of the experiments with an organ
+  SampleOrgans organs;
 };
 
 /// A part of the suite: number `index` of `count`, from 1. Together, the parts have every experiment once.
@@ -122,6 +125,8 @@ Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& optio
                 const std::stop_token& stop = {});
 
 /// Returns the names of all experiments, in their order.
+std::vector<std::string> all_suite_names();
+/// Returns the names of those that run if none is named.
 std::vector<std::string> suite_names();
 /// Returns every count-th of the names, from the index-th on. Long and short experiments follow each other, so that all
 /// parts take about as long.
@@ -129,7 +134,7 @@ std::vector<std::string> part_of(const std::vector<std::string>& names, const Sh
 
 /// Joins the results of several runs. Throws Error if an experiment occurs twice.
 Suite merged(const std::vector<Suite>& parts);
-/// Returns the names of the experiments that a suite lacks.
+/// Returns the names of the experiments that a suite lacks, without those that take part only where they are named.
 std::vector<std::string> missing_from(const Suite& suite);
 
 }  // namespace chainmail::report

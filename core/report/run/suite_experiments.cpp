@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -55,7 +56,7 @@ Beam beam_of(const Case& object) {
   return beam;
 }
 
-std::vector<Case> cantilever(const MeshPointer& /*organ*/) {
+std::vector<Case> cantilever(const SampleOrgans& /*organs*/) {
   Case object = bar_of("cantilever", 33, 5);
   const Beam beam = beam_of(object);
   const double deflection = 0.02 * beam.length;
@@ -88,7 +89,7 @@ MeshPointer irregular_strip() {
   return build_mesh(std::move(parts));
 }
 
-std::vector<Case> refinement(const MeshPointer& /*organ*/) {
+std::vector<Case> refinement(const SampleOrgans& /*organs*/) {
   constexpr int sizes = 4;
   constexpr double angle = 1e-5;  // radians: theory neglects its square
   std::vector<Case> cases;
@@ -109,21 +110,21 @@ std::vector<Case> refinement(const MeshPointer& /*organ*/) {
 
 Case short_bar() { return bar_of("bar", 13, 5); }
 
-std::vector<Case> extension(const MeshPointer& /*organ*/) {
+std::vector<Case> extension(const SampleOrgans& /*organs*/) {
   Case object = short_bar();
   object.drags = {rigid_drag("extend", "the end section moves away by 20 % of the length",
                              layer_of(*object.mesh, "right"), {2.4, 0, 0})};
   return {std::move(object)};
 }
 
-std::vector<Case> compression(const MeshPointer& /*organ*/) {
+std::vector<Case> compression(const SampleOrgans& /*organs*/) {
   Case object = short_bar();
   object.drags = {rigid_drag("compress", "the end section moves in by 20 % of the length",
                              layer_of(*object.mesh, "right"), {-2.4, 0, 0})};
   return {std::move(object)};
 }
 
-std::vector<Case> torsion(const MeshPointer& /*organ*/) {
+std::vector<Case> torsion(const SampleOrgans& /*organs*/) {
   Case object = short_bar();
   object.drags = {rigid_drag("twist", "the end section turns by 60° about the axis of the bar",
                              layer_of(*object.mesh, "right"), Point::Zero(), {Point::UnitX(), 60})};
@@ -131,7 +132,7 @@ std::vector<Case> torsion(const MeshPointer& /*organ*/) {
 }
 
 /// The nominal strains of the Truth Cube (Kerdok et al. 2003), under its plate, and under a stamp half as wide.
-std::vector<Case> indentation(const MeshPointer& /*organ*/) {
+std::vector<Case> indentation(const SampleOrgans& /*organs*/) {
   Case object = pinned("cube", generate({MeshKind::tetra, {5, 5, 5}}), "bottom");
   object.elastic.material.poisson = 0.45;
   const Mesh& mesh = *object.mesh;
@@ -156,8 +157,8 @@ std::vector<Case> indentation(const MeshPointer& /*organ*/) {
 }
 
 /// Gives an object the drags of the comparison with physics, with patches as handles.
-std::vector<Case> with_patches(Case object, std::size_t handles) {
-  object.drags = physics_drags(object, true, patch_share);
+std::vector<Case> with_patches(Case object, std::size_t handles, double radius_share = patch_share) {
+  object.drags = physics_drags(object, true, radius_share);
   std::vector<ElementId> kept = handles_of(object);
   kept.resize(std::min(handles, kept.size()));
   std::erase_if(object.drags,
@@ -167,6 +168,7 @@ std::vector<Case> with_patches(Case object, std::size_t handles) {
 
 constexpr std::uint64_t suite_elements = 256;
 constexpr std::size_t all_handles = 3;
+constexpr double coarse_patch_share = 0.25;  // no cell of the coarse organ is in a patch of the usual radius
 
 Case plain_bar() { return pinned_bar(suite_elements, {}, {}, false); }
 Case plain_sheet() { return pinned_sheet(suite_elements, {}, {}, false); }
@@ -183,6 +185,22 @@ Case organ_of(const MeshPointer& organ) {
   return pinned("organ", organ, "bottom");
 }
 
+/// Keeps every n-th of the moves before a cut, the last one of them included, so that about `count` are left.
+void fewer_moves(std::vector<Command>& commands, std::size_t count) {
+  const auto is_move = [](const Command& command) { return std::holds_alternative<commands::Drag>(command); };
+  const auto cut = std::ranges::find_if(
+      commands, [](const Command& command) { return std::holds_alternative<commands::Cut>(command); });
+  auto left = std::size_t(std::count_if(commands.begin(), cut, is_move));
+  const std::size_t every = std::max<std::size_t>(1, left / count);
+  std::vector<Command> kept;
+  for (auto one = commands.begin(); one != commands.end(); ++one) {
+    if (one >= cut || !is_move(*one) || --left % every == 0) {
+      kept.push_back(std::move(*one));
+    }
+  }
+  commands = std::move(kept);
+}
+
 /// Keeps the bend of the first handle, and adds one move to its end from rest.
 std::vector<Case> bend_and_one_move(Case object) {
   object.drags = physics_drags(object, false, patch_share);
@@ -191,6 +209,20 @@ std::vector<Case> bend_and_one_move(Case object) {
   fresh.name = "fresh grab";
   fresh.commands = {bend.commands.front(), bend.commands.back()};
   object.drags = {bend, std::move(fresh)};
+  return {std::move(object)};
+}
+
+/// Returns a bar, three times as long as high, that is pinned at its left layer. Each of its cubes is six tetrahedra.
+/// Keeps a bend of the first handle in fewer moves, and the cut.
+template <std::uint32_t Cubes>
+std::vector<Case> bar_for_fronts(const SampleOrgans& /*organs*/) {
+  constexpr std::size_t moves_kept = 6;
+  Case object = bar_of("bar", 3 * Cubes + 1, Cubes + 1);
+  object = with_patches(std::move(object), 1).front();
+  std::erase_if(object.drags, [](const RecordedMoves& drag) { return drag.name != "bend" && cuts_of(drag).empty(); });
+  for (RecordedMoves& drag : object.drags) {
+    fewer_moves(drag.commands, moves_kept);
+  }
   return {std::move(object)};
 }
 
@@ -205,28 +237,37 @@ constexpr std::array experiments{
         "a cube of tetrahedra, Poisson's ratio 0.45, under a stamp and a plate, at the strains of the Truth Cube",
         SuiteKind::drags, indentation},
     SuiteExperiment{"bar", "a bar of tetrahedra at three handles, and one cut while dragging", SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(plain_bar(), all_handles); }},
+                    [](const SampleOrgans&) { return with_patches(plain_bar(), all_handles); }},
     SuiteExperiment{"bar-gent", "the bar at one handle, of a material that stiffens (Gent 1996)", SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(made_of(plain_bar(), StrainLaw::Kind::gent), 1); }},
+                    [](const SampleOrgans&) { return with_patches(made_of(plain_bar(), StrainLaw::Kind::gent), 1); }},
     SuiteExperiment{"bar-fung", "the bar at one handle, of a material that stiffens (Demiray 1972)", SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(made_of(plain_bar(), StrainLaw::Kind::fung), 1); }},
+                    [](const SampleOrgans&) { return with_patches(made_of(plain_bar(), StrainLaw::Kind::fung), 1); }},
     SuiteExperiment{"sheet", "a sheet of triangles in a plane at three handles, and one cut while dragging",
-                    SuiteKind::drags, [](const MeshPointer&) { return with_patches(plain_sheet(), all_handles); }},
+                    SuiteKind::drags, [](const SampleOrgans&) { return with_patches(plain_sheet(), all_handles); }},
     SuiteExperiment{"sheet-gent", "the sheet at one handle, of a material that stiffens (Gent 1996)", SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(made_of(plain_sheet(), StrainLaw::Kind::gent), 1); }},
+                    [](const SampleOrgans&) { return with_patches(made_of(plain_sheet(), StrainLaw::Kind::gent), 1); }},
     SuiteExperiment{"sheet-fung", "the sheet at one handle, of a material that stiffens (Demiray 1972)",
                     SuiteKind::drags,
-                    [](const MeshPointer&) { return with_patches(made_of(plain_sheet(), StrainLaw::Kind::fung), 1); }},
+                    [](const SampleOrgans&) { return with_patches(made_of(plain_sheet(), StrainLaw::Kind::fung), 1); }},
     SuiteExperiment{"organ", "the organ of the samples at one handle, and one cut while dragging", SuiteKind::drags,
-                    [](const MeshPointer& organ) { return with_patches(organ_of(organ), 1); }},
+                    [](const SampleOrgans& organs) { return with_patches(organ_of(organs.fine), 1); }},
+    SuiteExperiment{
+        "organ-coarse", "the coarse organ of the samples at one handle, and one cut while dragging", SuiteKind::drags,
+        [](const SampleOrgans& organs) { return with_patches(organ_of(organs.coarse), 1, coarse_patch_share); }, 3},
     SuiteExperiment{"refinement", "a strip in a plane that is bent, against the closed form, on finer and finer meshes",
                     SuiteKind::refinement, refinement},
     SuiteExperiment{"time-bar", "the time to come below an error in a bend of the bar", SuiteKind::time_to_error,
-                    [](const MeshPointer&) { return bend_and_one_move(plain_bar()); }},
+                    [](const SampleOrgans&) { return bend_and_one_move(plain_bar()); }},
     SuiteExperiment{"time-sheet", "the time to come below an error in a bend of the sheet", SuiteKind::time_to_error,
-                    [](const MeshPointer&) { return bend_and_one_move(plain_sheet()); }},
+                    [](const SampleOrgans&) { return bend_and_one_move(plain_sheet()); }},
     SuiteExperiment{"time-organ", "the time to come below an error in a bend of the organ", SuiteKind::time_to_error,
-                    [](const MeshPointer& organ) { return bend_and_one_move(organ_of(organ)); }},
+                    [](const SampleOrgans& organs) { return bend_and_one_move(organ_of(organs.fine)); }},
+    SuiteExperiment{"fronts-2k", "a bar of 2,250 tetrahedra: a bend in six moves, and one cut", SuiteKind::drags,
+                    bar_for_fronts<5>, 2, true},
+    SuiteExperiment{"fronts-10k", "a bar of 9,216 tetrahedra: a bend in six moves, and one cut", SuiteKind::drags,
+                    bar_for_fronts<8>, 2, true},
+    SuiteExperiment{"fronts-50k", "a bar of 49,392 tetrahedra: a bend in six moves, and one cut", SuiteKind::drags,
+                    bar_for_fronts<14>, 1, true},
 };
 
 }  // namespace
@@ -236,6 +277,17 @@ std::span<const SuiteExperiment> suite_experiments() { return experiments; }
 ConvergingOptions suite_reference() {
   ConvergingOptions options;
   options.seconds = 20;  // per drag
+  return options;
+}
+
+ConvergingOptions reference_of(const SuiteExperiment& experiment) {
+  ConvergingOptions options = suite_reference();
+  if (experiment.reference_levels > 0) {
+    options.max_levels = experiment.reference_levels;
+    options.every_level = true;
+    options.seconds = std::numeric_limits<double>::infinity();
+    options.max_elements.back() = 20'000;
+  }
   return options;
 }
 

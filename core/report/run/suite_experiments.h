@@ -17,19 +17,29 @@ enum class SuiteKind {
   time_to_error  // times to come below an error, in the first drag of one object and in one move to its end
 };
 
+/// The solids of the experiments with an organ. Empty: its file was not found.
+struct SampleOrgans {
+  MeshPointer fine, coarse;
+};
+
 /// An experiment of the suite. To add one, add an entry to the table in suite_experiments.cpp.
 struct SuiteExperiment {
   std::string_view name;         // value of --experiments, and in files
   std::string_view description;  // for readers
   SuiteKind kind;
-  /// Returns its objects. `organ` is the organ of the samples.
-  std::vector<Case> (*cases)(const MeshPointer& organ);
+  /// Returns its objects.
+  std::vector<Case> (*cases)(const SampleOrgans& organs);
+  /// Levels of its references, however long they take. 0: those that suite_reference() has time for.
+  int reference_levels = 0;
+  bool only_named = false;  // true: takes part only where it is named, because it takes long
 
-  bool needs_organ() const { return name.ends_with("organ"); }
+  bool needs_organ() const { return name.find("organ") != std::string_view::npos; }
 };
 
 /// Returns how the suite refines its references.
 ConvergingOptions suite_reference();
+/// Returns how an experiment refines its references.
+ConvergingOptions reference_of(const SuiteExperiment& experiment);
 
 std::span<const SuiteExperiment> suite_experiments();
 

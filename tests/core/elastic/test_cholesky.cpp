@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
 #include <QtTest>
+#include <cmath>
 #include <numeric>
 #include <random>
 #include <set>
@@ -24,6 +25,8 @@ class CholeskyTest : public QObject {
   void solves_as_a_dense_one_does();
   void is_used_again_for_other_numbers();
   void what_is_not_positive_is_told();
+  void changed_columns_are_factored_again_to_the_bit();
+  void factors_that_failed_are_made_anew();
   void every_element_with_a_cell_is_ordered_once();
   void the_last_elements_part_the_halves();
   void a_square_fills_in_as_little_as_dissection_promises();
@@ -145,6 +148,91 @@ void CholeskyTest::what_is_not_positive_is_told() {
   Cholesky cholesky;
   cholesky.analyze(lower_of(matrix));
   QVERIFY(!cholesky.factor(lower_of(matrix)));
+}
+
+namespace {
+
+/// Takes numbers from the diagonal and from entries of some columns of a matrix, which stays positive definite. Returns
+/// the columns.
+std::vector<int> weaken(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& whole, std::mt19937_64& random) {
+  std::vector<int> columns;
+  matrix = whole;
+  const int count = static_cast<int>(random() % 4);
+  for (int i = 0; i < count; ++i) {
+    const auto row = static_cast<Eigen::Index>(random() % static_cast<unsigned>(whole.rows()));
+    const auto column = static_cast<Eigen::Index>(random() % static_cast<unsigned>(whole.rows()));
+    const double entry = std::abs(matrix(row, column));
+    matrix(row, row) += entry;
+    matrix(column, column) += entry;
+    matrix(row, column) = matrix(column, row) = row == column ? matrix(row, row) : 0;
+    columns.push_back(static_cast<int>(row));
+    columns.push_back(static_cast<int>(column));
+  }
+  return columns;
+}
+
+}  // namespace
+
+/// One column after another changes and changes back. The pattern is that of the whole matrix.
+void CholeskyTest::changed_columns_are_factored_again_to_the_bit() {
+  std::mt19937_64 random(14);
+  int updated = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const int size = 1 + static_cast<int>(random() % 80);
+    const Eigen::MatrixXd whole = some_matrix(size, static_cast<int>(random() % 120), random);
+    const Eigen::MatrixXd right = Eigen::MatrixXd::Random(size, 2);
+    const Cholesky::Sparse pattern = lower_of(whole);
+    const auto filled = [&](const Eigen::MatrixXd& matrix) {
+      Cholesky::Sparse result = pattern;
+      for (int column = 0; column < size; ++column) {
+        for (Cholesky::Sparse::InnerIterator entry(result, column); entry; ++entry) {
+          entry.valueRef() = matrix(entry.row(), column);
+        }
+      }
+      return result;
+    };
+    Cholesky kept;
+    kept.analyze(pattern);
+    kept.keep_updates();
+    QVERIFY(kept.factor(pattern));
+    std::vector<int> last;
+    for (int step = 0; step < 5; ++step) {
+      Eigen::MatrixXd matrix;
+      std::vector<int> columns = weaken(matrix, whole, random);
+      std::vector<int> changed = columns;
+      changed.insert(changed.end(), last.begin(), last.end());
+      if (step == 3) {
+        kept.drop_updates();  // then all is factored
+        kept.keep_updates();
+      }
+      QVERIFY(kept.refactor(filled(matrix), changed));
+      last = columns;
+      updated += columns.empty() ? 0 : 1;
+      Cholesky anew;
+      anew.analyze(pattern);
+      QVERIFY(anew.factor(filled(matrix)));
+      const Eigen::MatrixXd found = kept.solve(right), dense = matrix.llt().solve(right);
+      QVERIFY(found == anew.solve(right));
+      QVERIFY((found - dense).norm() < 1e-11 * (1 + dense.norm()));
+    }
+  }
+  QVERIFY(updated > 200);
+}
+
+void CholeskyTest::factors_that_failed_are_made_anew() {
+  std::mt19937_64 random(15);
+  const Eigen::MatrixXd matrix = some_matrix(30, 60, random);
+  Eigen::MatrixXd negative = matrix;
+  negative(3, 3) = -1;
+  Cholesky cholesky;
+  cholesky.analyze(lower_of(matrix));
+  cholesky.keep_updates();
+  QVERIFY(cholesky.factor(lower_of(matrix)) && cholesky.has_factors());
+  const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(30, -1, 1);
+  const Eigen::VectorXd expected = cholesky.solve(right);
+  QVERIFY(!cholesky.refactor(lower_of(negative), std::vector{3}) && !cholesky.has_factors());
+  QVERIFY(cholesky.refactor(lower_of(matrix), std::vector<int>()));
+  QVERIFY(cholesky.solve(right) == expected);
 }
 
 void CholeskyTest::every_element_with_a_cell_is_ordered_once() {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "core/elastic/elastic_problems.h"
+#include "elastic/cut_update.h"
 #include "elastic/energy.h"
 #include "elastic/newton.h"
 #include "elastic/stiffening.h"
@@ -36,6 +37,9 @@ class ElasticTest : public QObject {
   void small_moves_are_linear();
   void the_hand_and_the_pins_are_where_they_are();
   void a_hand_may_lie_on_a_pin();
+  void cuts_update_linear_fem_data();
+  void cuts_update_linear_fem();
+  void linear_fem_is_made_anew_where_no_update_is_possible();
   void options_out_of_range_are_refused();
   void limits_of_solids_are_those_of_the_checks();
 };
@@ -58,6 +62,132 @@ CornerDisplacements some_corners(int dimension, std::mt19937_64& random) {
 }
 
 }  // namespace
+
+namespace {
+
+/// The forces of the uncut cells on elements that are free, over the largest force on any element.
+double unbalanced(const ElasticProblem& problem, const std::vector<ElementId>& handle,
+                  const std::vector<double>& displacements) {
+  const Simplices simplices = build_simplices(*problem.mesh, problem.cuts);
+  const int n = simplices.dimension;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(Eigen::Index(displacements.size()));
+  for (std::size_t s = 0; s < simplices.count(); ++s) {
+    const auto corners = simplices.corners_of(s);
+    Eigen::VectorXd at(n * (n + 1));
+    for (int i = 0; i < n * (n + 1); ++i) {
+      at[i] = displacements[corners[std::size_t(i / n)] * std::size_t(n) + std::size_t(i % n)];
+    }
+    const Eigen::VectorXd force = stiffness(simplices, s, lame(problem.options.material)) * at;
+    for (int i = 0; i < n * (n + 1); ++i) {
+      forces[Eigen::Index{corners[std::size_t(i / n)]} * n + i % n] += force[i];
+    }
+  }
+  const double largest = forces.lpNorm<Eigen::Infinity>();
+  for (const auto* prescribed : {&problem.pins, &handle}) {
+    for (const ElementId e : *prescribed) {
+      forces.segment(Eigen::Index{e} * n, n).setZero();
+    }
+  }
+  return forces.lpNorm<Eigen::Infinity>() / largest;
+}
+
+ElasticHandle handle_of_many(const Mesh& mesh, const std::vector<ElementId>& elements) {
+  const auto n = std::size_t(mesh.space_dimension);
+  ElasticHandle handle{elements, std::vector<double>(n * elements.size(), 0.0), {}};
+  for (const ElementId e : elements) {
+    handle.arms.insert(handle.arms.end(), mesh.rest.begin() + std::ptrdiff_t(n * e),
+                       mesh.rest.begin() + std::ptrdiff_t(n * (e + 1)));
+  }
+  return handle;
+}
+
+}  // namespace
+
+void ElasticTest::cuts_update_linear_fem_data() {
+  QTest::addColumn<int>("dimension");
+  QTest::addColumn<bool>("many");
+  QTest::addColumn<bool>("pins_are_moved");
+  for (const int dimension : {2, 3}) {
+    for (const bool many : {false, true}) {
+      const std::string name = std::to_string(dimension) + (many ? "D, a patch" : "D, one element");
+      QTest::newRow(name.c_str()) << dimension << many << false;
+      QTest::newRow((name + ", moved pins").c_str()) << dimension << many << true;
+    }
+  }
+}
+
+/// Random links are cut and restored. The answer is that of a new solver, bit for bit, and the forces of the cells that
+/// are left balance, which nothing of the solver decides.
+void ElasticTest::cuts_update_linear_fem() {
+  QFETCH(const int, dimension);
+  QFETCH(const bool, many);
+  QFETCH(const bool, pins_are_moved);
+  const MeshPointer mesh = dimension == 2 ? jittered(make_mesh(MeshKind::cloth, {12, 12, 1}))
+                                          : jittered(make_mesh(MeshKind::tetra, {9, 5, 4}));
+  const auto way = [&](const Point& rest) {
+    return pins_are_moved ? Point(0, 0.02 * rest.y(), 0) : Point(Point::Zero());
+  };
+  ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")), way, 0.3);
+  const std::vector<ElementId> right = layer(*mesh, *find_side("right"));
+  const std::vector<ElementId> elements = many ? right : std::vector{right.front()};
+  const ElasticHandle handle = many ? handle_of_many(*mesh, elements) : ElasticHandle::of(elements.front());
+  const std::vector<double> pull{0.4, 0.3, 0.1};
+  const auto answer = [&](ElasticSolver& solver) {
+    solver.hold(handle);
+    solver.move(ElasticMotion::by(std::span(pull).first(std::size_t(dimension))));
+    return solver.displacements();
+  };
+  std::mt19937_64 random(4);
+  auto solver = make_elastic(ElasticMethod::linear_fem, problem);
+  const std::vector<double> whole = answer(*solver);
+  int different = 0;
+  for (int step = 0; step < 24; ++step) {
+    const std::vector<LinkId> cut = problem.cuts.links();
+    if (step % 3 == 2) {
+      std::ranges::for_each(cut, [&](LinkId link) { random() % 2 == 0 ? problem.cuts.uncut(link) : void(); });
+    } else {
+      for (int i = 0; i < 4; ++i) {
+        problem.cuts.cut(LinkId(random() % mesh->link_count()));
+      }
+    }
+    std::unique_ptr<ElasticSolver> anew;
+    try {
+      anew = make_elastic(ElasticMethod::linear_fem, problem);
+    } catch (const Error&) {
+      QVERIFY_THROWS_EXCEPTION(Error, dynamic_cast<CutUpdate&>(*solver).recut(problem.cuts, {}));
+      problem.cuts = Cuts(mesh);
+      solver = make_elastic(ElasticMethod::linear_fem, problem);
+      continue;
+    }
+    QVERIFY(dynamic_cast<CutUpdate&>(*solver).recut(problem.cuts, {}));
+    QVERIFY(solver->displacements() == anew->displacements());
+    const std::vector<double> found = answer(*solver);
+    QVERIFY(found == answer(*anew));
+    const double force = unbalanced(problem, elements, found);
+    QVERIFY2(force < 1e-11, qPrintable(QString::number(force)));
+    different += found != whole ? 1 : 0;
+  }
+  QVERIFY(different > 10);
+  problem.cuts = Cuts(mesh);
+  QVERIFY(dynamic_cast<CutUpdate&>(*solver).recut(problem.cuts, {}));
+  QVERIFY(answer(*solver) == whole);
+}
+
+/// A cell that was cut when the solver was made may be flat, so it was not looked at. Without a cell, nothing resists.
+void ElasticTest::linear_fem_is_made_anew_where_no_update_is_possible() {
+  const MeshPointer mesh = make_mesh(MeshKind::cloth, {4, 4, 1});
+  ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")));
+  problem.cuts.cut(0);
+  const auto solver = make_elastic(ElasticMethod::linear_fem, problem);
+  auto& update = dynamic_cast<CutUpdate&>(*solver);
+  Cuts all(mesh);
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    all.cut(link);
+  }
+  QVERIFY(!update.recut(all, {}));
+  QVERIFY(!update.recut(Cuts(mesh), {}));
+  QVERIFY(update.recut(problem.cuts, {}));
+}
 
 void ElasticTest::options_out_of_range_are_refused() {
   check(ElasticOptions());

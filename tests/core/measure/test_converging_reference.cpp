@@ -16,6 +16,7 @@ class ConvergingReferenceTest : public QObject {
  private slots:
   void a_sheet_converges();
   void a_solid_says_why_it_ends();
+  void every_level_is_computed_where_it_is_asked_for();
   void cut_cells_are_missing_on_all_levels();
   void a_patch_is_the_same_on_every_mesh();
 };
@@ -99,6 +100,17 @@ void ConvergingReferenceTest::a_solid_says_why_it_ends() {
   const ConvergedReference early = hurried.at({Point(4, 0, 0), 1.5}, {0, 0, 0.5});
   QCOMPARE(early.levels.size(), std::size_t(1));
   QCOMPARE(early.end, std::string("its time is used up"));
+}
+
+void ConvergingReferenceTest::every_level_is_computed_where_it_is_asked_for() {
+  const auto levels = [](bool every) {
+    ConvergingReference reference(sheet_problem(5),
+                                  {.change = 1, .seconds = 1e9, .max_levels = 3, .every_level = every});
+    const ConvergedReference result = reference.at(bottom, way);
+    return std::pair(result.converged ? result.levels.size() : 0, result.end);
+  };
+  QCOMPARE(levels(false), std::pair(std::size_t{2}, std::string("it has converged")));
+  QCOMPARE(levels(true), std::pair(std::size_t{3}, std::string("it has converged")));
 }
 
 void ConvergingReferenceTest::cut_cells_are_missing_on_all_levels() {

@@ -9,6 +9,7 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
+#include "report/page/format.h"
 #include "report/page/front.h"
 #include "report/page/suite_csv.h"
 #include "report/page/suite_plot.h"
@@ -69,6 +70,9 @@ class SuiteTest : public QObject {
   void iterations_end_at_the_own_limit_data();
   void iterations_end_at_the_own_limit();
   void experiments_have_the_handles_that_they_say();
+  void the_coarse_organ_has_a_reference_of_three_levels();
+  void bars_for_fronts_have_the_size_that_they_say();
+  void long_experiments_run_only_where_they_are_named();
   void each_size_is_one_column();
   void times_grow_with_the_accuracy();
   void a_fresh_move_is_timed_with_its_grab();
@@ -77,6 +81,7 @@ class SuiteTest : public QObject {
   void an_experiment_twice_is_refused();
   void means_leave_out_the_cut();
   void the_front_has_whom_no_one_beats();
+  void errors_below_the_change_of_the_reference_are_equal();
   void plots_name_everyone_and_the_front();
   void unknown_experiments_are_refused();
 };
@@ -244,13 +249,74 @@ void SuiteTest::experiments_have_the_handles_that_they_say() {
   for (const SuiteExperiment& one : suite_experiments()) {
     const auto says = [&](std::string_view words) { return one.description.find(words) != std::string_view::npos; };
     if (const std::size_t said = says("one handle") ? 1 : says("three handles") ? 3 : 0; said > 0) {
-      const std::vector<Case> cases = one.cases(organ);
+      const std::vector<Case> cases = one.cases({organ, organ});
       QCOMPARE(cases.size(), std::size_t{1});
       QVERIFY2(handles_of(cases.front()).size() == said, std::string(one.name).c_str());
       ++counted;
     }
   }
   QVERIFY(counted > 0);
+}
+
+/// Neo-Hookean FEM on the object's own cells is what this reference starts from, so its error is that of these cells.
+/// It is the sum of the changes up to the last level, and more than the last one alone.
+void SuiteTest::the_coarse_organ_has_a_reference_of_three_levels() {
+  SuiteOptions options;
+  options.algorithms = {Algorithm::neo_hookean, Algorithm::natural_queue};
+  options.repetitions = 1;
+  options.organs.coarse = generate({MeshKind::tetra, {4, 4, 3}});
+  const SuiteResult result = run_suite({"organ-coarse"}, options).results.front();
+  QVERIFY(result.references.size() >= 4 && !result.rows.empty());
+  for (const Convergence& reference : result.references) {
+    QCOMPARE(reference.levels.size(), std::size_t{3});
+    QVERIFY(reference.levels[2].change.value() < reference.levels[1].change.value());
+  }
+  std::size_t drag = 0;
+  std::string last;
+  for (const SuiteRow& row : result.rows) {
+    drag += !last.empty() && row.drag != last ? 1 : 0;
+    last = row.drag;
+    const auto& levels = result.references.at(drag).levels;
+    QVERIFY(!row.relative || row.reference_change == levels.back().change);
+    if (row.algorithm == "neo-hookean") {
+      QVERIFY2(*row.relative > *levels[2].change && *row.relative < 2 * (*levels[1].change + *levels[2].change),
+               row.drag.c_str());
+    }
+  }
+  QCOMPARE(drag + 1, result.references.size());
+}
+
+/// A cube of a block is six tetrahedra.
+void SuiteTest::bars_for_fronts_have_the_size_that_they_say() {
+  const auto all = suite_experiments();
+  for (const auto& [name, tetrahedra] :
+       {std::pair{"fronts-2k", 3 * 5 * 5 * 5 * 6}, {"fronts-10k", 3 * 8 * 8 * 8 * 6}}) {
+    const SuiteExperiment& one = *std::ranges::find(all, name, &SuiteExperiment::name);
+    QVERIFY(one.description.find(thousands(std::uint64_t(tetrahedra))) != std::string_view::npos);
+    const Case object = one.cases({}).front();
+    QCOMPARE(object.mesh->tetrahedra.size(), std::size_t(tetrahedra));
+    QCOMPARE(object.drags.size(), std::size_t{2});
+    const RecordedMoves &bend = object.drags[0], &cut = object.drags[1];
+    QCOMPARE(count_moves(bend), 6);
+    QVERIFY(cuts_of(bend).empty() && !cuts_of(cut).empty() &&
+            std::holds_alternative<commands::Drag>(cut.commands.back()));
+    QCOMPARE(count_moves(cut), 7);
+    // The bend ends where that of the bar does, 20 % of the length across.
+    const Point way = std::get<commands::Drag>(bend.commands.back()).target;
+    const auto [low, high] = bounds(*object.mesh);
+    QVERIFY(std::abs(way.norm() - 0.2 * (high - low).maxCoeff()) < 1e-9);
+  }
+}
+
+void SuiteTest::long_experiments_run_only_where_they_are_named() {
+  const auto usual = suite_names(), all = all_suite_names(), missing = missing_from(part({"bar"}));
+  for (const SuiteExperiment& one : suite_experiments()) {
+    QVERIFY(std::ranges::count(all, one.name) == 1);
+    QCOMPARE(std::ranges::count(usual, one.name) == 1, !one.only_named);
+    QCOMPARE(std::ranges::count(missing, one.name) == 1, !one.only_named && one.name != "bar");
+  }
+  QVERIFY(usual.size() < all.size());
+  QCOMPARE(merged({part({"fronts-2k"}), part({"bar"})}).results.front().name, std::string("bar"));
 }
 
 void SuiteTest::each_size_is_one_column() {
@@ -398,6 +464,45 @@ void SuiteTest::the_front_has_whom_no_one_beats() {
   }
   QCOMPARE(names, (std::vector<std::string>{"fast", "the same as the fast one", "middle", "slow and close"}));
   QVERIFY(front(means, speeds_against_error[1]).empty());  // nobody has a time of a fresh grab
+}
+
+/// The reference changed by 0.05 in its last refinement, so nobody knows who of those below that is closer.
+void SuiteTest::errors_below_the_change_of_the_reference_are_equal() {
+  SuiteResult result;
+  result.name = "bar";
+  const auto add = [&](const char* who, double ms, double error) {
+    SuiteRow& row = result.rows.emplace_back(SuiteRow{"pull", 1, false, who, "xpbd", ""});
+    row.later_ms = ms;
+    row.relative = error;
+    row.reference_change = 0.05;
+  };
+  add("far", 1, 0.2);
+  add("close", 2, 0.04);
+  add("closer, slower", 3, 0.01);
+  const auto means = means_of(result);
+  std::vector<std::string> names;
+  for (const SuiteMean* one : front(means, speeds_against_error[0])) {
+    names.push_back(one->contestant);
+  }
+  QCOMPARE(names, (std::vector<std::string>{"far", "close"}));
+  Suite suite;
+  suite.results = {result};
+  const auto findings = suite_findings(suite);
+  QCOMPARE(findings.at(0), std::string("bar: close (below 0.05), closer, slower (below 0.05) are closest"));
+  QVERIFY(findings.at(1).ends_with("far (1 ms, 0.2), close (2 ms, below 0.05)"));
+  const FigureTable summary = suite_summary(suite), table = suite_table(result);
+  QCOMPARE(summary.rows.at(0).cells.front(), std::string("0.2"));
+  QCOMPARE(summary.rows.at(2).cells.front(), std::string("below 0.05*"));
+  QCOMPARE(table.rows.at(0).cells.front(), std::string("0.2"));
+  QCOMPARE(table.rows.at(1).cells.front(), std::string("below 0.05"));
+  for (const PlotMark& mark : suite_plot(suite, speeds_against_error[0]).panels.at(0).marks) {
+    QVERIFY(mark.y >= 0.05);
+  }
+  SuiteResult times;
+  times.times = {{"XPBD", "xpbd", "", 0.03, {}}};
+  QCOMPARE(time_table(times).rows.front().cells.front(), std::string("0.03"));
+  times.references = {{{{100, {}}, {800, 0.05}}, {}, false, ""}};
+  QCOMPARE(time_table(times).rows.front().cells.front(), std::string("below 0.05"));
 }
 
 /// Every contestant of a plot is in its legend, and the line of the front is beside them.
