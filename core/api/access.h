@@ -104,6 +104,8 @@ struct Access {
   static void take_over(Deformer& deformer, const DeformerState& state);
   static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
   static const Snapshot::Impl& impl(const Snapshot& one) { return *one.impl_; }
+  static const RecordedMoves::Impl& impl(const RecordedMoves& moves) { return *moves.impl_; }
+  static const Simulation::Impl& impl(const Simulation& simulation) { return *simulation.impl_; }
   /// Makes a type of the interface that shares what is behind it.
   template <class Public, class... Parts>
   static Public make(Parts&&... parts) {
