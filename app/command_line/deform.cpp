@@ -118,7 +118,7 @@ void write_results(const Targets& targets, const api::Simulation& simulation) {
   }
 }
 
-/// Gives a body the softness of the options and of the file of --softness, which are global without it.
+/// Gives a body the softness, the energy and the axes of the options.
 void soften(const DeformArguments& options, const SoftnessChoice& softness, api::Body& body) {
   softness.apply_to(body);
   if (options.script->count() > 0 && options.global.energy->count() == 0) {

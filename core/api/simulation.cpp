@@ -25,6 +25,8 @@
 
 namespace chainmail::api {
 
+static_assert(usual_iterations == inner::equilibrium_iterations);
+
 struct Simulation::Impl {
   Impl(const Body& body, Algorithm algorithm)
       : mesh(body.mesh()), simulation(Access::pointer(mesh), algorithm, precision_of(body.precision())) {}

@@ -24,7 +24,7 @@ struct Access;
 /// nlohmann/json; nothing has changed then.
 void read_softness(const std::filesystem::path& path, Body& body);
 
-/// Number of iterations of the scheme `equilibrium` that a user rarely needs to exceed.
+/// Largest number of iterations of the scheme `equilibrium`, for users who do not choose.
 inline constexpr int usual_iterations = 200;
 
 /// An object that carries out moves as the workbench does, with one method, and notes what each pass did. One thread at
@@ -59,7 +59,7 @@ class Simulation {
   void cut(ElementId a, ElementId b);
   /// Pins elements at their current positions. Throws Error if one is grabbed.
   void pin(const std::vector<ElementId>& elements);
-  /// Grabs elements, drags them to a position (mesh units) in equal steps of one pass each, and releases them.
+  /// Grabs an element, drags it to a position (mesh units) in equal steps of one pass each, and releases it.
   void move(ElementId element, const Vector3& target, std::uint32_t steps = 1);
   /// Grabs elements that move as one rigid body.
   void grab(const std::vector<ElementId>& elements);
