@@ -1,18 +1,5 @@
 #include "command_line/compare_options.h"
-#include "command_line/folder.h"
 #include "command_line/progress_line.h"
-#include "command_line/report_origin.h"
-#include "files/results/report_json.h"
-#include "files/session/moves.h"
-#include "files/text/outputs.h"
-#include "files/text/text.h"
-#include "mesh/error.h"
-#include "report/page/csv.h"
-#include "report/page/html.h"
-#include "report/page/table.h"
-#include "report/run/drags.h"
-#include "report/run/runner.h"
-#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -35,53 +22,49 @@ constexpr const char* compare_footer =
     "  chainmail compare --suite -o suite\n"
     "  chainmail compare --merge part1/report.json part2/report.json -o suite";
 
-/// Returns the drags of an object: the recorded ones, or the three standard drags.
-std::vector<report::RecordedMoves> drags_of(const report::Case& object, const std::optional<std::string>& recorded) {
-  if (!recorded) {
-    return report::three_drags(object);
+/// Reads recorded moves of an object that a comparison can repeat.
+api::RecordedMoves moves_of(const std::string& file, const api::Mesh& mesh) {
+  const std::string name = api::printable(file);
+  const Watch watch("reading " + name);
+  api::RecordedMoves moves = api::read_moves(file, mesh, watch.job());
+  if (!(moves.last_mesh() == mesh)) {
+    throw api::Error(name, "its moves split the object, which a comparison cannot repeat",
+                     "save the split object, and record moves of it");
   }
-  const std::filesystem::path path = *recorded;
-  Watch watch("reading " + printable(*recorded));
-  report::RecordedMoves moves{"recorded", "recorded in " + printable(path.filename().string()),
-                              read_moves(path, object.mesh, watch.progress())};
-  if (first_mesh(moves.commands)) {
-    throw Error(printable(*recorded), "its moves split the object, which a comparison cannot repeat",
-                "save the split object, and record moves of it");
+  if (moves.pass_count() == 0) {
+    throw api::Error(name, "it contains no move", "write a grab and a drag, as in compare --help");
   }
-  if (report::count_moves(moves) == 0) {
-    throw Error(printable(*recorded), "it contains no move", "write a grab and a drag, as in compare --help");
-  }
-  return {std::move(moves)};
+  return moves;
 }
 
-std::vector<report::Case> cases_to_compare(const CompareArguments& options) {
-  const Softness softness = softness_of(options);
+std::vector<api::ComparedObject> objects_to_compare(const CompareArguments& options) {
   const auto recorded = value_of(options.moves);
   if (options.meshes->count() == 0 && recorded) {
-    throw Error("--moves", "the mesh of the recorded moves is missing", "add its file");
+    throw api::Error("--moves", "the mesh of the recorded moves is missing", "add its file");
   }
   if (options.meshes->count() == 0) {
-    refuse_pins(options);
-    return with_axes(report::default_cases(softness), options);
+    return built_in_objects(api::Reference::exact, options, {});
   }
-  std::vector<report::Case> cases;
+  std::vector<api::ComparedObject> objects;
   for (const std::string& name : options.meshes->results()) {
-    report::Case object = case_of(name, options);
-    object.elastic = elastic_of(options.elastic);
+    api::ComparedObject object = object_of(name, options);
+    object.body.set_elasticity(elastic_of(options.elastic));
     if (options.pins->count() > 0) {
-      object.pins = pins_of(options.pins, object.name, *object.mesh);
+      object.body.pin(pins_of(options.pins, api::printable(object.name), object.body.mesh()));
     }
-    object.drags = drags_of(object, recorded);
-    cases.push_back(std::move(object));
+    if (recorded) {
+      object.recorded.push_back(moves_of(*recorded, object.body.mesh()));
+    }
+    objects.push_back(std::move(object));
   }
-  return cases;
+  return objects;
 }
 
 void refuse_physics(const CompareArguments& arguments) {
   for (const CLI::Option* option : {arguments.grow, arguments.calibrated, arguments.reference, arguments.laws.materials,
                                     arguments.laws.gent_limit, arguments.laws.fung_exponent}) {
     if (option->count() > 0) {
-      throw Error(option->get_name(), "it works only with --against physics", "add --against physics");
+      throw api::Error(option->get_name(), "it works only with --against physics", "add --against physics");
     }
   }
 }
@@ -89,31 +72,20 @@ void refuse_physics(const CompareArguments& arguments) {
 void refuse_suite(const CompareArguments& arguments) {
   for (const CLI::Option* option : {arguments.experiments, arguments.shard}) {
     if (option->count() > 0) {
-      throw Error(option->get_name(), "it works only with --suite", "add --suite");
+      throw api::Error(option->get_name(), "it works only with --suite", "add --suite");
     }
   }
 }
 
 void compare(const CompareArguments& options, const std::string& command_line) {
-  const report::CompareOptions how = contest_of(options, every_algorithm(), "0,10,equilibrium");
+  const api::CompareOptions how = contest_of(options, "0,10,equilibrium", command_line);
   OutputFolder folder(*value_of(options.output));
-  const std::vector<report::Case> cases = cases_to_compare(options);
-
-  ProgressLine line;
-  const report::Comparison comparison = report::compare(cases, how, [&](double fraction, const std::string& text) {
-    line.show([&] { return percent(fraction) + text; });
-  });
-  const report::Origin origin = origin_of(command_line);
-
-  folder.make();
-  Outputs outputs;
-  outputs.add(folder.path() / "report.html", [&](std::ostream& out) { write_html(out, comparison, origin); });
-  outputs.add(folder.path() / "report.json", [&](std::ostream& out) { write_json(out, comparison, origin); });
-  outputs.add(folder.path() / "report.csv", [&](std::ostream& out) { write_csv(out, comparison); });
-  outputs.add("-", [&](std::ostream& out) { write_text(out, comparison); });
-  outputs.commit();
-  folder.keep();
-  folder.say_older_plots({});
+  const auto objects = objects_to_compare(options);
+  const api::Comparison comparison = [&] {
+    const Watch watch(report_progress);
+    return api::compare(objects, how, watch.job());
+  }();
+  write_report(folder, comparison.files(), comparison.text());
 }
 
 }  // namespace

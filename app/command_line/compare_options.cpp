@@ -2,49 +2,50 @@
 
 #include <algorithm>
 
-#include "files/session/softness_presets.h"
-#include "files/text/text.h"
+#include "chainmail/preset.h"
+#include "command_line/progress_line.h"
+#include "version/version.h"
 
 namespace chainmail::command_line {
 namespace {
 
 /// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
-void read_relax(const CLI::Option* option, const std::string& usual, report::CompareOptions& result) {
+void read_relax(const CLI::Option* option, const std::string& usual, api::CompareOptions& result) {
   constexpr std::uint32_t max_sweeps = 1'000'000;
   result.sweeps.clear();
   for (const std::string& word : words_of("--relax", value_of(option).value_or(usual))) {
-    if (word == info(RelaxationScheme::equilibrium).name) {
+    if (word == info(api::RelaxationScheme::equilibrium).name) {
       result.equilibrium = true;
       continue;
     }
-    const auto count = parse_count(word);
+    const auto count = api::parse_count(word);
     if (!count || *count > max_sweeps) {
-      throw Error("--relax", in_quotes(word) + " is not a number of sweeps",
-                  "write whole numbers up to 1000000, or equilibrium, separated by commas");
+      throw api::Error("--relax", api::in_quotes(word) + " is not a number of sweeps",
+                       "write whole numbers up to 1000000, or equilibrium, separated by commas");
     }
     result.sweeps.push_back(static_cast<int>(*count));
   }
 }
 
 /// Returns the softness of a built-in preset, or of a file with one preset.
-LinkSoftness preset_of(const std::string& name) {
-  for (const BuiltInPreset& preset : built_in_presets()) {
+api::LinkSoftness preset_of(const std::string& name) {
+  std::string names;
+  for (const api::Preset& preset : api::built_in_presets()) {
     if (preset.name == name) {
       return preset.softness;
     }
+    names += (names.empty() ? "" : ", ") + preset.name;
   }
   const std::filesystem::path path = name;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    std::string names;
-    for (const BuiltInPreset& preset : built_in_presets()) {
-      names += (names.empty() ? "" : ", ") + std::string(preset.name);
-    }
-    throw Error("--preset", in_quotes(name) + " is neither a preset nor a file", "use a file, or one of " + names);
+    throw api::Error("--preset", api::in_quotes(name) + " is neither a preset nor a file",
+                     "use a file, or one of " + names);
   }
-  const std::vector<SoftnessPreset> presets = read_presets(path);
+  const std::vector<api::Preset> presets = api::read_presets(path);
   if (presets.size() != 1) {
-    throw Error(shown(path), "it contains " + std::to_string(presets.size()) + " presets", "keep only one of them");
+    throw api::Error(api::shown(path), "it contains " + std::to_string(presets.size()) + " presets",
+                     "keep only one of them");
   }
   return presets.front().softness;
 }
@@ -58,8 +59,8 @@ void add_contest(CLI::App& app, CompareArguments& options) {
                 "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
                 "to the equilibrium [0,10,equilibrium; physics: 0,1,3,10,30,100,equilibrium]");
   options.relaxation = add_relaxation(app, true);
-  options.relax_step = add_parameter(app, parameters::relax_step);
-  options.precision = add_value(app, "--precision", "float|double", "precision of the solver [float]");
+  options.relax_step = add_parameter(app, api::parameter("relax-step"));
+  options.precision = add_precision(app, api::Precision::single_precision);
   options.repetitions = add_value(
       app, "--repetitions", "N", "runs of each drag [as many as fit into 4 s, at least 5; physics: 1.5 s, at least 3]");
 }
@@ -90,7 +91,8 @@ void add_physics(CLI::App& app, CompareArguments& options) {
 void add_suite(CLI::App& app, CompareArguments& options) {
   options.suite = app.add_flag("--suite")->description(
       "run the suite of experiments, about 24 minutes: all contestants against closed forms and converged references");
-  options.experiments = add_value(app, "--experiments", "NAME,…", "only these experiments of the suite [all but fronts-…]");
+  options.experiments =
+      add_value(app, "--experiments", "NAME,…", "only these experiments of the suite [all but fronts-…]");
   options.shard = add_value(app, "--shard", "I/N", "only part I of N of the suite, for several machines [1/1]");
   options.merge =
       app.add_flag("--merge")->description("join reports of parts of the suite: MESH are their report.json");
@@ -113,57 +115,75 @@ bool is_calibrated(const CompareArguments& arguments, bool by_default) {
   return calibrated == "on";
 }
 
-report::CompareOptions contest_of(const CompareArguments& options, std::span<const AlgorithmInfo> algorithms,
-                                  const std::string& relax) {
-  report::CompareOptions result;
-  result.algorithms = algorithms_of(options.algorithms, algorithms);
+api::CompareOptions contest_of(const CompareArguments& options, const std::string& relax,
+                               const std::string& command_line) {
+  api::CompareOptions result;
+  result.methods = methods_of(options.algorithms, api::methods());
   read_relax(options.relax, relax, result);
   result.scheme = relaxation_of(options.relaxation, true);
-  result.relax_step = value_of(options.relax_step, parameters::relax_step);
-  const std::string precision = value_of(options.precision).value_or("float");
-  check_word("--precision", precision, {"float", "double"});
-  result.precision = precision == "float" ? Precision::single_precision : Precision::double_precision;
+  result.relax_step = value_of(options.relax_step, api::parameter("relax-step"));
+  result.precision = precision_of(options.precision, api::Precision::single_precision);
   if (options.repetitions->count() > 0) {
     result.repetitions = static_cast<int>(whole_number_of(options.repetitions, 1, 1));
   }
+  result.command = command_line;
+  result.program = version_in_words("chainmail");
   return result;
 }
 
-Softness softness_of(const CompareArguments& arguments) {
+SoftnessChoice softness_of(const CompareArguments& arguments) {
   const auto preset = value_of(arguments.preset);
-  return softness_of(arguments.softness, preset ? preset_of(*preset) : LinkSoftness());
+  return softness_of(arguments.softness, preset ? preset_of(*preset) : api::LinkSoftness());
 }
 
-report::Case case_of(const std::string& file, const CompareArguments& arguments) {
-  const Softness softness = softness_of(arguments);
+api::ComparedObject object_of(const std::string& file, const CompareArguments& arguments) {
+  const SoftnessChoice softness = softness_of(arguments);
   const std::filesystem::path path = file;
-  OpenedMesh opened = chainmail::open_mesh(path);
-  const RegionAxes axes = axes_of(arguments.softness, *opened.mesh);
-  return {printable(path.filename().string()),
-          "mesh from a file",
-          opened.mesh,
-          {},
-          {},
-          {softness.global, std::move(opened.softness), softness.energy, axes},
-          {}};
+  api::ComparedObject object{path.filename().string(), api::Body(api::read_mesh(path)), "mesh from a file"};
+  softness.apply_to(object.body);
+  turn_axes(arguments.softness, object.body);
+  return object;
 }
 
-void refuse_pins(const CompareArguments& arguments) {
+std::vector<api::ComparedObject> built_in_objects(api::Reference against, const CompareArguments& arguments,
+                                                  const api::Elasticity& elasticity) {
   if (arguments.pins->count() > 0) {
-    throw Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
+    throw api::Error("--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
   }
+  const SoftnessChoice softness = softness_of(arguments);
+  auto objects = api::built_in_objects(against, softness.links, softness.energy, elasticity);
+  for (api::ComparedObject& one : objects) {
+    turn_axes(arguments.softness, one.body);
+  }
+  return objects;
 }
 
-std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments) {
-  for (report::Case& one : cases) {
-    one.softness.axes = axes_of(arguments.softness, *one.mesh);
+void write_report(OutputFolder& folder, const std::vector<api::ReportFile>& files, const std::string& text,
+                  const std::vector<std::filesystem::path>& read) {
+  folder.make();
+  api::Outputs outputs;
+  for (const auto& path : read) {
+    outputs.keep(path);
   }
-  return cases;
+  std::set<std::string> written;
+  for (const api::ReportFile& file : files) {
+    outputs.add(folder.path() / file.name, [&](std::ostream& out) { out << file.content; });
+    written.insert(file.name);
+  }
+  outputs.add("-", [&](std::ostream& out) { out << text; });
+  outputs.commit();
+  folder.keep();
+  folder.say_older_plots(written);
+}
+
+std::string report_progress(const api::Job& job) {
+  const std::string text = job.text();
+  return text.empty() ? text : percent(job.share()) + text;
 }
 
 CompareArguments add_compare_arguments(CLI::App& app) {
   CompareArguments options;
-  const std::string help = "mesh files: " + mesh_endings(FormatUse::read);
+  const std::string help = "mesh files: " + api::file_endings(api::FileUse::read);
   options.meshes = app.add_option("MESH", help)
                        ->type_name("")
                        ->expected(-1)

@@ -1,15 +1,12 @@
 #pragma once
 
+#include "chainmail/compare.h"
+#include "chainmail/suite.h"
 #include "command_line/elastic.h"
+#include "command_line/folder.h"
 #include "command_line/softness.h"
-#include "report/run/cases.h"
-#include "report/run/compare.h"
-#include "report/run/suite_experiments.h"
 
 namespace chainmail::command_line {
-
-/// The colour of axes and words in plots: readable on light and dark backgrounds.
-inline constexpr const char* plot_ink = "#808080";
 
 /// The options of `compare`, for both references.
 struct CompareArguments {
@@ -26,17 +23,16 @@ struct CompareArguments {
 };
 CompareArguments add_compare_arguments(CLI::App& app);
 
-/// Returns the settings of the comparison. `algorithms` are the allowed ones; `relax` is the default of --relax.
-report::CompareOptions contest_of(const CompareArguments& arguments, std::span<const AlgorithmInfo> algorithms,
-                                  const std::string& relax);
+/// Returns the settings of the comparison. `relax` is the default of --relax; `command_line` is shown in the report.
+api::CompareOptions contest_of(const CompareArguments& arguments, const std::string& relax,
+                               const std::string& command_line);
 /// Returns the global softness and the kind of energy: those of the preset, where single options override its values.
-Softness softness_of(const CompareArguments& arguments);
-/// Reads a mesh as a case of the report: at rest, without drags.
-report::Case case_of(const std::string& file, const CompareArguments& arguments);
-/// Throws Error if there are pins: built-in objects have their own, or none.
-void refuse_pins(const CompareArguments& arguments);
-/// Gives built-in objects the frame of the option.
-std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments);
+SoftnessChoice softness_of(const CompareArguments& arguments);
+/// Reads a mesh as an object of the report: at rest, with its softness, without drags.
+api::ComparedObject object_of(const std::string& file, const CompareArguments& arguments);
+/// Returns the built-in objects with the softness and the frame of the options. Throws Error if there are pins.
+std::vector<api::ComparedObject> built_in_objects(api::Reference against, const CompareArguments& arguments,
+                                                  const api::Elasticity& elasticity);
 
 /// Returns true if contestants are calibrated; `by_default` without --calibrated.
 bool is_calibrated(const CompareArguments& arguments, bool by_default);
@@ -52,8 +48,13 @@ void write_cases(const CLI::App& app, const CompareArguments& arguments);
 void judge_answers(const CLI::App& app, const CompareArguments& arguments);
 /// Throws Error for an option that the given mode does not take.
 void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken);
-/// Returns the organ of the samples; null if its file is missing.
-report::SampleOrgans sample_organs();
+/// Returns the organs of the samples whose files are there.
+api::SampleOrgans sample_organs();
+/// Writes files of a report into the folder, and a text to standard output. `read` are files that stay.
+void write_report(OutputFolder& folder, const std::vector<api::ReportFile>& files, const std::string& text,
+                  const std::vector<std::filesystem::path>& read = {});
+/// Shows the progress of a report.
+std::string report_progress(const api::Job& job);
 
 /// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
 void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);

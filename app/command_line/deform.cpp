@@ -1,22 +1,12 @@
-#include <algorithm>
 #include <map>
 #include <ostream>
 
+#include "chainmail/simulation.h"
 #include "command_line/common.h"
 #include "command_line/elastic.h"
 #include "command_line/progress_line.h"
 #include "command_line/script.h"
 #include "command_line/softness.h"
-#include "files/results/trace_csv.h"
-#include "files/session/moves.h"
-#include "files/session/softness_csv.h"
-#include "files/text/outputs.h"
-#include "files/text/text.h"
-#include "measure/inverted_cells.h"
-#include "measure/principal_stretch.h"
-#include "measure/volume_change.h"
-#include "mesh/error.h"
-#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -47,29 +37,21 @@ constexpr const char* example =
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";
 
-/// Throws Error, with the option, if the algorithm does not support the mesh.
-void check_algorithm(const DeformArguments& options, Algorithm algorithm, const Mesh& mesh) {
-  try {
-    check(algorithm, mesh);
-  } catch (const Error& error) {
-    throw error.at("--algorithm " + *value_of(options.algorithm));
-  }
-}
+/// The passes of each move, and what follows them.
+struct Schedule {
+  std::uint32_t steps = 1;
+  int relax = 0;  // sweeps, or iterations, after each pass
+  api::RelaxOptions how;
+};
 
-Precision read_precision(const DeformArguments& options) {
-  const std::string word = value_of(options.precision).value_or("double");
-  check_word("--precision", word, {"double", "float"});
-  return word == "float" ? Precision::single_precision : Precision::double_precision;
-}
-
-Schedule read_schedule(const DeformArguments& options, RelaxationScheme scheme, const Targets& targets) {
+Schedule read_schedule(const DeformArguments& options, api::RelaxationScheme scheme) {
   if (info(scheme).sweeps && options.relax_until->count() > 0) {
-    throw Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
+    throw api::Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
   }
   return {whole_number_of(options.steps, 1, 1),
-          whole_number_of(options.relax, 0, info(scheme).sweeps ? 0 : equilibrium_iterations),
-          value_of(options.relax_step, parameters::relax_step), value_of(options.relax_until, parameters::relax_until),
-          targets.trace.has_value()};
+          int(whole_number_of(options.relax, 0, info(scheme).sweeps ? 0 : api::usual_iterations)),
+          {value_of(options.relax_step, api::parameter("relax-step")), scheme,
+           value_of(options.relax_until, api::parameter("relax-until"))}};
 }
 
 /// Returns the actions in the order of their options on the command line.
@@ -87,13 +69,15 @@ std::vector<Action> read_actions(const DeformArguments& options) {
   return actions;
 }
 
-/// Returns the format of the positions. On standard output, it is a CSV table.
-const MeshFormat& positions_format(const std::string& path) {
+/// Returns a name with the ending of the positions. On standard output, they are a CSV table.
+std::string positions_name(const std::string& path) {
+  const std::string name = path == "-" ? "standard_output.csv" : path;
   try {
-    return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
-  } catch (const Error& error) {
-    throw error.at("--positions " + printable(path));
+    api::check_format(name, api::FileUse::write_positions);
+  } catch (const api::Error& error) {
+    throw error.at("--positions " + api::printable(path));
   }
+  return name;
 }
 
 Targets read_targets(const DeformArguments& options) {
@@ -105,162 +89,78 @@ Targets read_targets(const DeformArguments& options) {
     }
   }
   if (targets.positions) {
-    positions_format(*targets.positions);
+    positions_name(*targets.positions);
   }
   return targets;
 }
 
-DeformSummary summarize(Simulation& simulation, const Run& run) {
-  const Mesh& mesh = simulation.mesh();
-  const auto positions = simulation.body().positions();
-  simulation.refresh_statistics(true);
-  const Statistics& statistics = simulation.statistics();
-  return {std::string(info(statistics.algorithm).name),
-          mesh.element_count(),
-          mesh.link_count(),
-          run.passes,
-          statistics.violation,
-          elastic_energy(mesh, simulation.softness(), simulation.body().cuts(), positions, simulation.body().elastic()),
-          measure_displacement(mesh, positions),
-          volume_change(mesh, positions),
-          inverted_cells(mesh, positions),
-          largest_principal_stretch(mesh, positions),
-          info(simulation.relaxation().scheme).sweeps ? std::nullopt : simulation.certificate()};
-}
-
-void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
-  const Solver& solver = simulation.solver();
-  check_holds(positions_format(path), simulation.mesh(), path);
-  write_mesh(out, positions_format(path),
-             {simulation.mesh(), solver.body().cuts(), solver.body().positions(), simulation.softness()});
-}
-
-void write_deformation(std::ostream& out, const AlgorithmInfo& algorithm, const DeformSummary& summary) {
-  out << algorithm.offered_name() << " on " << summary.elements << " elements, " << summary.links << " links\n";
-  for (std::size_t i = 0; i < summary.passes.size(); ++i) {
-    const auto& pass = summary.passes[i];
-    const auto point = [&out](const Point& at) { out << '(' << at.x() << ", " << at.y() << ", " << at.z() << ')'; };
-    out << "pass " << i << ": ";
-    pass.handle.size() == 1 ? out << "element " << pass.handle.front() : out << pass.handle.size() << " elements";
-    out << " to ";
-    point(pass.target);
-    if (pass.rotation.degrees != 0) {
-      out << ", rotated by " << pass.rotation.degrees << " degrees about ";
-      point(pass.rotation.axis);
-    }
-    out << ", " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds << " ms";
-    if (pass.stopped_at) {
-      out << (pass.remark.empty() ? ", stopped by pins at " : ", stopped at ");
-      point(*pass.stopped_at);
-    }
-    out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
-  }
-  out << "violation: max " << summary.violation.max << " rest lengths, RMS " << summary.violation.rms << ", "
-      << 100 * summary.violation.fraction << "% of links\n";
-  if (const auto& found = summary.equilibrium) {
-    out << "equilibrium: residual " << found->residual << " after " << found->iterations << " iterations, ";
-    if (found->gap) {
-      out << "energy about " << 100 * *found->gap << "% above the least, ";
-    }
-    out << "largest violation " << found->violation << " rest lengths, valid regions "
-        << (found->binds ? "bind" : "do not bind") << '\n';
-  }
-}
-
-std::string share_of(std::size_t count, std::size_t all) {
-  return all == 1 ? "the pass" : std::to_string(count) + " of " + std::to_string(all) + " passes";
-}
-
-/// Says what did not go as requested, so that a script notices it, too.
-void say_what_failed(const std::vector<DeformSummary::Pass>& passes) {
-  std::map<std::string, std::size_t> remarks;
-  std::size_t stopped = 0;
-  const DeformSummary::Pass* last = nullptr;
-  for (const auto& pass : passes) {
-    if (!pass.remark.empty()) {
-      ++remarks[pass.remark];
-    }
-    if (pass.stopped_at) {
-      ++stopped;
-      last = &pass;
-    }
-  }
-  for (const auto& [remark, count] : remarks) {
-    say_note(share_of(count, passes.size()) + ": " + remark);
-  }
-  if (last != nullptr) {
-    const auto words = [](const Point& at) {
-      std::string text;
-      for (int k = 0; k < 3; ++k) {
-        text += k == 0 ? "(" : ", ";
-        append_number(text, at[k]);
-      }
-      return text + ")";
-    };
-    say_note(share_of(stopped, passes.size()) + " stopped before the target; the last at " + words(*last->stopped_at) +
-             " instead of " + words(last->target));
-  }
-}
-
-void write_results(const Targets& targets, const Simulation& simulation, const Run& run, const DeformSummary& summary) {
-  Outputs outputs;
+void write_results(const Targets& targets, const api::Simulation& simulation) {
+  api::Outputs outputs;
   for (const std::string& input : targets.inputs) {
     outputs.keep(input);
   }
   if (targets.positions) {
-    outputs.add(*targets.positions, [&](std::ostream& out) { write_positions(out, *targets.positions, simulation); });
+    outputs.add(*targets.positions,
+                [&](std::ostream& out) { api::write_mesh(out, positions_name(*targets.positions), simulation); });
   }
   if (targets.trace) {
-    outputs.add(*targets.trace, [&](std::ostream& out) { write_trace_csv(out, run.traces); });
+    outputs.add(*targets.trace, [&](std::ostream& out) { out << simulation.trace_csv(); });
   }
   if (targets.json) {
-    outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
+    outputs.add(*targets.json, [&](std::ostream& out) { out << simulation.json(); });
   }
   if (targets.none()) {
-    outputs.add("-",
-                [&](std::ostream& out) { write_deformation(out, info(simulation.statistics().algorithm), summary); });
+    outputs.add("-", [&](std::ostream& out) { out << simulation.text(); });
   }
   outputs.commit();
-  say_what_failed(summary.passes);
+  for (const std::string& note : simulation.notes()) {
+    say_note(note);
+  }
+}
+
+/// Gives a body the softness, the energy and the axes of the options.
+void soften(const DeformArguments& options, const SoftnessChoice& softness, api::Body& body) {
+  softness.apply_to(body);
+  if (options.script->count() > 0 && options.global.energy->count() == 0) {
+    body.set_energy(api::link_energy);  // recorded moves begin with it
+  }
+  turn_axes(options.global, body);
 }
 
 void deform(const DeformArguments& options) {
-  const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
-  const Precision precision = read_precision(options);
-  const RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
-  Softness softness = softness_of(options.global);
-  if (options.script->count() > 0 && options.global.energy->count() == 0) {
-    set_energy(softness, link_energy);  // recorded moves begin with it
-  }
-  ElasticOptions elastic = elastic_of(options.elastic);
-  elastic.law = own_law_of(options.law, elastic.material);
+  const std::string method = method_of("--algorithm", *value_of(options.algorithm), api::methods());
+  const api::Precision precision = precision_of(options.precision, api::Precision::double_precision);
+  const api::RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
+  const SoftnessChoice softness = softness_of(options.global);
+  api::Elasticity elastic = elastic_of(options.elastic);
+  read_own_law(options.law, elastic);
   const Targets targets = read_targets(options);
-  const Schedule schedule = read_schedule(options, relaxation, targets);
+  const Schedule schedule = read_schedule(options, relaxation);
   const std::vector<Action> actions = read_actions(options);
-  OpenedMesh opened = open_mesh(options.mesh);
-  const MeshPointer mesh = opened.mesh;
-  softness.links = std::move(opened.softness);
-  softness.axes = axes_of(options.global, *mesh);
-  check_algorithm(options, algorithm, *mesh);
+  const api::Mesh mesh = open_mesh(options.mesh);
+  api::Body body(mesh, precision);
+  soften(options, softness, body);
+  body.set_elasticity(elastic);
+  try {
+    api::check_method(method, mesh);
+  } catch (const api::Error& error) {
+    throw error.at("--algorithm " + *value_of(options.algorithm));
+  }
   if (const auto file = value_of(options.softness)) {
-    for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
-      softness.links.set(link, own);
-    }
+    api::read_softness(*file, body);
   }
-  std::vector<chainmail::Command> moves;
+  std::optional<api::RecordedMoves> recorded;
   if (const auto file = value_of(options.script)) {
-    Watch watch("reading " + printable(*file));
-    moves = read_moves(std::filesystem::path(*file), mesh, watch.progress());
+    const Watch watch("reading " + api::printable(*file));
+    recorded = api::read_moves(*file, mesh, watch.job());
   }
+  check_actions(actions, recorded ? recorded->last_mesh() : mesh);
 
-  check_actions(actions, *last_mesh(mesh, moves));
-
-  Simulation simulation(mesh, algorithm, precision);
-  simulation.apply(commands::SetSoftness{softness});
-  simulation.apply(commands::SetElastic{elastic});
-  simulation.apply(commands::SetRelaxation{false, schedule.relax_step, relaxation});
-  const Run run = carry_out(simulation, moves, actions, schedule);
-  write_results(targets, simulation, run, summarize(simulation, run));
+  api::Simulation simulation(body, method);
+  simulation.set_relaxation(schedule.relax, schedule.how);
+  simulation.set_tracing(targets.trace.has_value());
+  carry_out(simulation, recorded, actions, schedule.steps);
+  write_results(targets, simulation);
 }
 
 void add_acts(CLI::App& app, DeformArguments& options) {
@@ -282,23 +182,32 @@ void add_acts(CLI::App& app, DeformArguments& options) {
       add_value(app, "--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions");
 }
 
+/// Returns the names of the first numbers of softness, for a file with a column for each.
+std::string softness_names(std::size_t count) {
+  std::string names;
+  for (const api::SoftnessNumber& one : api::softness_numbers().first(count)) {
+    names += (names.empty() ? "" : ",") + std::string(one.name);
+  }
+  return names;
+}
+
 void add_model(CLI::App& app, DeformArguments& options) {
   std::string names;
-  for (const std::string& name : names_of(every_algorithm())) {
+  for (const std::string& name : names_of(api::methods())) {
     names += (names.empty() ? "" : "|") + name;
   }
   options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
   options.global = add_softness(app);
   options.softness = add_value(app, "--softness", "FILE",
-                               "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) +
-                                   " or a,b," + softness_names(","));
+                               "softness of single links: CSV rows a,b," + softness_names(region_numbers) + " or a,b," +
+                                   softness_names(api::softness_numbers().size()));
   options.relax = add_value(app, "--relax", "N",
                             "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
-                                std::to_string(equilibrium_iterations) + "]");
+                                std::to_string(api::usual_iterations) + "]");
   options.relaxation = add_relaxation(app, false);
-  options.relax_step = add_parameter(app, parameters::relax_step);
-  options.relax_until = add_parameter(app, parameters::relax_until);
-  options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
+  options.relax_step = add_parameter(app, api::parameter("relax-step"));
+  options.relax_until = add_parameter(app, api::parameter("relax-until"));
+  options.precision = add_precision(app, api::Precision::double_precision);
   options.elastic = add_elastic(app);
   options.law = add_strain_law(app);
   options.mesh.space =
@@ -307,8 +216,8 @@ void add_model(CLI::App& app, DeformArguments& options) {
 }
 
 void add_outputs(CLI::App& app, DeformArguments& options) {
-  options.positions =
-      add_value(app, "--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions));
+  options.positions = add_value(app, "--positions", "FILE",
+                                "write the final positions: " + api::file_endings(api::FileUse::write_positions));
   options.trace =
       add_value(app, "--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved");
   options.json = add_value(app, "--json", "FILE", "write passes, violation, energy and displacement as JSON");
@@ -324,8 +233,8 @@ Command add_deform(CLI::App& root) {
   add_model(*app, options);
   add_acts(*app, options);
   add_outputs(*app, options);
-  app->footer("Algorithms:\n" + algorithms_help(every_algorithm()) + "\nFormats of positions:\n" +
-              mesh_formats_help(FormatUse::write_positions) + "\n" + example);
+  app->footer("Algorithms:\n" + methods_help(api::methods()) + "\nFormats of positions:\n" +
+              api::file_formats_help(api::FileUse::write_positions) + "\n" + example);
   return {app, [options] { deform(options); }};
 }
 

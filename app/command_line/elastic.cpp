@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "files/text/text.h"
-#include "mesh/layers.h"
-
 namespace chainmail::command_line {
 namespace {
 
@@ -13,10 +10,10 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
   std::size_t axis = 0;
   for (std::size_t begin = 0; begin <= text.size(); ++axis) {
     const std::size_t end = std::min(text.find('x', begin), text.size());
-    const auto count = parse_count(text.substr(begin, end - begin));
+    const auto count = api::parse_count(text.substr(begin, end - begin));
     if (!count || axis == 3) {
-      throw Error("--lattice", in_quotes(text) + " is not a number of control points",
-                  "write one number for all axes, or one for each, as 4x4x4");
+      throw api::Error("--lattice", api::in_quotes(text) + " is not a number of control points",
+                       "write one number for all axes, or one for each, as 4x4x4");
     }
     counts[axis] = *count;
     begin = end + 1;
@@ -30,10 +27,10 @@ std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
 }
 
 std::uint32_t iterations_of(const std::string& text) {
-  const auto count = parse_count(text);
+  const auto count = api::parse_count(text);
   if (!count) {
-    throw Error("--iterations", in_quotes(text) + " is not a number of iterations",
-                "use " + range_of(parameters::iterations));
+    throw api::Error("--iterations", api::in_quotes(text) + " is not a number of iterations",
+                     "use " + api::range_of(api::parameter("iterations")));
   }
   return *count;
 }
@@ -41,40 +38,40 @@ std::uint32_t iterations_of(const std::string& text) {
 }  // namespace
 
 ElasticArguments add_material(CLI::App& app) {
-  return {add_parameter(app, parameters::young), add_parameter(app, parameters::poisson), nullptr, nullptr};
+  return {add_parameter(app, api::parameter("young")), add_parameter(app, api::parameter("poisson")), nullptr, nullptr};
 }
 
 ElasticArguments add_elastic(CLI::App& app) {
   ElasticArguments arguments = add_material(app);
-  arguments.lattice = add_value(app, "--lattice", "N|NxN[xN]", help_of(parameters::lattice));
-  arguments.iterations = add_parameter(app, parameters::iterations);
+  arguments.lattice = add_value(app, "--lattice", "N|NxN[xN]", help_of(api::parameter("lattice")));
+  arguments.iterations = add_parameter(app, api::parameter("iterations"));
   return arguments;
 }
 
-ElasticOptions elastic_of(const ElasticArguments& arguments) {
-  ElasticOptions options;
+api::Elasticity elastic_of(const ElasticArguments& arguments) {
+  api::Elasticity elastic;
   if (const auto young = value_of(arguments.young)) {
-    options.material.young = parse_number_of("--young", *young);
+    elastic.young = parse_number_of("--young", *young);
   }
   if (const auto poisson = value_of(arguments.poisson)) {
-    options.material.poisson = parse_number_of("--poisson", *poisson);
+    elastic.poisson = parse_number_of("--poisson", *poisson);
   }
   if (const auto lattice = arguments.lattice == nullptr ? std::nullopt : value_of(arguments.lattice)) {
-    options.lattice = lattice_of(*lattice);
+    elastic.control_points = lattice_of(*lattice);
   }
   if (const auto iterations = arguments.iterations == nullptr ? std::nullopt : value_of(arguments.iterations)) {
-    options.iterations = iterations_of(*iterations);
+    elastic.iterations = iterations_of(*iterations);
   }
   in_options({{"young", "--young"}, {"poisson", "--poisson"}, {"lattice", "--lattice"}, {"iterations", "--iterations"}},
-             [&] { check(options); });
-  return options;
+             [&] { api::check(elastic); });
+  return elastic;
 }
 
 StrainLawArguments add_strain_laws(CLI::App& app) {
   return {add_value(app, "--material", "M,M,…",
                     "materials of the reference solution: neo-hookean, or gent and fung, which stiffen as they are "
                     "stretched [neo-hookean]"),
-          add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
+          add_parameter(app, api::parameter("gent-limit")), add_parameter(app, api::parameter("fung-exponent"))};
 }
 
 StrainLawArguments add_strain_law(CLI::App& app) {
@@ -82,70 +79,74 @@ StrainLawArguments add_strain_law(CLI::App& app) {
       add_value(app, "--material", "neo-hookean|gent|fung",
                 "law of the material, for relaxation to it and for the algorithm neo-hookean; gent and fung stiffen "
                 "as they are stretched [neo-hookean]"),
-      add_parameter(app, parameters::gent_limit), add_parameter(app, parameters::fung_exponent)};
+      add_parameter(app, api::parameter("gent-limit")), add_parameter(app, api::parameter("fung-exponent"))};
 }
 
-StrainLaw own_law_of(const StrainLawArguments& arguments, const Material& material) {
-  const std::vector<StrainLaw> laws = strain_laws_of(arguments, material);
+void read_own_law(const StrainLawArguments& arguments, api::Elasticity& elastic) {
+  const auto laws = strain_laws_of(arguments, elastic);
   if (laws.size() > 1) {
-    throw Error("--material", "it names several materials", "name one");
+    throw api::Error("--material", "it names several materials", "name one");
   }
-  return laws.front();
+  elastic = laws.front();
 }
 
-std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material) {
-  std::vector<StrainLaw> laws;
-  for (const std::string& word : words_of("--material", value_of(arguments.materials).value_or("neo-hookean"))) {
-    check_word("--material", word, {"neo-hookean", "gent", "fung"});
-    laws.push_back({strain_law_of(word), value_of(arguments.gent_limit, parameters::gent_limit),
-                    value_of(arguments.fung_exponent, parameters::fung_exponent)});
+std::vector<api::Elasticity> strain_laws_of(const StrainLawArguments& arguments, const api::Elasticity& elastic) {
+  std::vector<api::Elasticity> laws;
+  const std::vector<std::string> names{api::name_of(api::StrainLaw::neo_hookean), api::name_of(api::StrainLaw::gent),
+                                       api::name_of(api::StrainLaw::fung)};
+  for (const std::string& word : words_of("--material", value_of(arguments.materials).value_or(names[0]))) {
+    check_word("--material", word, names);
+    laws.push_back(elastic);
+    laws.back().law = api::StrainLaw(std::ranges::find(names, word) - names.begin());
+    laws.back().gent_limit = value_of(arguments.gent_limit, api::parameter("gent-limit"));
+    laws.back().fung_exponent = value_of(arguments.fung_exponent, api::parameter("fung-exponent"));
     in_options({{"gent-limit", "--gent-limit"}, {"fung-exponent", "--fung-exponent"}},
-               [&] { check(laws.back(), material); });
+               [&] { api::check(laws.back()); });
   }
-  for (const auto& [option, kind] : {std::pair(arguments.gent_limit, StrainLaw::Kind::gent),
-                                     std::pair(arguments.fung_exponent, StrainLaw::Kind::fung)}) {
-    if (option->count() > 0 && std::ranges::count(laws, kind, &StrainLaw::kind) == 0) {
-      throw Error(option->get_name(), "the material '" + name(kind) + "' does not take part",
-                  "add --material " + name(kind));
+  for (const auto& [option, law] : {std::pair(arguments.gent_limit, api::StrainLaw::gent),
+                                    std::pair(arguments.fung_exponent, api::StrainLaw::fung)}) {
+    if (option->count() > 0 && std::ranges::count(laws, law, &api::Elasticity::law) == 0) {
+      throw api::Error(option->get_name(), "the material '" + api::name_of(law) + "' does not take part",
+                       "add --material " + api::name_of(law));
     }
   }
   return laws;
 }
 
-std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word,
-                                                   const Mesh& mesh) {
-  const ObjectSide* side = find_side(word);
-  if (side == nullptr && word != "boundary") {
+std::optional<std::vector<api::ElementId>> pins_by_name(const std::string& where, const std::string& word,
+                                                        const api::Mesh& mesh) {
+  const auto sides = api::side_names();
+  if (std::ranges::find(sides, word) == sides.end()) {
     return std::nullopt;
   }
-  std::vector<ElementId> pins = side == nullptr ? boundary(mesh) : layer(mesh, *side);
-  if (pins.empty()) {
-    throw side == nullptr
-        ? Error(where, "the object is closed and has no boundary", "pin a layer, like bottom, or elements by id")
-        : Error(where, "the object does not extend along that axis", "pin another layer, or elements by id");
+  try {
+    return mesh.side(word);
+  } catch (const api::Error& error) {
+    throw api::Error(
+        where, error.problem(),
+        word == "boundary" ? "pin a layer, like bottom, or elements by id" : "pin another layer, or elements by id");
   }
-  return pins;
 }
 
-std::vector<ElementId> pins_of(const CLI::Option* option, const std::string& object, const Mesh& mesh) {
+std::vector<api::ElementId> pins_of(const CLI::Option* option, const std::string& object, const api::Mesh& mesh) {
   const auto list = value_of(option);
   if (!list) {
-    throw Error(object, "it has no pins, so physics has no solution",
-                "add --pins bottom, --pins boundary, or --pins ID,ID,…");
+    throw api::Error(object, "it has no pins, so physics has no solution",
+                     "add --pins bottom, --pins boundary, or --pins ID,ID,…");
   }
   if (auto pins = pins_by_name("--pins", *list, mesh)) {
     return *std::move(pins);
   }
-  std::vector<ElementId> pins;
+  std::vector<api::ElementId> pins;
   for (const std::string& word : words_of("--pins", *list)) {
-    const auto id = parse_count(word);
+    const auto id = api::parse_count(word);
     if (!id) {
-      throw Error("--pins", in_quotes(word) + " is not an element's id",
-                  "use ids from 0, separated by commas, or " + pin_names());
+      throw api::Error("--pins", api::in_quotes(word) + " is not an element's id",
+                       "use ids from 0, separated by commas, or " + pin_names());
     }
     if (*id >= mesh.element_count()) {
-      throw Error("--pins", object + " has no element " + word,
-                  "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
+      throw api::Error("--pins", object + " has no element " + word,
+                       "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
     }
     pins.push_back(*id);
   }
@@ -159,10 +160,10 @@ CLI::Option* add_pins(CLI::App& app) {
 
 std::string pin_names() {
   std::string names;
-  for (const ObjectSide& side : object_sides) {
-    names += std::string(side.name) + "|";
+  for (const std::string_view side : api::side_names()) {
+    names += (names.empty() ? "" : "|") + std::string(side);
   }
-  return names + "boundary";
+  return names;
 }
 
 }  // namespace chainmail::command_line

@@ -6,23 +6,16 @@
 #include <system_error>
 
 #include "command_line/common.h"
-#include "files/text/text.h"
-#include "mesh/error.h"
 
 namespace chainmail::command_line {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string reason() { return std::generic_category().message(errno); }
-
-}  // namespace
 
 std::string object_plot(std::size_t number) { return "object-" + std::to_string(number) + ".svg"; }
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) {
-    throw Error("-o", "the folder's name is empty", "use the name of a folder");
+    throw api::Error("-o", "the folder's name is empty", "use the name of a folder");
   }
   std::error_code error;
   fs::path there = path_;
@@ -30,11 +23,12 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
   }
   if (!fs::is_directory(there, error)) {
-    throw Error("-o", shown(there) + " is not a folder", "use the name of a folder");
+    throw api::Error("-o", api::shown(there) + " is not a folder", "use the name of a folder");
   }
   errno = 0;
   if (access(there.c_str(), W_OK | X_OK) != 0) {
-    throw Error("-o", shown(there) + " cannot be written to (" + reason() + ")", "check its permissions");
+    throw api::Error("-o", api::shown(there) + " cannot be written to (" + api::system_reason() + ")",
+                     "check its permissions");
   }
 }
 
@@ -57,8 +51,8 @@ void OutputFolder::make() {
       made_.push_back(folder);
     }
     if (error) {
-      throw Error("-o", shown(folder) + " cannot be created (" + error.message() + ")",
-                  "check the name and permissions");
+      throw api::Error("-o", api::shown(folder) + " cannot be created (" + error.message() + ")",
+                       "check the name and permissions");
     }
   }
 }
@@ -77,7 +71,7 @@ void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
     }
   }
   if (!older.empty()) {
-    say_note(shown(path_) + " also has plots of an earlier report: " + older);
+    say_note(api::shown(path_) + " also has plots of an earlier report: " + older);
   }
 }
 

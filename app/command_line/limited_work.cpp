@@ -16,10 +16,10 @@
 #include <system_error>
 #include <vector>
 
+#include "chainmail/error.h"
+#include "chainmail/files.h"
+#include "chainmail/text.h"
 #include "files/import/sandbox.h"
-#include "files/text/temporary_folder.h"
-#include "files/text/text.h"
-#include "mesh/error.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -30,10 +30,10 @@ constexpr char between_texts = '\0';
 
 constexpr const char* what_to_do = "use a smaller file, or open it in the workbench";
 
-Error beyond_time(const std::string& where, const WorkLimits& limits) {
+api::Error beyond_time(const std::string& where, const WorkLimits& limits) {
   return {where, "this takes more than " + std::to_string(limits.seconds) + " s of processor time", what_to_do};
 }
-Error beyond_memory(const std::string& where, const WorkLimits& limits) {
+api::Error beyond_memory(const std::string& where, const WorkLimits& limits) {
   return {where, "this takes more than " + std::to_string(limits.memory >> 20) + " MiB of memory", what_to_do};
 }
 
@@ -67,7 +67,7 @@ class WorkPipe {
  public:
   WorkPipe() {
     if (pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw Error("chainmail", "a pipe cannot be created (" + system_reason() + ")", "close other programs");
+      throw api::Error("chainmail", "a pipe cannot be created (" + api::system_reason() + ")", "close other programs");
     }
   }
   WorkPipe(const WorkPipe&) = delete;
@@ -111,7 +111,7 @@ class WorkPipe {
 std::string answer_of(const std::function<std::string()>& work) {
   try {
     return is_result + work();
-  } catch (const Error& error) {
+  } catch (const api::Error& error) {
     return is_error + error.where() + between_texts + error.problem() + between_texts + error.remedy();
   } catch (const std::bad_alloc&) {
     return {is_out_of_memory};
@@ -127,10 +127,10 @@ std::string answer_of(const std::function<std::string()>& work) {
   std::array<std::string, 3> parts;
   for (std::string& part : parts) {
     const std::size_t end = std::min(texts.find(between_texts), texts.size());
-    part = printable(texts.substr(0, end));
+    part = api::printable(texts.substr(0, end));
     texts.remove_prefix(std::min(end + 1, texts.size()));
   }
-  throw Error(parts[0], parts[1], parts[2]);
+  throw api::Error(parts[0], parts[1], parts[2]);
 }
 
 /// Waits for the end of a process that was ended, or is about to end, and returns the status of waitpid.
@@ -146,7 +146,7 @@ std::string result_of(const std::string& where, const WorkLimits& limits, const 
     throw beyond_time(where, limits);
   }
   if (answer.size() > limits.answer || !WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) {
-    throw Error(where, "the process that reads it failed", "use another file, and report this one");
+    throw api::Error(where, "the process that reads it failed", "use another file, and report this one");
   }
   const std::string_view rest = std::string_view(answer).substr(1);
   switch (answer.front()) {
@@ -157,7 +157,7 @@ std::string result_of(const std::string& where, const WorkLimits& limits, const 
     case is_out_of_memory:
       throw beyond_memory(where, limits);
     default:
-      throw std::runtime_error(printable(rest));
+      throw std::runtime_error(api::printable(rest));
   }
 }
 
@@ -170,11 +170,11 @@ bool has_used_half(const WorkLimits& limits) {
 }
 
 std::string run_limited(const std::string& where, const WorkLimits& limits, const std::function<std::string()>& work) {
-  const TemporaryFolder folder;  // removed even if the work is killed
+  const api::TemporaryFolder folder;  // removed even if the work is killed
   WorkPipe pipe;
   const pid_t process = fork();
   if (process < 0) {
-    throw Error("chainmail", "a process cannot be started (" + system_reason() + ")", "close other programs");
+    throw api::Error("chainmail", "a process cannot be started (" + api::system_reason() + ")", "close other programs");
   }
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its caller

@@ -35,8 +35,8 @@ void ProgressLine::write(const std::string& text) {
 }
 
 struct Watch::Line {
-  Line(std::string text, const JobState& job)
-      : thread([text = std::move(text), &job, this](const std::stop_token& stop) {
+  Line(std::function<std::string(const api::Job&)> text, const api::Job& job)
+      : thread([text = std::move(text), job, this](const std::stop_token& stop) {
           try {
             show(text, job, stop);
           } catch (const std::exception&) {
@@ -44,12 +44,14 @@ struct Watch::Line {
           }
         }) {}
 
-  void show(const std::string& text, const JobState& job, const std::stop_token& stop) {
+  void show(const std::function<std::string(const api::Job&)>& text, const api::Job& job, const std::stop_token& stop) {
     ProgressLine line;
     std::unique_lock lock(mutex);
     // Short jobs show nothing.
     while (!over.wait_for(lock, stop, std::chrono::milliseconds(300), [&] { return stop.stop_requested(); })) {
-      line.show([&] { return percent(job.share.load(std::memory_order_relaxed)) + text; });
+      if (const std::string words = text(job); !words.empty()) {
+        line.show([&] { return words; });
+      }
     }
   }
 
@@ -58,10 +60,12 @@ struct Watch::Line {
   std::jthread thread;  // last member, because it uses the others
 };
 
-Watch::Watch(std::string text) {
+Watch::Watch(const std::string& text) : Watch([text](const api::Job& job) { return percent(job.share()) + text; }) {}
+
+Watch::Watch(std::function<std::string(const api::Job&)> line) {
   if (isatty(STDERR_FILENO) != 0) {
     try {
-      line_ = std::make_unique<Line>(std::move(text), job_);
+      line_ = std::make_unique<Line>(std::move(line), job_);
     } catch (const std::system_error&) {
       // The system starts no more threads: the work runs without a line.
     }

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
-#include "mesh/progress.h"
+#include "chainmail/job.h"
 
 namespace chainmail::command_line {
 
@@ -40,18 +41,20 @@ class ProgressLine {
 /// Shows the progress of a job on standard error, if that is a terminal, while this object exists.
 class Watch {
  public:
-  explicit Watch(std::string text);
+  /// Shows the share that is done, and the text.
+  explicit Watch(const std::string& text);
+  /// Shows what `line` says about the job; nothing while that is empty.
+  explicit Watch(std::function<std::string(const api::Job&)> line);
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
   ~Watch();
 
-  /// Returns the progress object for the job.
-  Progress progress() { return Progress(job_); }
+  const api::Job& job() const { return job_; }
 
  private:
   struct Line;
 
-  JobState job_;
+  api::Job job_;
   std::unique_ptr<Line> line_;  // none without a terminal
 };
 

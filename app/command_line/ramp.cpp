@@ -1,15 +1,11 @@
-#include "report/run/ramp.h"
+#include "chainmail/ramp.h"
+
+#include <unistd.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "command_line/common.h"
 #include "command_line/progress_line.h"
-#include "files/results/report_json.h"
-#include "files/text/outputs.h"
-#include "files/text/text.h"
-#include "mesh/error.h"
-#include "report/page/ramp_table.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -42,9 +38,9 @@ std::uint64_t read_largest(const RampArguments& options, std::uint64_t limit) {
     return largest_for_memory(limit);
   }
   const std::uint32_t largest = whole_number_of(options.largest, smallest_grid, 0);
-  if (largest > element_limit) {
-    throw Error("--largest", std::to_string(largest) + " is more elements than a mesh may have",
-                "use " + std::to_string(smallest_grid) + " to " + std::to_string(element_limit));
+  if (largest > api::element_limit) {
+    throw api::Error("--largest", std::to_string(largest) + " is more elements than a mesh may have",
+                     "use " + std::to_string(smallest_grid) + " to " + std::to_string(api::element_limit));
   }
   return largest;
 }
@@ -53,32 +49,31 @@ double read_budget(const RampArguments& options, double default_value) {
   const auto text = value_of(options.budget);
   const double budget = text ? parse_number_of("--budget", *text) : default_value;
   if (!(budget > 0)) {
-    throw Error("--budget", *text + " is not above 0", "write a number of seconds above 0, like 0.0167");
+    throw api::Error("--budget", *text + " is not above 0", "write a number of seconds above 0, like 0.0167");
   }
   return budget;
 }
 
-report::RampOptions ramp_options(const RampArguments& options) {
-  report::RampOptions result;
-  result.algorithms = algorithms_of(options.algorithms, algorithms());
+api::RampOptions ramp_options(const RampArguments& options) {
+  api::RampOptions result;
+  result.methods = methods_of(options.algorithms, chainmail_methods());
   result.seed = whole_number_of(options.seed, 0, static_cast<std::uint32_t>(result.seed));
   result.budget = read_budget(options, result.budget);
-  result.softness = {value_of(options.compression, parameters::compression),
-                     value_of(options.stretch, parameters::stretch), value_of(options.shear, parameters::shear)};
-  const std::string precision = value_of(options.precision).value_or("float");
-  check_word("--precision", precision, {"float", "double"});
-  result.precision = precision == "float" ? Precision::single_precision : Precision::double_precision;
-  result.largest = read_largest(options, result.largest);
+  result.softness = {value_of(options.compression, api::parameter("compression")),
+                     value_of(options.stretch, api::parameter("stretch")),
+                     value_of(options.shear, api::parameter("shear"))};
+  result.precision = precision_of(options.precision, result.precision);
+  result.largest = read_largest(options, 4'000'000);
   return result;
 }
 
 struct Target {
   std::filesystem::path path;
-  Outputs::Writer writer;
+  api::Outputs::Writer writer;
 };
 
 void write(const std::vector<Target>& targets, bool is_trial) {
-  Outputs outputs;
+  api::Outputs outputs;
   for (const Target& target : targets) {
     outputs.add(target.path, is_trial ? [](std::ostream&) {} : target.writer);
   }
@@ -87,31 +82,23 @@ void write(const std::vector<Target>& targets, bool is_trial) {
   }
 }
 
-std::string text_of(const report::RampProgress& progress) {
-  return std::to_string(progress.width) + 'x' + std::to_string(progress.width) + ", drag " +
-         std::to_string(progress.drag) + " of " + std::to_string(progress.drags) +
-         (progress.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(progress.in_race.size());
-}
-
 void ramp(const RampArguments& options) {
-  const report::RampOptions how = ramp_options(options);
-  report::Ramp result;
-  const report::Machine machine = report::this_machine();
+  const api::RampOptions how = ramp_options(options);
+  api::Ramp result;
   std::vector<Target> targets;
   if (const auto path = value_of(options.json)) {
-    targets.push_back({*path, [&](std::ostream& out) { write_json(out, result, machine); }});
+    targets.push_back({*path, [&](std::ostream& out) { out << result.json; }});
   }
   if (const auto path = value_of(options.csv)) {
-    targets.push_back({*path, [&](std::ostream& out) { write_csv(out, result); }});
+    targets.push_back({*path, [&](std::ostream& out) { out << result.csv; }});
   }
   if (std::none_of(targets.begin(), targets.end(), [](const Target& target) { return target.path == "-"; })) {
-    targets.push_back({"-", [&](std::ostream& out) { write_text(out, result, machine); }});
+    targets.push_back({"-", [&](std::ostream& out) { out << result.text; }});
   }
   write(targets, true);  // if an output cannot be written, this fails before minutes of work
   {
-    ProgressLine line;
-    result =
-        report::ramp(how, [&](const report::RampProgress& progress) { line.show([&] { return text_of(progress); }); });
+    const Watch watch([](const api::Job& job) { return job.text(); });
+    result = api::ramp(how, watch.job());
   }
   write(targets, false);
 }
@@ -126,10 +113,10 @@ Command add_ramp(CLI::App& root) {
   options.budget = add_value(*app, "--budget", "SECONDS", "time per pass [1/60]");
   options.largest = add_value(*app, "--largest", "ELEMENTS",
                               "largest number of elements in a grid [4000000, or as many as fit into memory]");
-  options.precision = add_value(*app, "--precision", "float|double", "precision of the solver [float]");
-  options.compression = add_parameter(*app, parameters::compression);
-  options.stretch = add_parameter(*app, parameters::stretch);
-  options.shear = add_parameter(*app, parameters::shear);
+  options.precision = add_precision(*app, api::Precision::single_precision);
+  options.compression = add_parameter(*app, api::parameter("compression"));
+  options.stretch = add_parameter(*app, api::parameter("stretch"));
+  options.shear = add_parameter(*app, api::parameter("shear"));
   options.json = add_value(*app, "--json", "FILE", "write all results as JSON");
   options.csv = add_value(*app, "--csv", "FILE", "write one row per algorithm and size as CSV");
   app->footer(ramp_footer);

@@ -3,8 +3,6 @@
 
 #include "command_line/common.h"
 #include "command_line/completion.h"
-#include "files/text/outputs.h"
-#include "mesh/error.h"
 #include "version/version.h"
 
 namespace chainmail::command_line {
@@ -33,7 +31,7 @@ const CLI::App& chosen(const CLI::App& root) {
 }
 
 /// Converts an error of CLI11 to ours. Its text begins with the name of the option or positional argument.
-Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
+api::Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string name = text.substr(0, text.find_first_of(": "));
   const std::string hint = help_hint(chosen(root));
@@ -56,9 +54,9 @@ void refuse_extras(const CLI::App& root) {
     }
     const std::string& word = extras.front();
     if (word.size() > 1 && word.front() == '-') {
-      throw Error(word, "there is no such option", help_hint(app));
+      throw api::Error(word, "there is no such option", help_hint(app));
     }
-    throw Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
+    throw api::Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
   }
 }
 
@@ -67,7 +65,7 @@ void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
       if (value.starts_with("--")) {
-        throw Error(option->get_name(), "its value is missing", help_hint(app));
+        throw api::Error(option->get_name(), "its value is missing", help_hint(app));
       }
     }
   }
@@ -111,7 +109,7 @@ void run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     std::ostringstream text;
     root.exit(asked, text, text);
-    write_file("-", [&](std::ostream& out) { out << text.str(); });
+    api::write_file("-", [&](std::ostream& out) { out << text.str(); });
     return;
   } catch (const CLI::ParseError& error) {
     throw usage_error(root, error);
@@ -124,9 +122,10 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw Error("command", "no command was given",
-              "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate, ramp or thumbnail; see "
-              "chainmail --help");
+  throw api::Error(
+      "command", "no command was given",
+      "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate, ramp or thumbnail; see "
+      "chainmail --help");
 }
 
 }  // namespace chainmail::command_line

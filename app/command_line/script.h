@@ -1,12 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "files/results/summary.h"
-#include "simulate/simulation.h"
+#include "chainmail/simulation.h"
 
 namespace chainmail::command_line {
 
@@ -16,14 +17,14 @@ struct Action {
 
   Kind kind = Kind::move;
   std::string where;  // the option and its value, for error messages
-  ElementId element = 0;
-  ElementId other = 0;              // cut: the other end of the link
+  api::ElementId element = 0;
+  api::ElementId other = 0;         // cut: the other end of the link
   std::vector<double> coordinates;  // move, by: the given ones of x, y and z
   std::string layer;                // pin, grab: the name of a layer; empty for elements
   /// Grab: the first and the last element of each range.
-  std::vector<std::pair<ElementId, ElementId>> ranges = {};
-  Rotation rotation = {};  // rotate
-  bool of_handle = false;  // by, rotate: moves what the last --grab has grabbed
+  std::vector<std::pair<api::ElementId, api::ElementId>> ranges = {};
+  api::Rotation rotation = {};  // rotate
+  bool of_handle = false;       // by, rotate: moves what the last --grab has grabbed
 };
 
 /// Reads `ID:X[,Y[,Z]]` for a move, the same or `X[,Y[,Z]]` for a move of what is grabbed, `A-B` for a cut, `ID` or the
@@ -32,28 +33,14 @@ struct Action {
 Action parse_action(Action::Kind kind, const std::string& option, const std::string& text);
 
 /// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
-Rotation parse_rotation(const std::string& where, std::string_view text);
+api::Rotation parse_rotation(const std::string& where, std::string_view text);
 
 /// Throws Error if an action does not fit the mesh or the actions before it: if the element, link or axis does not
 /// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
-void check_actions(const std::vector<Action>& actions, const Mesh& mesh);
+void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh);
 
-/// Settings that apply to each move.
-struct Schedule {
-  std::uint32_t steps = 1;  // passes per move
-  std::uint32_t relax = 0;  // sweeps, or iterations, after each pass
-  double relax_step = 1;
-  double relax_until = 0;  // residual to reach, with the scheme `equilibrium`
-  bool trace = false;
-};
-
-struct Run {
-  std::vector<DeformSummary::Pass> passes;
-  std::vector<Trace> traces;
-};
-
-/// Runs the recorded moves, then the actions. Shows progress on a terminal.
-Run carry_out(Simulation& simulation, const std::vector<chainmail::Command>& moves, const std::vector<Action>& actions,
-              const Schedule& schedule);
+/// Runs the recorded moves, then the actions, with this number of passes per move. Shows progress on a terminal.
+void carry_out(api::Simulation& simulation, const std::optional<api::RecordedMoves>& recorded,
+               const std::vector<Action>& actions, std::uint32_t steps);
 
 }  // namespace chainmail::command_line

@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "files/text/limits.h"
-#include "files/text/replacement.h"
-#include "files/text/text.h"
+#include "chainmail/mesh_file.h"
+#include "chainmail/text.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -20,8 +19,8 @@ void copy_standard_input(const std::filesystem::path& path) {
   std::uint64_t size = 0;
   while (const std::size_t got = std::fread(part.data(), 1, part.size(), stdin)) {
     size += got;
-    if (size > limits::file_bytes) {
-      throw Error(name, "it is larger than 4 GiB", "use a smaller file");
+    if (size > api::largest_file) {
+      throw api::Error(name, "it is larger than 4 GiB", "use a smaller file");
     }
     errno = 0;
     if (!file.write(part.data(), static_cast<std::streamsize>(got))) {
@@ -29,8 +28,8 @@ void copy_standard_input(const std::filesystem::path& path) {
     }
   }
   if (!file.flush()) {
-    throw WriteFailure(shown(path), "it cannot be written to its end (" + system_reason() + ")",
-                       system_remedy("free some space, or set TMPDIR to another folder"));
+    throw api::WriteFailure(api::shown(path), "it cannot be written to its end (" + api::system_reason() + ")",
+                            api::system_remedy("free some space, or set TMPDIR to another folder"));
   }
 }
 
@@ -44,8 +43,8 @@ InputFile::InputFile(const std::filesystem::path& named) : path_(named) {
   }
 }
 
-Error InputFile::named(const Error& error) const {
-  const std::string path = shown(path_);
+api::Error InputFile::named(const api::Error& error) const {
+  const std::string path = api::shown(path_);
   const bool is_copy = folder_ && error.where().starts_with(path);
   return is_copy ? error.at(name + error.where().substr(path.size())) : error;
 }

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "files/text/temporary_folder.h"
-#include "mesh/error.h"
+#include "chainmail/error.h"
+#include "chainmail/files.h"
 
 namespace chainmail::command_line {
 
@@ -12,7 +12,7 @@ namespace chainmail::command_line {
 /// readers look at a file more than once.
 class InputFile {
  public:
-  /// Reads standard input if it is named. Throws Error if it is larger than limits::file_bytes, WriteFailure if there
+  /// Reads standard input if it is named. Throws Error if it is larger than api::largest_file, WriteFailure if there
   /// is no place for it.
   explicit InputFile(const std::filesystem::path& named);
 
@@ -22,15 +22,15 @@ class InputFile {
   auto read(Open open) const {
     try {
       return open(path_);
-    } catch (const Error& error) {
+    } catch (const api::Error& error) {
       throw named(error);
     }
   }
 
  private:
-  Error named(const Error& error) const;
+  api::Error named(const api::Error& error) const;
 
-  std::optional<TemporaryFolder> folder_;
+  std::optional<api::TemporaryFolder> folder_;
   std::filesystem::path path_;
 };
 

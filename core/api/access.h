@@ -2,7 +2,9 @@
 
 #include <bit>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <sstream>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -10,6 +12,8 @@
 
 #include "body/handle.h"
 #include "chainmail/chainmail.h"
+#include "files/mesh/flaws.h"
+#include "files/text/replacement.h"
 #include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "mesh/progress.h"
@@ -23,12 +27,16 @@ namespace inner = ::chainmail;
 struct Job::Impl {
   JobState state;
   std::stop_source stop;
+  std::mutex guards_text;
+  std::string text = {};
 };
 
 struct Mesh::Impl {
   MeshPointer mesh;
-  OwnSoftness softness;  // of links that a file makes stiffer
-  std::string remark;
+  OwnSoftness softness;            // of links that a file makes stiffer
+  std::string conversion;          // of voxels to elements
+  MeshFlaws flaws;                 // in the file
+  std::string remark, flaw_words;  // in words: both, and the flaws alone
 };
 
 struct Snapshot::Impl {
@@ -75,8 +83,11 @@ struct DeformerState;
 
 /// Leads from the types of the interface to what is behind them.
 struct Access {
-  static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string remark = {}) {
-    return make<Mesh>(std::move(mesh), std::move(softness), std::move(remark));
+  static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string conversion = {}, MeshFlaws flaws = {}) {
+    const std::string words = in_words(flaws);
+    const std::string between = conversion.empty() || words.empty() ? "" : "; ";
+    const std::string remark = conversion + between + words;
+    return make<Mesh>(std::move(mesh), std::move(softness), std::move(conversion), flaws, remark, words);
   }
   static const Mesh::Impl& impl(const Mesh& mesh) { return *mesh.impl_; }
   static const MeshPointer& pointer(const Mesh& mesh) { return mesh.impl_->mesh; }
@@ -93,6 +104,8 @@ struct Access {
   static void take_over(Deformer& deformer, const DeformerState& state);
   static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
   static const Snapshot::Impl& impl(const Snapshot& one) { return *one.impl_; }
+  static const RecordedMoves::Impl& impl(const RecordedMoves& moves) { return *moves.impl_; }
+  static const Simulation::Impl& impl(const Simulation& simulation) { return *simulation.impl_; }
   /// Makes a type of the interface that shares what is behind it.
   template <class Public, class... Parts>
   static Public make(Parts&&... parts) {
@@ -103,6 +116,8 @@ struct Access {
   static MovingBody moving(MovingState& impl) { return MovingBody(impl); }
 
   static Progress progress(const Job& job) { return Progress(job.impl_->state); }
+  /// Sets what the work is doing.
+  static void say(const Job& job, const std::string& text);
   static std::stop_token stop(const Job& job) { return job.impl_->stop.get_token(); }
 };
 
@@ -111,6 +126,8 @@ template <class Work>
 decltype(auto) guarded(Work work) {
   try {
     return work();
+  } catch (const inner::WriteFailure& error) {
+    throw WriteFailure(error.where(), error.problem(), error.remedy());
   } catch (const inner::Error& error) {
     throw Error(error.where(), error.problem(), error.remedy());
   } catch (const inner::Cancelled&) {
@@ -138,7 +155,21 @@ constexpr LinkSoftness softness_of(const inner::LinkSoftness& softness) {
 }
 inline inner::EnergyKind energy_of(EnergyKind kind) { return static_cast<inner::EnergyKind>(kind); }
 inline EnergyKind energy_of(inner::EnergyKind kind) { return static_cast<EnergyKind>(kind); }
+inline ElasticOptions elastic_options_of(const Elasticity& one) {
+  return {{one.young, one.poisson},
+          one.control_points,
+          one.iterations,
+          {inner::StrainLaw::Kind(one.law), one.gent_limit, one.fung_exponent}};
+}
 inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
+
+/// Returns what write(stream) writes.
+template <class Write>
+std::string written(Write write) {
+  std::ostringstream out;
+  write(out);
+  return std::move(out).str();
+}
 
 /// Throws Error: a part of the library was not built, for want of these libraries.
 [[noreturn]] void refuse_without(const std::string& libraries, const std::string& where);

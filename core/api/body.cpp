@@ -12,6 +12,7 @@
 #include "api/body_state.h"
 #include "body/body_view.h"
 #include "mesh/parameters.h"
+#include "mesh/surface.h"
 
 namespace chainmail::api {
 
@@ -86,7 +87,7 @@ std::span<const SoftnessNumber> softness_numbers() {
   static const auto numbers = [] {
     std::array<SoftnessNumber, link_softness_values.size()> all{};
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Parameter& one = *inner::softness_numbers[i].parameter;
+      const inner::Parameter& one = *inner::softness_numbers[i].parameter;
       all[i] = {one.name, one.unit, one.help, one.lowest, one.highest, link_softness_values[i]};
     }
     return all;
@@ -326,10 +327,14 @@ void Body::set_energy(EnergyKind kind) {
 EnergyKind Body::energy() const { return energy_of(impl_->body().softness().energy); }
 
 void Body::set_frame(const Rotation& rotation) {
-  guarded([&] { inner::check(rotation_of(rotation), impl_->body().mesh()); });
   Softness next = impl_->body().softness();
   next.axes = RegionAxes(AxesKind::given, rotation_of(rotation).vector());
-  guarded([&] { inner::check(next.axes, impl_->body().mesh()); });
+  try {
+    inner::check(next.axes, impl_->body().mesh());
+    inner::check(rotation_of(rotation), impl_->body().mesh());
+  } catch (const inner::Error& error) {
+    throw Error("rotation", error.problem(), error.remedy());
+  }
   impl_->set_softness(next);
 }
 
@@ -347,14 +352,31 @@ Rotation Body::frame() const {
   return angle > 0 ? Rotation{vector_of(turn / angle), angle * 180 / std::numbers::pi} : Rotation();
 }
 
+std::vector<std::array<ElementId, 3>> Body::visible_triangles() const {
+  const MeshPointer& mesh = Access::pointer(impl_->mesh);
+  const Cuts& cuts = impl_->body().cuts();
+  std::vector<std::array<ElementId, 3>> triangles;
+  for (const auto& [a, b, c] : mesh->triangles) {
+    if (!is_cut_between(*mesh, cuts, a, b) && !is_cut_between(*mesh, cuts, b, c) &&
+        !is_cut_between(*mesh, cuts, c, a)) {
+      triangles.push_back({a, b, c});
+    }
+  }
+  const Surface surface(std::make_shared<const CellTable>(mesh), cuts);
+  const std::vector<ElementId> corners = surface.triangles();
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
+  return triangles;
+}
+
+void check(const Elasticity& elasticity) {
+  guarded([&] { inner::check(elastic_options_of(elasticity)); });
+}
+
 void Body::set_elasticity(const Elasticity& elasticity) {
-  const ElasticOptions options{
-      {elasticity.young, elasticity.poisson},
-      elasticity.control_points,
-      elasticity.iterations,
-      {inner::StrainLaw::Kind(elasticity.law), elasticity.gent_limit, elasticity.fung_exponent}};
-  guarded([&] { inner::check(options); });
-  impl_->body().set_elastic(options);
+  check(elasticity);
+  impl_->body().set_elastic(elastic_options_of(elasticity));
 }
 
 Elasticity Body::elasticity() const {

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <variant>
 
 #include "api/access.h"
-#include "files/text/outputs.h"
-#include "files/text/text.h"
+#include "api/body_state.h"
+#include "api/recorded_moves.h"
+#include "api/report_files.h"
+#include "chainmail/text.h"
 #include "report/page/csv.h"
 #include "report/page/html.h"
 #include "report/page/physics_csv.h"
 #include "report/page/physics_html.h"
+#include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
 #include "report/page/table.h"
 #include "report/run/compare.h"
@@ -32,11 +34,6 @@ struct Comparison::Impl {
 };
 
 namespace {
-
-report::Origin this_origin() {
-  return {report::this_machine(), "chainmail::api::compare", report::now_in_words(),
-          "chainmail " + std::string(version())};
-}
 
 report::CompareOptions contest_of(const CompareOptions& options) {
   report::CompareOptions how;
@@ -87,26 +84,71 @@ report::RecordedMoves moves_of(const Drag& drag, const inner::Mesh& mesh) {
   return moves;
 }
 
-report::Case case_of(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
-  const inner::Body& impl = Access::body(body);
-  report::Case object{printable(options.title),
-                      "object of a program",
+report::Case case_of(const ComparedObject& one, Reference against) {
+  const inner::Body& impl = Access::body(one.body);
+  report::Case object{printable(one.name),
+                      printable(one.description),
                       impl.mesh_pointer(),
                       impl.cuts().links(),
                       {impl.pins().begin(), impl.pins().end()},
                       impl.softness(),
                       {},
                       impl.elastic()};
-  if (options.against == Reference::physics && !object.cuts.empty()) {
+  if (against == Reference::physics && !object.cuts.empty()) {
     throw Error("cuts", "the comparison with physics needs an object without cuts", "uncut its links");
   }
-  for (const Drag& drag : drags) {
-    check_drag(drag, impl, options.against);
+  for (const Drag& drag : one.drags) {
+    check_drag(drag, impl, against);
     object.drags.push_back(moves_of(drag, impl.mesh()));
   }
-  if (drags.empty()) {
-    object.drags = options.against == Reference::physics ? report::physics_drags(object)
-                                                         : report::three_drags(object, Access::stop(job));
+  for (const RecordedMoves& moves : one.recorded) {
+    object.drags.push_back(Access::impl(moves).moves);
+  }
+  return object;
+}
+
+std::vector<report::Case> cases_of(const std::vector<ComparedObject>& objects, const CompareOptions& options,
+                                   const Job& job) {
+  std::vector<report::Case> cases;
+  for (const ComparedObject& one : objects) {
+    report::Case& object = cases.emplace_back(case_of(one, options.against));
+    if (object.drags.empty()) {
+      object.drags = options.against == Reference::exact
+                         ? report::three_drags(object, Access::stop(job))
+                         : report::physics_drags(object, true, options.refined ? report::patch_share : 0);
+    }
+  }
+  return cases;
+}
+
+/// Returns each case with each material of the reference solution. Names say the material, except neo-Hookean alone.
+std::vector<report::Case> with_materials(std::vector<report::Case> cases, const std::vector<Elasticity>& materials) {
+  if (materials.empty()) {
+    return cases;
+  }
+  std::vector<report::Case> all;
+  for (const report::Case& object : cases) {
+    for (const Elasticity& material : materials) {
+      all.push_back(object);
+      all.back().law = elastic_options_of(material).law;
+      if (materials.size() > 1 || material.law != StrainLaw::neo_hookean) {
+        all.back().name += ", " + label(all.back().law);
+      }
+    }
+  }
+  return all;
+}
+
+ComparedObject object_of(report::Case&& from) {
+  const Mesh mesh = Access::mesh(std::move(from.mesh));
+  ComparedObject object{from.name, Body(mesh), from.description};
+  auto& impl = Access::impl(object.body);
+  impl.body().cut(from.cuts);
+  impl.body().pin(from.pins);
+  impl.set_softness(from.softness);
+  impl.body().set_elastic(from.elastic);
+  for (report::RecordedMoves& drag : from.drags) {
+    object.recorded.push_back(Access::make<RecordedMoves>(std::move(drag), mesh));
   }
   return object;
 }
@@ -158,9 +200,12 @@ ComparisonRow row_of(const report::PhysicsDrag& drag, const report::PhysicsEntry
 
 std::vector<ComparisonRow> rows_of(const report::Comparison& comparison) {
   std::vector<ComparisonRow> rows;
-  for (const report::DragResult& drag : comparison.cases.front().drags) {
-    for (const report::Entry& entry : drag.entries) {
-      rows.push_back(row_of(drag, entry));
+  for (const report::CaseResult& object : comparison.cases) {
+    for (const report::DragResult& drag : object.drags) {
+      for (const report::Entry& entry : drag.entries) {
+        rows.push_back(row_of(drag, entry));
+        rows.back().object = object.name;
+      }
     }
   }
   return rows;
@@ -168,33 +213,60 @@ std::vector<ComparisonRow> rows_of(const report::Comparison& comparison) {
 
 std::vector<ComparisonRow> rows_of(const report::PhysicsReport& comparison) {
   std::vector<ComparisonRow> rows;
-  for (const report::PhysicsDrag& drag : comparison.objects.front().drags) {
-    for (const report::PhysicsEntry& entry : drag.entries) {
-      rows.push_back(row_of(drag, entry));
-    }
-    if (!drag.no_reference.empty()) {
-      ComparisonRow& row = rows.emplace_back();
-      row.drag = drag.name;
-      row.refusal = drag.no_reference;
+  for (const report::PhysicsObject& object : comparison.objects) {
+    for (const report::PhysicsDrag& drag : object.drags) {
+      for (const report::PhysicsEntry& entry : drag.entries) {
+        rows.push_back(row_of(drag, entry));
+        rows.back().object = object.name;
+      }
+      if (!drag.no_reference.empty()) {
+        ComparisonRow& row = rows.emplace_back();
+        row.object = object.name;
+        row.drag = drag.name;
+        row.refusal = drag.no_reference;
+      }
     }
   }
   return rows;
 }
 
 template <class Report>
-Comparison finished(Report report) {
+Comparison finished(Report report, const CompareOptions& options) {
   if (report.stopped) {
     throw Cancelled();
   }
   auto rows = rows_of(report);
-  return Access::make<Comparison>(std::move(report), this_origin(), std::move(rows));
+  return Access::make<Comparison>(std::move(report), origin_of(options.command, options.program), std::move(rows));
 }
 
-template <class Write>
-std::string text_of(Write write) {
-  std::ostringstream out;
-  write(out);
-  return std::move(out).str();
+void add_plots(std::vector<ReportFile>& /*files*/, const report::Comparison& /*report*/) {}
+
+void add_plots(std::vector<ReportFile>& files, const report::PhysicsReport& report) {
+  const auto add = [&](const std::string& name, const report::Plot& plot) { files.push_back(plot_file(name, plot)); };
+  if (report.objects.size() > 1) {
+    add("overview.svg", physics_overview(report));
+  }
+  for (std::size_t i = 0; i < report.objects.size(); ++i) {
+    add("object-" + std::to_string(i + 1) + ".svg", physics_plot(report.objects[i]));
+  }
+  if (!report.growths.empty()) {
+    add("growth-time.svg", growth_time_plot(report.growths));
+    add("growth-prepare.svg", growth_prepare_plot(report.growths));
+    add("growth-error.svg", growth_error_plot(report.growths));
+  }
+}
+
+report::PhysicsOptions physics_of(const CompareOptions& options, const report::CompareOptions& contest) {
+  report::PhysicsOptions physics;
+  physics.contest = contest;
+  physics.growth_seconds = options.growth_seconds;
+  if (options.refined) {
+    physics.refine = ConvergingOptions();
+  }
+  if (options.calibrated) {
+    physics.calibrate = calibrator_of(contest.scheme);
+  }
+  return physics;
 }
 
 }  // namespace
@@ -203,18 +275,18 @@ const std::vector<ComparisonRow>& Comparison::rows() const& { return impl_->rows
 std::vector<ComparisonRow> Comparison::rows() && { return impl_->rows; }
 
 std::string Comparison::text() const {
-  return text_of([&](std::ostream& out) { std::visit([&](const auto& one) { write_text(out, one); }, impl_->report); });
+  return written([&](std::ostream& out) { std::visit([&](const auto& one) { write_text(out, one); }, impl_->report); });
 }
 
 std::string Comparison::html() const {
-  return text_of([&](std::ostream& out) {
+  return written([&](std::ostream& out) {
     std::visit([&](const auto& one) { write_html(out, one, impl_->origin); }, impl_->report);
   });
 }
 
 #ifdef CHAINMAIL_HAS_JSON
 std::string Comparison::json() const {
-  return text_of([&](std::ostream& out) {
+  return written([&](std::ostream& out) {
     std::visit([&](const auto& one) { write_json(out, one, impl_->origin); }, impl_->report);
   });
 }
@@ -223,39 +295,51 @@ std::string Comparison::json() const { refuse_without("nlohmann/json", "comparis
 #endif
 
 std::string Comparison::csv() const {
-  return text_of([&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, impl_->report); });
+  return written([&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, impl_->report); });
 }
 
-void Comparison::write(const std::filesystem::path& folder) const {
-  guarded([&] {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-      throw inner::Error(shown(folder), "the folder cannot be created (" + error.message() + ")", "use another folder");
+std::vector<ReportFile> Comparison::files() const {
+  std::vector<ReportFile> files = report_files(*this);
+  std::visit([&](const auto& one) { add_plots(files, one); }, impl_->report);
+  return files;
+}
+
+void Comparison::write(const std::filesystem::path& folder) const { write_report(folder, files()); }
+
+std::vector<ComparedObject> built_in_objects(Reference against, const LinkSoftness& softness, EnergyKind energy,
+                                             const Elasticity& elasticity) {
+  check(elasticity);
+  return guarded([&] {
+    const Softness all{softness_of(softness), {}, energy_of(energy)};
+    inner::check(all.global);
+    std::vector<ComparedObject> objects;
+    for (report::Case& one : against == Reference::exact ? report::default_cases(all)
+                                                         : report::physics_cases(all, elastic_options_of(elasticity))) {
+      if (against == Reference::physics) {
+        one.drags.clear();  // they depend on the options of the comparison
+      }
+      objects.push_back(object_of(std::move(one)));
     }
-    Outputs outputs;
-    outputs.add(folder / "report.html", [&](std::ostream& out) { out << html(); });
-#ifdef CHAINMAIL_HAS_JSON
-    outputs.add(folder / "report.json", [&](std::ostream& out) { out << json(); });
-#endif
-    outputs.add(folder / "report.csv", [&](std::ostream& out) { out << csv(); });
-    outputs.commit();
+    return objects;
   });
 }
 
 Comparison compare(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
+  return compare({ComparedObject{options.title, body, "object of a program", drags}}, options, job);
+}
+
+Comparison compare(const std::vector<ComparedObject>& objects, const CompareOptions& options, const Job& job) {
   return guarded([&] {
     const report::CompareOptions contest = contest_of(options);
-    const std::vector<report::Case> cases{case_of(body, drags, options, job)};
-    const Progress progress = Access::progress(job);
-    const auto tell = [&](double share, const std::string&) { progress.report(share); };
+    const std::vector<report::Case> cases = cases_of(objects, options, job);
+    const auto tell = teller_of(job);
     if (options.against == Reference::exact) {
-      return finished(report::compare(cases, contest, tell, Access::stop(job)));
+      return finished(report::compare(cases, contest, tell, Access::stop(job)), options);
     }
-    report::PhysicsOptions physics;
-    physics.contest = contest;
-    physics.growth_seconds = 0;
-    return finished(report::compare_with_physics(cases, physics, tell, Access::stop(job)));
+    const report::PhysicsOptions physics = physics_of(options, contest);
+    return finished(
+        report::compare_with_physics(with_materials(cases, options.materials), physics, tell, Access::stop(job)),
+        options);
   });
 }
 

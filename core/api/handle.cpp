@@ -43,4 +43,8 @@ Pose Handle::after(const Motion& motion) const {
   return {vector_of(impl_->handle.grabbed().pivot + point_of(motion.by)), motion.rotation};
 }
 
+void check(const Rotation& rotation, const Mesh& mesh) {
+  guarded([&] { inner::check(rotation_of(rotation), *Access::pointer(mesh)); });
+}
+
 }  // namespace chainmail::api

@@ -207,7 +207,7 @@ DeformerState deformer_state_from(StateFields&& state, ElementId element_count) 
 #ifdef CHAINMAIL_HAS_JSON
 
 State save(const Mesh& mesh) {
-  const auto& [pointer, softness, remark] = Access::impl(mesh);
+  const auto& [pointer, softness, conversion, flaws, remark, flaw_words] = Access::impl(mesh);
   FlatMesh flat = flat_mesh_of(*pointer);
   State state;
   state["rest"] = std::move(flat.rest);

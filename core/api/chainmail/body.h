@@ -73,6 +73,9 @@ struct Elasticity {
   bool operator==(const Elasticity&) const = default;
 };
 
+/// Throws Error about the first setting, as `poisson` or `gent-limit`, that is out of its range or contradicts another.
+void check(const Elasticity& elasticity);
+
 /// The positions of an object at one time. Copies share the data.
 class Snapshot {
  public:
@@ -201,6 +204,10 @@ class Body {
   bool set_frame_of_object();
   /// The rotation from the axes of the world to these axes.
   Rotation frame() const;
+
+  /// Returns the triangles to draw: the faces without a cut link, with polygons divided, and the outer faces of the
+  /// cells, also where cuts separate them.
+  std::vector<std::array<ElementId, 3>> visible_triangles() const;
 
   /// Sets the settings of the methods of elasticity. Throws Error if a value is out of its range.
   void set_elasticity(const Elasticity& elasticity);

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "chainmail/body.h"
 #include "chainmail/job.h"
 #include "chainmail/measure.h"
+#include "chainmail/preset.h"
 #include "chainmail/types.h"
 
 namespace chainmail::api {
@@ -37,6 +37,7 @@ struct Calibration {
   int evaluations = 0;              ///< Number of evaluations that were made.
   CalibrationErrors fitted = {};    ///< On the drags that the search used.
   CalibrationErrors held_out = {};  ///< On drags that the search did not use.
+  std::string text = {};            ///< The result for readers, with the errors of each drag.
   std::string json = {};            ///< All figures, drag by drag, as `chainmail calibrate --json` writes them.
 };
 
@@ -49,10 +50,5 @@ struct Calibration {
 /// Throws Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is out of
 /// its range, if the object has no static solution, and if no reference solution converges; and Cancelled.
 Calibration calibrate(const Body& body, const CalibrateOptions& options = {}, const Job& job = {});
-
-/// Writes a softness as a preset (JSON), which the workbench and `chainmail compare --preset` open. Throws Error if the
-/// name is empty, longer than 60 bytes or not one line, if the softness is out of its range, or if the file cannot be
-/// written.
-void write_preset(const std::filesystem::path& path, const std::string& name, const LinkSoftness& softness);
 
 }  // namespace chainmail::api

@@ -22,10 +22,18 @@ class Error : public std::runtime_error {
   const std::string& problem() const { return rest_.first; }
   /// What to do about it.
   const std::string& remedy() const { return rest_.second; }
+  /// Returns the same error about another argument, element or file.
+  Error at(const std::string& where) const { return {where, rest_.first, rest_.second}; }
 
  private:
   std::string where_;
   std::pair<std::string, std::string> rest_;
+};
+
+/// A write that began and could not be finished, for example on a full disk. The old file stays.
+class WriteFailure : public Error {
+ public:
+  using Error::Error;
 };
 
 /// Thrown by work that was cancelled (see Job). It is not an Error: nothing is wrong, and there is no result.

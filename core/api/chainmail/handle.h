@@ -21,6 +21,9 @@ struct Pose {
   bool operator==(const Pose&) const = default;
 };
 
+/// Throws Error about a rotation that has no axis, or that leaves the space of a mesh.
+void check(const Rotation& rotation, const Mesh& mesh);
+
 /// A rigid motion of a handle, from where it was grabbed.
 struct Motion {
   Vector3 by = {};         ///< Displacement of the pivot (mesh units).

@@ -29,6 +29,13 @@ constexpr Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - 
 /// Returns a multiple of a vector.
 constexpr Vector3 operator*(double factor, const Vector3& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
 
+/// Returns the scalar product of two vectors.
+constexpr double dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// Returns the vector product of two vectors.
+constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 /// A rotation about an axis. In a plane, only the axis across it is possible, and on a line none.
 struct Rotation {
   Vector3 axis = {};   ///< Axis of any length above 0, unless there is no rotation.

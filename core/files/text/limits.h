@@ -36,11 +36,4 @@ inline constexpr std::uint64_t voxels_in_memory = std::uint64_t{1} << 27;
 /// Largest ratio of the size of data to their size when compressed. zlib does not reach it (RFC 1951).
 inline constexpr std::uint64_t compression_ratio = 1040;
 
-// Thumbnails: file managers draw them for files that nobody chose to open
-inline constexpr std::uint64_t thumbnail_seconds = 2;                      // of processor time
-inline constexpr std::uint64_t thumbnail_memory = std::uint64_t{1} << 30;  // bytes
-inline constexpr std::uint64_t thumbnail_bytes = std::uint64_t{16} << 20;  // of the picture
-/// Points of the picture, with those that a nearer face hides. Of more faces, or more links, some are not drawn.
-inline constexpr double thumbnail_samples = 1e8;
-
 }  // namespace chainmail::limits

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <ostream>
+
+namespace chainmail::api {
+
+/// Writes several files together: all of them or none.
+///
+/// add() writes the content of each file beside its target. commit() then replaces all targets; if one cannot be
+/// replaced, the others get their old content back. The path `-` is standard output, which receives its text in
+/// commit().
+class Outputs {
+ public:
+  /// Writes the content of a file.
+  using Writer = std::function<void(std::ostream&)>;
+
+  /// Begins without files.
+  Outputs();
+  Outputs(const Outputs&) = delete;
+  Outputs& operator=(const Outputs&) = delete;
+  /// Removes what commit() has not put in place.
+  ~Outputs();
+
+  /// Protects an input file: no output may replace it, under this name or another. The path `-` means the file that is
+  /// read as standard input, if it is one. Call this before add().
+  void keep(const std::filesystem::path& input);
+  /// Adds a file. Throws Error if it cannot be written or is there twice, and WriteFailure if writing failed.
+  void add(const std::filesystem::path& path, Writer writer);
+  /// Puts all files in place. Throws Error or WriteFailure; then all targets are as they were.
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes one file. If writing fails, the old file stays. Throws like Outputs.
+void write_file(const std::filesystem::path& path, const Outputs::Writer& writer);
+
+/// A new private folder for temporary files. The destructor removes it with its content.
+class TemporaryFolder {
+ public:
+  /// Throws Error if the folder cannot be made.
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+
+  /// Its path.
+  const std::filesystem::path& path() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// From now on, a signal that ends the program (SIGINT, SIGTERM, SIGHUP) removes its temporary folders first, those of
+/// the library too. For the main function of a program.
+void remove_folders_on_signals();
+
+}  // namespace chainmail::api

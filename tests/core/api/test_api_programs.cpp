@@ -1,0 +1,592 @@
+#include <QTemporaryDir>
+#include <QtTest>
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "core/api/api_support.h"
+#include "files/session/session.h"
+#include "files/session_support.h"
+#include "program.h"
+
+namespace chainmail::test_api_programs {
+
+/// The part of the public interface from which programs like the command line are made: texts, files, tables of what a
+/// user may choose, repairs, simulations, sessions and reports.
+class ApiProgramsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void texts_are_read_and_written();
+  void outputs_are_written_together();
+  void a_full_disk_is_a_failure_to_write();
+  void numbers_have_names_limits_and_help();
+  void choices_have_names();
+  void lattices_are_made_by_name();
+  void sides_have_names();
+  void formats_say_what_they_hold();
+  void a_stream_gets_what_a_file_gets();
+  void visible_triangles_are_the_surface();
+  void a_mesh_is_described();
+  void a_mesh_is_repaired();
+  void a_surface_is_simplified_and_filled();
+  void presets_are_written_and_read();
+  void a_simulation_moves_as_a_deformer_does();
+  void a_simulation_reports_its_passes();
+  void recorded_moves_are_those_of_calls();
+  void bad_moves_are_refused();
+  void single_links_are_softened_by_a_file();
+  void a_session_is_an_object();
+  void objects_are_compared_in_one_report();
+  void materials_take_turns();
+  void the_suite_is_listed();
+  void a_job_says_what_runs();
+};
+
+namespace {
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::size_t lines_in(const std::string& text) { return std::size_t(std::ranges::count(text, '\n')); }
+
+/// A cube of 12 triangles as a mesh of its own.
+cm::Mesh surface_of(const cm::Mesh& solid) {
+  std::vector<cm::ElementId> corners, new_ids(solid.element_count(), cm::no_sponsor);
+  std::vector<double> positions;
+  for (const auto& triangle : cm::Body(solid).visible_triangles()) {
+    for (const cm::ElementId corner : triangle) {
+      if (new_ids[corner] == cm::no_sponsor) {
+        new_ids[corner] = cm::ElementId(positions.size() / 3);
+        const cm::Vector3 at = solid.rest_position(corner);
+        positions.insert(positions.end(), {at.x, at.y, at.z});
+      }
+      corners.push_back(new_ids[corner]);
+    }
+  }
+  return cm::make_mesh({.positions = positions, .triangles = corners});
+}
+
+class Folder {
+ public:
+  std::filesystem::path operator/(const char* name) const { return folder_.filePath(name).toStdString(); }
+
+ private:
+  QTemporaryDir folder_;
+};
+
+}  // namespace
+
+void ApiProgramsTest::texts_are_read_and_written() {
+  QCOMPARE(cm::printable("a\tb"), std::string("a\\x09b"));
+  QCOMPARE(cm::printable("é\xff"), std::string("é\\xff"));
+  QCOMPARE(cm::in_quotes("word"), std::string("'word'"));
+  QVERIFY(cm::in_quotes(std::string(1000, 'x')).size() < 200);
+  QCOMPARE(cm::shown("a/b.obj"), std::string("a/b.obj"));
+  for (const double number : {0.1, -1.0 / 3, 1e300, 5e-324, 0.0}) {
+    QCOMPARE(*cm::parse_number(cm::digits_of(number)), number);
+  }
+  QCOMPARE(cm::digits_of(0.1), std::string("0.1"));
+  QCOMPARE(cm::in_words(cm::Vector3{1, 0.5, -2}), std::string("(1, 0.5, -2)"));
+  QCOMPARE(cm::figure(0.123456), std::string("0.123"));
+  for (const char* word : {"", "x", "1,5", "nan", "inf", "1e999", "0x10", "1 "}) {
+    QVERIFY2(!cm::parse_number(word), word);
+  }
+  QCOMPARE(*cm::parse_count("4294967295"), 4294967295u);
+  for (const char* word : {"", "-1", "+1", "1.0", "4294967296", "1x"}) {
+    QVERIFY2(!cm::parse_count(word), word);
+  }
+  QVERIFY((*cm::parse_size("9x7") == std::array<std::uint32_t, 3>{9, 7, 1}));
+  QVERIFY((*cm::parse_size("5", 1) == std::array<std::uint32_t, 3>{5, 1, 1}));
+  QVERIFY(!cm::parse_size("5") && !cm::parse_size("9x7", 3) && !cm::parse_size("9x0") && !cm::parse_size("9x7x2x1"));
+}
+
+void ApiProgramsTest::outputs_are_written_together() {
+  const Folder folder;
+  const auto first = folder / "a", second = folder / "b", input = folder / "in";
+  write(first, "old");
+  write(input, "input");
+  {
+    cm::Outputs outputs;
+    outputs.add(first, [](std::ostream& out) { out << "new"; });
+    QVERIFY_EXCEPTION_THROWN(outputs.add(second, [](std::ostream&) { throw std::logic_error("no"); }),
+                             std::logic_error);
+  }
+  QCOMPARE(content_of(first), std::string("old"));
+  QVERIFY(!std::filesystem::exists(second));
+  cm::Outputs outputs;
+  outputs.keep(input);
+  QVERIFY(!refusal_of([&] { outputs.add(input, [](std::ostream&) {}); }).empty());
+  outputs.add(first, [](std::ostream& out) { out << "new"; });
+  outputs.add(second, [](std::ostream& out) { out << "other"; });
+  QCOMPARE(content_of(first), std::string("old"));
+  QVERIFY(!refusal_of([&] { outputs.add(first, [](std::ostream&) {}); }).empty());
+  outputs.commit();
+  QCOMPARE(content_of(first), std::string("new"));
+  QCOMPARE(content_of(second), std::string("other"));
+  QCOMPARE(content_of(input), std::string("input"));
+  std::filesystem::path there;
+  {
+    const cm::TemporaryFolder temporary;
+    there = temporary.path();
+    write(there / "x", "x");
+    QVERIFY(std::filesystem::is_directory(there));
+  }
+  QVERIFY(!std::filesystem::exists(there));
+}
+
+void ApiProgramsTest::a_full_disk_is_a_failure_to_write() {
+  const auto fill = [] { cm::write_file("/dev/full", [](std::ostream& out) { out << "text"; }); };
+  QVERIFY_EXCEPTION_THROWN(fill(), cm::WriteFailure);
+  const auto nowhere = [] { cm::write_file("/nonexistent/x", [](std::ostream&) {}); };
+  try {
+    nowhere();
+    QFAIL("it was written");
+  } catch (const cm::WriteFailure&) {
+    QFAIL("nothing was written yet");
+  } catch (const cm::Error& error) {
+    QCOMPARE(error.at("elsewhere").where(), std::string("elsewhere"));
+    QCOMPARE(error.at("elsewhere").problem(), error.problem());
+  }
+}
+
+void ApiProgramsTest::numbers_have_names_limits_and_help() {
+  std::set<std::string_view> names;
+  for (const cm::Parameter& one : cm::parameters()) {
+    QVERIFY(names.insert(one.name).second);
+    QVERIFY(!one.label.empty() && !one.help.empty() && !cm::range_of(one).empty());
+    cm::check(one, one.default_value);
+    cm::check(one, one.lowest);
+    cm::check(one, one.highest);
+    const std::string refusal = refusal_of([&] { cm::check(one, no_number); });
+    QVERIFY2(has(refusal, std::string(one.name) + ":") && has(refusal, cm::range_of(one)), refusal.c_str());
+    QVERIFY(!refusal_of([&] { cm::check(one, std::nextafter(one.lowest, -1e9)); }).empty());
+    QCOMPARE(cm::parameter(one.name).label, one.label);
+  }
+  for (const cm::SoftnessNumber& number : cm::softness_numbers()) {
+    const cm::Parameter& one = cm::parameter(number.name);
+    QCOMPARE(one.default_value, cm::LinkSoftness().*number.value);
+    QVERIFY(one.lowest == number.lowest && one.highest == number.highest);
+  }
+  QCOMPARE(cm::parameter("poisson").default_value, cm::Elasticity().poisson);
+  QCOMPARE(cm::parameter("relax-step").default_value, cm::RelaxOptions().step);
+  QCOMPARE(cm::parameter("spacing").default_value, cm::LatticeOptions().spacing);
+  QVERIFY(has(refusal_of([] { cm::parameter("nope"); }), "nope"));
+  QVERIFY(has(refusal_of([] { cm::check(cm::Elasticity{.poisson = 0.5}); }), "poisson"));
+  QVERIFY(has(refusal_of([] { cm::check({{}, 10}, cm::make_block(2, 2, 2)); }), "no axis"));
+}
+
+void ApiProgramsTest::choices_have_names() {
+  for (std::size_t i = 0; i < cm::energy_kinds().size(); ++i) {
+    QCOMPARE(std::size_t(cm::energy_kinds()[i].kind), i);
+  }
+  QCOMPARE(cm::energy_kinds()[std::size_t(cm::EnergyKind::axial)].name, std::string_view("axial"));
+  for (std::size_t i = 0; i < cm::relaxation_schemes().size(); ++i) {
+    QCOMPARE(std::size_t(cm::relaxation_schemes()[i].scheme), i);
+    QCOMPARE(cm::relaxation_schemes()[i].sweeps, cm::RelaxationScheme(i) != cm::RelaxationScheme::equilibrium);
+  }
+  QCOMPARE(cm::name_of(cm::StrainLaw::neo_hookean), std::string("neo-hookean"));
+  QCOMPARE(cm::name_of(cm::StrainLaw::fung), std::string("fung"));
+  QCOMPARE(cm::find_method("original")->name, std::string("3d"));
+  QVERIFY(!cm::find_method("nope"));
+}
+
+void ApiProgramsTest::lattices_are_made_by_name() {
+  for (const cm::MeshKind& kind : cm::mesh_kinds()) {
+    const cm::Mesh mesh = cm::make_lattice(kind.name, {4, 3, 2}, {.spacing = 0.5});
+    QCOMPARE(mesh.element_count(), kind.sizes == 1 ? 4u : kind.sizes == 2 ? 12u : 24u);
+    QVERIFY(!kind.help.empty());
+  }
+  const cm::Mesh made = cm::make_lattice("cloth", {4, 3, 1}), cloth = cm::make_cloth(4, 3);
+  QVERIFY(std::ranges::equal(made.links(), cloth.links()) &&
+          same_numbers(made.rest_positions(), cloth.rest_positions()));
+  QVERIFY(has(refusal_of([] { cm::make_lattice("knot", {4, 3, 1}); }), "'knot'"));
+  QVERIFY(!refusal_of([] { cm::make_lattice("grid", {4, 0, 1}); }).empty());
+}
+
+void ApiProgramsTest::sides_have_names() {
+  const cm::Mesh block = cm::make_block(3, 3, 3);
+  QCOMPARE(cm::side_names().size(), std::size_t(7));
+  for (const std::string_view name : cm::side_names()) {
+    QCOMPARE(block.side(name).size(), std::size_t(name == "boundary" ? 26 : 9));
+  }
+}
+
+void ApiProgramsTest::formats_say_what_they_hold() {
+  for (const cm::FileFormat& format : cm::file_formats()) {
+    const std::string ending = format.endings.substr(0, format.endings.find(' ')), path = "x" + ending;
+    QCOMPARE(has(cm::file_endings(cm::FileUse::read), ending), format.reads);
+    QCOMPARE(has(cm::file_endings(cm::FileUse::write), ending), format.writes);
+    QCOMPARE(refusal_of([&] { cm::check_format(path, cm::FileUse::read); }).empty(), format.reads);
+    QCOMPARE(refusal_of([&] { cm::check_format(path, cm::FileUse::write); }).empty(), format.writes);
+    QCOMPARE(refusal_of([&] { cm::check_format(path, cm::FileUse::write_positions); }).empty(),
+             format.writes && format.holds_positions);
+    QVERIFY(!format.writes || has(cm::file_formats_help(cm::FileUse::write), ending));
+  }
+  QVERIFY(has(refusal_of([] { cm::check_format("x.foo", cm::FileUse::read); }), "x.foo"));
+  QVERIFY(has(refusal_of([] { cm::check_format("x.stl", cm::make_grid(3, 3)); }), "only faces"));
+  cm::check_format("x.stl", organ());
+  QVERIFY(has(cm::lost_in_format("x.obj", organ()), "no cells"));
+  QCOMPARE(cm::lost_in_format("x.msh", organ()), std::string());
+}
+
+void ApiProgramsTest::a_stream_gets_what_a_file_gets() {
+  const Folder folder;
+  cm::Deformer deformer(cm::make_cloth(4, 4), "exact");
+  deformer.body().cut(0, 1);
+  deformer.move(15, {6, 5, 0});
+  for (const char* name : {"a.obj", "a.vtu", "a.csv"}) {
+    const auto path = folder / name;
+    std::ostringstream moved, rest;
+    cm::write_mesh(moved, name, deformer.body());
+    cm::write_mesh(path, deformer.body());
+    QCOMPARE(moved.str(), content_of(path));
+    cm::write_mesh(rest, name, deformer.body().mesh());
+    cm::write_mesh(path, deformer.body().mesh());
+    QCOMPARE(rest.str(), content_of(path));
+    QVERIFY(moved.str() != rest.str());
+  }
+}
+
+void ApiProgramsTest::visible_triangles_are_the_surface() {
+  QCOMPARE(cm::Body(cm::make_tetra(4, 3, 3)).visible_triangles().size(), std::size_t(2 * (2 * 6 + 2 * 6 + 2 * 4)));
+  QCOMPARE(cm::Body(cm::make_grid(4, 3)).visible_triangles().size(), std::size_t(0));
+  cm::Body cloth(cm::make_cloth(4, 3));
+  QCOMPARE(cloth.visible_triangles().size(), std::size_t(2 * 3 * 2));
+  cloth.cut(5, 6);  // an inner edge of two triangles
+  QCOMPARE(cloth.visible_triangles().size(), std::size_t(2 * 3 * 2 - 2));
+}
+
+void ApiProgramsTest::a_mesh_is_described() {
+  const std::string text = cm::describe(organ()), json = cm::describe_json(organ());
+  QVERIFY(has(text, "elements          36\n") && has(text, "tetrahedra        72\n"));
+  QVERIFY(has(text, "bounds            (0, 0, 0) to (3, 2, 2)\n") && !has(text, "defects"));
+  QVERIFY(has(json, "\"elements\": 36") && has(json, "\"tetrahedra\": 72"));
+  const Folder folder;
+  write(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 2\nf 4 2 3\n");
+  const cm::Mesh read = cm::read_mesh(folder / "a.obj");
+  QVERIFY(!read.flaws().empty() && has(cm::describe(read), read.flaws()) && has(read.remark(), read.flaws()));
+  QVERIFY(has(cm::describe(read), "1 duplicate vertex"));
+  QVERIFY(has(cm::describe_json(read), "\"collapsed\": 1"));
+  QVERIFY(organ().flaws().empty());
+}
+
+/// A box without its lid, with one corner there twice and an element without links.
+void ApiProgramsTest::a_mesh_is_repaired() {
+  const std::vector<double> positions{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1,
+                                      1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, 0, 5, 5, 5};
+  const std::vector<cm::ElementId> triangles{0, 2, 1, 0, 3, 2, 8, 1, 5, 8, 5, 4, 1, 2, 6,
+                                             1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+  const cm::Mesh mesh = cm::make_mesh({.positions = positions, .triangles = triangles});
+  const cm::Repair all = cm::repair(mesh);
+  QCOMPARE(all.mesh().element_count(), 8u);
+  QCOMPARE(all.mesh().triangles().size(), std::size_t(12));
+  QVERIFY(has(all.text(), "1 duplicate vertex welded") && has(all.text(), "1 loose point removed") &&
+          has(all.text(), "1 hole closed with 2 triangles") && !has(all.text(), "left"));
+  QVERIFY(has(all.json(), "\"before\"") && has(all.json(), "\"loose_points\": 1") &&
+          has(all.json(), "\"elements\": 8"));
+  const cm::Repair loose = cm::repair(mesh, {.weld = false, .holes = false});
+  QCOMPARE(loose.mesh().element_count(), 9u);
+  QVERIFY(has(loose.text(), "left") && has(loose.text(), "1 hole"));
+  QCOMPARE(cm::repair(mesh, {.tolerance = 1.1, .loose = false, .holes = false}).mesh().triangles().size(),
+           std::size_t(0));
+  QVERIFY(has(cm::repair(all.mesh()).text(), "nothing"));
+}
+
+void ApiProgramsTest::a_surface_is_simplified_and_filled() {
+  const cm::Mesh box = surface_of(cm::make_tetra(5, 5, 5));
+  QCOMPARE(box.triangles().size(), std::size_t(6 * 16 * 2));
+  const cm::Mesh coarse = cm::simplify(box, 40);
+  QCOMPARE(coarse.element_count(), 40u);
+  QCOMPARE(coarse.triangles().size(), std::size_t(2 * 40 - 4));  // Euler: a closed surface without a handle
+  const cm::Mesh filled = cm::fill(box, 1);
+  QVERIFY(!filled.tetrahedra().empty() && filled.element_count() >= box.element_count());
+  double volume = 0;
+  for (const auto& [a, b, c, d] : filled.tetrahedra()) {
+    const cm::Vector3 at = filled.rest_position(a);
+    volume += std::abs(cm::dot(cm::cross(filled.rest_position(b) - at, filled.rest_position(c) - at),
+                               filled.rest_position(d) - at)) /
+              6;
+  }
+  QVERIFY(std::abs(volume - 64) < 1e-9);
+  QVERIFY(has(refusal_of([&] { cm::simplify(box, 1000); }), "elements"));
+  QVERIFY(has(refusal_of([&] { cm::fill(box, 0); }), "size"));
+  QVERIFY(has(refusal_of([&] { cm::fill(cm::make_cloth(3, 3)); }), "surface"));
+}
+
+void ApiProgramsTest::presets_are_written_and_read() {
+  const Folder folder;
+  const auto path = folder / "presets.json";
+  const std::vector<cm::Preset> presets{{"felt", {.compression = 1.0 / 3}}, {"silk", {.shear = 0.7, .exponent = 2}}};
+  cm::write_file(path, [&](std::ostream& out) { cm::write_presets(out, presets); });
+  const auto read = cm::read_presets(path);
+  QCOMPARE(read.size(), std::size_t(2));
+  for (std::size_t i = 0; i < 2; ++i) {
+    QVERIFY(read[i].name == presets[i].name && read[i].softness == presets[i].softness);
+  }
+  const auto built_in = cm::built_in_presets();
+  QVERIFY(built_in.front().name == "Standard" && built_in.front().softness == cm::LinkSoftness());
+  for (const cm::Preset& one : built_in) {
+    QVERIFY(cm::fault_of_preset_name(one.name).empty());
+    cm::Body(cm::make_line(2)).set_softness(one.softness);  // within its ranges
+  }
+  QVERIFY(cm::fault_of_preset_name(std::string(cm::preset_name_bytes, 'x')).empty());
+  QVERIFY(!cm::fault_of_preset_name(std::string(cm::preset_name_bytes + 1, 'x')).empty());
+  std::ostringstream out;
+  QVERIFY(has(refusal_of([&] { cm::write_presets(out, {{cm::Preset{"a\nb", {}}}}); }), "name"));
+  QVERIFY(has(refusal_of([&] { cm::write_presets(out, {{cm::Preset{"a", {.stretch = 0}}}}); }), "stretch"));
+  QVERIFY(!refusal_of([&] { cm::read_presets(folder / "none.json"); }).empty());
+}
+
+void ApiProgramsTest::a_simulation_moves_as_a_deformer_does() {
+  for (const char* method : {"natural-queue", "exact", "fem"}) {
+    cm::Body body(organ());
+    body.pin(body.mesh().side("left"));
+    body.cut(5, 6);
+    body.set_softness({.compression = 0.9, .stretch = 1.1, .shear = 0.3});
+    body.set_elasticity({.poisson = 0.4});
+    const cm::ElementId tip = body.mesh().side("right").back();
+    const cm::Vector3 start = body.position(tip), target = start + cm::Vector3{0.5, 1, -0.25};
+    cm::Simulation simulation(body, method);
+    int passes = 0;
+    simulation.set_watcher([&] { ++passes; });
+    simulation.move(tip, target, 4);
+    QCOMPARE(passes, 4);
+    cm::Deformer deformer(body, method);
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      deformer.move(tip, start + share * (target - start));
+    }
+    for (cm::ElementId e = 0; e < body.mesh().element_count(); ++e) {
+      QVERIFY(simulation.position(e) == deformer.body().position(e));
+    }
+    std::ostringstream of_simulation, of_deformer;
+    cm::write_mesh(of_simulation, "a.csv", simulation);
+    cm::write_mesh(of_deformer, "a.csv", deformer.body());
+    QCOMPARE(of_simulation.str(), of_deformer.str());
+  }
+}
+
+void ApiProgramsTest::a_simulation_reports_its_passes() {
+  cm::Body body(cm::make_grid(6, 5));
+  body.pin({0});
+  cm::Simulation simulation(body, "exact");
+  simulation.set_tracing(true);
+  simulation.set_relaxation(3, {.scheme = cm::RelaxationScheme::equilibrium});
+  simulation.move(29, {5.5, 4.5, 0});
+  QVERIFY(simulation.notes().empty());
+  simulation.move(29, {50, 4.5, 0});  // the pin stops it
+  QCOMPARE(simulation.notes().size(), std::size_t(1));
+  QVERIFY(has(simulation.notes()[0], "1 of 2 passes stopped before the target") &&
+          has(simulation.notes()[0], "(50, 4.5, 0)"));
+  QVERIFY(has(simulation.text(), "exact on 30 elements, 49 links\n") && has(simulation.text(), "stopped by pins at") &&
+          has(simulation.text(), "equilibrium: residual"));
+  QVERIFY(has(simulation.json(), "\"stopped_at\"") && has(simulation.json(), "\"regions_bind\""));
+  cm::Deformer deformer(body, "exact");
+  deformer.set_tracing(true);
+  deformer.move(29, {5.5, 4.5, 0});
+  std::size_t rows = 0;
+  std::istringstream trace(simulation.trace_csv());
+  for (std::string line; std::getline(trace, line);) {
+    rows += line.starts_with("0,") ? 1 : 0;  // of the first pass
+  }
+  QCOMPARE(rows, deformer.trace().size());
+  QVERIFY(rows > 0);
+
+  cm::Simulation handle(body, "natural-queue");
+  QVERIFY(!refusal_of([&] { handle.move_handle({{1, 0, 0}, {}}); }).empty());
+  handle.grab({28, 29});
+  handle.move_handle({{1, 0, 0}, {{0, 0, 1}, 30}}, 2);
+  handle.move_handle({{1, 0, 0}, {{0, 0, 1}, 60}});
+  QVERIFY((handle.position(28) - cm::Vector3{6.5, 3.5, 0}) == cm::Vector3() ||
+          std::abs(handle.position(28).x - 6.5) + std::abs(handle.position(28).y - 3.5) < 1e-12);
+  QVERIFY(!refusal_of([&] { handle.pin({28}); }).empty());
+  handle.release();
+  handle.pin({28});
+  QVERIFY(!refusal_of([&] { handle.move(28, {0, 0, 0}); }).empty());
+  QVERIFY(has(refusal_of([&] { handle.cut(0, 20); }), "not linked"));
+  QVERIFY(has(refusal_of([&] { cm::Simulation(body, "nope"); }), "no such method"));
+  QVERIFY(!refusal_of([&] { cm::Simulation(cm::Body(organ()), "3d"); }).empty());
+}
+
+void ApiProgramsTest::recorded_moves_are_those_of_calls() {
+  const Folder folder;
+  write(folder / "moves.json", R"({"version": 1, "commands": [{"do": "pin", "elements": [0]}, {"do": "cut", "links":
+    [[7, 8]]}, {"do": "grab", "element": 29}, {"do": "drag", "target": [6, 5, 0]}, {"do": "drag", "target": [7, 6, 0]},
+    {"do": "release"}, {"do": "grab", "elements": [3, 4]}, {"do": "drag", "by": [0, -2, 0]}]})");
+  const cm::Mesh mesh = cm::make_grid(6, 5);
+  const cm::RecordedMoves moves = cm::read_moves(folder / "moves.json", mesh);
+  QCOMPARE(moves.pass_count(), std::size_t(3));
+  QVERIFY(moves.last_mesh() == mesh);
+  cm::Simulation replayed(cm::Body(mesh), "generalized"), called(cm::Body(mesh), "generalized");
+  replayed.replay(moves);
+  called.pin({0});
+  called.cut(7, 8);
+  called.move(29, {6, 5, 0});
+  called.move(29, {7, 6, 0});
+  called.grab({3, 4});
+  called.move_handle({{0, -2, 0}, {}});
+  for (cm::ElementId e = 0; e < mesh.element_count(); ++e) {
+    QVERIFY(replayed.position(e) == called.position(e));
+  }
+  QVERIFY((replayed.position(3) == cm::Vector3{3, -2, 0}));
+}
+
+void ApiProgramsTest::bad_moves_are_refused() {
+  const Folder folder;
+  const cm::Mesh mesh = cm::make_grid(3, 3);
+  QVERIFY(!refusal_of([&] { cm::read_moves(folder / "none.json", mesh); }).empty());
+  write(folder / "moves.json", R"({"version": 1, "commands": [{"do": "pin", "elements": [9]}]})");
+  QVERIFY(has(refusal_of([&] { cm::read_moves(folder / "moves.json", mesh); }), "9"));
+}
+
+void ApiProgramsTest::single_links_are_softened_by_a_file() {
+  const Folder folder;
+  cm::Body body(cm::make_grid(3, 3));
+  body.set_softness({.stretch = 1.5});
+  write(folder / "links.csv", "a,b,compression,stretch,shear\n1,0,0.5,2,0.25\n");
+  cm::read_softness(folder / "links.csv", body);
+  const cm::LinkId link = *body.mesh().find_link(0, 1);
+  QVERIFY((body.softness(link) == cm::LinkSoftness{.compression = 0.5, .stretch = 2, .shear = 0.25}));
+  QCOMPARE(body.softness(link + 1).stretch, 1.5);
+  const State before(body);
+  write(folder / "links.csv", "0,1,0.5,2,0.25\n0,8,1,1,0\n");
+  QVERIFY(has(refusal_of([&] { cm::read_softness(folder / "links.csv", body); }), ":2"));
+  QVERIFY(State(body) == before);
+}
+
+void ApiProgramsTest::a_session_is_an_object() {
+  const Folder folder;
+  const auto path = folder / "a.chainmail";
+  const Session session = test::session_on(generate({MeshKind::grid, {4, 3, 1}, 1, {}}));
+  save_session(path, session);
+  QVERIFY(cm::is_session(path) && cm::is_session("A.CHAINMAIL") && !cm::is_session("a.obj"));
+  const cm::Body body = cm::read_session(path);
+  QVERIFY(body.cuts() == session.cuts && std::ranges::equal(body.pins(), session.pins));
+  QCOMPARE(body.softness().compression, session.softness->global.compression);
+  QCOMPARE(body.softness(4).stretch, session.softness->of(4).stretch);
+  QCOMPARE(body.elasticity().gent_limit, session.elastic.law.gent_limit);
+  QVERIFY(body.energy() == cm::EnergyKind::corotated);
+  Body restored(session.mesh, Precision::double_precision);
+  ElementBlocks all(session.mesh->element_count());
+  all.insert_all();
+  restored.restore(session.panels.front().positions, all);
+  for (cm::ElementId e = 0; e < session.mesh->element_count(); ++e) {
+    const Point at = point_of(*session.mesh, restored.positions(), e);
+    QVERIFY((body.position(e) == cm::Vector3{at.x(), at.y(), at.z()}));
+  }
+
+  Session named = test::session_on(generate({MeshKind::grid, {4, 3, 1}, 1, {}}));
+  named.mesh_file = "grid.dat";
+  save_session(path, named);
+  QVERIFY(!refusal_of([&] { cm::read_session(path); }).empty());
+  std::string asked;
+  const cm::Body opened = cm::read_session(path, [&](const std::string& name) {
+    asked = name;
+    return cm::make_grid(4, 3);
+  });
+  QCOMPARE(asked, std::string("grid.dat"));
+  QVERIFY(opened.cuts() == named.cuts);
+  write(path, "{}");
+  QVERIFY(has(refusal_of([&] { cm::read_session(path); }), "a.chainmail"));
+}
+
+void ApiProgramsTest::objects_are_compared_in_one_report() {
+  std::vector<cm::ComparedObject> objects{{"first", cm::Body(cm::make_grid(4, 4))},
+                                          {"second", cm::Body(cm::make_cloth(4, 4))}};
+  objects[0].drags = {{"pull", {0}, {{{-2, 0, 0}, {}}}}};
+  const cm::CompareOptions options{.methods = {"exact"},
+                                   .precision = cm::Precision::double_precision,
+                                   .repetitions = 1,
+                                   .command = "my command",
+                                   .program = "my program 7"};
+  const cm::Comparison comparison = cm::compare(objects, options);
+  const auto& rows = comparison.rows();
+  QCOMPARE(rows.size(), std::size_t(1 + 3));
+  QVERIFY(rows[0].object == "first" && rows[0].drag == "pull" && rows[3].object == "second");
+  QVERIFY(has(comparison.html(), "my command") && has(comparison.json(), "my program 7"));
+  std::vector<std::string> names;
+  for (const cm::ReportFile& file : comparison.files()) {
+    names.push_back(file.name);
+    QVERIFY(!file.content.empty());
+  }
+  QVERIFY((names == std::vector<std::string>{"report.html", "report.json", "report.csv"}));
+  QCOMPARE(cm::compare(objects[0].body, objects[0].drags, options).rows().at(0).to_exact->max, 0.0);
+
+  QCOMPARE(cm::built_in_objects(cm::Reference::exact, {.shear = 0.5}).size(), std::size_t(6));
+  for (const cm::ComparedObject& one : cm::built_in_objects(cm::Reference::exact, {.shear = 0.5})) {
+    QVERIFY(one.body.softness().shear == 0.5 && one.recorded.size() == 3);
+  }
+  for (const cm::ComparedObject& one :
+       cm::built_in_objects(cm::Reference::physics, {}, cm::EnergyKind::axial, {.poisson = 0.4})) {
+    QVERIFY(!one.body.pins().empty() && one.body.elasticity().poisson == 0.4);
+    QVERIFY(one.body.energy() == cm::EnergyKind::axial);
+  }
+  QVERIFY(has(refusal_of([] { cm::built_in_objects(cm::Reference::physics, {}, {}, {.poisson = 1}); }), "poisson"));
+}
+
+void ApiProgramsTest::materials_take_turns() {
+  cm::Body body(organ());
+  body.pin(body.mesh().side("left"));
+  const cm::ElementId tip = body.mesh().side("right").back();
+  const cm::ComparedObject object{"organ", body, "an organ", {{"bend", {tip}, {{{0, 0.5, 0}, {}}}}}};
+  cm::CompareOptions options{.methods = {"fem"}, .repetitions = 1, .against = cm::Reference::physics};
+  options.materials = {cm::Elasticity(), {.law = cm::StrainLaw::gent}};
+  const cm::Comparison comparison = cm::compare({object}, options);
+  const auto& rows = comparison.rows();
+  QCOMPARE(rows.size(), std::size_t(4));
+  QVERIFY(has(rows[0].object, "neo-Hookean") || has(rows[0].object, "Neo-Hookean"));
+  QVERIFY(has(rows[3].object, "Gent"));
+  QVERIFY(rows[1].to_physics->relative != rows[3].to_physics->relative);  // a stiffening material is farther away
+  const auto files = comparison.files();
+  for (const char* plot : {"overview.svg", "object-1.svg", "object-2.svg"}) {
+    const auto found = std::ranges::find(files, plot, &cm::ReportFile::name);
+    QVERIFY2(found != files.end() && has(found->content, "<svg"), plot);
+  }
+}
+
+void ApiProgramsTest::the_suite_is_listed() {
+  std::set<std::string> names;
+  bool with_organ = false;
+  for (const cm::SuiteExperiment& one : cm::suite_experiments()) {
+    QVERIFY(names.insert(one.name).second && !one.description.empty());
+    with_organ = with_organ || one.needs_organ;
+  }
+  QVERIFY(names.size() > 10 && with_organ);
+  QVERIFY(has(refusal_of([] { cm::run_suite({.experiments = {"nope"}}); }), "nope"));
+  QVERIFY(has(refusal_of([] { cm::run_suite({.methods = {"nope"}}); }), "nope"));
+  cm::Job job;
+  job.cancel();
+  QVERIFY_EXCEPTION_THROWN(cm::run_suite({.experiments = {*names.begin()}, .methods = {"natural-queue"}}, job),
+                           cm::Cancelled);
+  const Folder folder;
+  write(folder / "a.json", "{}");
+  QVERIFY(has(refusal_of([&] { cm::merge_suites({folder / "a.json"}); }), "a.json"));
+  QVERIFY(has(refusal_of([&] { cm::judge_answers(folder / "a.json", {}); }), "a.json"));
+}
+
+void ApiProgramsTest::a_job_says_what_runs() {
+  const cm::Job job, idle;
+  QCOMPARE(idle.text(), std::string());
+  const cm::Ramp ramp = cm::ramp({.methods = {"exact"}, .largest = 20, .drags = 1, .moves = 2}, job);
+  QVERIFY(has(job.text(), "4x4, drag"));
+  QCOMPARE(lines_in(ramp.csv), ramp.sizes.size() + 1);
+  QVERIFY(has(ramp.text, "Exact ChainMail") && has(ramp.json, "\"algorithms\""));
+  cm::Body body(organ());
+  body.pin(body.mesh().side("left"));
+  const cm::Calibration found = cm::calibrate(body, {.drags = 1, .held_out = 1, .evaluations = 2});
+  QVERIFY(has(found.text, "Natural Queue ChainMail comes closest") &&
+          has(found.text, "Drags not used by the search (1)"));
+}
+
+CHAINMAIL_TEST(ApiProgramsTest)
+
+}  // namespace chainmail::test_api_programs
+
+#include "test_api_programs.moc"
