@@ -26,6 +26,7 @@ struct DeformArguments {
   MeshOptions mesh;
   ElasticArguments elastic;
   StrainLawArguments law;
+  CLI::Option* thickness;
   SoftnessArguments global;
   CLI::Option *algorithm, *precision, *softness;
   CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
@@ -234,6 +235,7 @@ void deform(const DeformArguments& options) {
   }
   ElasticOptions elastic = elastic_of(options.elastic);
   elastic.law = own_law_of(options.law, elastic.material);
+  elastic.thickness = value_of(options.thickness, parameters::thickness);
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation, targets);
   const std::vector<Action> actions = read_actions(options);
@@ -301,6 +303,7 @@ void add_model(CLI::App& app, DeformArguments& options) {
   options.precision = add_value(app, "--precision", "double|float", "precision of the solver [double]");
   options.elastic = add_elastic(app);
   options.law = add_strain_law(app);
+  options.thickness = add_parameter(app, parameters::thickness);
   options.mesh.space =
       add_value(app, "--space", "1|2|3",
                 "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
