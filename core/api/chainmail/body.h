@@ -46,8 +46,8 @@ enum class EnergyKind {
   isotropic,  ///< Links resist motion along them and across them alike. Their stiffness does not count.
   axial,  ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
   corotated,  ///< Links are springs, and resist motion across their rest vectors turned with their surroundings.
-  /// Cells resist as a material with Poisson's ratio, a surface in space as a thin shell of it. Without cells and faces,
-  /// links are corotated.
+  /// Cells resist as a material with Poisson's ratio, a surface in space as a thin shell of it. Without cells and
+  /// faces, links are corotated.
   material
 };
 
