@@ -16,6 +16,7 @@ struct DeformArguments {
   MeshOptions mesh;
   ElasticArguments elastic;
   StrainLawArguments law;
+  CLI::Option* thickness;
   SoftnessArguments global;
   CLI::Option *algorithm, *precision, *softness;
   CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
@@ -134,6 +135,7 @@ void deform(const DeformArguments& options) {
   const SoftnessChoice softness = softness_of(options.global);
   api::Elasticity elastic = elastic_of(options.elastic);
   read_own_law(options.law, elastic);
+  elastic.thickness = value_of(options.thickness, api::parameter("thickness"));
   const Targets targets = read_targets(options);
   const Schedule schedule = read_schedule(options, relaxation);
   const std::vector<Action> actions = read_actions(options);
@@ -210,6 +212,7 @@ void add_model(CLI::App& app, DeformArguments& options) {
   options.precision = add_precision(app, api::Precision::double_precision);
   options.elastic = add_elastic(app);
   options.law = add_strain_law(app);
+  options.thickness = add_parameter(app, api::parameter("thickness"));
   options.mesh.space =
       add_value(app, "--space", "1|2|3",
                 "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");

@@ -139,13 +139,15 @@ void add_elasticity(py::module_& module) {
       "the material. A value object: it does not change.");
   elasticity
       .def(py::init([](double young, double poisson, const std::array<std::uint32_t, 3>& control_points,
-                       std::uint32_t iterations, const std::string& law, double gent_limit, double fung_exponent) {
-             return api::Elasticity{young, poisson, control_points, iterations, law_of(law), gent_limit, fung_exponent};
+                       std::uint32_t iterations, const std::string& law, double gent_limit, double fung_exponent,
+                       double thickness) {
+             return api::Elasticity{young,       poisson,    control_points, iterations,
+                                    law_of(law), gent_limit, fung_exponent,  thickness};
            }),
            py::kw_only(), py::arg("young") = defaults.young, py::arg("poisson") = defaults.poisson,
            py::arg("control_points") = py::make_tuple(4, 4, 4), py::arg("iterations") = defaults.iterations,
            py::arg("law") = word_for(defaults.law), py::arg("gent_limit") = defaults.gent_limit,
-           py::arg("fung_exponent") = defaults.fung_exponent)
+           py::arg("fung_exponent") = defaults.fung_exponent, py::arg("thickness") = defaults.thickness)
       .def_readonly("young", &api::Elasticity::young,
                     "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape.")
       .def_readonly("poisson", &api::Elasticity::poisson, "Poisson's ratio: 0 to below 0.5.")
@@ -164,6 +166,9 @@ void add_elasticity(py::module_& module) {
       .def_readonly("gent_limit", &api::Elasticity::gent_limit,
                     "With `gent`: bound of I1 - 3, the sum of the squared principal stretches less 3.")
       .def_readonly("fung_exponent", &api::Elasticity::fung_exponent, "With `fung`: factor of I1 - 3 in the exponent.")
+      .def_readonly("thickness", &api::Elasticity::thickness,
+                    "Thickness of a surface in space in relaxation to the material, as a share of the longest side\n"
+                    "of its bounds: 0.0001 to 1.")
       .def(py::self == py::self)
       .def("__repr__",
            [](const api::Elasticity& one) {
@@ -172,7 +177,7 @@ void add_elasticity(py::module_& module) {
                   << ", control_points=(" << one.control_points[0] << ", " << one.control_points[1] << ", "
                   << one.control_points[2] << "), iterations=" << one.iterations << ", law='" << word_for(one.law)
                   << "', gent_limit=" << text_of(one.gent_limit) << ", fung_exponent=" << text_of(one.fung_exponent)
-                  << ")";
+                  << ", thickness=" << text_of(one.thickness) << ")";
              return text.str();
            })
       .attr("__hash__") = py::none();
@@ -180,7 +185,7 @@ void add_elasticity(py::module_& module) {
       elasticity,
       [](const api::Elasticity& one) {
         return py::make_tuple(one.young, one.poisson, one.control_points, one.iterations, word_for(one.law),
-                              one.gent_limit, one.fung_exponent);
+                              one.gent_limit, one.fung_exponent, one.thickness);
       },
       [](const py::tuple& state) {
         return api::Elasticity{state[0].cast<double>(),
@@ -189,7 +194,8 @@ void add_elasticity(py::module_& module) {
                                state[3].cast<std::uint32_t>(),
                                law_of(state[4].cast<std::string>()),
                                state[5].cast<double>(),
-                               state[6].cast<double>()};
+                               state[6].cast<double>(),
+                               state[7].cast<double>()};
       });
 }
 

@@ -159,7 +159,8 @@ inline ElasticOptions elastic_options_of(const Elasticity& one) {
   return {{one.young, one.poisson},
           one.control_points,
           one.iterations,
-          {inner::StrainLaw::Kind(one.law), one.gent_limit, one.fung_exponent}};
+          {inner::StrainLaw::Kind(one.law), one.gent_limit, one.fung_exponent},
+          one.thickness};
 }
 inline inner::Rotation rotation_of(const Rotation& rotation) { return {point_of(rotation.axis), rotation.degrees}; }
 

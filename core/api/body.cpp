@@ -29,7 +29,8 @@ static_assert(Elasticity().young == parameters::young.default_value &&
               Elasticity().control_points[2] == ElasticOptions::control_points &&
               Elasticity().iterations == parameters::iterations.default_value &&
               Elasticity().gent_limit == parameters::gent_limit.default_value &&
-              Elasticity().fung_exponent == parameters::fung_exponent.default_value);
+              Elasticity().fung_exponent == parameters::fung_exponent.default_value &&
+              Elasticity().thickness == parameters::thickness.default_value);
 static_assert(int(StrainLaw::neo_hookean) == int(inner::StrainLaw::Kind::neo_hookean) &&
               int(StrainLaw::gent) == int(inner::StrainLaw::Kind::gent) &&
               int(StrainLaw::fung) == int(inner::StrainLaw::Kind::fung));
@@ -381,8 +382,8 @@ void Body::set_elasticity(const Elasticity& elasticity) {
 
 Elasticity Body::elasticity() const {
   const ElasticOptions& options = impl_->body().elastic();
-  return {options.material.young,      options.material.poisson, options.lattice,          options.iterations,
-          StrainLaw(options.law.kind), options.law.gent_limit,   options.law.fung_exponent};
+  return {options.material.young,      options.material.poisson, options.lattice,           options.iterations,
+          StrainLaw(options.law.kind), options.law.gent_limit,   options.law.fung_exponent, options.thickness};
 }
 
 }  // namespace chainmail::api

@@ -23,9 +23,9 @@ Parameter public_parameter(const inner::Parameter* one) {
 
 namespace table = inner::parameters;
 /// The numbers that are not those of a link's softness.
-constexpr std::array other_parameters{&table::relax_step,    &table::relax_until, &table::spacing,
-                                      &table::young,         &table::poisson,     &table::gent_limit,
-                                      &table::fung_exponent, &table::lattice,     &table::iterations};
+constexpr std::array other_parameters{&table::relax_step, &table::relax_until, &table::spacing,       &table::young,
+                                      &table::poisson,    &table::gent_limit,  &table::fung_exponent, &table::thickness,
+                                      &table::lattice,    &table::iterations};
 
 /// The checks of core need no more of a parameter.
 inner::Parameter inner_parameter(const Parameter& one) {

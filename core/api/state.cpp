@@ -132,6 +132,7 @@ void put_elastic(State& state, const ElasticOptions& elastic) {
   state["law"] = name(elastic.law.kind);
   state["gent_limit"] = elastic.law.gent_limit;
   state["fung_exponent"] = elastic.law.fung_exponent;
+  state["thickness"] = elastic.thickness;
 }
 
 ElasticOptions elastic_from(StateFields& state) {
@@ -144,7 +145,8 @@ ElasticOptions elastic_from(StateFields& state) {
   return {{state.real("young"), state.real("poisson")},
           {points[0], points[1], points[2]},
           std::uint32_t(state.whole("iterations", 0, std::numeric_limits<std::uint32_t>::max())),
-          {inner::strain_laws[kind], state.real("gent_limit"), state.real("fung_exponent")}};
+          {inner::strain_laws[kind], state.real("gent_limit"), state.real("fung_exponent")},
+          state.real("thickness")};
 }
 
 BodyState body_state_from(StateFields& state, const inner::Mesh& mesh) {

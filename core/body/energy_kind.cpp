@@ -24,8 +24,8 @@ constexpr std::array all_energy_kinds{
         "to an elastic solid, also in large rotations.",
         parameters::lateral.default_value},
     EnergyKindInfo{EnergyKind::material, "material", "Material",
-                   "The cells resist as an elastic material with Poisson's ratio does; nothing is calibrated. Where "
-                   "there are no cells, it is that of co-rotated links.",
+                   "The cells resist as an elastic material with Poisson's ratio does, and a surface in space as a "
+                   "thin shell of it; nothing is calibrated. Where there are neither, it is that of co-rotated links.",
                    parameters::lateral.default_value}};
 
 }  // namespace

@@ -5,11 +5,12 @@
 
 namespace chainmail {
 
-/// The elastic energy that relaxation lowers: of the links, or of the material of the cells. Each kind has one entry in
-/// the table of energy_kind.cpp; the formulas are in equilibrium/link_energy.h and equilibrium/material_energy.h.
+/// The elastic energy that relaxation lowers: of the links, or of the material of the cells or of a surface in space.
+/// Each kind has one entry in the table of energy_kind.cpp; the formulas are in equilibrium/link_energy.h,
+/// equilibrium/material_energy.h and equilibrium/surface_energy.h.
 enum class EnergyKind { isotropic, axial, corotated, material };
 
-/// The energy of a new object. Objects without cells and sweeps have that of links in its place.
+/// The energy of a new object. Objects without cells and faces, and sweeps, have that of links in its place.
 inline constexpr EnergyKind standard_energy = EnergyKind::material;
 /// The energy of links that comes closest to a material. Recorded moves and files that name no energy mean this one,
 /// and calibration adjusts it.

@@ -10,7 +10,7 @@
 namespace chainmail {
 namespace {
 
-bool is_surface_in_space(const Mesh& mesh) {
+bool has_faces_in_space(const Mesh& mesh) {
   return mesh.space_dimension == 3 && !mesh.has_cells() && !mesh.triangles.empty();
 }
 
@@ -35,7 +35,7 @@ void add_face(const Mesh& mesh, const std::array<ElementId, 3>& face, Simplices&
 }  // namespace
 
 Simplices build_edge_cells(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
-  if (!is_surface_in_space(mesh)) {
+  if (!has_faces_in_space(mesh)) {
     return build_simplices(mesh, cuts, progress);
   }
   Simplices cells;

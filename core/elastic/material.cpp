@@ -26,6 +26,7 @@ void check(const ElasticOptions& options) {
   check(parameters::iterations, options.iterations);
   check(parameters::gent_limit, options.law.gent_limit);
   check(parameters::fung_exponent, options.law.fung_exponent);
+  check(parameters::thickness, options.thickness);
   check(options.law, options.material);
 }
 

@@ -51,6 +51,8 @@ struct ElasticOptions {
 
   /// Of neo-Hookean FEM and of relaxation to the material. The other methods are linear or have none.
   StrainLaw law = {};
+  /// Of surfaces in space, in relaxation to the material: a share of the longest side of the object's bounds at rest.
+  double thickness = parameters::thickness.default_value;
 
   bool operator==(const ElasticOptions&) const = default;
 };

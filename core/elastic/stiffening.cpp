@@ -201,6 +201,13 @@ ExtendedDensity::Value ExtendedDensity::at(double s, double j) const {
           term.slope_s + term.curvature_sl / inside * below, term.slope_l / inside + curvature_ * below};
 }
 
+ExtendedDensity::Curvature ExtendedDensity::curvature_at(double s, double j) const {
+  const double inside = std::max(j, least_volume_);
+  const StiffeningTerm term = term_of(s, std::log(inside), law_, lame_, dimension_, Range::extended);
+  return {term.curvature_ss, term.curvature_sl / inside,
+          j < inside ? curvature_ : (term.curvature_ll - term.slope_l) / (inside * inside)};
+}
+
 SimplexModel model_of(const StrainLaw& law) {
   if (law.kind == StrainLaw::Kind::neo_hookean) {
     return neo_hookean;

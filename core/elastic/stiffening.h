@@ -46,6 +46,11 @@ class ExtendedDensity {
     double value = 0, by_shape = 0, by_volume = 0;
   };
   Value at(double s, double j) const;
+  /// The second derivatives, for an approximation of the curvature; those of a parabola beyond J are not all exact.
+  struct Curvature {
+    double by_shape = 0, by_both = 0, by_volume = 0;
+  };
+  Curvature curvature_at(double s, double j) const;
 
  private:
   StrainLaw law_;

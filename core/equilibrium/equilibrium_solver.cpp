@@ -131,7 +131,7 @@ class Equilibrator final : public EquilibriumSolver {
       }
       corotated_.reset();
       newton_.forget();
-      material_.forget();
+      material_->forget();
       is_start_ = true;
       end_constraints();
     }
@@ -157,7 +157,7 @@ class Equilibrator final : public EquilibriumSolver {
     newton_.forget();
     fixed_.assign(mesh_->element_count(), 0);
     jump_.assign(mesh_->element_count(), Vector::Zero());
-    material_ = {};
+    material_ = make_minimum<D>(*mesh_);
     scale_ = 0;
     free_.reset();
     penalised_.reset();
@@ -398,9 +398,9 @@ class Equilibrator final : public EquilibriumSolver {
   /// One step of the search for the minimum of the material's energy, then of the forces of regions.
   void material_step(const Progress& progress) {
     prepare_material(progress);
-    material_.step(iterate_, threads_);
-    energy_of_iterate_ = material_.energy();
-    note_distance(material_.distance());
+    prepared_ = material_->step(iterate_, threads_, progress) || prepared_;
+    energy_of_iterate_ = material_->energy();
+    note_distance(material_->distance());
     ++iterations_;
     if (uses_regions_ && (constrained_ || (residual_ < binds_below && !is_valid(iterate_)))) {
       follow_regions();
@@ -408,29 +408,29 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void prepare_material(const Progress& progress) {
-    if (!material_.has_begun()) {
-      material_.begin(mesh_, progress.part(0, 0.3));
+    if (!material_->has_begun()) {
+      material_->begin(mesh_, progress.part(0, 0.3));
       has_material_ = has_cuts_ = false;
     }
     if (!std::exchange(has_material_, true)) {
-      material_.set_material(shown_.body->elastic().material, shown_.body->elastic().law);
+      material_->set_material(shown_.body->elastic());
       has_cuts_ = false;
     }
     if (!std::exchange(has_cuts_, true)) {
-      material_.set_cuts(shown_.body->cuts());
+      material_->set_cuts(shown_.body->cuts());
     }
     for (ElementId e = 0; e < fixed_.size(); ++e) {
-      material_.set_fixed(e, fixed_[e] != 0);
+      material_->set_fixed(e, fixed_[e] != 0);
     }
-    prepared_ = material_.update(progress.part(0.3, 1)) || prepared_;
+    prepared_ = material_->update(progress.part(0.3, 1)) || prepared_;
     if (std::exchange(has_jump_, false)) {
       for (ElementId e = 0; e < fixed_.size(); ++e) {
         iterate_[e] -= jump_[e];
       }
-      material_.extend(jump_, iterate_);
+      material_->extend(jump_, iterate_);
       std::ranges::fill(jump_, Vector::Zero());
     }
-    if (std::exchange(is_start_, false) && material_.is_inverted(iterate_)) {
+    if (std::exchange(is_start_, false) && material_->is_inverted(iterate_)) {
       try_rest();
     }
   }
@@ -443,8 +443,8 @@ class Equilibrator final : public EquilibriumSolver {
         from_rest[e] = iterate_[e];
       }
     }
-    material_.extend(from_rest, rest);
-    if (material_.energy_of(rest) < material_.energy_of(iterate_)) {
+    material_->extend(from_rest, rest);
+    if (material_->energy_of(rest) < material_->energy_of(iterate_)) {
       iterate_ = std::move(rest);
     }
   }
@@ -454,11 +454,11 @@ class Equilibrator final : public EquilibriumSolver {
     const double distance = residual_;
     const auto square = [&] { return 2 * std::max(0.0, energy_of_iterate_) + unseen_energy(); };
     const bool moves = constrained_ && distance * distance * square() < region_error_;
-    const auto update = material_.regions().update(links(), iterate_, moves);
+    const auto update = material_->regions().update(links(), iterate_, moves);
     region_error_ = update.error;
-    constrained_ = !material_.regions().is_empty();
+    constrained_ = !material_->regions().is_empty();
     if (moves || !update.changed.empty()) {
-      material_.follow_regions(update.changed);
+      material_->follow_regions(update.changed);
     }
     residual_ = std::max(distance, std::sqrt(update.error / square()));
   }
@@ -553,7 +553,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   void end_constraints() {
-    material_.follow_regions(material_.regions().clear());
+    material_->follow_regions(material_->regions().clear());
     constrained_ = false;
     gradient_is_outdated_ = true;
   }
@@ -567,7 +567,7 @@ class Equilibrator final : public EquilibriumSolver {
           if (j > i && (fixed_[i] == 0 || fixed_[j] == 0)) {
             const LinkId link = mesh_->entry_link[entry];
             visit(link, i, j, shown_.regions[entry],
-                  uses_material() ? material_.stiffness(link) : stiffness_of(energy_.link(link)));
+                  uses_material() ? material_->stiffness(link) : stiffness_of(energy_.link(link)));
           }
         });
       }
@@ -735,7 +735,7 @@ class Equilibrator final : public EquilibriumSolver {
   double frees_below_ = frees_below;  // falls each time in one problem
   int iterations_ = 0;
 
-  MaterialMinimum<D> material_;
+  std::unique_ptr<EnergyMinimum<D>> material_;
   bool has_material_ = false, has_cuts_ = false;  // it knows the body's
   bool is_start_ = true;                          // the iterate was set from outside
   Vectors jump_;                                  // by which fixed elements have moved since the last step

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "elastic/simplices.h"
+#include "elastic/surface_cells.h"
 #include "equilibrium/corotated.h"
 
 namespace chainmail {
@@ -53,7 +53,7 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
   return weights;
 }
 
-EnergyKind energy_in(const Mesh& mesh, EnergyKind kind) { return has_solid_cells(mesh) ? kind : energy_of_links(kind); }
+EnergyKind energy_in(const Mesh& mesh, EnergyKind kind) { return has_material(mesh) ? kind : energy_of_links(kind); }
 
 double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
   switch (mesh.space_dimension) {

@@ -29,7 +29,7 @@ LinkWeights link_weights(const Mesh& mesh, const Softness& softness, LinkId link
 /// The same for a link of this softness and rest length (mesh units) that stands for a mean share of material.
 LinkWeights link_weights(const Mesh& mesh, EnergyKind kind, const LinkSoftness& softness, double rest_length);
 
-/// Returns the kind of energy that a mesh has: without cells there is no material, so its links are corotated.
+/// Returns the kind of energy that a mesh has: without cells and faces there is no material; links are corotated.
 EnergyKind energy_in(const Mesh& mesh, EnergyKind kind);
 
 /// Returns the corotated energy (see CorotatedEnergy). It does not change under rotations of the object.

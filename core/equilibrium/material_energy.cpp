@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "equilibrium/surface_energy.h"
+
 namespace chainmail {
 namespace {
 
@@ -12,15 +14,15 @@ constexpr double loose_stiffness = 1e-6;
 
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
-template <int D>
+template <int D, class Energy = MaterialEnergy<D>>
 double energy_in_space(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts,
                        const PositionView& position) {
-  MaterialEnergy<D> energy;
+  Energy energy;
   energy.build(MeshPointer(std::shared_ptr<void>(), &mesh));
-  energy.set_material(elastic.material, elastic.law);
+  energy.set_material(elastic);
   energy.set_cuts(cuts);
-  energy.set_extension_below(MaterialEnergy<D>::measured_below);
-  typename MaterialEnergy<D>::Vectors displacements(mesh.element_count());
+  energy.set_extension_below(Energy::measured_below);
+  typename Energy::Vectors displacements(mesh.element_count());
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     for (int k = 0; k < D; ++k) {
       displacements[e][k] = position(e, k) - mesh.rest[std::size_t{e} * D + std::size_t(k)];
@@ -86,10 +88,10 @@ void MaterialEnergy<D>::find_cell_links() {
 }
 
 template <int D>
-void MaterialEnergy<D>::set_material(const Material& material, const StrainLaw& law) {
-  lame_ = lame({1, material.poisson});
-  is_neo_hookean_ = law.kind == StrainLaw::Kind::neo_hookean;
-  density_ = ExtendedDensity(law, lame_, D);
+void MaterialEnergy<D>::set_material(const ElasticOptions& elastic) {
+  lame_ = lame({1, elastic.material.poisson});
+  is_neo_hookean_ = elastic.law.kind == StrainLaw::Kind::neo_hookean;
+  density_ = ExtendedDensity(elastic.law, lame_, D);
   scale_ = 1;
   double sum = 0;
   for (LinkId link = 0; link < mesh_->link_count(); ++link) {
@@ -437,7 +439,9 @@ double material_energy(const Mesh& mesh, const ElasticOptions& elastic, const Cu
     case 2:
       return energy_in_space<2>(mesh, elastic, cuts, position);
     default:
-      return energy_in_space<3>(mesh, elastic, cuts, position);
+      return is_surface_in_space(mesh)
+                 ? thickness_of(mesh, elastic) * energy_in_space<3, SurfaceEnergy>(mesh, elastic, cuts, position)
+                 : energy_in_space<3>(mesh, elastic, cuts, position);
   }
 }
 

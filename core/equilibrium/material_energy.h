@@ -32,7 +32,7 @@ class MaterialEnergy {
   /// Makes the cells of a mesh, none cut. Throws Cancelled.
   void build(MeshPointer mesh, const Progress& progress = {});
   /// Sets Poisson's ratio and the law. Young's modulus does not move a minimum. Changes all weights.
-  void set_material(const Material& material, const StrainLaw& law);
+  void set_material(const ElasticOptions& elastic);
   /// Removes and restores cells. Returns the links whose weights changed, ascending.
   std::vector<LinkId> set_cuts(const Cuts& cuts);
 
@@ -46,6 +46,7 @@ class MaterialEnergy {
   double evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared = {});
   /// The least ratio of a cell's volume to that at rest in the last evaluation; below 0 if a cell is inverted.
   double least_volume() const { return least_; }
+  bool is_inverted() const { return least_ < 0; }
   /// See ExtendedDensity. Where an energy is measured, the ratio is `measured_below`.
   static constexpr double measured_below = 0.01;
   void set_extension_below(double volume) { density_.set_least_volume(volume); }
@@ -114,8 +115,8 @@ extern template class MaterialEnergy<1>;
 extern template class MaterialEnergy<2>;
 extern template class MaterialEnergy<3>;
 
-/// Returns the energy of the material of a mesh's uncut cells, in units of Young's modulus times mesh units to the
-/// power of the space's dimension. The mesh has cells, see has_solid_cells.
+/// Returns the energy of the material of a mesh's uncut cells, or of its uncut triangles in space, in units of Young's
+/// modulus times mesh units to the power of the space's dimension. See has_material.
 double material_energy(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts, const PositionView& position);
 
 }  // namespace chainmail

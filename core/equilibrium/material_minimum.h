@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,59 +12,115 @@
 
 namespace chainmail {
 
-/// Finds the displacements of least energy of the material of an object, step by step: a quasi-Newton method (L-BFGS)
-/// whose first inverse is a multigrid on the weighted Laplacian of the links (after Liu, Bouaziz and Kavan 2017, who
-/// factor it). A cut repairs the multigrid around it.
-///
-/// Cells below the ratio of volumes `extension_below` of MaterialEnergy resist less than the material does. A search
-/// begins with a high ratio, so that inverted cells turn back, and ends with a low one, when all cells are above it.
+/// Finds the displacements of least energy of the material of an object, step by step.
 template <int D>
-class MaterialMinimum {
+class EnergyMinimum {
  public:
   using Vectors = typename MaterialEnergy<D>::Vectors;
 
-  void begin(const MeshPointer& mesh, const Progress& progress);
-  bool has_begun() const { return has_begun_; }
-  void set_material(const Material& material, const StrainLaw& law);
-  void set_cuts(const Cuts& cuts);
+  EnergyMinimum() = default;
+  EnergyMinimum(const EnergyMinimum&) = delete;
+  EnergyMinimum& operator=(const EnergyMinimum&) = delete;
+  virtual ~EnergyMinimum() = default;
+
+  virtual void begin(const MeshPointer& mesh, const Progress& progress) = 0;
+  virtual bool has_begun() const = 0;
+  virtual void set_material(const ElasticOptions& elastic) = 0;
+  virtual void set_cuts(const Cuts& cuts) = 0;
   /// Sets whether an element is fixed, unless it is already so.
-  void set_fixed(ElementId element, bool fixed);
+  virtual void set_fixed(ElementId element, bool fixed) = 0;
   /// Forgets what belongs to other displacements.
-  void forget();
+  virtual void forget() = 0;
 
   /// Brings the multigrid up to date. Returns true if it built one.
-  bool update(const Progress& progress);
+  virtual bool update(const Progress& progress) = 0;
   /// Continues the displacements of fixed elements, `jump`, which is 0 at all others, to those around them: adds the
   /// solution of Laplace's equation, approximated by one cycle. Call update() before.
-  void extend(const Vectors& jump, Vectors& at);
+  virtual void extend(const Vectors& jump, Vectors& at) = 0;
   /// Returns the energy, without the springs of regions.
-  double energy_of(const Vectors& at) { return energy_.evaluate(at, nullptr); }
-  /// True if a cell is inverted.
-  bool is_inverted(const Vectors& at);
+  virtual double energy_of(const Vectors& at) = 0;
+  /// True if a cell is inverted, or a triangle in space has no area.
+  virtual bool is_inverted(const Vectors& at) = 0;
 
-  /// Runs a step, on at most this many threads. Call update() before.
-  void step(Vectors& at, int threads);
-  double energy() const { return value_; }
+  /// Runs a step, on at most this many threads. Call update() before. Throws Cancelled; nothing has moved then. Returns
+  /// true if it prepared later ones, which takes as long as tens of them.
+  virtual bool step(Vectors& at, int threads, const Progress& progress) = 0;
+  virtual double energy() const = 0;
   /// Estimated distance from the minimum, as √(twice the energy of the distance).
-  double distance() const { return distance_; }
+  virtual double distance() const = 0;
 
   /// A link's stiffness, as the springs of regions count it.
-  double stiffness(LinkId link) const {
-    return weights_[link] > 0 ? std::max(MaterialEnergy<D>::least_weight, weights_[link]) : 0;
-  }
-  RegionPenalties<D>& regions() { return regions_; }
+  virtual double stiffness(LinkId link) const = 0;
+  virtual RegionPenalties<D>& regions() = 0;
   /// Tells that the forces of regions changed, and the working set at these links.
-  void follow_regions(std::span<const LinkId> changed);
+  virtual void follow_regions(std::span<const LinkId> changed) = 0;
+};
+
+/// Returns the minimum for the material of this mesh: that of its cells, or of a surface in space.
+template <int D>
+std::unique_ptr<EnergyMinimum<D>> make_minimum(const Mesh& mesh);
+
+/// The steps of a quasi-Newton method (L-BFGS) whose first inverse is a multigrid on the weighted Laplacian of the
+/// links (after Liu, Bouaziz and Kavan 2017, who factor it). A cut repairs the multigrid around it.
+template <int D>
+class MultigridSteps {
+ public:
+  using Energy = MaterialEnergy<D>;
+
+  void begin(const Energy& /*energy*/, const Progress& /*progress*/) {}
+  void forget() { newton_.forget(); }
+  void outdate_inverse() { newton_.forget(); }
+  double distance() const { return newton_.distance(); }
+  static bool has_prepared() { return false; }
+
+  template <class Evaluate, class Inverse>
+  bool step(Evaluate evaluate, const Energy& /*energy*/, Inverse& inverse, const RegionPenalties<D>& /*regions*/,
+            typename Energy::Vectors& at, double& value, typename Energy::Vectors& force, const SharedLoop& shared,
+            const Progress& /*progress*/) {
+    return newton_.step(evaluate, inverse, at, value, force, shared);
+  }
 
  private:
+  QuasiNewton<D> newton_;
+};
+
+/// Cells below the ratio of volumes `extension_below` of the energy resist less than the material does. A search begins
+/// with a high ratio, so that inverted cells turn back, and ends with a low one, when all cells are above it.
+template <int D, class Steps = MultigridSteps<D>>
+class MaterialMinimum final : public EnergyMinimum<D> {
+ public:
+  using Vectors = typename EnergyMinimum<D>::Vectors;
+
+  void begin(const MeshPointer& mesh, const Progress& progress) override;
+  bool has_begun() const override { return has_begun_; }
+  void set_material(const ElasticOptions& elastic) override;
+  void set_cuts(const Cuts& cuts) override;
+  void set_fixed(ElementId element, bool fixed) override;
+  void forget() override;
+  bool update(const Progress& progress) override { return preconditioner_.update(progress); }
+  void extend(const Vectors& jump, Vectors& at) override;
+  double energy_of(const Vectors& at) override { return energy_.evaluate(at, nullptr); }
+  bool is_inverted(const Vectors& at) override;
+  bool step(Vectors& at, int threads, const Progress& progress) override;
+  double energy() const override { return value_; }
+  double distance() const override { return distance_; }
+  double stiffness(LinkId link) const override {
+    return weights_[link] > 0 ? std::max(Energy::least_weight, weights_[link]) : 0;
+  }
+  RegionPenalties<D>& regions() override { return regions_; }
+  void follow_regions(std::span<const LinkId> changed) override;
+
+ private:
+  using Energy = typename Steps::Energy;
+
   double evaluate(const Vectors& at, Vectors& force, const SharedLoop& shared);
   double add_regions(const Vectors& at, Vectors& force) const;
   void harden(const Vectors& at, const SharedLoop& shared);
 
   bool has_begun_ = false;
-  MaterialEnergy<D> energy_;
+  Energy energy_;
   LaplacianPreconditioner<D> preconditioner_;
-  QuasiNewton<D> newton_;
+  Steps steps_;
   RegionPenalties<D> regions_;
   std::vector<double> weights_;  // of each link
   Vectors force_;                // the negative gradient, with the springs of regions
@@ -76,8 +133,8 @@ class MaterialMinimum {
   bool is_material_outdated_ = true;  // that of the material, too
 };
 
-extern template class MaterialMinimum<1>;
-extern template class MaterialMinimum<2>;
-extern template class MaterialMinimum<3>;
+extern template std::unique_ptr<EnergyMinimum<1>> make_minimum(const Mesh& mesh);
+extern template std::unique_ptr<EnergyMinimum<2>> make_minimum(const Mesh& mesh);
+extern template std::unique_ptr<EnergyMinimum<3>> make_minimum(const Mesh& mesh);
 
 }  // namespace chainmail

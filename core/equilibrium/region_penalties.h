@@ -28,6 +28,13 @@ class RegionPenalties {
   bool is_empty() const { return active_.empty(); }
   bool is_active(LinkId link) const { return link < place_.size() && place_[link] != none; }
 
+  /// Calls visit(i, j, stiffness) for each spring.
+  template <class Visit>
+  void for_each_spring(Visit visit) const {
+    for (const Active& one : active_) {
+      visit(one.i, one.j, one.stiffness);
+    }
+  }
   /// Adds the springs' forces to `force`, if given, and returns their energy.
   double add(const Vectors& at, Vectors* force) const {
     double energy = 0;

@@ -168,6 +168,17 @@ inline constexpr Parameter fung_exponent{
     .step = 0.1,
     .decimals = 3,
     .help = "factor of I1 - 3 in the exponential of the material 'fung': more stiffens earlier"};
+inline constexpr Parameter thickness{
+    .name = "thickness",
+    .label = "Thickness",
+    .unit = "of the longest side",
+    .default_value = 0.01,
+    .lowest = 1e-4,
+    .highest = 1,
+    .slider_highest = 0.1,
+    .step = 1e-3,
+    .decimals = 4,
+    .help = "thickness of a surface in space, per longest side of its bounds: a thinner one bends more easily"};
 inline constexpr Parameter lattice{.name = "lattice",
                                    .label = "Control points",
                                    .unit = "along each axis",

@@ -183,6 +183,8 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   elastic("elastic: law: ", R"("young":1,"poisson":0.3,"lattice":[4,4,4],"law":"hooke")");
   elastic("elastic: gent-limit: ", R"("young":1,"poisson":0.3,"lattice":[4,4,4],"law":"gent","gent_limit":0)");
   elastic("elastic: gent-limit: ", R"("young":1,"poisson":0.1,"lattice":[4,4,4],"law":"gent")");
+  elastic("elastic: thickness: Thickness 0 is out of range; use 0.0001 to 1",
+          R"("young":1,"poisson":0.3,"lattice":[4,4,4],"thickness":0)");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"original\"", "panel 0: 3D ChainMail: ");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' is not known; ");
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",

@@ -150,6 +150,10 @@ def test_energy_and_elasticity():
     body.set_elasticity(chainmail.Elasticity(poisson=0.4, law="gent", gent_limit=1.5))
     assert (body.elasticity.law, body.elasticity.gent_limit) == ("gent", 1.5)
     assert "law='gent', gent_limit=1.5" in repr(body.elasticity)
+    body.set_elasticity(chainmail.Elasticity(thickness=0.05))
+    assert body.elasticity.thickness == 0.05
+    with pytest.raises(chainmail.Error, match="use 0.0001 to 1"):
+        body.set_elasticity(chainmail.Elasticity(thickness=0))
     with pytest.raises(chainmail.Error, match="use neo-hookean, gent or fung"):
         chainmail.Elasticity(law="hooke")
     with pytest.raises(chainmail.Error, match="too low for a Poisson's ratio"):

@@ -115,6 +115,20 @@ class WindowPhysics : public QObject {
     QCOMPARE(exponent->value(), StrainLaw().fung_exponent);
   }
 
+  void theThicknessIsThatOfASurfaceInSpace() {
+    {
+      Workbench bench(gridInAPlane());
+      QVERIFY(bench.find<QDoubleSpinBox>("thicknessSpin")->parentWidget()->isHidden());
+    }
+    Workbench bench(generate({.kind = MeshKind::cloth, .size = {4, 4}, .space_dimension = 3}));
+    auto* thickness = bench.find<QDoubleSpinBox>("thicknessSpin");
+    QVERIFY(!thickness->parentWidget()->isHidden());
+    thickness->setValue(0.05);
+    QCOMPARE(bench.document().elastic().thickness, 0.05);
+    bench.document().undo();
+    QCOMPARE(thickness->value(), ElasticOptions().thickness);
+  }
+
   void materialAndLatticeAreStepsOfUndo() {
     Workbench bench(gridInAPlane());
     auto* poisson = bench.find<QDoubleSpinBox>("poissonSpin");

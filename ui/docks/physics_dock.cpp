@@ -11,6 +11,7 @@
 #include "common/text.h"
 #include "docks/calibration_box.h"
 #include "document/edits.h"
+#include "elastic/surface_cells.h"
 
 namespace chainmail {
 PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
@@ -21,11 +22,13 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
       law_(new QComboBox),
       gentLimit_(new ParameterRow(parameters::gent_limit)),
       fungExponent_(new ParameterRow(parameters::fung_exponent)),
+      thickness_(new ParameterRow(parameters::thickness)),
       iterations_(new ParameterRow(parameters::iterations)),
       pins_(new QLabel) {
   addRow(young_, &Material::young);
   addRow(poisson_, &Material::poisson);
   addLaw();
+  addThickness();
   column_->addLayout(makeLattice());
   addIterations();
   column_->addLayout(makePins(layers));
@@ -82,6 +85,15 @@ void PhysicsDock::addLaw() {
       edits::setElastic(document_, options, row->label(), gesture);
     });
   }
+}
+
+void PhysicsDock::addThickness() {
+  column_->addWidget(thickness_);
+  connect(thickness_, &ParameterRow::changed, this, [this](double value, int gesture) {
+    ElasticOptions options = document_.elastic();
+    options.thickness = value;
+    edits::setElastic(document_, options, thickness_->label(), gesture);
+  });
 }
 
 void PhysicsDock::addIterations() {
@@ -152,6 +164,7 @@ void PhysicsDock::showElastic() {
   gentLimit_->setVisible(options.law.kind == StrainLaw::Kind::gent);
   fungExponent_->show(options.law.fung_exponent);
   fungExponent_->setVisible(options.law.kind == StrainLaw::Kind::fung);
+  thickness_->show(options.thickness);
   iterations_->show(options.iterations);
   for (std::size_t k = 0; k < lattice_.size(); ++k) {
     const QSignalBlocker block(lattice_[k]);
@@ -172,6 +185,7 @@ void PhysicsDock::adaptToMesh() {
   for (int k = 0; k < 3; ++k) {
     lattice_[std::size_t(k)]->setVisible(std::find(mesh.axes.begin(), end, k) != end);
   }
+  thickness_->setVisible(is_surface_in_space(mesh));
   showPins();
 }
 

@@ -28,6 +28,7 @@ class PhysicsDock : public QDockWidget {
  private:
   void addRow(ParameterRow* row, double Material::*member);
   void addLaw();
+  void addThickness();
   void addIterations();
   QLayout* makeLattice();
   QLayout* makePins(PinLayers& layers);
@@ -43,6 +44,7 @@ class PhysicsDock : public QDockWidget {
   QComboBox* law_;
   ParameterRow* gentLimit_;
   ParameterRow* fungExponent_;
+  ParameterRow* thickness_;
   ParameterRow* iterations_;
   std::array<QSpinBox*, 3> lattice_{};
   QLabel* pins_;

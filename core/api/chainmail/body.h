@@ -46,7 +46,9 @@ enum class EnergyKind {
   isotropic,  ///< Links resist motion along them and across them alike. Their stiffness does not count.
   axial,  ///< Links resist motion along their rest vectors, and across them in the share of their lateral stiffness.
   corotated,  ///< Links are springs, and resist motion across their rest vectors turned with their surroundings.
-  material    ///< Cells resist as a material with Poisson's ratio. Without cells, links are corotated.
+  /// Cells resist as a material with Poisson's ratio, a surface in space as a thin shell of it. Without cells and
+  /// faces, links are corotated.
+  material
 };
 
 /// How the energy of an elastic material grows with the strain. At small strains, all are the same linear elasticity.
@@ -68,6 +70,9 @@ struct Elasticity {
   StrainLaw law = StrainLaw::neo_hookean;
   double gent_limit = 2;       ///< With `gent`: bound of I₁ − 3, above 0; higher for a lower Poisson's ratio.
   double fung_exponent = 0.5;  ///< With `fung`: factor of I₁ − 3, above 0; lower for a lower Poisson's ratio.
+  /// Thickness of a surface in space in relaxation to the material, as a share of the longest side of its bounds:
+  /// 0.0001 to 1.
+  double thickness = 0.01;
 
   /// True if all values are equal.
   bool operator==(const Elasticity&) const = default;

@@ -49,6 +49,8 @@ Spread distance(const Body& body, std::span<const double> positions);
 /// - axial: ½ Σ k v |r|^p [(r̂·Δ)² + b |Δ|²]
 /// - corotated: ½ Σ k v |r|^p [(|d| − |r|)² + b/2 (|d − R_i r|² + |d − R_j r|²)], where d is the vector of the link and
 ///   R_i the rotation of the surroundings of its end i (Sorkine and Alexa 2007)
+/// - material: that of the cells, or of the triangles of a surface in space, which resist stretching and bending
+///   (Young's modulus times mesh units to the power of the number of coordinates)
 double elastic_energy(const Body& body);
 
 /// The positions that a neo-Hookean elastic object has (Bonet and Wood 1997): finite elements on the object's own

@@ -76,7 +76,7 @@ bool is_session(const std::filesystem::path& path);
 ///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
 ///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis],
 ///        "iterations": most of a move, "law": "neo-hookean", "gent" or "fung", "gent_limit": of I1 - 3,
-///        "fung_exponent": per I1 - 3},
+///        "fung_exponent": per I1 - 3, "thickness": of the longest side},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "frame": [rotation, as above], "runs": [first, end of each run of elements that are given…], "held": [their
 ///        coordinates…]}],

@@ -168,7 +168,8 @@ void SessionReader::take_elastic() {
   }
   const Json& object = fields_.object(tree_, "elastic");
   fields_.say_at(file_ + ": elastic");
-  fields_.check_keys(object, {"young", "poisson", "lattice", "iterations", "law", "gent_limit", "fung_exponent"});
+  fields_.check_keys(object,
+                     {"young", "poisson", "lattice", "iterations", "law", "gent_limit", "fung_exponent", "thickness"});
   ElasticOptions options;
   options.material = {fields_.number(fields_.member(object, "young")),
                       fields_.number(fields_.member(object, "poisson"))};
@@ -189,6 +190,7 @@ void SessionReader::take_elastic() {
   };
   options.law.gent_limit = number("gent_limit", options.law.gent_limit);
   options.law.fung_exponent = number("fung_exponent", options.law.fung_exponent);
+  options.thickness = number("thickness", options.thickness);
   try {
     options.law.kind = object.contains("law") ? strain_law_of(fields_.text(object, "law")) : options.law.kind;
     check(options);

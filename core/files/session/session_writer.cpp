@@ -229,13 +229,16 @@ void SessionWriter::write_state() {
                                {"step", session_.relaxation.step}};
   out_ << ",\n\"relaxation\": " << relaxation.dump();
   if (session_.elastic != ElasticOptions()) {
-    const auto& [material, lattice, iterations, law] = session_.elastic;
+    const auto& [material, lattice, iterations, law, thickness] = session_.elastic;
     OrderedJson elastic{
         {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
     if (law != StrainLaw()) {
       elastic["law"] = name(law.kind);
       elastic["gent_limit"] = law.gent_limit;
       elastic["fung_exponent"] = law.fung_exponent;
+    }
+    if (thickness != parameters::thickness.default_value) {
+      elastic["thickness"] = thickness;
     }
     out_ << ",\n\"elastic\": " << elastic.dump();
   }

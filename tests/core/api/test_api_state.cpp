@@ -14,7 +14,7 @@ cm::Body changed_body(cm::Precision precision = cm::Precision::double_precision)
   body.set_softness({0.7, 1.3, 0.2, 0.5, 2, -0.5});
   body.set_softness({3, 5}, {0.6, 1.4, 0.3, 0.4, 3, 1});
   body.set_energy(cm::EnergyKind::axial);
-  body.set_elasticity({2, 0.4, {3, 4, 5}, 70, cm::StrainLaw::gent, 1.5, 0.25});
+  body.set_elasticity({2, 0.4, {3, 4, 5}, 70, cm::StrainLaw::gent, 1.5, 0.25, 0.02});
   body.set_frame({{1, 2, 3}, 25});
   body.cut({4, 11});
   body.pin(body.mesh().side("right"));

@@ -208,13 +208,13 @@ AlgorithmInfo noting_entry(PassSettings& seen) {
 
 const Softness other_softness{
     {0.4, 1.7, 0.3, 0.2, 3, -0.5}, {}, EnergyKind::axial, RegionAxes(AxesKind::given, {0, 0, 0.3})};
-const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17, {StrainLaw::Kind::gent, 4, 0.25}};
+const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17, {StrainLaw::Kind::gent, 4, 0.25}, 0.03};
 const commands::SetRelaxation other_relaxation{true, 0.5, RelaxationScheme::link};
 
 /// True if every setting differs from its default, so that one that is lost is seen. A new member of these structures
 /// does not compile here until it is looked at.
 bool all_are_other() {
-  const auto& [material, lattice, iterations, law] = other_elastic;
+  const auto& [material, lattice, iterations, law, thickness] = other_elastic;
   const auto& [young, poisson] = material;
   const auto& [kind, gent_limit, fung_exponent] = law;
   const auto& [on, step, scheme] = other_relaxation;
@@ -227,8 +227,9 @@ bool all_are_other() {
          links.empty() && energy != standard_energy && frame != RegionAxes() && young != elastic.material.young &&
          poisson != elastic.material.poisson && lattice[0] != elastic.lattice[0] && lattice[1] != elastic.lattice[1] &&
          lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && kind != elastic.law.kind &&
-         gent_limit != elastic.law.gent_limit && fung_exponent != elastic.law.fung_exponent && on != relaxation.on &&
-         step != relaxation.step && scheme != relaxation.scheme;
+         gent_limit != elastic.law.gent_limit && fung_exponent != elastic.law.fung_exponent &&
+         thickness != elastic.thickness && on != relaxation.on && step != relaxation.step &&
+         scheme != relaxation.scheme;
 }
 
 SplitPointer split_of_two_triangles() {

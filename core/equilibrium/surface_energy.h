@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "elastic/stiffening.h"
+#include "elastic/surface_cells.h"
+#include "equilibrium/bending_moments.h"
+#include "equilibrium/shared_loop.h"
+#include "mesh/cuts.h"
+
+namespace chainmail {
+
+/// Thickness of a surface in space (mesh units).
+double thickness_of(const Mesh& mesh, const ElasticOptions& elastic);
+
+/// The elastic energy of a surface in space, per thickness: that of stretching its triangles, with the density of
+/// elastic/stiffening.h in plane stress, plus that of bending, E t² / (12 (1 − ν²)) times that of BendingMoments. The
+/// turn of a hinge is the angle between the normals of its triangles, less that at rest (Grinspun et al. 2003).
+///
+/// The hinges of a triangle that is compressed below a tenth of its area fade out: it has hardly a normal. A cut link
+/// removes the triangles along it. An element that no triangle holds any more is kept by its links, as in
+/// MaterialEnergy; numbers are scaled in the same way, too.
+class SurfaceEnergy {
+ public:
+  using Vector = Eigen::Vector3d;
+  using Vectors = std::vector<Vector>;
+
+  /// Makes the triangles of a mesh, none cut. Throws Cancelled.
+  void build(MeshPointer mesh, const Progress& progress = {});
+  void set_material(const ElasticOptions& elastic);
+  /// Removes and restores triangles. Returns the links whose weights changed, ascending.
+  std::vector<LinkId> set_cuts(const Cuts& cuts);
+
+  /// As MaterialEnergy::weight; bending does not count.
+  double weight(LinkId link) const;
+  static constexpr double least_weight = 0.02;
+
+  /// Returns the energy at these displacements from rest, and writes its negative gradient, if given.
+  double evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared = {});
+  /// The least ratio of a triangle's area to that at rest in the last evaluation.
+  double least_volume() const { return least_; }
+  /// True if a triangle had hardly an area in the last evaluation.
+  bool is_inverted() const { return least_ < measured_below; }
+  static constexpr double measured_below = 0.01;
+  void set_extension_below(double volume) { density_.set_least_volume(volume); }
+  double extension_below() const { return density_.least_volume(); }
+  double scale() const { return scale_; }
+
+  // The curvature of the energy, for a preconditioner.
+
+  const Mesh& mesh() const { return *mesh_; }
+  const SurfaceCells& cells() const { return cells_; }
+  bool is_whole(std::uint32_t triangle) const { return is_whole_[triangle] != 0; }
+  using TriangleMatrix = Eigen::Matrix<double, 9, 9>;
+  using HingeVector = Eigen::Matrix<double, 12, 1>;
+  /// Returns the Hessian of a triangle, without negative curvature (Teran et al. 2005), by its corners' coordinates.
+  TriangleMatrix curvature_of_triangle(std::uint32_t triangle, const Vectors& displacements) const;
+  /// Returns the vector c for which c cᵀ approximates the Hessian of a hinge, by its corners' coordinates.
+  HingeVector curvature_of_hinge(std::size_t hinge, const Vectors& displacements) const;
+  /// The springs of elements without triangles.
+  static constexpr double loose_stiffness = 1e-6;
+  const std::vector<LinkId>& loose_links() const { return loose_; }
+
+ private:
+  using Frame = Eigen::Matrix<double, 3, 2>;
+  struct Rest {
+    Frame frame;                            // two axes in the plane of the triangle
+    Eigen::Matrix<double, 2, 3> gradients;  // of the corners' shape functions (1 / mesh unit)
+    double area = 0;                        // (mesh units squared)
+  };
+  struct Turn {
+    double value = 0;             // of a hinge, times its edge, faded
+    std::array<Vector, 4> slope;  // by its corners
+  };
+
+  void find_rest();
+  void find_triangles();
+  void find_pulls();
+  double bending() const;  // stiffness of the plate per thickness and Young's modulus, divided by the scale
+  double stiffness_around(LinkId link) const;
+  void find_loose_links(const Cuts& cuts);
+  Vector position(ElementId e, const Vectors& displacements) const {
+    return Eigen::Map<const Vector>(mesh_->rest.data() + 3 * std::size_t{e}) + displacements[e];
+  }
+  Frame stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const;
+  double stretch(std::uint32_t triangle, const Vectors& displacements, bool wants_force);
+  double bend(const Vectors& displacements, bool wants_force, const SharedLoop& shared);
+  void turn(std::size_t hinge, const Vectors& displacements, Turn& turn, bool wants_slope) const;
+  static Eigen::Matrix<double, 6, 6> curvature_of_ratio(const Vector& a, const Vector& b,
+                                                        const Eigen::Matrix<double, 6, 1>& slope);
+  double add_loose_links(const Vectors& displacements, Vectors* force) const;
+
+  MeshPointer mesh_;
+  SurfaceCells cells_;
+  BendingMoments moments_;
+  std::vector<Rest> rest_;
+  std::vector<double> rest_turn_;                          // of each hinge (radians)
+  std::vector<std::uint32_t> first_triangle_, triangles_;  // of each link: the triangles that need it
+  std::vector<std::uint32_t> first_pull_, pulls_;          // of each element: its places in pull_
+  std::vector<std::uint8_t> is_whole_;                     // of each triangle
+  std::vector<std::uint32_t> whole_beside_;                // of each element: its whole triangles
+  std::vector<std::uint8_t> is_cut_;                       // of each link
+  std::vector<LinkId> loose_;                              // uncut links with an end that no triangle holds
+  std::vector<double> loose_rest_;                         // their rest lengths (mesh units)
+
+  // Of the last evaluation.
+  std::vector<double> ratio_;  // of each triangle's area to that at rest
+  std::vector<Turn> turns_;    // of each hinge
+  std::vector<double> turned_, moment_;
+  std::vector<Vector> pull_;  // the forces of each triangle, then of each hinge, on its corners
+
+  Lame lame_;
+  double poisson_ = 0, thickness_ = 0;  // (mesh units)
+  ExtendedDensity density_{StrainLaw(), Lame{0.5, 0}, 2};
+  double scale_ = 1;
+  double least_ = 1;
+};
+
+}  // namespace chainmail
