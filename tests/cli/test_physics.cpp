@@ -245,6 +245,7 @@ void PhysicsCommandTest::wrong_usage_data() {
   row("compare cloth.obj --against physics --pins top --material gent --poisson 0 -o out",
       "--gent-limit: the material 'gent' does not exist for a Poisson's ratio of 0; ");
   row("deform cloth.obj --algorithm exact --material gent,fung", "--material: it names several materials; name one");
+  row("deform cloth.obj --algorithm exact --thickness 0", "--thickness: Thickness 0 is out of range; use 0.0001 to 1");
   row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
   row("compare cloth.obj --preset cloth.obj -o out", "cloth.obj:1: ");
   row("calibrate", "MESH: it is missing; ");
