@@ -217,8 +217,9 @@ QString fault_of_preparation() {
       std::pair{"the first run prepares", cold.preparing > 0.5 * (factorize + grab)},
       std::pair{"moves are short", is_short(pull.first_move.median) && is_short(pull.ms_per_move.median)},
       std::pair{"moves of the first run are short", is_short(cold.first) && is_short(cold.later)},
-      // After a cut, all of it is needed again, in one move.
-      std::pair{"a cut prepares again", cut.move_after_cut.median > 0.5 * factorize},
+      // After a cut, a part of it is needed again, in one move: the factors are updated.
+      std::pair{"a cut prepares again", cut.move_after_cut.median > 20 * cut.ms_per_move.median},
+      std::pair{"not everything", cut.move_after_cut.median < factorize + grab},
       std::pair{"moves after a cut are short", is_short(cut.ms_per_move.median)}};
   const auto wrong = std::find_if(checks.begin(), checks.end(), [](const auto& check) { return !check.second; });
   return wrong == checks.end() ? QString()
