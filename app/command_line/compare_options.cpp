@@ -90,7 +90,7 @@ void add_physics(CLI::App& app, CompareArguments& options) {
 
 void add_suite(CLI::App& app, CompareArguments& options) {
   options.suite = app.add_flag("--suite")->description(
-      "run the suite of experiments, about 24 minutes: all contestants against closed forms and converged references");
+      "run the suite of experiments, about 25 minutes: all contestants against closed forms and converged references");
   options.experiments =
       add_value(app, "--experiments", "NAME,…", "only these experiments of the suite [all but fronts-…]");
   options.shard = add_value(app, "--shard", "I/N", "only part I of N of the suite, for several machines [1/1]");
