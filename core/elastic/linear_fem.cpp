@@ -101,7 +101,7 @@ class LinearFem final : public LinearResponse, public CutUpdate {
 
   /// Factors the stiffness matrix of the unknowns, and computes them in each field from the prescribed displacements.
   /// Returns false if it is not positive definite.
-  bool solved(CutStiffness& stiffness, Fields fields, const Progress& progress) const {
+  bool solved(CutStiffness& stiffness, const Fields& fields, const Progress& progress) const {
     if (!stiffness.factor(is_gone_, progress)) {
       return false;
     }

@@ -409,6 +409,7 @@ void Relaxation::follow(const Body& body) {
   if (positions_ != body.revisions().positions) {
     positions_ = body.revisions().positions;
     sleep();
+    rotations_.clear();  // the search starts from them: after a reset, the same moves have the same last digits
   }
 }
 

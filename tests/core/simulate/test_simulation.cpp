@@ -23,6 +23,7 @@ class SimulationTest : public QObject {
   void the_algorithm_may_change_midway();
   void cut_and_uncut();
   void reset_keeps_cuts_and_softness();
+  void after_a_reset_sweeps_repeat_to_the_bit();
   void another_mesh_is_uncut_and_at_rest();
   void every_setting_survives_another_mesh();
   void relaxation_runs_in_idle_time_and_sleeps();
@@ -457,6 +458,29 @@ void SimulationTest::valid_is_what_the_whole_mesh_says() {
   QVERIFY(!simulation.valid());
   carry_out(simulation, commands::Reset{});
   QVERIFY(simulation.valid());
+}
+
+void SimulationTest::after_a_reset_sweeps_repeat_to_the_bit() {
+  const MeshPointer mesh = generate({MeshKind::tetra, {4, 6, 4}});
+  Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const ElementId last = mesh->element_count() - 1;
+  const auto drag = [&] {
+    carry_out(simulation, commands::Grab{{last}});
+    for (const double share : {1.0, 2.0}) {
+      carry_out(simulation, commands::Drag{mesh->rest_position(last) + share * Point(0.5, 0.3, 0.2)});
+      carry_out(simulation, commands::Relax{5});
+    }
+    carry_out(simulation, commands::Release{});
+    std::vector<double> positions(mesh->rest.size());
+    simulation.body().copy_positions(positions);
+    return positions;
+  };
+  const std::vector<double> first = drag();
+  QVERIFY(first != mesh->rest);
+  for (int i = 0; i < 3; ++i) {
+    carry_out(simulation, commands::Reset{});
+    QVERIFY(drag() == first);
+  }
 }
 
 void SimulationTest::exact_takes_over_at_once() {
