@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <iterator>
 
 #include "command_line/progress_line.h"
 #include "command_line/standard_input.h"
@@ -138,9 +139,7 @@ std::vector<api::MethodInfo> chainmail_methods() {
 
 std::vector<std::string> names_of(const std::vector<api::MethodInfo>& offered) {
   std::vector<std::string> names;
-  for (const api::MethodInfo& one : offered) {
-    names.push_back(one.name);
-  }
+  std::ranges::transform(offered, std::back_inserter(names), &api::MethodInfo::name);
   return names;
 }
 

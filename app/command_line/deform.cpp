@@ -72,7 +72,7 @@ std::vector<Action> read_actions(const DeformArguments& options) {
 
 /// Returns a name with the ending of the positions. On standard output, they are a CSV table.
 std::string positions_name(const std::string& path) {
-  const std::string name = path == "-" ? "standard_output.csv" : path;
+  std::string name = path == "-" ? "standard_output.csv" : path;
   try {
     api::check_format(name, api::FileUse::write_positions);
   } catch (const api::Error& error) {

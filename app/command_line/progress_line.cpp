@@ -49,7 +49,7 @@ struct Watch::Line {
     std::unique_lock lock(mutex);
     // Short jobs show nothing.
     while (!over.wait_for(lock, stop, std::chrono::milliseconds(300), [&] { return stop.stop_requested(); })) {
-      if (const std::string words = text(job); !words.empty()) {
+      if (std::string words = text(job); !words.empty()) {
         line.show([&] { return words; });
       }
     }

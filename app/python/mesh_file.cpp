@@ -49,15 +49,18 @@ void add_mesh_file(py::module_& module) {
       "read_mesh",
       [](const std::filesystem::path& path, const std::optional<std::array<std::uint32_t, 3>>& lattice,
          std::optional<double> spacing, std::optional<int> space_dimension, std::optional<double> threshold,
-         std::optional<std::uint32_t> every, bool data_outside, const std::string& import_program,
-         const std::optional<api::Job>& job, const py::object& progress) {
-        return read_mesh(path, {lattice, spacing, space_dimension, threshold, every, data_outside, import_program}, job,
-                         progress);
+         std::optional<std::uint32_t> every, bool data_outside, bool stiff_where_dense, std::optional<double> weld,
+         const std::string& import_program, const std::optional<api::Job>& job, const py::object& progress) {
+        return read_mesh(path,
+                         {lattice, spacing, space_dimension, threshold, every, data_outside, import_program,
+                          stiff_where_dense, weld},
+                         job, progress);
       },
       py::arg("path"), py::kw_only(), py::arg("lattice") = py::none(), py::arg("spacing") = py::none(),
       py::arg("space_dimension") = py::none(), py::arg("threshold") = py::none(), py::arg("every") = py::none(),
-      py::arg("data_outside") = false, py::arg("import_program") = "", py::arg("job") = py::none(),
-      py::arg("progress") = py::none(), "Reads a mesh; chainmail.read_mesh() also finds the import program.");
+      py::arg("data_outside") = false, py::arg("stiff_where_dense") = true, py::arg("weld") = py::none(),
+      py::arg("import_program") = "", py::arg("job") = py::none(), py::arg("progress") = py::none(),
+      "Reads a mesh; chainmail.read_mesh() also finds the import program.");
   module.def(
       "write_mesh", &write_body, py::arg("path"), py::arg("body"),
       "Writes an object with its cuts at its current positions, in the format of the file's ending: faces, cells\n"

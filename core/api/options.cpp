@@ -46,9 +46,8 @@ inner::Parameter inner_parameter(const Parameter& one) {
 std::span<const Parameter> parameters() {
   static const std::vector<Parameter> all = [] {
     std::vector<Parameter> made;
-    for (const inner::SoftnessNumber& number : inner::softness_numbers) {
-      made.push_back(public_parameter(number.parameter));
-    }
+    std::ranges::transform(inner::softness_numbers, std::back_inserter(made),
+                           [](const inner::SoftnessNumber& number) { return public_parameter(number.parameter); });
     std::ranges::transform(other_parameters, std::back_inserter(made), public_parameter);
     return made;
   }();
@@ -85,9 +84,10 @@ std::span<const EnergyKindInfo> energy_kinds() {
 std::span<const RelaxationSchemeInfo> relaxation_schemes() {
   static const std::vector<RelaxationSchemeInfo> schemes = [] {
     std::vector<RelaxationSchemeInfo> all;
-    for (const inner::RelaxationSchemeInfo& one : inner::relaxation_schemes) {
-      all.push_back({RelaxationScheme(int(one.scheme)), one.name, one.summary, one.sweeps});
-    }
+    std::ranges::transform(
+        inner::relaxation_schemes, std::back_inserter(all), [](const inner::RelaxationSchemeInfo& one) {
+          return RelaxationSchemeInfo{RelaxationScheme(int(one.scheme)), one.name, one.summary, one.sweeps};
+        });
     return all;
   }();
   return schemes;

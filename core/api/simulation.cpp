@@ -270,6 +270,7 @@ std::vector<std::string> Simulation::notes() const {
   }
   const std::size_t all = impl_->passes.size();
   std::vector<std::string> notes;
+  notes.reserve(remarks.size() + 1);
   for (const auto& [remark, count] : remarks) {
     notes.push_back(passes_of(count, all) + ": " + remark);
   }

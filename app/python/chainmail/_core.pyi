@@ -349,6 +349,8 @@ def read_mesh(
     threshold: float | None = None,
     every: int | None = None,
     data_outside: bool = False,
+    stiff_where_dense: bool = True,
+    weld: float | None = None,
     import_program: str = "",
     job: Job | None = None,
     progress: _Progress = None,

@@ -35,6 +35,8 @@ def read_mesh(
     threshold: float | None = None,
     every: int | None = None,
     data_outside: bool = False,
+    stiff_where_dense: bool = True,
+    weld: float | None = None,
     import_program: str | os.PathLike[str] | None = None,
     job: _core.Job | None = None,
     progress: Callable[[float], object] | None = None,
@@ -46,8 +48,10 @@ def read_mesh(
     `lattice` and `spacing` (mesh units) are for .dat files that do not state them. `space_dimension` is the number of
     coordinates; default: those along which the mesh extends. `threshold` is the lowest density of voxels that become
     elements, and `every` the number of voxels along each axis that become one. `data_outside` allows a volume's header
-    to name data outside its own folder. `import_program` is the path of the program chainmail-import, which runs the
-    readers of other libraries in a sandbox. `progress` is called with the share that is done, 0 to 1.
+    to name data outside its own folder. Without `stiff_where_dense`, links of dense voxels are not stiffer than others.
+    Points as close as `weld` (mesh units) become one element; default: by the format. `import_program` is the path of
+    the program chainmail-import, which runs the readers of other libraries in a sandbox. `progress` is called with the
+    share that is done, 0 to 1.
 
     Raises Error, with the line if the file is text, if the file does not exist, is damaged or has an unknown format;
     and Cancelled.
@@ -60,6 +64,8 @@ def read_mesh(
         threshold=threshold,
         every=every,
         data_outside=data_outside,
+        stiff_where_dense=stiff_where_dense,
+        weld=weld,
         import_program=_import_program() if import_program is None else os.fspath(import_program),
         job=job,
         progress=progress,
