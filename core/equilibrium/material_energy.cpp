@@ -9,9 +9,6 @@
 namespace chainmail {
 namespace {
 
-// Stiffness of a link with an end that no cell holds.
-constexpr double loose_stiffness = 1e-6;
-
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
 template <int D, class Energy = MaterialEnergy<D>>
@@ -143,21 +140,8 @@ std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
   }
   std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  find_loose_links(cuts);
+  loose_.find(*mesh_, cuts, whole_beside_);
   return changed;
-}
-
-template <int D>
-void MaterialEnergy<D>::find_loose_links(const Cuts& cuts) {
-  loose_.clear();
-  loose_rest_.clear();
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    const auto [i, j] = mesh_->links[link];
-    if ((whole_beside_[i] == 0 || whole_beside_[j] == 0) && !cuts.is_cut(link)) {
-      loose_.push_back(link);
-      loose_rest_.push_back(rest_length(*mesh_, link));
-    }
-  }
 }
 
 /// Returns the sum over the simplices that have both ends of a link of −V (2μ + λ) ∇a·∇b.
@@ -186,7 +170,7 @@ double MaterialEnergy<D>::weight(LinkId link) const {
   }
   const auto [i, j] = mesh_->links[link];
   const bool is_loose = whole_beside_[i] == 0 || whole_beside_[j] == 0;
-  return is_loose ? loose_stiffness : std::max(least_weight, stiffness_around(link));
+  return is_loose ? LooseLinks<D>::stiffness : std::max(least_weight, stiffness_around(link));
 }
 
 /// Divides the batches into parts that are worth a thread.
@@ -229,7 +213,7 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
       }
     });
   }
-  return energy + add_loose_links(displacements, force);
+  return energy + loose_.add(*mesh_, displacements, force);
 }
 
 template <int D>
@@ -404,27 +388,6 @@ void MaterialEnergy<D>::find_density(const Lanes& shape, const Lanes& determinan
     by_shape[l] = one.by_shape;
     by_volume[l] = one.by_volume;
   }
-}
-
-template <int D>
-double MaterialEnergy<D>::add_loose_links(const Vectors& displacements, Vectors* force) const {
-  double energy = 0;
-  for (std::size_t k = 0; k < loose_.size(); ++k) {
-    const auto [i, j] = mesh_->links[loose_[k]];
-    Vector apart = displacements[j] - displacements[i];
-    for (int axis = 0; axis < D; ++axis) {
-      apart[axis] +=
-          mesh_->rest[std::size_t{j} * D + std::size_t(axis)] - mesh_->rest[std::size_t{i} * D + std::size_t(axis)];
-    }
-    const double length = apart.norm(), longer = length - loose_rest_[k];
-    energy += loose_stiffness * longer * longer / 2;
-    if (force != nullptr && length > 0) {
-      const Vector pull = loose_stiffness * longer / length * apart;
-      (*force)[i] += pull;
-      (*force)[j] -= pull;
-    }
-  }
-  return energy;
 }
 
 template class MaterialEnergy<1>;

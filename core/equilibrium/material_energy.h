@@ -9,6 +9,7 @@
 #include "body/positions.h"
 #include "elastic/simplices.h"
 #include "elastic/stiffening.h"
+#include "equilibrium/loose_links.h"
 #include "equilibrium/shared_loop.h"
 #include "mesh/cuts.h"
 
@@ -81,7 +82,6 @@ class MaterialEnergy {
   void set_cell(std::uint32_t cell, bool is_whole);
   void set_volume(std::uint32_t simplex, bool is_whole);
   double stiffness_around(LinkId link) const;
-  void find_loose_links(const Cuts& cuts);
   double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low, Lanes& least) const;
   static Matrix strain_of(const Batch& batch, const Vectors& displacements);
   static Matrix cofactor_of(const Matrix& f);
@@ -90,7 +90,6 @@ class MaterialEnergy {
   Lanes log_of_free_stretch(const Lanes& log_volume) const;
   void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
                     Lanes& by_volume) const;
-  double add_loose_links(const Vectors& displacements, Vectors* force) const;
 
   MeshPointer mesh_;
   CellSimplices cells_;
@@ -101,8 +100,7 @@ class MaterialEnergy {
   std::vector<std::uint8_t> is_cut_;                     // of each link
   std::vector<Batch> batches_;
   std::vector<Part> parts_;
-  std::vector<LinkId> loose_;       // uncut links with an end that no cell holds
-  std::vector<double> loose_rest_;  // their rest lengths (mesh units)
+  LooseLinks<Dimension> loose_;
 
   Lame lame_;
   bool is_neo_hookean_ = true;

@@ -170,20 +170,8 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
   moments_.update(cells_, is_whole_, triangles);
   std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  find_loose_links(cuts);
+  loose_.find(*mesh_, cuts, whole_beside_);
   return changed;
-}
-
-void SurfaceEnergy::find_loose_links(const Cuts& cuts) {
-  loose_.clear();
-  loose_rest_.clear();
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    const auto [i, j] = mesh_->links[link];
-    if ((whole_beside_[i] == 0 || whole_beside_[j] == 0) && !cuts.is_cut(link)) {
-      loose_.push_back(link);
-      loose_rest_.push_back(rest_length(*mesh_, link));
-    }
-  }
 }
 
 /// Returns the sum over the triangles that have both ends of a link of −area (2μ + λ) ∇a·∇b.
@@ -208,7 +196,7 @@ double SurfaceEnergy::weight(LinkId link) const {
   }
   const auto [i, j] = mesh_->links[link];
   const bool is_loose = whole_beside_[i] == 0 || whole_beside_[j] == 0;
-  return is_loose ? loose_stiffness : std::max(least_weight, stiffness_around(link));
+  return is_loose ? LooseLinks<3>::stiffness : std::max(least_weight, stiffness_around(link));
 }
 
 double SurfaceEnergy::evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared) {
@@ -234,7 +222,7 @@ double SurfaceEnergy::evaluate(const Vectors& displacements, Vectors* force, con
       }
     });
   }
-  return energy + add_loose_links(displacements, force);
+  return energy + loose_.add(*mesh_, displacements, force);
 }
 
 /// Returns the energy of bending.
@@ -334,22 +322,6 @@ void SurfaceEnergy::turn(std::size_t hinge, const Vectors& displacements, Turn& 
   const double by_area_other = length * angle * fade_one.value * fade_other.slope / rest_other;
   add_slope_of_area(turn.slope, {0, 1, 2}, by_area_one * normal_one, edge, a - p);
   add_slope_of_area(turn.slope, {1, 0, 3}, by_area_other * normal_other, -edge, b - q);
-}
-
-double SurfaceEnergy::add_loose_links(const Vectors& displacements, Vectors* force) const {
-  double energy = 0;
-  for (std::size_t k = 0; k < loose_.size(); ++k) {
-    const auto [i, j] = mesh_->links[loose_[k]];
-    const Vector apart = position(j, displacements) - position(i, displacements);
-    const double length = apart.norm(), longer = length - loose_rest_[k];
-    energy += loose_stiffness * longer * longer / 2;
-    if (force != nullptr && length > 0) {
-      const Vector pull = loose_stiffness * longer / length * apart;
-      (*force)[i] += pull;
-      (*force)[j] -= pull;
-    }
-  }
-  return energy;
 }
 
 /// Returns the second derivatives of |a × b|, times it, by a and b; `slope` is the first.

@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "elastic/stiffening.h"
 #include "elastic/surface_cells.h"
 #include "equilibrium/bending_moments.h"
+#include "equilibrium/loose_links.h"
 #include "equilibrium/shared_loop.h"
 #include "mesh/cuts.h"
 
@@ -61,8 +63,7 @@ class SurfaceEnergy {
   /// Returns the vector c for which c cᵀ approximates the Hessian of a hinge, by its corners' coordinates.
   HingeVector curvature_of_hinge(std::size_t hinge, const Vectors& displacements) const;
   /// The springs of elements without triangles.
-  static constexpr double loose_stiffness = 1e-6;
-  const std::vector<LinkId>& loose_links() const { return loose_; }
+  std::span<const LinkId> loose_links() const { return loose_.links(); }
 
  private:
   using Frame = Eigen::Matrix<double, 3, 2>;
@@ -81,7 +82,6 @@ class SurfaceEnergy {
   void find_pulls();
   double bending() const;  // stiffness of the plate per thickness and Young's modulus, divided by the scale
   double stiffness_around(LinkId link) const;
-  void find_loose_links(const Cuts& cuts);
   Vector position(ElementId e, const Vectors& displacements) const {
     return Eigen::Map<const Vector>(mesh_->rest.data() + 3 * std::size_t{e}) + displacements[e];
   }
@@ -91,7 +91,6 @@ class SurfaceEnergy {
   void turn(std::size_t hinge, const Vectors& displacements, Turn& turn, bool wants_slope) const;
   static Eigen::Matrix<double, 6, 6> curvature_of_ratio(const Vector& a, const Vector& b,
                                                         const Eigen::Matrix<double, 6, 1>& slope);
-  double add_loose_links(const Vectors& displacements, Vectors* force) const;
 
   MeshPointer mesh_;
   SurfaceCells cells_;
@@ -103,8 +102,7 @@ class SurfaceEnergy {
   std::vector<std::uint8_t> is_whole_;                     // of each triangle
   std::vector<std::uint32_t> whole_beside_;                // of each element: its whole triangles
   std::vector<std::uint8_t> is_cut_;                       // of each link
-  std::vector<LinkId> loose_;                              // uncut links with an end that no triangle holds
-  std::vector<double> loose_rest_;                         // their rest lengths (mesh units)
+  LooseLinks<3> loose_;
 
   // Of the last evaluation.
   std::vector<double> ratio_;  // of each triangle's area to that at rest

@@ -37,6 +37,7 @@ void SurfaceInverse::begin(const SurfaceEnergy& energy, const Progress& progress
     }
   }
   find_pattern(energy);
+  make_matrix();
   factor_.analyze(matrix_);
 }
 
@@ -72,6 +73,10 @@ void SurfaceInverse::find_pattern(const SurfaceEnergy& energy) {
     first_block_[i + 1] += first_block_[i];
   }
   blocks_.assign(block_row_.size(), Square::Zero());
+}
+
+/// Makes the matrix of these blocks, all 0.
+void SurfaceInverse::make_matrix() {
   const auto size = Eigen::Index(3 * order_.size());
   matrix_.resize(size, size);
   matrix_.reserve(Eigen::Index(9 * block_row_.size()));
@@ -124,7 +129,7 @@ void SurfaceInverse::assemble(const SurfaceEnergy& energy, const RegionPenalties
   // Springs count at their ends only, which is at most twice as stiff: the pattern does not have all links.
   for (const LinkId link : energy.loose_links()) {
     for (const ElementId e : energy.mesh().links[link]) {
-      add_to_diagonal(e, SurfaceEnergy::loose_stiffness);
+      add_to_diagonal(e, LooseLinks<3>::stiffness);
     }
   }
   regions.for_each_spring([&](ElementId i, ElementId j, double stiffness) {

@@ -30,6 +30,7 @@ class SurfaceInverse {
 
   std::uint32_t find_block(std::uint32_t row, std::uint32_t column) const;
   void find_pattern(const SurfaceEnergy& energy);
+  void make_matrix();
   template <class Corners, class Matrix>
   void add(const Corners& corners, const Matrix& matrix);
   void assemble(const SurfaceEnergy& energy, const RegionPenalties<3>& regions, const Vectors& at,
