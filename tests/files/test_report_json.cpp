@@ -26,7 +26,7 @@ class ReportJsonTest : public QObject {
   void names_from_outside_do_no_harm();
   void growth_is_described();
   void a_suite_comes_back();
-  void a_suite_with_missing_times_is_refused();
+  void a_point_without_iterations_is_refused();
 };
 
 namespace {
@@ -78,10 +78,7 @@ Suite suite() {
   }
   result.rows = {row};
   result.orders = {{"FEM", "fem", "no mesh", {{9, 0.5}, {25, 0.25}}, 1.25}};
-  SuiteTime time{"Exact", "exact", "no time", 0.25, 7};
-  time.ms_per_move = {1, 2, 3, {}};
-  time.fresh_ms = {4, 5, {}, {}};
-  result.times = {time};
+  result.times = {{"Exact", "exact", "no time", 7, {{1, 0.4, 1, 0.45, 2, 0.6, 3}, {20, 0.05, 8, {}, {}, {}, {}}}}};
   return {{{{{"a processor", 2, "a compiler", "Release"}, "a line", "today", "1"}, "1/4", {"bar"}}}, {result}};
 }
 
@@ -158,15 +155,15 @@ void ReportJsonTest::a_suite_comes_back() {
   const std::string text = text_of(suite());
   const Suite again = read_text_of_suite(text);
   QCOMPARE(again.results[0].reference, std::string("FEM on refined cells"));
-  QCOMPARE(again.results[0].times[0].fresh_ms[1], std::optional<double>(5));
+  QCOMPARE(again.results[0].times[0].curve.at(1).later_ms, std::optional<double>(8));
   QCOMPARE(QString::fromStdString(text_of(again)), QString::fromStdString(text));
 }
 
-void ReportJsonTest::a_suite_with_missing_times_is_refused() {
+void ReportJsonTest::a_point_without_iterations_is_refused() {
   auto json = nlohmann::json::parse(text_of(suite()));
-  json["experiments"][0]["times"][0]["below"].erase(3);
+  json["experiments"][0]["times"][0]["curve"][1].erase("iterations");
   const QString error = error_of([&] { read_text_of_suite(json.dump()); });
-  QVERIFY2(error.endsWith("suite.json: 'below' does not have 4 entries; give the file as it was written"),
+  QVERIFY2(error.endsWith("suite.json: 'iterations' is missing; add it"),
            qPrintable(error));
 }
 

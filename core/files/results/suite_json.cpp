@@ -68,18 +68,30 @@ Json order_json(const report::SuiteOrder& order) {
   return json;
 }
 
+Json point_json(const report::SuitePoint& point) {
+  Json json{{"iterations", point.iterations}};
+  for (const report::SuitePointFigures& figures : report::suite_point_figures) {
+    add_number(json, std::string(figures.error_key), point.*figures.error);
+    add_number(json, std::string(figures.ms_key), point.*figures.ms);
+  }
+  return json;
+}
+
+Json below_json(const report::SuiteTime& time, double error) {
+  Json json{{"relative", error}};
+  for (const report::SuitePointFigures& figures : report::suite_point_figures) {
+    add_number(json, std::string(figures.ms_key), shortest_ms(time, figures, error));
+  }
+  return json;
+}
+
 Json time_json(const report::SuiteTime& time) {
   Json json{{"contestant", time.contestant}, {"algorithm", time.algorithm}};
   add_text(json, "refusal", time.refusal);
-  add_number(json, "least_error", time.least_error);
+  add_number(json, "least_error", least_error(time));
   add_number(json, "factorize_ms", time.factorize_ms);
-  json["below"] = Json::array();
-  for (std::size_t i = 0; i < report::suite_errors.size(); ++i) {
-    Json below{{"relative", report::suite_errors[i]}};
-    add_number(below, "ms_per_move", time.ms_per_move[i]);
-    add_number(below, "fresh_grab_ms", time.fresh_ms[i]);
-    json["below"].push_back(std::move(below));
-  }
+  json["below"] = list_of(report::suite_errors, [&](double error) { return below_json(time, error); });
+  json["curve"] = list_of(time.curve, point_json);
   return json;
 }
 
@@ -195,20 +207,17 @@ class SuiteReader {
     return {fields_.text(json, "contestant"), fields_.text(json, "algorithm"), text_if_any(json, "refusal"),
             list<report::SuiteOrder::Size>(json, "sizes", &SuiteReader::size), number_if_any(json, "order")};
   }
+  report::SuitePoint point(const Read& json) const {
+    report::SuitePoint point{.iterations = whole(json, "iterations")};
+    for (const report::SuitePointFigures& figures : report::suite_point_figures) {
+      point.*figures.error = number_if_any(json, std::string(figures.error_key));
+      point.*figures.ms = number_if_any(json, std::string(figures.ms_key));
+    }
+    return point;
+  }
   report::SuiteTime time(const Read& json) const {
-    report::SuiteTime time{fields_.text(json, "contestant"), fields_.text(json, "algorithm"),
-                           text_if_any(json, "refusal"), number_if_any(json, "least_error"),
-                           number_if_any(json, "factorize_ms")};
-    const Read& below = fields_.array(json, "below");
-    if (below.size() != report::suite_errors.size()) {
-      fields_.fail("'below' does not have " + std::to_string(report::suite_errors.size()) + " entries",
-                   "give the file as it was written");
-    }
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      time.ms_per_move[i] = number_if_any(below[i], "ms_per_move");
-      time.fresh_ms[i] = number_if_any(below[i], "fresh_grab_ms");
-    }
-    return time;
+    return {fields_.text(json, "contestant"), fields_.text(json, "algorithm"), text_if_any(json, "refusal"),
+            number_if_any(json, "factorize_ms"), list<report::SuitePoint>(json, "curve", &SuiteReader::point)};
   }
   ReferenceLevel level(const Read& json) const { return {whole(json, "elements"), number_if_any(json, "change")}; }
   Convergence reference(const Read& json) const {

@@ -7,14 +7,16 @@
 namespace chainmail::report {
 namespace suite_csv {
 
-/// One contestant in one drag, on one mesh of the refinement, or below one error.
+/// One contestant in one drag, on one mesh of the refinement, below one error, or at one
+/// point of a curve.
 struct Row {
   const SuiteResult* result;
   std::optional<std::uint64_t> handle = {};
   std::optional<bool> has_cut = {};
   SuiteRow figures = {};
   std::optional<std::uint64_t> elements = {};
-  std::optional<double> below = {}, ms_per_move = {}, fresh_grab_ms = {};
+  std::optional<double> below = {};
+  SuitePoint times = {};
 };
 
 constexpr CsvColumn<Row> columns[]{
@@ -27,8 +29,8 @@ constexpr CsvColumn<Row> columns[]{
     {"refusal", at<Row, &Row::figures, &SuiteRow::refusal>},
     {"elements", at<Row, &Row::elements>},
     {"below", at<Row, &Row::below>},
-    {"ms_per_move", at<Row, &Row::ms_per_move>},
-    {"fresh_grab_ms", at<Row, &Row::fresh_grab_ms>},
+    {"ms_per_move", at<Row, &Row::times, &SuitePoint::later_ms>},
+    {"fresh_grab_ms", at<Row, &Row::times, &SuitePoint::fresh_ms>},
 };
 
 /// Returns the columns, then one for each of `suite_figures`.
@@ -63,13 +65,33 @@ void add_order(std::vector<Row>& rows, const SuiteResult& result, const SuiteOrd
   }
 }
 
+/// Adds a row with the time of one of the drags of a curve.
+Row& add_time(std::vector<Row>& rows, const SuiteResult& result, const SuiteTime& time, const SuitePointFigures& of,
+              const std::optional<double>& ms) {
+  Row& row = rows.emplace_back(Row{.result = &result, .figures = named(time)});
+  row.figures.drag = of.drag;
+  row.times.*of.ms = ms;
+  row.figures.after_cut_ms = row.times.after_cut_ms;
+  return row;
+}
+
 void add_times(std::vector<Row>& rows, const SuiteResult& result, const SuiteTime& time) {
-  for (std::size_t i = 0; i < suite_errors.size(); ++i) {
-    rows.push_back({.result = &result,
-                    .figures = named(time),
-                    .below = suite_errors[i],
-                    .ms_per_move = time.ms_per_move[i],
-                    .fresh_grab_ms = time.fresh_ms[i]});
+  for (const SuitePointFigures& of : suite_point_figures) {
+    for (const double error : suite_errors) {
+      if (const auto ms = shortest_ms(time, of, error)) {
+        add_time(rows, result, time, of, ms).below = error;
+      }
+    }
+    for (const SuitePoint& point : time.curve) {
+      if (point.*of.error) {
+        Row& row = add_time(rows, result, time, of, point.*of.ms);
+        row.figures.iterations = double(point.iterations);
+        row.figures.relative = point.*of.error;
+      }
+    }
+  }
+  if (!time.refusal.empty()) {
+    rows.push_back({.result = &result, .figures = named(time)});
   }
 }
 

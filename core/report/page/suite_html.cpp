@@ -19,7 +19,8 @@ elements on refined cells.</p>
 <b>later</b> are moves after all preparation; <b>after cut</b> is the move after a cut in the middle of a drag, with all
 preparation that it repeats. Times are medians. <b>Bytes</b> is the memory of a solver after its first drag, without the
 mesh. A contestant that does not converge has no figures. The <b>time to an error</b> is the shortest with which a
-contestant comes below it, over all numbers of iterations or sweeps per move.</p>
+contestant has at most this error, over all numbers of iterations or sweeps per move. These numbers, one after the other,
+are the points of its curve in the plots: × 10 means ten per move.</p>
 <p>One rule ends all <b>iterations</b>: a contestant makes the least number per move with which its answer at the end of the
 drag is within 1 % of its own limit, the answer after as many as it wants. A contestant is on the <b>front</b> if no other
 one is at least as fast and as close, and better in one of both. Where <b>regions bind</b> is 0, ChainMail's valid regions
@@ -62,10 +63,10 @@ void write_html(std::ostream& out, const Suite& suite) {
   }
   if (const FigureTable summary = suite_summary(suite); !summary.rows.empty()) {
     write_html(out, summary);
-    for (const SpeedAgainstError& measure : speeds_against_error) {
-      if (const Plot plot = suite_plot(suite, measure); !plot.panels.empty()) {
-        write_figure(out, plot);
-      }
+  }
+  for (const SpeedAgainstError& measure : speeds_against_error) {
+    if (const Plot plot = suite_plot(suite, measure); !plot.panels.empty()) {
+      write_figure(out, plot);
     }
   }
   out << how_to_read_suite;

@@ -1,6 +1,7 @@
 #include "report/page/suite_plot.h"
 
 #include <algorithm>
+#include <span>
 
 #include "report/page/format.h"
 #include "report/page/suite_table.h"
@@ -37,6 +38,23 @@ void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean, const SpeedAg
                              ", relative error " + error_figure(*error, mean.*measure.change)});
 }
 
+/// Adds a mark for each point of a contestant's curve, and a line through them. The last mark has the note.
+void add_curve(Plot& plot, PlotPanel& panel, const std::vector<SuiteMean>& points, const SpeedAgainstError& measure) {
+  const std::size_t first = panel.marks.size();
+  for (const SuiteMean& point : points) {
+    add_mark(plot, panel, point, measure);
+  }
+  const auto added = std::span(panel.marks).subspan(first);
+  if (added.size() < 2) {
+    return;
+  }
+  PlotCurve& curve = panel.curves.emplace_back(PlotCurve{added.front().series, {}});
+  for (PlotMark& mark : added) {
+    curve.points.push_back({mark.x, mark.y});
+    mark.note = &mark == &added.back() ? mark.note : "";
+  }
+}
+
 /// Adds a line through the contestants that no other one beats, in steps.
 void add_front(PlotPanel& panel, std::size_t series, const std::vector<SuiteMean>& means,
                const SpeedAgainstError& measure) {
@@ -63,17 +81,24 @@ Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure) {
   plot.y.title = "relative error";
   plot.y.smallest = smallest_error;
   plot.legend_notes = {"hollow: with relaxation", "mat.: to the material, regions open", equilibrium_note};
+  bool has_curves = false;
   std::vector<std::vector<SuiteMean>> shown;  // of each panel
   for (const SuiteResult& result : suite.results) {
     PlotPanel panel{result.name, {}, {}};
-    auto means = means_of(result);
-    for (const SuiteMean& mean : means) {
+    for (const SuiteMean& mean : means_of(result)) {
       add_mark(plot, panel, mean, measure);
     }
+    for (const SuiteTime& time : result.times) {
+      add_curve(plot, panel, points_of(result, time), measure);
+    }
+    has_curves = has_curves || !panel.curves.empty();
     if (!panel.marks.empty()) {
       plot.panels.push_back(std::move(panel));
-      shown.push_back(std::move(means));
+      shown.push_back(compared_in(result));
     }
+  }
+  if (has_curves) {
+    plot.legend_notes.emplace_back("lines: more and more iterations per move");
   }
   // After those of the algorithms, which are found by their styles.
   plot.series.push_back({"front: none is faster and closer", 0, front_colour});

@@ -23,11 +23,11 @@ std::string cell_of(const SuiteRow& row, const SuiteFigure& of) {
   return value && is_error ? error_figure(*value, row.reference_change) : cell_of(value);
 }
 
-/// Returns by how much the last refinement changed the reference of the first drag.
-std::optional<double> change_of_first(const SuiteResult& result) {
-  return result.references.empty() || result.references.front().levels.empty()
+/// Returns by how much the last refinement changed a reference, by its number.
+std::optional<double> change_of(const SuiteResult& result, std::size_t reference) {
+  return reference >= result.references.size() || result.references[reference].levels.empty()
              ? std::nullopt
-             : result.references.front().levels.back().change;
+             : result.references[reference].levels.back().change;
 }
 
 /// A mean of the values that exist.
@@ -80,7 +80,7 @@ SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
     later.add(row.later_ms);
     fresh.add(row.first_ms ? std::optional(*row.first_ms + row.grab_ms.value_or(0)) : std::nullopt);
   }
-  mean.relative = relative.value();
+  mean.relative = mean.relative_of_fresh = relative.value();
   mean.relative_turned = turned.value();
   mean.later_ms = later.value();
   mean.after_cut_ms = cut.value();
@@ -89,6 +89,18 @@ SuiteMean mean_of(const SuiteResult& result, const std::string& contestant) {
   mean.change = change.value();
   mean.change_of_cut = change_of_cut.value();
   return mean;
+}
+
+/// Returns true if a point of a contestant has this error.
+bool is_measured(const SuiteResult& result, const SuitePointFigures& of) {
+  return std::ranges::any_of(result.times, [&](const SuiteTime& time) {
+    return std::ranges::any_of(time.curve, [&](const SuitePoint& point) { return (point.*of.error).has_value(); });
+  });
+}
+
+/// Returns how often a point iterates per move, after the name of its contestant.
+std::string times_in_words(std::uint64_t iterations) {
+  return iterations == 0 ? "" : " × " + std::to_string(iterations);
 }
 
 double counted(const SuiteMean& mean) { return counted_error(mean, speeds_against_error.front()); }
@@ -158,6 +170,25 @@ std::vector<SuiteMean> means_of(const SuiteResult& result) {
   return means;
 }
 
+std::vector<SuiteMean> points_of(const SuiteResult& result, const SuiteTime& time) {
+  std::vector<SuiteMean> points;
+  for (const SuitePoint& point : time.curve) {
+    SuiteMean& mean = points.emplace_back();
+    mean.contestant = time.contestant + times_in_words(point.iterations);
+    mean.algorithm = time.algorithm;
+    mean.drags = mean.of = 1;
+    mean.relative = point.relative;
+    mean.relative_of_fresh = point.fresh_relative;
+    mean.relative_of_cut = point.cut_relative;
+    mean.later_ms = point.later_ms;
+    mean.fresh_ms = point.fresh_ms;
+    mean.after_cut_ms = point.after_cut_ms;
+    mean.change = change_of(result, 0);
+    mean.change_of_cut = change_of(result, 1);
+  }
+  return points;
+}
+
 bool may_win(const SuiteMean& mean) {
   return mean.relative && mean.drags == mean.of && mean.algorithm != of_reference && mean.algorithm != null_model;
 }
@@ -200,22 +231,26 @@ FigureTable suite_summary(const Suite& suite) {
 
 FigureTable time_table(const SuiteResult& result) {
   FigureTable table{result.name, about(result), "detail", "contestant", {{"relative error (ratio)", "least"}}, {}};
-  for (const double error : suite_errors) {
-    table.columns.push_back({"ms per later move, below", figure(error)});
-  }
-  for (const double error : suite_errors) {
-    table.columns.push_back({"ms from a fresh grab, below", figure(error)});
+  std::vector<SuitePointFigures> measured;
+  std::ranges::copy_if(suite_point_figures, std::back_inserter(measured),
+                       [&](const SuitePointFigures& of) { return is_measured(result, of); });
+  for (const SuitePointFigures& of : measured) {
+    for (const double error : suite_errors) {
+      table.columns.push_back({std::string(of.heading), figure(error)});
+    }
   }
   table.columns.push_back({"prepare (ms)", "factorize"});
-  const auto change = change_of_first(result);
+  const auto change = change_of(result, 0);
   for (const SuiteTime& time : result.times) {
     FigureTable::Row& row = table.rows.emplace_back(FigureTable::Row{time.contestant, {}, time.refusal});
     if (!time.refusal.empty()) {
       continue;
     }
-    row.cells.push_back(time.least_error ? error_figure(*time.least_error, change) : "-");
-    for (const auto* times : {&time.ms_per_move, &time.fresh_ms}) {
-      std::ranges::transform(*times, std::back_inserter(row.cells), [](const auto& ms) { return cell_of(ms); });
+    const auto least = least_error(time);
+    row.cells.push_back(least ? error_figure(*least, change) : "-");
+    for (const SuitePointFigures& of : measured) {
+      std::ranges::transform(suite_errors, std::back_inserter(row.cells),
+                             [&](double error) { return cell_of(shortest_ms(time, of, error)); });
     }
     row.cells.push_back(cell_of(time.factorize_ms));
   }
@@ -269,6 +304,15 @@ FigureTable suite_table(const SuiteResult& result) {
   return table;
 }
 
+std::vector<SuiteMean> compared_in(const SuiteResult& result) {
+  std::vector<SuiteMean> all = means_of(result);
+  for (const SuiteTime& time : result.times) {
+    const auto points = points_of(result, time);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  return all;
+}
+
 std::vector<std::string> suite_findings(const Suite& suite) {
   std::vector<std::string> sentences;
   for (const SuiteResult& result : suite.results) {
@@ -276,8 +320,9 @@ std::vector<std::string> suite_findings(const Suite& suite) {
     if (const auto best = closest(means); !best.empty()) {
       sentences.push_back(result.name + ": " + errors_of(best) + (best.size() == 1 ? " is closest" : " are closest"));
     }
+    const auto compared = compared_in(result);
     for (const SpeedAgainstError& measure : speeds_against_error) {
-      if (const auto winners = front(means, measure); !winners.empty()) {
+      if (const auto winners = front(compared, measure); !winners.empty()) {
         sentences.push_back(result.name + ", " + std::string(measure.what) + ": on the front are " +
                             listed(winners, measure));
       }

@@ -15,10 +15,16 @@ struct SuiteMean {
   int of = 0;                                  // number of drags
   std::optional<double> relative, relative_turned, later_ms, after_cut_ms;
   std::optional<double> fresh_ms;               // a grab and its first move
+  std::optional<double> relative_of_fresh;      // error of a fresh grab; that of the drags, where no move is alone
   std::optional<double> relative_of_cut;        // error of the drags that are cut
   std::optional<double> change, change_of_cut;  // of their references by the last refinement
 };
 std::vector<SuiteMean> means_of(const SuiteResult& result);
+/// The points of a contestant's curve of error over time: each as a contestant of its own, with its number of
+/// iterations in its name.
+std::vector<SuiteMean> points_of(const SuiteResult& result, const SuiteTime& time);
+/// The means and the points of an experiment.
+std::vector<SuiteMean> compared_in(const SuiteResult& result);
 /// Returns true if a contestant has figures of all drags, and is neither an object that does not move nor neo-Hookean
 /// FEM, which most references converge from.
 bool may_win(const SuiteMean& mean);
@@ -26,7 +32,7 @@ bool may_win(const SuiteMean& mean);
 /// The summary: the mean relative error of each contestant in each experiment with drags. The best error of each column
 /// has a star.
 FigureTable suite_summary(const Suite& suite);
-/// The times until a contestant is below each error, of one experiment.
+/// The shortest times with which a contestant has at most each error, of one experiment.
 FigureTable time_table(const SuiteResult& result);
 /// The errors on finer and finer meshes, with the observed order.
 FigureTable order_table(const SuiteResult& result);

@@ -225,11 +225,21 @@ void run_refinement(Running& running, const std::vector<Case>& sizes) {
 void run_time_to_error(Running& running, const Case& object) {
   describe(running.result, object);
   const auto contestants = calibrated_contestants(running, object);
-  const RecordedMoves &drag = object.drags.front(), &one_move = object.drags.back();
-  const DragReference reference = DragReferences(object, running.options.refine).at_end(drag);
-  note(running.result, reference, object.law);
-  running.result.times = times_to_error(object, contestants, drag, one_move, reference.solution,
-                                        running.options.contest, running.tell, running.stop);
+  DragReferences references(object, running.options.refine);
+  const auto reference_of_drag = [&](const RecordedMoves& moves) {
+    DragReference reference = references.at_end(moves);
+    note(running.result, reference, object.law);
+    return reference.solution;
+  };
+  const ReferenceSolution at_end = reference_of_drag(object.drags.front());
+  std::vector<TimedDrag> drags{{object.drags[0], at_end}, {object.drags[1], at_end}};
+  ReferenceSolution after_cut;
+  if (object.drags.size() > drags.size()) {
+    after_cut = reference_of_drag(object.drags[2]);
+    drags.push_back({object.drags[2], after_cut});
+  }
+  running.result.times =
+      times_to_error(object, contestants, drags, running.options.contest, running.tell, running.stop);
 }
 
 SuiteResult result_of(const SuiteExperiment& experiment, const SuiteOptions& options, const Tell& tell,
@@ -269,6 +279,27 @@ const SuiteExperiment& experiment_named(const std::string& name) {
 }
 
 }  // namespace
+
+std::optional<double> shortest_ms(const SuiteTime& time, const SuitePointFigures& of, double error) {
+  std::optional<double> shortest;
+  for (const SuitePoint& point : time.curve) {
+    const auto &reached = point.*of.error, &ms = point.*of.ms;
+    if (reached && ms && *reached <= error) {
+      shortest = std::min(shortest.value_or(*ms), *ms);
+    }
+  }
+  return shortest;
+}
+
+std::optional<double> least_error(const SuiteTime& time) {
+  std::optional<double> least;
+  for (const SuitePoint& point : time.curve) {
+    if (point.relative) {
+      least = std::min(least.value_or(*point.relative), *point.relative);
+    }
+  }
+  return least;
+}
 
 std::vector<std::string> all_suite_names() {
   std::vector<std::string> names;

@@ -67,18 +67,44 @@ struct SuiteOrder {
   std::optional<double> order;  // observed: by the last two meshes, of which the finer one has half the mesh width
 };
 
-/// Relative errors for which the suite measures the time until a contestant is below them.
-inline constexpr std::array suite_errors{0.5, 0.3, 0.2, 0.1};
+/// Times and errors of a contestant with one number of iterations or sweeps per move. What was not measured is none.
+struct SuitePoint {
+  std::uint64_t iterations = 0;                        // or sweeps, per move; 0: the contestant has no such number
+  std::optional<double> relative = {}, later_ms = {};  // of a drag of many moves
+  std::optional<double> fresh_relative = {}, fresh_ms = {};    // of one move from rest to the same end, with the grab
+  std::optional<double> cut_relative = {}, after_cut_ms = {};  // of a drag with a cut
+};
 
-/// The shortest times with which a contestant comes below each of `suite_errors`, over all numbers of iterations and
-/// sweeps that it may use per move; none if no number is enough.
+/// An error of a point and the time that belongs to it: keys in files, names of readers.
+struct SuitePointFigures {
+  std::string_view error_key, ms_key, heading, drag;
+  std::optional<double> SuitePoint::*error, SuitePoint::*ms;
+};
+/// All, in the order of the drags of an experiment that measures times to an error; the last drag is not in all of
+/// them.
+inline constexpr std::array suite_point_figures{
+    SuitePointFigures{"relative", "ms_per_move", "ms per later move, at most", "bend", &SuitePoint::relative,
+                      &SuitePoint::later_ms},
+    SuitePointFigures{"fresh_relative", "fresh_grab_ms", "ms from a fresh grab, at most", "fresh grab",
+                      &SuitePoint::fresh_relative, &SuitePoint::fresh_ms},
+    SuitePointFigures{"cut_relative", "after_cut_ms", "ms after a cut, at most", "cut", &SuitePoint::cut_relative,
+                      &SuitePoint::after_cut_ms},
+};
+
+/// A contestant with all numbers of iterations or sweeps per move that it may use, in rising order: a curve of error
+/// over time.
 struct SuiteTime {
   std::string contestant, algorithm, refusal;
-  std::optional<double> least_error;  // of all numbers of iterations
   std::optional<double> factorize_ms;
-  std::array<std::optional<double>, suite_errors.size()> ms_per_move = {};  // a later move of a drag
-  std::array<std::optional<double>, suite_errors.size()> fresh_ms = {};     // one move from rest, with the grab
+  std::vector<SuitePoint> curve;
 };
+
+/// Relative errors for which the suite says when a contestant has at most this error.
+inline constexpr std::array suite_errors{0.5, 0.3, 0.2, 0.1};
+/// Returns the shortest time of a point with at most this error, or none.
+std::optional<double> shortest_ms(const SuiteTime& time, const SuitePointFigures& of, double error);
+/// Returns the least error of all points, or none.
+std::optional<double> least_error(const SuiteTime& time);
 
 /// The result of one experiment.
 struct SuiteResult {

@@ -14,7 +14,7 @@ namespace chainmail::report {
 enum class SuiteKind {
   drags,         // errors and times of each drag of one object
   refinement,    // errors on finer and finer meshes, one object each
-  time_to_error  // times to come below an error, in the first drag of one object and in one move to its end
+  time_to_error  // error over time, in a drag of one object, in one move to its end, and perhaps after a cut
 };
 
 /// The solids of the experiments with an organ. Empty: its file was not found.

@@ -44,34 +44,38 @@ std::string label_of_group(PhysicsContestant contestant) {
   return label(contestant) + (sweeps ? " with sweeps" : "");
 }
 
-void take_shorter(std::optional<double>& shortest, double ms) { shortest = std::min(shortest.value_or(ms), ms); }
+// The time of each of `suite_point_figures`.
+constexpr std::array times_of{
+    +[](const PhysicsMeasurement& measured) { return measured.ms_per_move.median; },
+    +[](const PhysicsMeasurement& measured) { return measured.first_move.median + measured.prepare.grab.median; },
+    +[](const PhysicsMeasurement& measured) { return measured.move_after_cut.median; }};
+static_assert(times_of.size() == suite_point_figures.size());
 
-/// Takes over the times of one variant in a drag.
-void take(SuiteTime& time, const PhysicsMeasurement& measured, double ms,
-          std::array<std::optional<double>, suite_errors.size()> SuiteTime::*times) {
-  for (std::size_t i = 0; i < suite_errors.size(); ++i) {
-    if (measured.error.relative <= suite_errors[i]) {
-      take_shorter((time.*times)[i], ms);
+/// What all variants did in each drag.
+using Entries = std::vector<std::vector<PhysicsEntry>>;
+
+SuitePoint point_of(const Entries& drags, std::size_t variant) {
+  const PhysicsContestant& contestant = drags.front()[variant].contestant;
+  SuitePoint point{.iterations = std::uint64_t(contestant.limit > 0 ? contestant.limit : contestant.sweeps)};
+  for (std::size_t i = 0; i < drags.size(); ++i) {
+    if (const auto& measured = drags[i][variant].measurement) {
+      point.*suite_point_figures[i].error = measured->error.relative;
+      point.*suite_point_figures[i].ms = times_of[i](*measured);
     }
   }
+  return point;
 }
 
-SuiteTime time_of(const Group& group, const std::vector<PhysicsEntry>& drag, const std::vector<PhysicsEntry>& fresh) {
+SuiteTime time_of(const Group& group, const Entries& drags) {
   SuiteTime time{group.label, name(group.contestant), {}, {}, {}};
   for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-    if (const auto& measured = drag[i].measurement) {
-      take_shorter(time.least_error, measured->error.relative);
-      take(time, *measured, measured->ms_per_move.median, &SuiteTime::ms_per_move);
-      if (measured->prepare.factorize.count > 0) {
-        time.factorize_ms = measured->prepare.factorize.median;
-      }
-    }
-    if (const auto& measured = fresh[i].measurement) {
-      take(time, *measured, measured->first_move.median + measured->prepare.grab.median, &SuiteTime::fresh_ms);
+    time.curve.push_back(point_of(drags, i));
+    if (const auto& measured = drags.front()[i].measurement; measured && measured->prepare.factorize.count > 0) {
+      time.factorize_ms = measured->prepare.factorize.median;
     }
   }
-  if (!time.least_error) {
-    time.refusal = drag[group.first].refusal;
+  if (!least_error(time)) {
+    time.refusal = drags.front()[group.first].refusal;
   }
   return time;
 }
@@ -79,8 +83,7 @@ SuiteTime time_of(const Group& group, const std::vector<PhysicsEntry>& drag, con
 }  // namespace
 
 std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<PhysicsContestant>& contestants,
-                                      const RecordedMoves& drag, const RecordedMoves& one_move,
-                                      const ReferenceSolution& reference, const CompareOptions& options,
+                                      std::span<const TimedDrag> drags, const CompareOptions& options,
                                       const std::function<void(double)>& tell, const std::stop_token& stop) {
   std::vector<Group> groups;
   std::vector<PhysicsContestant> variants;
@@ -92,13 +95,14 @@ std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<Phys
     }
   }
   Contest contest(object, variants, options);
-  tell(0.1);
-  const auto along = contest.run(
-      drag, reference, [&](double share) { tell(0.1 + 0.6 * share); }, stop);
-  const auto fresh = contest.run(
-      one_move, reference, [&](double share) { tell(0.7 + 0.3 * share); }, stop);
+  Entries entries;
+  for (const TimedDrag& drag : drags) {
+    entries.push_back(contest.run(
+        drag.moves, drag.reference,
+        [&, done = double(entries.size())](double share) { tell((done + share) / double(drags.size())); }, stop));
+  }
   std::vector<SuiteTime> times(groups.size());
-  std::ranges::transform(groups, times.begin(), [&](const Group& group) { return time_of(group, along, fresh); });
+  std::ranges::transform(groups, times.begin(), [&](const Group& group) { return time_of(group, entries); });
   return times;
 }
 

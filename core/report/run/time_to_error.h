@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -8,12 +9,17 @@
 
 namespace chainmail::report {
 
-/// Measures for each contestant the time until its relative error is below each of `suite_errors`. A contestant that
-/// iterates runs with growing numbers of iterations or sweeps per move; all numbers run in turns. `drag` has many
-/// moves, `one_move` goes to the same end in one.
+/// A drag and the reference solution at its end.
+struct TimedDrag {
+  const RecordedMoves& moves;
+  const ReferenceSolution& reference;
+};
+
+/// Measures time and error of each contestant in some drags, in the order of `suite_point_figures`: one of many moves,
+/// one to the same end in one move, and perhaps one with a cut. A contestant that iterates runs with growing numbers of
+/// iterations or sweeps per move; all numbers run in turns.
 std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<PhysicsContestant>& contestants,
-                                      const RecordedMoves& drag, const RecordedMoves& one_move,
-                                      const ReferenceSolution& reference, const CompareOptions& options,
+                                      std::span<const TimedDrag> drags, const CompareOptions& options,
                                       const std::function<void(double)>& tell, const std::stop_token& stop);
 
 }  // namespace chainmail::report

@@ -76,6 +76,8 @@ class SuiteTest : public QObject {
   void each_size_is_one_column();
   void times_grow_with_the_accuracy();
   void a_fresh_move_is_timed_with_its_grab();
+  void a_curve_has_the_error_of_each_drag();
+  void points_of_curves_are_compared();
   void parts_have_every_experiment_once();
   void parts_are_joined();
   void an_experiment_twice_is_refused();
@@ -343,14 +345,17 @@ void SuiteTest::times_grow_with_the_accuracy() {
   const auto& times = suite.results.front().times;
   const auto named = [&](const char* name) { return *std::ranges::find(times, name, &SuiteTime::contestant); };
   const SuiteTime fem = named("Linear FEM, on the same cells"), equilibrium = named("Exact + equilibrium");
-  QVERIFY(fem.least_error.value() < 0.1 && fem.factorize_ms.value() > 0);
-  for (std::size_t i = 0; i < suite_errors.size(); ++i) {
-    QVERIFY(fem.ms_per_move[i].has_value() && fem.fresh_ms[i].value() > fem.ms_per_move[i].value());
-    QCOMPARE(equilibrium.ms_per_move[i].has_value(), equilibrium.least_error.value() <= suite_errors[i]);
+  QVERIFY(least_error(fem).value() < 0.1 && fem.factorize_ms.value() > 0);
+  QCOMPARE(fem.curve.size(), std::size_t(1));  // it has no iterations to choose
+  QVERIFY(fem.curve[0].fresh_ms.value() > fem.curve[0].later_ms.value() && !fem.curve[0].after_cut_ms);
+  for (const double error : suite_errors) {
+    QCOMPARE(shortest_ms(fem, suite_point_figures[0], error), fem.curve[0].later_ms);
+    QCOMPARE(shortest_ms(equilibrium, suite_point_figures[0], error).has_value(),
+             least_error(equilibrium).value() <= error);
   }
-  for (std::size_t i = 1; i < suite_errors.size(); ++i) {
-    QCOMPARE(fem.ms_per_move[i], fem.ms_per_move[0]);  // it has no iterations to choose
-  }
+  std::vector<std::uint64_t> iterations;
+  std::ranges::transform(equilibrium.curve, std::back_inserter(iterations), &SuitePoint::iterations);
+  QCOMPARE(iterations, (std::vector<std::uint64_t>{1, 2, 5, 10, 20, 50, 100, 200}));
   QVERIFY(!named("BEM, on its surface mesh").refusal.empty());
 }
 
@@ -370,14 +375,41 @@ void SuiteTest::a_fresh_move_is_timed_with_its_grab() {
   const auto reference = DragReferences(object, std::nullopt).at_end(drag);
   const PhysicsContestant fem{Algorithm::linear_fem},
       material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
-  const auto times =
-      times_to_error(object, {fem, material}, drag, one_move, reference.solution, options, [](double) {}, {});
+  const std::vector<TimedDrag> drags{{drag, reference.solution}, {one_move, reference.solution}};
+  const auto times = times_to_error(object, {fem, material}, drags, options, [](double) {}, {});
   constexpr double tick_ms = 1e6, longest_pass_ms = 1e5;
   for (const auto& [time, relaxing] : {std::pair{times[0], 0.0}, std::pair{times[1], tick_ms}}) {
     const double grab_and_move = tick_ms + relaxing;
-    QVERIFY(time.fresh_ms[0].value() > grab_and_move && *time.fresh_ms[0] < grab_and_move + longest_pass_ms);
-    QVERIFY(time.ms_per_move[0].value() < relaxing + longest_pass_ms);
+    const SuitePoint& point = time.curve.at(0);
+    QVERIFY(point.fresh_ms.value() > grab_and_move && *point.fresh_ms < grab_and_move + longest_pass_ms);
+    QVERIFY(point.later_ms.value() < relaxing + longest_pass_ms);
   }
+}
+
+/// A curve goes through the drag, the fresh grab and the cut; each has its own error and time.
+void SuiteTest::a_curve_has_the_error_of_each_drag() {
+  Case object = twisted_bar(0);
+  const std::vector<ElementId> side = grabbed_by(object.drags.front());
+  const auto drag_by = [](double x) { return commands::Drag{{x, 0, 0}, {}, true}; };
+  const RecordedMoves drag{"pull", "", {commands::Grab{side}, drag_by(0.5), drag_by(1)}},
+      one_move{"pull", "", {commands::Grab{side}, drag_by(1)}},
+      with_cut{"cut", "", {commands::Grab{side}, drag_by(0.5), commands::Cut{{0, 1, 2}}, drag_by(1)}};
+  DragReferences references(object, std::nullopt);
+  const ReferenceSolution whole = references.at_end(drag).solution, cut = references.at_end(with_cut).solution;
+  const std::vector<TimedDrag> drags{{drag, whole}, {one_move, whole}, {with_cut, cut}};
+  const PhysicsContestant material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
+  const auto curve = times_to_error(object, {material}, drags, {}, [](double) {}, {}).at(0).curve;
+  QCOMPARE(curve.size(), limits_of(material).size());
+  const SuitePoint &first = curve.front(), &last = curve.back();
+  QVERIFY(first.iterations == 1 && last.iterations == 200);
+  for (const SuitePointFigures& figures : suite_point_figures) {
+    // The reference has the same energy on the same cells, so the error
+    // ends where relaxation does.
+    QVERIFY((last.*figures.error).value() < compared_residual && (first.*figures.error).value() > 0.02);
+    QVERIFY((last.*figures.ms).value() > 0);
+  }
+  QVERIFY(first.relative.value() < first.fresh_relative.value());  // it had one iteration for half of the way
+  QVERIFY(*first.cut_relative != *first.relative);
 }
 
 void SuiteTest::parts_have_every_experiment_once() {
@@ -499,10 +531,38 @@ void SuiteTest::errors_below_the_change_of_the_reference_are_equal() {
     QVERIFY(mark.y >= 0.05);
   }
   SuiteResult times;
-  times.times = {{"XPBD", "xpbd", "", 0.03, {}}};
+  times.times = {{"XPBD", "xpbd", "", {}, {{.iterations = 5, .relative = 0.03}}}};
   QCOMPARE(time_table(times).rows.front().cells.front(), std::string("0.03"));
   times.references = {{{{100, {}}, {800, 0.05}}, {}, false, ""}};
   QCOMPARE(time_table(times).rows.front().cells.front(), std::string("below 0.05"));
+}
+
+/// Each number of iterations counts as a contestant of its own: the front goes along the curves, and is drawn.
+void SuiteTest::points_of_curves_are_compared() {
+  SuiteResult result;
+  result.name = "bar";
+  result.times = {{"XPBD", "xpbd", "", {}, {{1, 0.5, 1, 0.6, 3, {}, {}}, {10, 0.2, 8, 0.1, 9, {}, {}}}},
+                  {"Linear FEM", "fem", "", {}, {{0, 0.3, 2, 0.3, 4, 0.25, 7}}}};
+  Suite suite;
+  suite.results = {result};
+  QCOMPARE(suite_findings(suite),
+           (std::vector<std::string>{
+               "bar, later move: on the front are XPBD × 1 (1 ms, 0.5), Linear FEM (2 ms, 0.3), XPBD × 10 (8 ms, 0.2)",
+               "bar, fresh grab: on the front are XPBD × 1 (3 ms, 0.6), Linear FEM (4 ms, 0.3), XPBD × 10 (9 ms, 0.1)",
+               "bar, move after a cut: on the front are Linear FEM (7 ms, 0.25)"}));
+  const Plot plot = suite_plot(suite, speeds_against_error[0]);
+  const auto& curves = plot.panels.at(0).curves;
+  QCOMPARE(curves.size(), std::size_t(2));  // XPBD's, and the front
+  QVERIFY(curves[0].points == (std::vector<std::array<double, 2>>{{1, 0.5}, {8, 0.2}}));
+  QVERIFY(plot.series.at(curves[0].series).label == "XPBD" && plot.panels[0].marks.size() == 3);
+  QCOMPARE(suite_plot(suite, speeds_against_error[2]).panels.at(0).marks.size(), std::size_t(1));
+  std::ostringstream csv;
+  write_csv(csv, suite);
+  const QStringList lines = QString::fromStdString(csv.str()).split('\n', Qt::SkipEmptyParts);
+  // A row for each error that is reached, XPBD and linear FEM, and for each point.
+  QCOMPARE(lines.filter(",bend,").size(), 3 + 2 + 3);
+  QCOMPARE(lines.filter(",fresh grab,").size(), 4 + 2 + 3);
+  QCOMPARE(lines.filter(",cut,").size(), 0 + 2 + 1);
 }
 
 /// Every contestant of a plot is in its legend, and the line of the front is beside them.
