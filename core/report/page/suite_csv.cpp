@@ -85,7 +85,7 @@ void add_times(std::vector<Row>& rows, const SuiteResult& result, const SuiteTim
     for (const SuitePoint& point : time.curve) {
       if (point.*of.error) {
         Row& row = add_time(rows, result, time, of, point.*of.ms);
-        row.figures.iterations = double(point.iterations);
+        row.figures.iterations = point.iterations > 0 ? std::optional(double(point.iterations)) : std::nullopt;
         row.figures.relative = point.*of.error;
       }
     }
