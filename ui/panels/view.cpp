@@ -101,7 +101,7 @@ View::View(Document& document, Colouring& colouring, PanelLinks& links, int pane
 void View::listen() {
   connect(&document_.solvers(), &PanelSolvers::frameReady, this, [this](int ready) {
     if (ready == panel_ || ready == ghost_.of) {
-      update();  // the paint takes the newest frame
+      update();  // the paint passes the newest frame to the painters
     }
   });
   connect(&document_.highlight(), &Highlight::changed, this, qOverload<>(&View::update));

@@ -109,7 +109,7 @@ class Contest::Participant {
     if (!entry_.measurement || !runner_ || contestant_.limit > 0) {
       return;
     }
-    ReferenceSolution own = reference;
+    ReferenceSolution own = reference;  // its own converged answer, which each number of iterations is compared with
     own.displacements = displacements();
     for (const int limit : limits_of(contestant_)) {
       Participant& one = limited_to(limit);
