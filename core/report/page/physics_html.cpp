@@ -31,8 +31,10 @@ work of a method before its first move: it factorizes once for an object, its pi
 the object to each element that is grabbed. Preparation is repeated for one second. Drags that take longer than 0.3 seconds
 are not repeated. The brackets contain the quartiles and the number of repetitions. <b>Calibrated</b> contestants have the
 softness and the sweeps (at most 10) that are closest to the reference on drags of other elements. <b>+ equilibrium</b>
-relaxes after each move to the valid state of least energy, until the residual is at most 0.001, in at most 200
-iterations. The reference is for a homogeneous, isotropic, compressible material. In the plots, lower is better and further left is faster.</p>
+relaxes after each move to the valid state of least energy.</p>
+<p>One rule ends all <b>iterations</b>: a contestant makes the least number per move with which its answer at the end of
+the drag is within 1 % of its own limit, the answer after as many as it wants. The reference is for a homogeneous, isotropic, compressible material. In
+the plots, lower is better and further left is faster.</p>
 )";
 
 void write_growths(std::ostream& out, const PhysicsReport& report) {

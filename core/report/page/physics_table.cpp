@@ -238,7 +238,8 @@ constexpr const char* how_to_read_text =
     "refinement of the mesh;\n"
     "BEM works on its own surface mesh. Times are medians in ms, means over the drags: the first move of a drag, a\n"
     "later move, and the move after a cut with all repeated preparation. Preparation: factorizing is done once for an\n"
-    "object, its pins and its cuts; grabbing is done once for each handle.\n";
+    "object, its pins and its cuts; grabbing is done once for each handle. A contestant that iterates makes the least\n"
+    "iterations per move with which its answer is within 1 % of its own limit.\n";
 
 FigureTable::Row row_of(const GrowthSeries& series) {
   FigureTable::Row row;

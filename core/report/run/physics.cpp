@@ -141,7 +141,9 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
     const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
     result.symmetry =
         symmetry_under_rotation(object, contestants, how, reporter.of_drag(object.name + ", turned"), stop);
-    Contest contest(object, contestants, how);
+    CompareOptions to_own_limit = how;
+    to_own_limit.own_limit = own_limit_of_comparisons;
+    Contest contest(object, contestants, to_own_limit);
     for (const RecordedMoves& moves : object.drags) {
       const auto tell = reporter.of_drag(object.name + ", " + moves.name);
       tell(0);

@@ -17,9 +17,6 @@ namespace {
 
 constexpr double turned_by = 45;  // degrees: ChainMail's boxes follow the axes, and differ most half way between them
 
-// A contestant that iterates stops where its answer is so close to its own limit (ratio to its way).
-constexpr double suite_own_limit = 0.01;
-
 using Tell = std::function<void(double)>;
 
 /// An experiment that is running.
@@ -158,7 +155,7 @@ void run_drags(Running& running, const Case& object) {
   const auto contestants = calibrated_contestants(running, object);
   DragReferences references(object, running.options.refine);
   CompareOptions to_own_limit = contest_options;
-  to_own_limit.own_limit = suite_own_limit;
+  to_own_limit.own_limit = own_limit_of_comparisons;
   Contest contest(object, contestants, to_own_limit);
   TurnedContest turned(object, contestants, contest_options);
   for (std::size_t i = 0; i < object.drags.size() && !running.stop.stop_requested(); ++i) {

@@ -368,6 +368,8 @@ void PhysicsTest::everyone_takes_part() {
           const Preparation& prepare = entry.measurement->prepare;
           QVERIFY(prepare.factorize.median > 0 && prepare.grab.median >= 0);
           QVERIFY(prepare.grab.median > 0 || !(info(algorithm).elastic || entry.contestant.equilibrium));
+          const bool iterates = info(algorithm).obeys_iterations || entry.contestant.equilibrium;
+          QCOMPARE(entry.measurement->iterations.has_value(), iterates);  // to its own limit
         }
       }
     }
