@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "elastic/elimination.h"
+#include "elastic/methods.h"
 #include "elastic/newton.h"
 #include "elastic/simplices.h"
 #include "elastic/stiffening.h"
@@ -103,6 +104,20 @@ Point rotation_of(const RigidMotion& motion) {
   return turn.angle() * turn.axis();
 }
 
+/// The limit of the method is for people who wait. Where every level is asked for, however long it takes, that of the
+/// options holds.
+std::unique_ptr<ElasticSolver> solver_of_own_cells(const ElasticProblem& problem, const ConvergingOptions& options,
+                                                   const Progress& progress) {
+  const Mesh& mesh = *problem.mesh;
+  const std::uint64_t usual = max_solid_elements(ElasticMethod::neo_hookean).value_or(0);
+  if (options.every_level && mesh.has_cells() && mesh.element_count() > usual &&
+      mesh.element_count() <= options.max_elements.back()) {
+    check(problem.options);
+    return make_neo_hookean(problem, progress);
+  }
+  return make_elastic(ElasticMethod::neo_hookean, problem, progress);
+}
+
 }  // namespace
 
 Point middle_of(const Mesh& mesh, const std::vector<ElementId>& elements) {
@@ -143,7 +158,7 @@ ConvergingReference::ConvergingReference(const ElasticProblem& problem, const Co
   level->refinement.mesh = cells_of(*problem.mesh, problem.cuts);
   level->problem.mesh = level->refinement.mesh;
   level->problem.cuts = Cuts(level->refinement.mesh);
-  level->solver = make_elastic(ElasticMethod::neo_hookean, level->problem, progress);
+  level->solver = solver_of_own_cells(level->problem, options, progress);
   levels_.push_back(std::move(level));
 }
 

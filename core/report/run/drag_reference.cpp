@@ -10,10 +10,13 @@
 namespace chainmail::report {
 namespace {
 
-ReferenceSolver solver_of(const Case& object, const std::vector<LinkId>& cut) {
+void check_pins(const Case& object) {
   if (object.pins.empty()) {
     throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
   }
+}
+
+ReferenceSolver solver_of(const Case& object, const std::vector<LinkId>& cut) {
   try {
     return ReferenceSolver(reference_problem(object, cut));
   } catch (const Error& error) {
@@ -78,7 +81,12 @@ RigidMotion motion_at_end(const Mesh& mesh, const RecordedMoves& moves) {
 }
 
 DragReferences::DragReferences(const Case& object, const std::optional<ConvergingOptions>& refine)
-    : object_(object), refine_(refine), solver_(solver_of(object, {})) {}
+    : object_(object), refine_(refine) {
+  check_pins(object);
+  if (!refine_ || !refine_->every_level) {
+    solver_.emplace(solver_of(object, {}));  // refuses at once what has no solution
+  }
+}
 
 DragReference DragReferences::at_end(const RecordedMoves& moves) {
   if (moves.closed_form) {
@@ -100,8 +108,10 @@ DragReference DragReferences::at_end(const RecordedMoves& moves) {
   std::optional<ReferenceSolver> with_cut;
   if (!cut.empty()) {
     with_cut.emplace(solver_of(object_, cut));
+  } else if (!solver_) {
+    solver_.emplace(solver_of(object_, {}));
   }
-  return {(with_cut ? *with_cut : solver_).at(handle, displacements_of_handle(mesh, moves))};
+  return {(with_cut ? *with_cut : *solver_).at(handle, displacements_of_handle(mesh, moves))};
 }
 
 }  // namespace chainmail::report

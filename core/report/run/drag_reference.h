@@ -28,7 +28,7 @@ class DragReferences {
  private:
   const Case& object_;
   std::optional<ConvergingOptions> refine_;
-  ReferenceSolver solver_;                      // without a cut
+  std::optional<ReferenceSolver> solver_;       // without a cut; later, where every refined level is asked for
   std::optional<ConvergingReference> refined_;  // without a cut; made when it is first needed
 };
 
