@@ -5,32 +5,20 @@
 #include <string>
 
 #include "files/results/json_kind.h"
+#include "report/page/compared_figures.h"
+#include "report/page/physics_figures.h"
+#include "report/page/ramp_table.h"
 
 namespace chainmail {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// all_of() calls these: they must be declared before it.
-Json to_json(const report::Entry& entry);
-Json to_json(const report::DragResult& drag);
-Json to_json(const report::CaseResult& object);
-Json to_json(const report::PhysicsEntry& entry);
-Json to_json(const report::PhysicsDrag& drag);
-Json to_json(const report::PhysicsObject& object);
-Json to_json(const report::Calibration& calibration);
-Json to_json(const report::Symmetry& symmetry);
-Json to_json(const report::GrowthSeries& series);
-Json to_json(const report::PhysicsGrowth& growth);
-Json to_json(const report::RampVerdict& verdict);
-Json to_json(const report::RampRow& row);
-Json to_json(const CalibrationDrag& drag);
-
 template <class Items>
-Json all_of(const Items& items) {
+Json all_of(const Items& items, Json (*convert)(const typename Items::value_type&)) {
   Json json = Json::array();
   for (const auto& item : items) {
-    json.push_back(to_json(item));
+    json.push_back(convert(item));
   }
   return json;
 }
@@ -50,15 +38,22 @@ Json to_json(const report::CompareOptions& options) {
           {"precision", options.precision == Precision::single_precision ? "float" : "double"}};
 }
 
-Json to_json(const report::Origin& origin) {
-  const report::Machine& machine = origin.machine;
-  return {{"date", origin.date},
-          {"version", origin.version},
-          {"command_line", origin.command_line},
-          {"processor", machine.processor},
+Json to_json(const report::Machine& machine) {
+  return {{"processor", machine.processor},
           {"cores", machine.cores},
           {"compiler", machine.compiler},
           {"build", machine.build}};
+}
+
+Json to_json(const report::Origin& origin) {
+  Json json{{"date", origin.date}, {"version", origin.version}, {"command_line", origin.command_line}};
+  json.update(to_json(origin.machine));
+  return json;
+}
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
 }
 
 /// Names from outside may not be UTF-8: invalid bytes become the replacement character.
@@ -66,29 +61,36 @@ void write_report(std::ostream& out, const Json& json) {
   out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-Json to_json(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
-
-Json to_json(const std::optional<Distance>& distance) {
-  return distance ? Json{{"max", distance->max}, {"rms", distance->rms}} : Json();
+Json to_json(const report::FigureValue& value) {
+  return std::visit(
+      []<class Value>(const Value& one) -> Json {
+        if constexpr (std::is_same_v<Value, std::monostate>) {
+          return {};
+        } else if constexpr (std::is_same_v<Value, TimeSpread>) {
+          return to_json(one);
+        } else {
+          return one;
+        }
+      },
+      static_cast<const report::FigureValue::variant&>(value));
 }
 
-Json to_json(const report::ShapeFigures& shape) {
-  return {{"hausdorff", to_json(shape.hausdorff)},
-          {"volume_change", to_json(shape.volume_change)},
-          {"inverted_cells", shape.inverted_cells ? Json(*shape.inverted_cells) : Json()},
-          {"largest_stretch", to_json(shape.stretch)},
-          {"violation_max", shape.violation}};
-}
-
-Json to_json(const report::Errors& errors) {
-  const Violation& violation = errors.violation;
-  return {{"violation", {{"max", violation.max}, {"rms", violation.rms}, {"fraction", violation.fraction}}},
-          {"distance_to_exact", to_json(errors.to_exact)},
-          {"energy_over_exact", to_json(errors.energy_over_exact)},
-          {"float_to_double", to_json(std::optional(errors.float_to_double))},
-          {"largest_over_hand", to_json(errors.largest_over_handle)},
-          {"distance_to_equilibrium", to_json(errors.to_equilibrium)},
-          {"shape", to_json(errors.shape)}};
+/// Returns the figures of a row that JSON shows. An object in which all of them are none is null itself.
+template <class Row>
+Json figures_of(const Row& row, std::span<const report::Figure<Row>> figures) {
+  Json json = Json::object();
+  for (const report::Figure<Row>& figure : figures) {
+    Json value = figure.path.empty() ? Json() : to_json(figure.value(row));
+    if (!figure.path.empty() && !(figure.is_rare && value.is_null())) {
+      json[Json::json_pointer(std::string(figure.path))] = std::move(value);
+    }
+  }
+  for (Json& member : json) {
+    if (member.is_object() && std::ranges::all_of(member, [](const Json& one) { return one.is_null(); })) {
+      member = nullptr;
+    }
+  }
+  return json;
 }
 
 Json to_json(const report::Entry& entry) {
@@ -99,12 +101,7 @@ Json to_json(const report::Entry& entry) {
     json["refusal"] = entry.refusal;
     return json;
   }
-  const report::Measurement& measurement = *entry.measurement;
-  json["ms_per_move"] = to_json(measurement.ms_per_move);
-  json["worst_move_ms"] = measurement.worst_move_ms;
-  json["checked"] = measurement.checked;
-  json["moved"] = measurement.moved;
-  json.update(to_json(measurement.errors));
+  json.update(figures_of<report::ComparedRow>({.entry = &entry}, report::compared_figures()));
   return json;
 }
 
@@ -113,7 +110,7 @@ Json to_json(const report::DragResult& drag) {
           {"description", drag.description},
           {"moves", drag.moves},
           {"no_exact", drag.no_exact.empty() ? Json() : Json(drag.no_exact)},
-          {"contestants", all_of(drag.entries)}};
+          {"contestants", all_of(drag.entries, to_json)}};
 }
 
 Json to_json(const report::CaseResult& object) {
@@ -121,16 +118,7 @@ Json to_json(const report::CaseResult& object) {
           {"description", object.description},
           {"elements", object.elements},
           {"links", object.links},
-          {"drags", all_of(object.drags)}};
-}
-
-Json to_json(const PhysicalError& error) {
-  return {{"relative", error.relative},
-          {"rms", error.rms},
-          {"max", error.max},
-          {"moving_rms", error.moving_rms},
-          {"moving_max", error.moving_max},
-          {"moving_elements", error.moving}};
+          {"drags", all_of(object.drags, to_json)}};
 }
 
 Json to_json(const LinkSoftness& softness) {
@@ -150,30 +138,13 @@ Json begin_with(const report::PhysicsContestant& contestant) {
           {"calibrated", contestant.calibrated ? to_json(*contestant.calibrated) : Json()}};
 }
 
-/// Returns null if nothing was timed.
-Json spread_or_none(const TimeSpread& ms) { return ms.count == 0 ? Json() : to_json(ms); }
-
 Json to_json(const report::PhysicsEntry& entry) {
   Json json = begin_with(entry.contestant);
   if (!entry.measurement) {
     json["refusal"] = entry.refusal;
     return json;
   }
-  const report::PhysicsMeasurement& measured = *entry.measurement;
-  json["ms_per_move"] = to_json(measured.ms_per_move);
-  json["first_move_ms"] = spread_or_none(measured.first_move);
-  json["move_after_cut_ms"] = spread_or_none(measured.move_after_cut);
-  json["prepare_ms"] = measured.prepare.ms();
-  json["factorize_ms"] = spread_or_none(measured.prepare.factorize);
-  json["grab_ms"] = spread_or_none(measured.prepare.grab);
-  json["error"] = to_json(measured.error);
-  json["shape"] = to_json(measured.shape);
-  if (measured.residual) {
-    json["residual"] = *measured.residual;
-  }
-  if (measured.binds) {
-    json["regions_bind"] = *measured.binds;
-  }
+  json.update(figures_of<report::PhysicsRow>({.entry = &entry}, report::physics_figures()));
   return json;
 }
 
@@ -184,10 +155,10 @@ Json refined_of(const std::optional<ConvergedReference>& reference) {
   }
   Json levels = Json::array();
   for (const ReferenceLevel& level : reference->levels) {
-    levels.push_back({{"elements", level.elements}, {"change", level.change ? Json(*level.change) : Json()}});
+    levels.push_back({{"elements", level.elements}, {"change", or_null(level.change)}});
   }
   return {{"levels", std::move(levels)},
-          {"order", reference->order ? Json(*reference->order) : Json()},
+          {"order", or_null(reference->order)},
           {"converged", reference->converged},
           {"end", reference->end}};
 }
@@ -201,7 +172,7 @@ Json to_json(const report::PhysicsDrag& drag) {
           {"cut_before_last_move", drag.has_cut},
           {"hand", drag.handle_displacement},
           {"no_truth", drag.no_reference.empty() ? Json() : Json(drag.no_reference)},
-          {"contestants", all_of(drag.entries)}};
+          {"contestants", all_of(drag.entries, to_json)}};
 }
 
 Json to_json(const report::Calibration& calibration) {
@@ -249,9 +220,9 @@ Json to_json(const report::PhysicsObject& object) {
           {"links", object.links},
           {"pins", object.pins},
           {"material", material_of(object.law)},
-          {"drags", all_of(object.drags)},
-          {"calibrations", all_of(object.calibrations)},
-          {"turned_object", all_of(object.symmetry)}};
+          {"drags", all_of(object.drags, to_json)},
+          {"calibrations", all_of(object.calibrations, to_json)},
+          {"turned_object", all_of(object.symmetry, to_json)}};
 }
 
 Json to_json(const report::GrowthSeries& series) {
@@ -260,37 +231,36 @@ Json to_json(const report::GrowthSeries& series) {
   json["exponent"] = series.growth ? Json(series.growth->power) : Json();
   json["sizes"] = Json::array();
   for (const report::GrowthPoint& point : series.points) {
-    json["sizes"].push_back({{"elements", point.elements},
-                             {"ms_per_move", point.ms_per_move},
-                             {"prepare_ms", point.prepare_ms},
-                             {"error", point.error ? to_json(*point.error) : Json()}});
+    json["sizes"].push_back(
+        {{"elements", point.elements},
+         {"ms_per_move", point.ms_per_move},
+         {"prepare_ms", point.prepare_ms},
+         {"error", figures_of<report::PhysicsRow>({.point = &point}, report::physics_figures())["error"]}});
   }
   return json;
 }
 
 Json to_json(const report::PhysicsGrowth& growth) {
-  return {{"name", growth.name}, {"description", growth.description}, {"contestants", all_of(growth.series)}};
+  return {{"name", growth.name}, {"description", growth.description}, {"contestants", all_of(growth.series, to_json)}};
+}
+
+Json to_json(const report::Growth& growth) {
+  return {{"exponent", growth.power}, {"from", growth.from}, {"to", growth.to}, {"sizes", growth.sizes}};
 }
 
 Json to_json(const report::RampVerdict& verdict) {
-  Json json{{"algorithm", info(verdict.algorithm).name}, {"largest_width", nullptr}, {"lost", verdict.lost}};
-  if (verdict.largest_width) {
-    json["largest_width"] = *verdict.largest_width;
-  }
-  json["growth"] = nullptr;
-  if (const auto& growth = verdict.growth) {
-    json["growth"] = {
-        {"exponent", growth->power}, {"from", growth->from}, {"to", growth->to}, {"sizes", growth->sizes}};
-  }
-  return json;
+  return {{"algorithm", info(verdict.algorithm).name},
+          {"largest_width", or_null(verdict.largest_width)},
+          {"lost", verdict.lost},
+          {"growth", verdict.growth ? to_json(*verdict.growth) : Json()}};
 }
 
 Json to_json(const report::RampRow& row) {
-  return {{"width", row.width},       {"elements", row.elements},
-          {"links", row.links},       {"algorithm", info(row.algorithm).name},
-          {"passes", row.passes},     {"median_ms", row.median_ms},
-          {"p99_ms", row.p99_ms},     {"mean_moved", row.mean_moved},
-          {"repeated", row.repeated}, {"real_time", row.in_real_time}};
+  Json json;
+  for (const report::Figure<report::RampRow>& figure : report::ramp_figures()) {
+    json[std::string(figure.column)] = to_json(figure.value(row));
+  }
+  return json;
 }
 
 Json to_json(const Residual& residual) {
@@ -310,14 +280,15 @@ Json to_json(const TestedDrags& tested) {
   return {{"residual_before", to_json(tested.before)},
           {"residual", to_json(tested.after)},
           {"residual_nothing", to_json(tested.nothing)},
-          {"drags", all_of(tested.drags)}};
+          {"drags", all_of(tested.drags, to_json)}};
 }
 
 }  // namespace
 
 void write_json(std::ostream& out, const report::Comparison& comparison, const report::Origin& origin) {
-  const Json json{
-      {"origin", to_json(origin)}, {"options", to_json(comparison.options)}, {"objects", all_of(comparison.cases)}};
+  const Json json{{"origin", to_json(origin)},
+                  {"options", to_json(comparison.options)},
+                  {"objects", all_of(comparison.cases, to_json)}};
   write_report(out, of_kind(json_kinds::compare, json));
 }
 
@@ -330,18 +301,14 @@ void write_json(std::ostream& out, const report::PhysicsReport& report, const re
   options["growth_seconds"] = report.options.growth_seconds;
   const Json json{{"origin", to_json(origin)},
                   {"options", std::move(options)},
-                  {"objects", all_of(report.objects)},
-                  {"growths", all_of(report.growths)}};
+                  {"objects", all_of(report.objects, to_json)},
+                  {"growths", all_of(report.growths, to_json)}};
   write_report(out, of_kind(json_kinds::physics, json));
 }
 
 void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machine& machine) {
   const report::RampOptions& options = ramp.options;
-  const Json json{{"machine",
-                   {{"processor", machine.processor},
-                    {"cores", machine.cores},
-                    {"compiler", machine.compiler},
-                    {"build", machine.build}}},
+  const Json json{{"machine", to_json(machine)},
                   {"seed", options.seed},
                   {"budget", options.budget},
                   {"precision", options.precision == Precision::single_precision ? "float" : "double"},
@@ -351,8 +318,8 @@ void write_json(std::ostream& out, const report::Ramp& ramp, const report::Machi
                   {"largest", options.largest},
                   {"seconds", ramp.seconds},
                   {"stopped", ramp.stopped},
-                  {"algorithms", all_of(ramp.verdicts)},
-                  {"sizes", all_of(ramp.rows)}};
+                  {"algorithms", all_of(ramp.verdicts, to_json)},
+                  {"sizes", all_of(ramp.rows, to_json)}};
   write_report(out, of_kind(json_kinds::ramp, json));
 }
 

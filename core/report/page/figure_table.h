@@ -11,6 +11,8 @@ struct FigureTable {
   struct Column {
     std::string group;  // common heading of neighbouring columns
     std::string name;
+
+    bool operator==(const Column&) const = default;
   };
   struct Row {
     std::string label;

@@ -148,9 +148,12 @@ std::string signed_percent(const std::optional<double>& change) {
   return change ? (*change > 0 ? "+" : "") + figure(100 * *change) : figure(change);
 }
 
-std::string count(const std::optional<std::uint64_t>& number) { return number ? thousands(*number) : "n/a"; }
+std::string count(const std::optional<double>& number) {
+  return number ? thousands(std::uint64_t(*number)) : figure(number);
+}
 
 std::string percent(double share) { return figure(100 * share) + "%"; }
+std::string percent(const std::optional<double>& share) { return share ? percent(*share) : figure(share); }
 
 std::string all_digits(double number) {
   std::array<char, 40> digits;

@@ -22,12 +22,13 @@ std::string thousands(std::uint64_t count);
 /// Pads the figures of a column with spaces as wide as digits, so that their decimal points stand below each other when
 /// they are aligned to the right. Texts that are not one number stay.
 std::vector<std::string> aligned(std::vector<std::string> column);
-/// Formats a share for people, in percent.
+/// Formats a share for people, in percent; `n/a` if there is none.
 std::string percent(double share);
+std::string percent(const std::optional<double>& share);
 /// Formats a change for people, in percent with its sign; `n/a` if there is none.
 std::string signed_percent(const std::optional<double>& change);
 /// Formats a number of things for people; `n/a` if there is none.
-std::string count(const std::optional<std::uint64_t>& number);
+std::string count(const std::optional<double>& number);
 /// Formats the numbers that a calibration finds, with their names: those of the valid region, or those of the energy.
 std::string region_in_words(const LinkSoftness& softness);
 std::string energy_in_words(const LinkSoftness& softness);

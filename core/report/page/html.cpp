@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/page/compared_figures.h"
 #include "report/page/figure_table.h"
 #include "report/page/format.h"
 #include "report/page/page.h"
@@ -30,75 +31,6 @@ the faces enclose; in a plane it is the area. A cell is <b>inverted</b> if it is
 stretch</b> is the largest factor by which any direction in a cell is lengthened.</p>
 )";
 
-/// A column of a detail table, with its group.
-struct DetailColumn {
-  std::string group;
-  std::string name;
-  std::string (*cell)(const Measurement&, const DragResult&);
-};
-
-std::string per_move(std::uint64_t count, const DragResult& drag) { return figure(double(count) / drag.moves); }
-
-std::string part(const std::optional<Distance>& distance, double Distance::*member) {
-  return distance ? figure(*distance.*member) : "n/a";
-}
-
-std::string time_cell(const Measurement& m, const DragResult&) { return figure(m.ms_per_move.median); }
-std::string quartiles_cell(const Measurement& m, const DragResult&) {
-  return figure(m.ms_per_move.lower_quartile) + "–" + figure(m.ms_per_move.upper_quartile);
-}
-std::string worst_cell(const Measurement& m, const DragResult&) { return figure(m.worst_move_ms); }
-std::string checked_cell(const Measurement& m, const DragResult& drag) { return per_move(m.checked, drag); }
-std::string moved_cell(const Measurement& m, const DragResult& drag) { return per_move(m.moved, drag); }
-std::string max_cell(const Measurement& m, const DragResult&) { return figure(m.errors.violation.max); }
-std::string rms_cell(const Measurement& m, const DragResult&) { return figure(m.errors.violation.rms); }
-std::string links_cell(const Measurement& m, const DragResult&) { return percent(m.errors.violation.fraction); }
-std::string exact_max(const Measurement& m, const DragResult&) { return part(m.errors.to_exact, &Distance::max); }
-std::string exact_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_exact, &Distance::rms); }
-std::string energy_cell(const Measurement& m, const DragResult&) { return figure(m.errors.energy_over_exact); }
-std::string float_max(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.max); }
-std::string float_rms(const Measurement& m, const DragResult&) { return figure(m.errors.float_to_double.rms); }
-std::string handle_cell(const Measurement& m, const DragResult&) { return figure(m.errors.largest_over_handle); }
-std::string rest_max(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::max); }
-std::string rest_rms(const Measurement& m, const DragResult&) { return part(m.errors.to_equilibrium, &Distance::rms); }
-
-std::string hausdorff_cell(const Measurement& m, const DragResult&) { return figure(m.errors.shape.hausdorff); }
-std::string volume_cell(const Measurement& m, const DragResult&) {
-  return signed_percent(m.errors.shape.volume_change);
-}
-std::string inverted_cell(const Measurement& m, const DragResult&) { return count(m.errors.shape.inverted_cells); }
-std::string stretch_cell(const Measurement& m, const DragResult&) { return figure(m.errors.shape.stretch); }
-
-std::vector<DetailColumn> columns_for(const DragResult& drag) {
-  std::vector<DetailColumn> columns{
-      {"ms per move", "median", time_cell},
-      {"ms per move", "quartiles", quartiles_cell},
-      {"ms per move", "worst move", worst_cell},
-      {"elements per move", "checked", checked_cell},
-      {"elements per move", "moved", moved_cell},
-      {"violation (rest lengths)", "max", max_cell},
-      {"violation (rest lengths)", "RMS", rms_cell},
-      {"violated links", "share (%)", links_cell},
-      {"distance to Exact (mean rest lengths)", "max", exact_max},
-      {"distance to Exact (mean rest lengths)", "RMS", exact_rms},
-      {"energy", "/ Exact’s (ratio)", energy_cell},
-      {"float to double (mean rest lengths)", "max", float_max},
-      {"float to double (mean rest lengths)", "RMS", float_rms},
-      {"farthest", "/ handle (ratio)", handle_cell},
-      {"shape", "Hausdorff to Exact (mean rest lengths)", hausdorff_cell},
-      {"shape", "volume change (%)", volume_cell},
-      {"shape", "inverted cells", inverted_cell},
-      {"shape", "largest stretch (ratio)", stretch_cell},
-  };
-  const bool has_equilibrium = std::ranges::any_of(
-      drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
-  if (has_equilibrium) {
-    columns.push_back({"to equilibrium (mean rest lengths)", "max", rest_max});
-    columns.push_back({"to equilibrium (mean rest lengths)", "RMS", rest_rms});
-  }
-  return columns;
-}
-
 int repetitions_of(const DragResult& drag) {
   int most = 0;
   for (const Entry& entry : drag.entries) {
@@ -112,18 +44,24 @@ std::string about(const DragResult& drag) {
          " repetitions" + (drag.no_exact.empty() ? "" : "; no distance to Exact: " + drag.no_exact);
 }
 
+/// Leaves out the distance to the equilibrium if nobody has one.
 FigureTable table_of(const CaseResult& object, const DragResult& drag) {
   FigureTable table{object.name + ", " + drag.name, about(drag), "detail", "contestant", {}, {}};
-  const std::vector<DetailColumn> columns = columns_for(drag);
-  for (const DetailColumn& column : columns) {
-    table.columns.push_back({column.group, column.name});
+  std::vector<Figure<ComparedRow>> shown;
+  const bool has_equilibrium = std::ranges::any_of(
+      drag.entries, [](const Entry& entry) { return entry.measurement && entry.measurement->errors.to_equilibrium; });
+  for (const Figure<ComparedRow>& one : compared_figures()) {
+    if (!one.heading.empty() && (has_equilibrium || one.group != equilibrium_group)) {
+      shown.push_back(one);
+      table.columns.push_back({std::string(one.group), std::string(one.heading)});
+    }
   }
   for (const Entry& entry : drag.entries) {
     auto& row = table.rows.emplace_back();
     row.label = label(entry.contestant);
     row.refusal = entry.measurement ? "" : entry.refusal;
-    for (std::size_t i = 0; entry.measurement && i < columns.size(); ++i) {
-      row.cells.push_back(columns[i].cell(*entry.measurement, drag));
+    for (std::size_t i = 0; entry.measurement && i < shown.size(); ++i) {
+      row.cells.push_back(cell_of(shown[i], {&object, &drag, &entry}));
     }
   }
   return table;

@@ -4,71 +4,14 @@
 
 #include "report/page/convergence.h"
 #include "report/page/format.h"
+#include "report/page/physics_figures.h"
 #include "report/page/physics_means.h"
 
 namespace chainmail::report {
 namespace {
 
-using CellOf = std::string (*)(const PhysicsMeasurement&);
-
-// Relative errors below this come from Newton's method and from single precision: the method equals the reference.
-constexpr double reference_found_again = 1e-5;
 // Differences below this come from rounding.
 constexpr double rounding_of_turns = 1e-6;
-
-std::string relative_cell(const PhysicsMeasurement& m) {
-  return m.error.relative < reference_found_again ? "<1e-5" : figure(m.error.relative);
-}
-std::string rms_cell(const PhysicsMeasurement& m) { return percent(m.error.rms); }
-std::string max_cell(const PhysicsMeasurement& m) { return percent(m.error.max); }
-std::string moving_rms_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_rms); }
-std::string moving_max_cell(const PhysicsMeasurement& m) { return percent(m.error.moving_max); }
-
-/// Columns of errors, one per drag.
-struct ErrorColumns {
-  const char* name;
-  CellOf cell;
-  bool in_text = false;  // true: also shown in a terminal, which has no room for all
-};
-constexpr ErrorColumns groups[]{{"relative error (ratio)", relative_cell, true},
-                                {"RMS error (%)", rms_cell},
-                                {"largest error (%)", max_cell},
-                                {"RMS, what moves (%)", moving_rms_cell},
-                                {"largest, what moves (%)", moving_max_cell}};
-
-std::string hausdorff_cell(const PhysicsMeasurement& m) { return figure(m.shape.hausdorff); }
-std::string volume_cell(const PhysicsMeasurement& m) { return signed_percent(m.shape.volume_change); }
-std::string inverted_cell(const PhysicsMeasurement& m) { return count(m.shape.inverted_cells); }
-std::string stretch_cell(const PhysicsMeasurement& m) { return figure(m.shape.stretch); }
-std::string violation_cell(const PhysicsMeasurement& m) { return figure(m.shape.violation); }
-
-std::string residual_cell(const PhysicsMeasurement& m) { return figure(m.residual); }
-std::string binds_cell(const PhysicsMeasurement& m) { return !m.binds ? "" : *m.binds ? "yes" : "no"; }
-
-/// Columns of a page with the worst of all drags without a cut.
-struct WorstColumn {
-  const char *group, *name;
-  CellOf cell;
-};
-constexpr const char* shape = "shape: worst of the drags";
-constexpr const char* equilibrium = "equilibrium: worst of the drags";
-constexpr WorstColumn worst_columns[]{{shape, "Hausdorff (rest lengths)", hausdorff_cell},
-                                      {shape, "volume change (%)", volume_cell},
-                                      {shape, "inverted cells", inverted_cell},
-                                      {shape, "stretch (ratio)", stretch_cell},
-                                      {shape, "violation (rest lengths)", violation_cell},
-                                      {equilibrium, "residual (ratio)", residual_cell},
-                                      {equilibrium, "regions bind", binds_cell}};
-
-/// Formats a time (ms); empty if it was not measured because nothing is prepared or cut.
-std::string time_cell(const TimeSpread& ms, bool for_text) {
-  if (ms.count == 0) {
-    return for_text ? "-" : "";
-  }
-  return for_text ? figure(ms.median)
-                  : figure(ms.median) + " (" + figure(ms.lower_quartile) + "–" + figure(ms.upper_quartile) + ", " +
-                        std::to_string(ms.count) + ")";
-}
 
 /// True if a row repeats the refusal of the row before: an algorithm that cannot take part has one row for all sweeps.
 template <class One>
@@ -89,88 +32,82 @@ struct Means {
   }
 };
 
-void add_times(FigureTable::Row& row, const Means& means, std::size_t entry, bool for_text) {
-  const auto measured = means.all.entries[entry].measurement.value_or(PhysicsMeasurement{});
-  const auto at_cut = means.cut == nullptr ? PhysicsMeasurement{}
-                                           : means.cut->entries[entry].measurement.value_or(PhysicsMeasurement{});
-  for (const TimeSpread& ms : {measured.first_move, measured.ms_per_move, at_cut.move_after_cut,
-                               measured.prepare.factorize, measured.prepare.grab}) {
-    row.cells.push_back(time_cell(ms, for_text));
-  }
-}
+/// A column of the table of an object.
+struct MeanColumn {
+  FigureTable::Column head;
+  const Figure<PhysicsRow>* figure;
+  const PhysicsDrag* mean;  // that it shows; null if nothing is cut
+  int place;                // 0: relative errors, 1: times, 2: what a terminal has no room for
+};
 
-void add_errors(FigureTable::Row& row, const Means& means, std::size_t entry, const ErrorColumns& group) {
-  for (const PhysicsDrag& drag : means.by_name) {
-    if (!drag.has_cut || group.in_text) {
-      const PhysicsEntry& mean = drag.entries[entry];
-      const std::string left_out = mean.left_out > 0 ? " (without " + std::to_string(mean.left_out) + ")" : "";
-      row.cells.push_back(mean.measurement ? group.cell(*mean.measurement) + left_out : "n/a");
+std::vector<MeanColumn> columns_of(const Means& means, bool for_text) {
+  std::vector<MeanColumn> columns;
+  for (const Figure<PhysicsRow>& one : physics_figures()) {
+    const bool has_times = one.group.ends_with(time_unit);
+    const int place = one.group == relative_error ? 0 : has_times ? 1 : 2;
+    if (one.group.empty() || (for_text && place == 2)) {
+      continue;
+    }
+    std::string group(one.group);
+    if (has_times && !for_text) {
+      group.replace(group.size() - time_unit.size(), time_unit.size(), ": median (quartiles, repetitions), ms");
+    }
+    if (!one.heading.empty()) {
+      const PhysicsDrag* mean = one.heading == after_cut ? means.cut : &means.all;
+      columns.push_back({{group, std::string(one.heading)}, &one, mean, place});
+      continue;
+    }
+    for (const PhysicsDrag& drag : means.by_name) {
+      if (!drag.has_cut || place == 0) {
+        columns.push_back({{group, drag.has_cut ? "cut" : drag.name}, &one, &drag, place});
+      }
     }
   }
+  std::ranges::stable_sort(columns, {}, &MeanColumn::place);
+  return columns;
 }
 
-FigureTable::Row row_of(const Means& means, std::size_t entry, bool for_text) {
-  FigureTable::Row row;
-  row.label = label(means.all.entries[entry].contestant);
+/// Formats times (ms); empty if they were not measured because nothing is prepared or cut.
+std::string time_cell(const FigureValue& value, bool for_text) {
+  const auto* ms = std::get_if<TimeSpread>(&value);
+  if (ms == nullptr || for_text) {
+    return ms != nullptr ? figure(ms->median) : for_text ? "-" : "";
+  }
+  return figure(ms->median) + " (" + figure(ms->lower_quartile) + "–" + figure(ms->upper_quartile) + ", " +
+         std::to_string(ms->count) + ")";
+}
+
+std::string cell_of(const MeanColumn& column, std::size_t entry, bool for_text) {
+  const PhysicsEntry* mean = column.mean == nullptr ? nullptr : &column.mean->entries[entry];
+  if (column.place == 1) {
+    return time_cell(column.figure->value({.entry = mean}), for_text);
+  }
+  const std::string cell = mean->measurement ? cell_of(*column.figure, {.entry = mean}) : "n/a";
+  const bool lacks_some = mean->measurement && mean->left_out > 0 && column.figure->heading.empty();
+  return lacks_some ? cell + " (without " + std::to_string(mean->left_out) + ")" : cell;
+}
+
+/// Returns a row under columns, of which an object may lack some.
+FigureTable::Row row_of(const Means& means, std::size_t entry, const std::vector<FigureTable::Column>& heads,
+                        bool for_text) {
+  FigureTable::Row row{label(means.all.entries[entry].contestant), {}, {}};
   if (std::ranges::none_of(means.by_name,
                            [&](const PhysicsDrag& drag) { return drag.entries[entry].measurement.has_value(); })) {
     row.refusal = means.all.entries[entry].refusal;
     return row;
   }
-  add_errors(row, means, entry, groups[0]);
-  add_times(row, means, entry, for_text);
-  for (const ErrorColumns& group : groups) {
-    if (!group.in_text && !for_text) {
-      add_errors(row, means, entry, group);
-    }
-  }
-  for (const WorstColumn& column : worst_columns) {
-    if (!for_text) {
-      const auto& measured = means.all.entries[entry].measurement;
-      row.cells.push_back(measured ? column.cell(*measured) : "n/a");
-    }
+  const auto columns = columns_of(means, for_text);
+  for (const FigureTable::Column& head : heads) {
+    const auto found = std::ranges::find(columns, head, &MeanColumn::head);
+    row.cells.push_back(found == columns.end() ? "-" : cell_of(*found, entry, for_text));
   }
   return row;
 }
 
-std::vector<FigureTable::Column> columns_of(const Means& means, bool for_text) {
-  std::vector<FigureTable::Column> columns;
-  const auto add_group = [&](const ErrorColumns& group) {
-    for (const PhysicsDrag& drag : means.by_name) {
-      if (!drag.has_cut || group.in_text) {
-        columns.push_back({group.name, drag.has_cut ? "cut" : drag.name});
-      }
-    }
-  };
-  add_group(groups[0]);
-  const char* time = for_text ? "time (ms)" : "time: median (quartiles, repetitions), ms";
-  const char* prepare = for_text ? "prepare (ms)" : "prepare: median (quartiles, repetitions), ms";
-  columns.insert(columns.end(),
-                 {{time, "first"}, {time, "later"}, {time, "after cut"}, {prepare, "factorize"}, {prepare, "grab"}});
-  for (const ErrorColumns& group : groups) {
-    if (!group.in_text && !for_text) {
-      add_group(group);
-    }
-  }
-  for (const WorstColumn& column : worst_columns) {
-    if (!for_text) {
-      columns.push_back({column.group, column.name});
-    }
-  }
-  return columns;
-}
-
-/// Returns `cells`, which are in the order of `own`, in the order of `columns`; '-' for a column that `own` lacks.
-std::vector<std::string> cells_under(const std::vector<FigureTable::Column>& columns,
-                                     const std::vector<FigureTable::Column>& own,
-                                     const std::vector<std::string>& cells) {
-  std::vector<std::string> placed;
-  for (const FigureTable::Column& column : columns) {
-    const auto found = std::ranges::find_if(
-        own, [&](const FigureTable::Column& one) { return one.group == column.group && one.name == column.name; });
-    placed.push_back(found == own.end() ? "-" : cells[std::size_t(found - own.begin())]);
-  }
-  return placed;
+std::vector<FigureTable::Column> heads_of(const Means& means, bool for_text) {
+  std::vector<FigureTable::Column> heads;
+  std::ranges::transform(columns_of(means, for_text), std::back_inserter(heads), &MeanColumn::head);
+  return heads;
 }
 
 std::string about(const Calibration& calibration) {
@@ -269,11 +206,11 @@ FigureTable::Row row_of(const GrowthSeries& series) {
 
 FigureTable physics_table(const PhysicsObject& object, bool for_text) {
   const Means means(object);
-  FigureTable table{object.name, about(object), "detail", "contestant", columns_of(means, for_text), {}};
+  FigureTable table{object.name, about(object), "detail", "contestant", heads_of(means, for_text), {}};
   const auto& entries = means.all.entries;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == 0 || !repeats(entries[i], entries[i - 1], entries[i].refusal, entries[i - 1].refusal)) {
-      table.rows.push_back(row_of(means, i, for_text));
+      table.rows.push_back(row_of(means, i, table.columns, for_text));
     }
   }
   return table;
@@ -311,18 +248,18 @@ FigureTable physics_summary(const PhysicsReport& report) {
                     "detail",  "object, contestant",
                     {},        {}};
   for (const PhysicsObject& object : report.objects) {
-    if (auto columns = columns_of(Means(object), true); columns.size() > table.columns.size()) {
-      table.columns = std::move(columns);
+    if (auto heads = heads_of(Means(object), true); heads.size() > table.columns.size()) {
+      table.columns = std::move(heads);
     }
   }
   for (const PhysicsObject& object : report.objects) {
     const Means means(object);
-    const auto columns = columns_of(means, true);
     for (std::size_t i = 0; i < means.all.entries.size(); ++i) {
       const PhysicsContestant& contestant = means.all.entries[i].contestant;
-      FigureTable::Row row = row_of(means, i, true);
+      FigureTable::Row row = row_of(means, i, table.columns, true);
       if ((contestant.sweeps == 0 || contestant.calibrated) && row.refusal.empty()) {
-        table.rows.push_back({object.name + ": " + row.label, cells_under(table.columns, columns, row.cells), {}});
+        row.label = object.name + ": " + row.label;
+        table.rows.push_back(std::move(row));
       }
     }
   }

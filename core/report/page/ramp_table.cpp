@@ -99,12 +99,12 @@ void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine) {
   write_sizes(out, ramp);
 }
 
-void write_csv(std::ostream& out, const Ramp& ramp) {
-  constexpr CsvColumn<RampRow> columns[]{
+std::span<const Figure<RampRow>> ramp_figures() {
+  static constexpr Figure<RampRow> figures[]{
       {"width", at<RampRow, &RampRow::width>},
       {"elements", at<RampRow, &RampRow::elements>},
       {"links", at<RampRow, &RampRow::links>},
-      {"algorithm", [](const RampRow& row) -> CsvField { return info(row.algorithm).name; }},
+      {"algorithm", [](const RampRow& row) -> FigureValue { return info(row.algorithm).name; }},
       {"passes", at<RampRow, &RampRow::passes>},
       {"median_ms", at<RampRow, &RampRow::median_ms>},
       {"p99_ms", at<RampRow, &RampRow::p99_ms>},
@@ -112,7 +112,9 @@ void write_csv(std::ostream& out, const Ramp& ramp) {
       {"repeated", at<RampRow, &RampRow::repeated>},
       {"real_time", at<RampRow, &RampRow::in_real_time>},
   };
-  write_csv(out, columns, ramp.rows);
+  return figures;
 }
+
+void write_csv(std::ostream& out, const Ramp& ramp) { write_csv(out, ramp_figures(), ramp.rows); }
 
 }  // namespace chainmail::report

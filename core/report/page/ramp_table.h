@@ -1,7 +1,9 @@
 #pragma once
 
 #include <ostream>
+#include <span>
 
+#include "report/page/figures.h"
 #include "report/run/machine.h"
 #include "report/run/ramp.h"
 
@@ -9,6 +11,9 @@ namespace chainmail::report {
 
 /// Writes the result of each algorithm, then the times at each size, as text.
 void write_text(std::ostream& out, const Ramp& ramp, const Machine& machine);
+
+/// Returns all figures of a row. JSON has them under the names of the columns in CSV.
+std::span<const Figure<RampRow>> ramp_figures();
 
 /// Writes a header, then one row per algorithm and size. Numbers have all digits.
 void write_csv(std::ostream& out, const Ramp& ramp);

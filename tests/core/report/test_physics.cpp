@@ -12,7 +12,7 @@
 #include "mesh/error.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/physics_csv.h"
+#include "report/page/physics_figures.h"
 #include "report/page/physics_html.h"
 #include "report/page/physics_means.h"
 #include "report/page/physics_plot.h"

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "program.h"
-#include "report/page/physics_csv.h"
+#include "report/page/physics_figures.h"
 #include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
 

@@ -6,7 +6,7 @@
 #include "command_line/common.h"
 #include "core/chainmail/recorded.h"
 #include "files/results/report_json.h"
-#include "report/page/csv.h"
+#include "report/page/compared_figures.h"
 #include "report/page/plot_style.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"

@@ -17,7 +17,7 @@
 #include "files/results/report_json.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
-#include "report/page/csv.h"
+#include "report/page/compared_figures.h"
 #include "report/page/html.h"
 
 namespace chainmail {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "measure/time_spread.h"
+#include "report/page/format.h"
+
+namespace chainmail::report {
+
+/// The value of a figure: yes or no, a number, a text or the times of repetitions. None if it was not measured.
+struct FigureValue : std::variant<std::monostate, bool, std::int64_t, double, std::string, TimeSpread> {
+  FigureValue() = default;
+  FigureValue(bool is) : variant(is) {}
+  FigureValue(double number) : variant(number) {}
+  FigureValue(std::string_view text) : variant(std::string(text)) {}
+  FigureValue(const std::string& text) : variant(text) {}
+  FigureValue(const TimeSpread& ms) : variant(ms) {}
+  template <std::integral Count>
+  FigureValue(Count count) : variant(std::int64_t(count)) {}
+};
+
+/// A figure of a row of a report, with its names in files and tables. It is not in those for which it has no name.
+template <class Row>
+struct Figure {
+  std::string_view column;  // in CSV
+  FigureValue (*value)(const Row&);
+  std::string_view path = {};                                  // in JSON, from the object of the row
+  std::string_view group = {}, heading = {};                   // in tables; without a heading: one column per drag
+  std::string (*cell)(const std::optional<double>&) = figure;  // in tables, of a number
+  bool is_rare = false;  // true: JSON leaves it out if there is no value, instead of null
+};
+
+/// Follows members from a row to a value; none if a pointer or an optional on the way has none.
+template <class Value, class... Members>
+FigureValue follow(const Value& value, Members... members) {
+  if constexpr (requires { *value; }) {
+    return value ? follow(*value, members...) : FigureValue();
+  } else if constexpr (sizeof...(members) == 0) {
+    return value;
+  } else {
+    return [&](auto first, auto... rest) { return follow(value.*first, rest...); }(members...);
+  }
+}
+/// The value of a figure that is a member of a member of a row: `at<Row, &Row::object, &CaseResult::name>`.
+template <class Row, auto... ValueMembers>
+FigureValue at(const Row& row) {
+  return follow(row, ValueMembers...);
+}
+
+/// Returns a value as a field of CSV: a number with all digits, 1 or 0, or text in quotes if needed; empty for none.
+std::string csv_text(const FigureValue& value);
+
+/// Returns a value as text for tables: texts as they are, numbers as `of_number` formats them.
+std::string cell_of(const FigureValue& value, std::string (*of_number)(const std::optional<double>&));
+template <class Row>
+std::string cell_of(const Figure<Row>& figure, const Row& row) {
+  return cell_of(figure.value(row), figure.cell);
+}
+
+}  // namespace chainmail::report
