@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,17 @@ double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, 
       sum += a[i].dot(b[i]);
     }
     return sum;
+  });
+}
+
+/// Makes `copy` equal to `original`.
+template <class Scalar, int Dimension>
+void assign(BlockVectors<Scalar, Dimension>& copy, const BlockVectors<Scalar, Dimension>& original,
+            const SharedLoop& blocks = {}) {
+  copy.resize(original.size());
+  blocks.run(original.size(), [&](std::size_t first, std::size_t last) {
+    std::copy(original.begin() + std::ptrdiff_t(first), original.begin() + std::ptrdiff_t(last),
+              copy.begin() + std::ptrdiff_t(first));
   });
 }
 

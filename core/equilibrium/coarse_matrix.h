@@ -48,16 +48,17 @@ struct CoarseMatrix {
 template <class Block>
 class RowSum {
  public:
-  void clear() {
+  /// Begins an empty row of a matrix with this many columns.
+  void begin(std::size_t width) {
+    for (const std::uint32_t column : columns) {
+      places_[column] = 0;
+    }
     columns.clear();
     blocks.clear();
-    std::ranges::fill(places_, 0);
+    places_.resize(width);
   }
   Block& at(std::uint32_t column) {
-    if (2 * columns.size() >= places_.size()) {
-      grow();
-    }
-    std::uint32_t& place = place_of(column);
+    std::uint32_t& place = places_[column];
     if (place == 0) {
       columns.push_back(column);
       blocks.push_back(Block::Zero());
@@ -70,26 +71,7 @@ class RowSum {
   std::vector<Block> blocks;
 
  private:
-  static constexpr std::size_t least_places = 16;
-
-  /// Returns where the number of a column stands, or where it would stand.
-  std::uint32_t& place_of(std::uint32_t column) {
-    constexpr std::uint32_t spread = 2654435769U;  // 2³² over the golden ratio (Knuth 1973)
-    const std::size_t mask = places_.size() - 1;
-    std::size_t at = column * spread >> 16U & mask;
-    while (places_[at] != 0 && columns[places_[at] - 1] != column) {
-      at = (at + 1) & mask;
-    }
-    return places_[at];
-  }
-  void grow() {
-    places_.assign(std::max(least_places, 2 * places_.size()), 0);
-    for (std::uint32_t i = 0; i < columns.size(); ++i) {
-      place_of(columns[i]) = i + 1;
-    }
-  }
-
-  std::vector<std::uint32_t> places_;  // a power of two; number of the block from 1, or 0
+  std::vector<std::uint32_t> places_;  // of each column: number of its block from 1, or 0
 };
 
 }  // namespace chainmail

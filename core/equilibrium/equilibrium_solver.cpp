@@ -94,7 +94,7 @@ class Equilibrator final : public EquilibriumSolver {
     result.residual = residual_;
     result.binds = constrained_;
     result.iterations = iterations_;
-    read(body);
+    read(body, {});
     if (kind_ != EnergyKind::corotated && kind_ != EnergyKind::material) {
       result.gap = relative_gap();
     }
@@ -124,7 +124,8 @@ class Equilibrator final : public EquilibriumSolver {
     if (is_new || now.elastic != seen_.elastic) {
       has_material_ = false;
     }
-    read(body);
+    LoopTeam team = loop_team();
+    read(body, team.loop());
     if (is_new || now.positions != seen_.positions) {
       for (std::size_t e = 0; e < iterate_.size(); ++e) {
         iterate_[e] = vector_of(shown_.positions[e]);
@@ -143,10 +144,13 @@ class Equilibrator final : public EquilibriumSolver {
     if (other_fixed || now.positions != seen_.positions || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       hold_lone_frames();
     }
-    make_valid(body);
+    make_valid(body, team.loop());
     hold_fixed();
     seen_ = body.revisions();
   }
+
+  /// Other energies than the material's are computed on this thread alone.
+  LoopTeam loop_team() const { return LoopTeam(uses_material() ? threads_ : 1, iterate_.size()); }
 
   void begin(const Body& body) {
     mesh_ = body.stored_mesh();
@@ -173,22 +177,22 @@ class Equilibrator final : public EquilibriumSolver {
     return result;
   }
 
-  void read(const Body& body) {
+  void read(const Body& body, const SharedLoop& shared) {
     const PositionView positions = body.stored_positions();
-    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      for (int k = 0; k < D; ++k) {
-        shown_.positions[e][k] = positions(e, k) - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
+    const bool stores_displacements = body.stores_displacements();
+    largest_ = shared.largest(mesh_->element_count(), [&](std::size_t first, std::size_t last) {
+      double largest = 0;
+      for (auto e = static_cast<ElementId>(first); e < last; ++e) {
+        for (int k = 0; k < D; ++k) {
+          const double at = positions(e, k), from_rest = at - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
+          shown_.positions[e][k] = from_rest;
+          largest = std::max(largest, std::abs(stores_displacements ? from_rest : at));
+        }
       }
-    }
+      return largest;
+    });
     epsilon_ = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
                                                                : std::numeric_limits<double>::epsilon();
-    largest_ = 0;
-    for (ElementId e = 0; e < mesh_->element_count(); ++e) {
-      for (int k = 0; k < D; ++k) {
-        const double stored = body.stores_displacements() ? shown_.positions[e][k] : positions(e, k);
-        largest_ = std::max(largest_, std::abs(stored));
-      }
-    }
     tolerance_ = 16 * epsilon_ * largest_;
   }
 
@@ -306,6 +310,7 @@ class Equilibrator final : public EquilibriumSolver {
       }
     }
     fixed_ = std::move(fixed);
+    has_fixed_ = false;
     free_.outdate(rows, false);
     penalised_.outdate(rows, false);
     newton_.forget();
@@ -342,8 +347,8 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   /// Makes the shown state valid if an algorithm left it invalid.
-  void make_valid(Body& body) {
-    if (is_valid(shown_.positions)) {
+  void make_valid(Body& body, const SharedLoop& shared) {
+    if (is_valid(shown_.positions, shared)) {
       return;
     }
     RestoreValidity restore(shown_, search_, std::max(largest_, body.reach().since_rest), held_, epsilon_);
@@ -410,7 +415,7 @@ class Equilibrator final : public EquilibriumSolver {
   void prepare_material(const Progress& progress) {
     if (!material_->has_begun()) {
       material_->begin(mesh_, progress.part(0, 0.3));
-      has_material_ = has_cuts_ = false;
+      has_material_ = has_cuts_ = has_fixed_ = false;
     }
     if (!std::exchange(has_material_, true)) {
       material_->set_material(shown_.body->elastic());
@@ -419,9 +424,10 @@ class Equilibrator final : public EquilibriumSolver {
     if (!std::exchange(has_cuts_, true)) {
       material_->set_cuts(shown_.body->cuts());
     }
-    for (ElementId e = 0; e < fixed_.size(); ++e) {
+    for (ElementId e = 0; !has_fixed_ && e < fixed_.size(); ++e) {
       material_->set_fixed(e, fixed_[e] != 0);
     }
+    has_fixed_ = true;
     prepared_ = material_->update(progress.part(0.3, 1)) || prepared_;
     if (std::exchange(has_jump_, false)) {
       for (ElementId e = 0; e < fixed_.size(); ++e) {
@@ -599,48 +605,62 @@ class Equilibrator final : public EquilibriumSolver {
 
   Projection projection() const { return Projection(shown_, fixed_, tolerance_); }
   template <class Positions>
-  bool is_valid(const Positions& positions) const {
-    return !uses_regions_ || projection().is_valid(positions);
+  bool is_valid(const Positions& positions, const SharedLoop& shared = {}) const {
+    return !uses_regions_ || projection().is_valid(positions, shared);
   }
 
   void show(Body& body) {
-    if (!is_valid(iterate_)) {
+    LoopTeam team = loop_team();
+    const SharedLoop shared = team.loop();
+    if (!is_valid(iterate_, shared)) {
       projection().run(shown_.positions, iterate_);
     } else {
-      for (std::size_t e = 0; e < iterate_.size(); ++e) {
-        for (int k = 0; k < D; ++k) {
-          shown_.positions[e][k] = fixed_[e] != 0 ? shown_.positions[e][k] : iterate_[e][k];
+      shared.run(iterate_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e) {
+          for (int k = 0; k < D; ++k) {
+            shown_.positions[e][k] = fixed_[e] != 0 ? shown_.positions[e][k] : iterate_[e][k];
+          }
         }
-      }
+      });
     }
-    write(body);
+    write(body, shared);
   }
 
-  void write(Body& body) {
-    moved_.clear();
-    largest_step_ = 0;
+  void write(Body& body, const SharedLoop& shared) {
+    steps_.assign(shown_.positions.size(), 0);
     body.with_view([&]<class View>(const View& view) {
       if constexpr (View::Dimension == D) {
-        for (ElementId e = 0; e < shown_.positions.size(); ++e) {
-          const auto before = view.positions[e];
-          double square = 0;
-          for (int k = 0; k < D; ++k) {
-            view.set_position(e, k, mesh_->rest[std::size_t{e} * D + std::size_t(k)] + shown_.positions[e][k]);
-            const double step = double(view.positions[e][k]) - double(before[k]);
-            square += step * step;
+        shared.run(steps_.size(), [&](std::size_t first, std::size_t last) {
+          for (auto e = static_cast<ElementId>(first); e < last; ++e) {
+            const auto before = view.positions[e];
+            for (int k = 0; k < D; ++k) {
+              view.set_position(e, k, mesh_->rest[std::size_t{e} * D + std::size_t(k)] + shown_.positions[e][k]);
+              const double step = double(view.positions[e][k]) - double(before[k]);
+              steps_[e] += step * step;
+            }
           }
-          if (square > 0) {
-            moved_.push_back(e);
-            largest_step_ = std::max(largest_step_, square);
-          }
-        }
+        });
       }
     });
-    largest_step_ = std::sqrt(largest_step_);
+    note_moved();
     if (!moved_.empty()) {
       body.note_relaxation();
       seen_ = body.revisions();
     }
+  }
+
+  void note_moved() {
+    moved_.resize(steps_.size());
+    std::size_t count = 0;
+    largest_step_ = 0;
+    for (ElementId e = 0; e < steps_.size(); ++e) {
+      if (steps_[e] > 0) {
+        moved_[count++] = e;
+        largest_step_ = std::max(largest_step_, steps_[e]);
+      }
+    }
+    moved_.resize(count);
+    largest_step_ = std::sqrt(largest_step_);
   }
 
   /// Returns true if elements have moved since the last call of write.
@@ -736,15 +756,16 @@ class Equilibrator final : public EquilibriumSolver {
   int iterations_ = 0;
 
   std::unique_ptr<EnergyMinimum<D>> material_;
-  bool has_material_ = false, has_cuts_ = false;  // it knows the body's
-  bool is_start_ = true;                          // the iterate was set from outside
-  Vectors jump_;                                  // by which fixed elements have moved since the last step
+  bool has_material_ = false, has_cuts_ = false, has_fixed_ = false;  // it knows the body's
+  bool is_start_ = true;                                              // the iterate was set from outside
+  Vectors jump_;  // by which fixed elements have moved since the last step
   bool has_jump_ = false;
   double region_error_ = 0;  // how far the forces of regions were from right, see RegionPenalties
 
   bool constrained_ = false;  // valid regions bind
   RegionMultipliers<D> regions_;
 
+  std::vector<double> steps_;  // of each element: its last step, squared
   std::vector<ElementId> moved_;
   double largest_step_ = 0;
 };

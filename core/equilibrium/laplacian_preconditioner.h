@@ -71,10 +71,13 @@ class LaplacianPreconditioner {
   }
 
   void apply(const Vectors& right, Vectors& result, const SharedLoop& shared) {
-    double largest = 0;
-    for (const auto& one : right) {
-      largest = std::max(largest, one.cwiseAbs().maxCoeff());
-    }
+    const double largest = shared.largest(right.size(), [&](std::size_t first, std::size_t last) {
+      double most = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        most = std::max(most, right[i].cwiseAbs().maxCoeff());
+      }
+      return most;
+    });
     const double scale = largest > 0 ? 1 / largest : 1;
     right_.resize(right.size());
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {

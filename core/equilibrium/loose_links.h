@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -31,10 +33,28 @@ class LooseLinks {
       }
     }
   }
+  /// The same after these links (ascending, each once) were cut or restored, or the cells beside their ends.
+  void update(const Mesh& mesh, const Cuts& cuts, const std::vector<std::uint32_t>& cells_beside,
+              std::span<const LinkId> changed) {
+    std::vector<LinkId> others, now;
+    std::ranges::set_difference(links_, changed, std::back_inserter(others));
+    const auto is_loose = [&](LinkId link) {
+      const auto [i, j] = mesh.links[link];
+      return (cells_beside[i] == 0 || cells_beside[j] == 0) && !cuts.is_cut(link);
+    };
+    std::ranges::copy_if(changed, std::back_inserter(now), is_loose);
+    links_.clear();
+    std::ranges::merge(others, now, std::back_inserter(links_));
+    lengths_.clear();
+    for (const LinkId link : links_) {
+      lengths_.push_back(rest_length(mesh, link));
+    }
+  }
   std::span<const LinkId> links() const { return links_; }
 
-  /// Returns their energy at these displacements from rest (mesh units), and adds its negative gradient, if given.
-  double add(const Mesh& mesh, const Vectors& displacements, Vectors* force) const {
+  /// Returns their energy at these displacements from rest (mesh units), and adds its negative gradient, if given; both
+  /// times `factor`.
+  double add(const Mesh& mesh, const Vectors& displacements, Vectors* force, double factor = 1) const {
     double energy = 0;
     for (std::size_t k = 0; k < links_.size(); ++k) {
       const auto [i, j] = mesh.links[links_[k]];
@@ -44,9 +64,9 @@ class LooseLinks {
                        mesh.rest[std::size_t{i} * Dimension + std::size_t(axis)];
       }
       const double length = apart.norm(), longer = length - lengths_[k];
-      energy += stiffness * longer * longer / 2;
+      energy += factor * stiffness * longer * longer / 2;
       if (force != nullptr && length > 0) {
-        const Vector pull = stiffness * longer / length * apart;
+        const Vector pull = factor * stiffness * longer / length * apart;
         (*force)[i] += pull;
         (*force)[j] -= pull;
       }

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "equilibrium/surface_energy.h"
 
 namespace chainmail {
 namespace {
+
+template <class Id>
+void make_unique(std::vector<Id>& ids) {
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
 
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
@@ -61,6 +68,10 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
   for (std::size_t cell = 0; cell + 1 < first_simplex_.size(); ++cell) {
     first_simplex_[cell + 1] += first_simplex_[cell];
   }
+  cut_links_.clear();
+  changed_cells_.clear();
+  loose_before_.reset();
+  loose_.find(*mesh_, Cuts(), whole_beside_);
   find_cell_links();
   divide();
 }
@@ -120,28 +131,102 @@ void MaterialEnergy<D>::set_cell(std::uint32_t cell, bool is_whole) {
 template <int D>
 std::vector<LinkId> MaterialEnergy<D>::set_cuts(const Cuts& cuts) {
   std::vector<LinkId> changed;
-  std::vector<std::uint32_t> cells;
-  for (LinkId link = 0; link < mesh_->link_count(); ++link) {
-    if (const std::uint8_t now = cuts.is_cut(link) ? 1 : 0; now != is_cut_[link]) {
-      is_cut_[link] = now;
-      changed.push_back(link);
-      cells.insert(cells.end(), cell_beside_.begin() + first_cell_[link], cell_beside_.begin() + first_cell_[link + 1]);
-    }
-  }
-  std::ranges::sort(cells);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  for (const std::uint32_t cell : cells) {
+  std::vector<std::uint32_t> cells = take_cuts(cuts, changed);
+  std::erase_if(cells, [&](std::uint32_t cell) {
     const auto links = cells_.links_of(cell);
     const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
-    if (whole != (is_whole_[cell] != 0)) {
-      set_cell(cell, whole);
-      changed.insert(changed.end(), links.begin(), links.end());
+    if (whole == (is_whole_[cell] != 0)) {
+      return true;
+    }
+    set_cell(cell, whole);
+    changed.insert(changed.end(), links.begin(), links.end());
+    return false;
+  });
+  make_unique(changed);
+  changed_cells_.insert(changed_cells_.end(), cells.begin(), cells.end());
+  update_loose(cuts, cells, changed);
+  return changed;
+}
+
+/// Takes over which links are cut. Adds those that changed to `changed`, and returns the cells that need them,
+/// ascending.
+template <int D>
+std::vector<std::uint32_t> MaterialEnergy<D>::take_cuts(const Cuts& cuts, std::vector<LinkId>& changed) {
+  std::vector<LinkId> now = cuts.links();
+  std::ranges::set_symmetric_difference(cut_links_, now, std::back_inserter(changed));
+  cut_links_ = std::move(now);
+  std::vector<std::uint32_t> cells;
+  for (const LinkId link : changed) {
+    is_cut_[link] = cuts.is_cut(link) ? 1 : 0;
+    cells.insert(cells.end(), cell_beside_.begin() + first_cell_[link], cell_beside_.begin() + first_cell_[link + 1]);
+  }
+  make_unique(cells);
+  return cells;
+}
+
+/// Finds the loose links among `changed` and those of the corners of these cells.
+template <int D>
+void MaterialEnergy<D>::update_loose(const Cuts& cuts, std::span<const std::uint32_t> cells,
+                                     std::vector<LinkId> changed) {
+  for (const std::uint32_t cell : cells) {
+    for (std::uint32_t s = first_simplex_[cell]; s < first_simplex_[cell + 1]; ++s) {
+      for (const ElementId corner : cells_.simplices.corners_of(s)) {
+        changed.insert(changed.end(), mesh_->entry_link.begin() + mesh_->first_entry[corner],
+                       mesh_->entry_link.begin() + mesh_->first_entry[corner + 1]);
+      }
     }
   }
-  std::ranges::sort(changed);
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  loose_.find(*mesh_, cuts, whole_beside_);
-  return changed;
+  make_unique(changed);
+  if (!loose_before_) {
+    loose_before_ = loose_;
+  }
+  loose_.update(*mesh_, cuts, whole_beside_, changed);
+}
+
+/// Returns the cells that are removed and were not at the last evaluation, or the other way round.
+template <int D>
+std::vector<std::uint32_t> MaterialEnergy<D>::take_changed_cells() {
+  std::ranges::sort(changed_cells_);
+  std::vector<std::uint32_t> cells;
+  for (const std::uint32_t cell : changed_cells_) {
+    if (!cells.empty() && cells.back() == cell) {
+      cells.pop_back();  // changed and changed back
+    } else {
+      cells.push_back(cell);
+    }
+  }
+  changed_cells_.clear();
+  return cells;
+}
+
+template <int D>
+double MaterialEnergy<D>::add_changes(const Vectors& displacements, Vectors& force) {
+  double change = 0;
+  Lanes least = Lanes::Constant(least_);
+  Batch batch;
+  for (const std::uint32_t cell : take_changed_cells()) {
+    for (std::uint32_t s = first_simplex_[cell]; s < first_simplex_[cell + 1]; ++s) {
+      // All lanes have the simplex; only the first counts.
+      const Batch& from = batches_[s / lanes];
+      const auto lane = Eigen::Index(s % lanes);
+      for (std::size_t k = 0; k <= D; ++k) {
+        batch.corner[k].fill(from.corner[k][s % lanes]);
+        for (std::size_t axis = 0; k > 0 && axis < D; ++axis) {
+          batch.gradient[k - 1][axis].setConstant(from.gradient[k - 1][axis][lane]);
+        }
+      }
+      batch.volume.setZero();
+      batch.volume[0] = (is_whole_[cell] != 0 ? 1 : -1) * cells_.simplices.volumes[s] / scale_;
+      change += evaluate(batch, displacements, &force, 0, least);
+    }
+  }
+  least_ = least.minCoeff();
+  if (loose_before_) {
+    change += loose_.add(*mesh_, displacements, &force);
+    change += loose_before_->add(*mesh_, displacements, &force, -1);
+    loose_before_.reset();
+  }
+  return change;
 }
 
 /// Returns the sum over the simplices that have both ends of a link of −V (2μ + λ) ∇a·∇b.
@@ -198,6 +283,8 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
   shared.each(parts_.size(), [&](std::size_t p) { evaluate(parts_[p], displacements, force != nullptr); });
   double energy = 0;
   least_ = 1;
+  changed_cells_.clear();
+  loose_before_.reset();
   for (const Part& part : parts_) {
     energy += part.energy;
     least_ = std::min(least_, part.least);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,7 @@ class MaterialEnergy {
   void build(MeshPointer mesh, const Progress& progress = {});
   /// Sets Poisson's ratio and the law. Young's modulus does not move a minimum. Changes all weights.
   void set_material(const ElasticOptions& elastic);
-  /// Removes and restores cells. Returns the links whose weights changed, ascending.
+  /// Removes and restores cells. Returns the links whose weights changed, ascending. Costs as much as there are cuts.
   std::vector<LinkId> set_cuts(const Cuts& cuts);
 
   /// The stiffness of a link in an approximation of the energy: the Laplacian of the cells with the modulus 2μ + λ
@@ -45,7 +46,11 @@ class MaterialEnergy {
 
   /// Returns the energy at these displacements from rest, and writes its negative gradient, if given.
   double evaluate(const Vectors& displacements, Vectors* force, const SharedLoop& shared = {});
-  /// The least ratio of a cell's volume to that at rest in the last evaluation; below 0 if a cell is inverted.
+  /// Adds what calls of set_cuts() since the last evaluation, which was at these displacements, changed in the energy
+  /// and its negative gradient. Returns the change of the energy.
+  double add_changes(const Vectors& displacements, Vectors& force);
+  /// The least ratio of a cell's volume to that at rest in the last evaluation; below 0 if a cell is inverted. A
+  /// cell that was removed since then still counts.
   double least_volume() const { return least_; }
   bool is_inverted() const { return least_ < 0; }
   /// See ExtendedDensity. Where an energy is measured, the ratio is `measured_below`.
@@ -79,6 +84,9 @@ class MaterialEnergy {
   void find_cell_links();
   void divide();
   void evaluate(Part& part, const Vectors& displacements, bool wants_force) const;
+  std::vector<std::uint32_t> take_cuts(const Cuts& cuts, std::vector<LinkId>& changed);
+  void update_loose(const Cuts& cuts, std::span<const std::uint32_t> cells, std::vector<LinkId> changed);
+  std::vector<std::uint32_t> take_changed_cells();
   void set_cell(std::uint32_t cell, bool is_whole);
   void set_volume(std::uint32_t simplex, bool is_whole);
   double stiffness_around(LinkId link) const;
@@ -98,9 +106,12 @@ class MaterialEnergy {
   std::vector<std::uint8_t> is_whole_;                   // of each cell
   std::vector<std::uint32_t> whole_beside_;              // of each element: its whole cells
   std::vector<std::uint8_t> is_cut_;                     // of each link
+  std::vector<LinkId> cut_links_;                        // ascending
   std::vector<Batch> batches_;
   std::vector<Part> parts_;
   LooseLinks<Dimension> loose_;
+  std::vector<std::uint32_t> changed_cells_;           // removed or restored since the last evaluation
+  std::optional<LooseLinks<Dimension>> loose_before_;  // at the last evaluation, if others were loose then
 
   Lame lame_;
   bool is_neo_hookean_ = true;

@@ -47,7 +47,8 @@ void MaterialMinimum<D, Steps>::set_cuts(const Cuts& cuts) {
     preconditioner_.set_link(link, weights_[link]);
   }
   steps_.outdate_inverse();
-  is_outdated_ = is_material_outdated_ = true;
+  is_outdated_ = true;
+  has_changed_cells_ = true;
 }
 
 template <int D, class Steps>
@@ -96,22 +97,44 @@ bool MaterialMinimum<D, Steps>::is_inverted(const Vectors& at) {
 template <int D, class Steps>
 double MaterialMinimum<D, Steps>::evaluate(const Vectors& at, Vectors& force, const SharedLoop& shared) {
   material_value_ = energy_.evaluate(at, &material_force_, shared);
-  for (ElementId e = 0; e < material_force_.size(); ++e) {
-    if (preconditioner_.is_fixed(e)) {
-      material_force_[e].setZero();
+  has_changed_cells_ = false;
+  clear_fixed(material_force_, shared);
+  return add_regions(at, force, shared);
+}
+
+/// Computes the energy and its gradient where they are outdated.
+template <int D, class Steps>
+void MaterialMinimum<D, Steps>::find_gradient(const Vectors& at, const SharedLoop& shared) {
+  const bool is_another = is_material_outdated_ || has_changed_cells_;
+  if constexpr (requires { energy_.add_changes(at, material_force_); }) {
+    if (!is_material_outdated_ && has_changed_cells_) {
+      material_value_ += energy_.add_changes(at, material_force_);
+      clear_fixed(material_force_, shared);
+      has_changed_cells_ = false;
     }
   }
-  return add_regions(at, force);
+  value_ = is_material_outdated_ || has_changed_cells_ ? evaluate(at, force_, shared) : add_regions(at, force_, shared);
+  distance_ = is_another ? std::numeric_limits<double>::infinity() : distance_;
+  is_outdated_ = is_material_outdated_ = false;
 }
 
 template <int D, class Steps>
-double MaterialMinimum<D, Steps>::add_regions(const Vectors& at, Vectors& force) const {
-  force = material_force_;
-  const double value = material_value_ + regions_.add(at, &force);
-  for (ElementId e = 0; !regions_.is_empty() && e < force.size(); ++e) {
-    if (preconditioner_.is_fixed(e)) {
-      force[e].setZero();
+void MaterialMinimum<D, Steps>::clear_fixed(Vectors& force, const SharedLoop& shared) const {
+  shared.run(force.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      if (preconditioner_.is_fixed(static_cast<ElementId>(e))) {
+        force[e].setZero();
+      }
     }
+  });
+}
+
+template <int D, class Steps>
+double MaterialMinimum<D, Steps>::add_regions(const Vectors& at, Vectors& force, const SharedLoop& shared) const {
+  assign(force, material_force_, shared);
+  const double value = material_value_ + regions_.add(at, &force);
+  if (!regions_.is_empty()) {
+    clear_fixed(force, shared);
   }
   return value;
 }
@@ -136,17 +159,10 @@ void MaterialMinimum<D, Steps>::harden(const Vectors& at, const SharedLoop& shar
 
 template <int D, class Steps>
 bool MaterialMinimum<D, Steps>::step(Vectors& at, int threads, const Progress& progress) {
-  // Less is done before a helper has come.
-  constexpr std::size_t worth_helpers = 8192;
-  ThreadTeam team(threads);
-  if (threads > 1 && at.size() >= worth_helpers) {
-    team.call_helpers();
-  }
-  const SharedLoop shared(team);
+  LoopTeam team(threads, at.size());
+  const SharedLoop shared = team.loop();
   if (is_outdated_) {
-    value_ = is_material_outdated_ ? evaluate(at, force_, shared) : add_regions(at, force_);
-    distance_ = is_material_outdated_ ? std::numeric_limits<double>::infinity() : distance_;
-    is_outdated_ = is_material_outdated_ = false;
+    find_gradient(at, shared);
   }
   harden(at, shared);
   const auto value_at = [&](const Vectors& x, Vectors& force) { return evaluate(x, force, shared); };

@@ -114,7 +114,9 @@ class MaterialMinimum final : public EnergyMinimum<D> {
   using Energy = typename Steps::Energy;
 
   double evaluate(const Vectors& at, Vectors& force, const SharedLoop& shared);
-  double add_regions(const Vectors& at, Vectors& force) const;
+  double add_regions(const Vectors& at, Vectors& force, const SharedLoop& shared) const;
+  void find_gradient(const Vectors& at, const SharedLoop& shared);
+  void clear_fixed(Vectors& force, const SharedLoop& shared) const;
   void harden(const Vectors& at, const SharedLoop& shared);
 
   bool has_begun_ = false;
@@ -131,6 +133,7 @@ class MaterialMinimum final : public EnergyMinimum<D> {
   double value_ = 0, distance_ = 0;
   bool is_outdated_ = true;           // the gradient
   bool is_material_outdated_ = true;  // that of the material, too
+  bool has_changed_cells_ = false;    // since that of the material was computed
 };
 
 extern template std::unique_ptr<EnergyMinimum<1>> make_minimum(const Mesh& mesh);

@@ -2,9 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -57,16 +59,16 @@ class MultigridStage {
       update_transfer(matrix, row);
     }
     coarse.rows.resize(static_cast<std::uint32_t>(members_.size()));
-    sums_.assign(members_.size(), {});
+    products_.resize(matrix.size());
     for (std::uint32_t row = 0; row < matrix.size(); ++row) {
-      progress.part(0.5, 1).report(row, matrix.size());
-      add_to_coarse(matrix, row);
+      progress.part(0.5, 0.8).report(row, matrix.size());
+      update_product(matrix, row);
     }
-    for (std::uint32_t a = 0; a < sums_.size(); ++a) {
-      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
-    }
-    sums_.clear();
-    sums_.shrink_to_fit();
+    std::vector<std::uint32_t> rows(matrix.size()), all(members_.size());
+    std::iota(rows.begin(), rows.end(), 0U);
+    std::iota(all.begin(), all.end(), 0U);
+    set_coarse_rows(rows, all, coarse);
+    release_products();
   }
 
   template <class Matrix>
@@ -75,9 +77,8 @@ class MultigridStage {
     const float high = 1.02F * radius_, low = radius_ / 8;
     const float middle = (high + low) / 2, half = (high - low) / 2;
     const float sigma = middle / half;
-    if (from_zero) {
-      x.assign(right.size(), Vector::Zero());
-    } else {
+    x.resize(right.size());
+    if (!from_zero) {
       matrix.apply(x, product_, shared);
     }
     step_.resize(right.size());
@@ -85,7 +86,7 @@ class MultigridStage {
       for (std::size_t i = first; i < last; ++i) {
         step_[i].noalias() = inverse_[i] * (from_zero ? right[i] : Vector(right[i] - product_[i]));
         step_[i] /= middle;
-        x[i] += step_[i];
+        x[i] = from_zero ? step_[i] : Vector(x[i] + step_[i]);
       }
     });
     const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
@@ -103,14 +104,20 @@ class MultigridStage {
   void restrict_residual(const Matrix& matrix, const Vectors& right, const Vectors& x,
                          typename Coarse::Vectors& coarse_right, const SharedLoop& shared) {
     matrix.apply(x, product_, shared);
-    coarse_right.assign(members_.size(), Coarse::Vector::Zero());
-    for (std::uint32_t row = 0; row < right.size(); ++row) {
-      const Vector residual = right[row] - product_[row];
-      const auto columns = transfer_.columns(row);
-      const auto blocks = transfer_.blocks(row);
-      for (std::size_t k = 0; k < columns.size(); ++k) {
-        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual;
-      }
+    // The number of parts depends on the number of rows alone, and so do the bits of the sum.
+    constexpr std::size_t worth = 8192, most = 8;
+    const std::size_t rows = right.size(), parts = std::clamp<std::size_t>(rows / worth, 1, most);
+    restricted_.resize(parts - 1);
+    shared.each(parts, [&](std::size_t part) {
+      restrict_rows(rows * part / parts, rows * (part + 1) / parts, right,
+                    part == 0 ? coarse_right : restricted_[part - 1]);
+    });
+    for (const typename Coarse::Vectors& one : restricted_) {
+      shared.run(one.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t a = first; a < last; ++a) {
+          coarse_right[a] += one[a];
+        }
+      });
     }
   }
 
@@ -137,6 +144,7 @@ class MultigridStage {
     }
     inverse_.resize(aggregate_.size(), Square::Zero());
     transfer_.resize(static_cast<std::uint32_t>(aggregate_.size()));
+    products_.resize(keeps_products ? transfer_.size() : 0);
   }
 
   /// Updates the smoother after a row of the matrix changed.
@@ -180,13 +188,14 @@ class MultigridStage {
         changes.rows.insert(changes.rows.end(), columns.begin(), columns.end());
       }
     };
-    touch(with_neighbours(matrix, moved));
+    const std::vector<std::uint32_t> around = with_neighbours(matrix, moved);  // rows whose product changes
+    touch(around);
     for (const std::uint32_t row : moved) {
       update_transfer(matrix, row);
     }
     touch(moved);
     make_unique(changes.rows);
-    update_coarse_rows(matrix, changes.rows, coarse);
+    update_coarse_rows(matrix, around, changes.rows, coarse);
     return changes;
   }
 
@@ -195,6 +204,23 @@ class MultigridStage {
   /// Two rows whose coupling is below this share of their diagonal blocks do not join an aggregate.
   static constexpr float weak_coupling = 0.01F;
   static constexpr int power_iterations = 10;
+  /// The products of numbers are kept, so that an update computes only those that changed; products of blocks are too
+  /// large.
+  static constexpr bool keeps_products = Rows == 1;
+
+  /// Writes the coarse right-hand side of the residual in these rows.
+  void restrict_rows(std::size_t first, std::size_t last, const Vectors& right,
+                     typename Coarse::Vectors& coarse_right) const {
+    coarse_right.assign(members_.size(), Coarse::Vector::Zero());
+    for (std::size_t row = first; row < last; ++row) {
+      const Vector residual = right[row] - product_[row];
+      const auto columns = transfer_.columns(static_cast<std::uint32_t>(row));
+      const auto blocks = transfer_.blocks(static_cast<std::uint32_t>(row));
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual;
+      }
+    }
+  }
 
   /// Returns the inverse of a symmetric block, with a little added to its diagonal: it may be singular.
   static Square safe_inverse(const Square& block) {
@@ -289,24 +315,19 @@ class MultigridStage {
   }
 
   template <class Matrix>
-  void update_coarse_rows(const Matrix& matrix, const std::vector<std::uint32_t>& touched, Coarse& coarse) {
+  void update_coarse_rows(const Matrix& matrix, const std::vector<std::uint32_t>& changed,
+                          const std::vector<std::uint32_t>& touched, Coarse& coarse) {
     std::vector<std::uint32_t> rows;
     for (const std::uint32_t a : touched) {
       rows.insert(rows.end(), members_[a].begin(), members_[a].end());
     }
     rows = with_neighbours(matrix, rows);
-    sums_.resize(members_.size());
-    std::vector<bool> wanted(members_.size());
-    for (const std::uint32_t a : touched) {
-      wanted[a] = true;
+    products_.resize(matrix.size());
+    for (const std::uint32_t row : keeps_products ? changed : rows) {
+      update_product(matrix, row);
     }
-    for (const std::uint32_t row : rows) {
-      add_to_coarse(matrix, row, &wanted);
-    }
-    for (const std::uint32_t a : touched) {
-      coarse.rows.set_row(a, sums_[a].columns, sums_[a].blocks);
-    }
-    sums_.clear();
+    set_coarse_rows(rows, touched, coarse);
+    release_products();
   }
 
   /// Returns the largest eigenvalue of the matrix after division by its diagonal blocks.
@@ -426,7 +447,7 @@ class MultigridStage {
   /// Rigid motions of the aggregates, smoothed by one step of damped Jacobi.
   template <class Matrix>
   void update_transfer(const Matrix& matrix, std::uint32_t row) {
-    transfer_sum_.clear();
+    transfer_sum_.begin(members_.size());
     matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
       if (aggregate_[column] != none) {
         const Transfer motion = rigid(column);
@@ -441,13 +462,10 @@ class MultigridStage {
     transfer_.set_row(row, transfer_sum_.columns, transfer_sum_.blocks);
   }
 
-  /// Adds what a row of the matrix contributes to Pᵀ A P, into the wanted coarse rows.
+  /// Computes a row of A P.
   template <class Matrix>
-  void add_to_coarse(const Matrix& matrix, std::uint32_t row, const std::vector<bool>* wanted = nullptr) {
-    if (transfer_.columns(row).empty()) {
-      return;
-    }
-    product_sum_.clear();
+  void update_product(const Matrix& matrix, std::uint32_t row) {
+    product_sum_.begin(members_.size());
     matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
       const auto columns = transfer_.columns(column);
       const auto blocks = transfer_.blocks(column);
@@ -455,12 +473,53 @@ class MultigridStage {
         product_sum_.at(columns[k]).noalias() += block * blocks[k];
       }
     });
-    const auto columns = transfer_.columns(row);
-    const auto blocks = transfer_.blocks(row);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      if (wanted == nullptr || (*wanted)[columns[k]]) {
-        for (std::size_t c = 0; c < product_sum_.columns.size(); ++c) {
-          sums_[columns[k]].at(product_sum_.columns[c]).noalias() += blocks[k].transpose() * product_sum_.blocks[c];
+    products_.set_row(row, product_sum_.columns, product_sum_.blocks);
+  }
+  void release_products() {
+    if (!keeps_products) {
+      products_ = {};
+    }
+  }
+
+  /// Sums up the wanted rows of Pᵀ A P (ascending) from the products in `rows`.
+  void set_coarse_rows(const std::vector<std::uint32_t>& rows, const std::vector<std::uint32_t>& wanted,
+                       Coarse& coarse) {
+    std::vector<std::uint32_t> number(members_.size());  // of each row that is wanted, from 1
+    for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+      number[wanted[i]] = i + 1;
+    }
+    // Each (row, place in its transfer) of a wanted row follows those of the wanted row before.
+    std::vector<std::uint32_t> first(wanted.size() + 1);
+    for_each_transfer(rows, number, [&](std::uint32_t, std::uint32_t, std::uint32_t i) { ++first[i]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> next = first;
+    std::vector<std::array<std::uint32_t, 2>> terms(first.back());
+    for_each_transfer(rows, number, [&](std::uint32_t row, std::uint32_t k, std::uint32_t i) {
+      terms[next[i - 1]++] = {row, k};
+    });
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      coarse_sum_.begin(members_.size());
+      for (std::uint32_t t = first[i]; t < first[i + 1]; ++t) {
+        const auto [row, k] = terms[t];
+        const auto columns = products_.columns(row);
+        const auto blocks = products_.blocks(row);
+        const Transfer& transfer = transfer_.blocks(row)[k];
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+          coarse_sum_.at(columns[c]).noalias() += transfer.transpose() * blocks[c];
+        }
+      }
+      coarse.rows.set_row(wanted[i], coarse_sum_.columns, coarse_sum_.blocks);
+    }
+  }
+  /// Calls visit(row, k, number) for each block k of the transfer in these rows to a coarse row with a number.
+  template <class Visit>
+  void for_each_transfer(const std::vector<std::uint32_t>& rows, const std::vector<std::uint32_t>& number,
+                         Visit visit) const {
+    for (const std::uint32_t row : rows) {
+      const auto columns = transfer_.columns(row);
+      for (std::uint32_t k = 0; k < columns.size(); ++k) {
+        if (number[columns[k]] != 0) {
+          visit(row, k, number[columns[k]]);
         }
       }
     }
@@ -473,9 +532,11 @@ class MultigridStage {
   std::vector<std::vector<std::uint32_t>> members_;  // of each aggregate
   BlockRows<Transfer> transfer_;
   Vectors product_, step_;
-  std::vector<RowSum<typename Coarse::Square>> sums_;
-  std::vector<std::uint8_t> is_found_;  // of each row, while rows are searched; else all 0
+  std::vector<typename Coarse::Vectors> restricted_;  // of the second part of the rows, the third, ...
+  std::vector<std::uint8_t> is_found_;                // of each row, while rows are searched; else all 0
+  BlockRows<Transfer> products_;                      // A P; see keeps_products
   RowSum<Transfer> transfer_sum_, product_sum_;
+  RowSum<typename Coarse::Square> coarse_sum_;
 };
 
 }  // namespace chainmail

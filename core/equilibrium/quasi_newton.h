@@ -51,8 +51,8 @@ class QuasiNewton {
       forget();
       return false;
     }
-    before_ = force;
-    start_ = x;
+    assign(before_, force, shared);
+    assign(start_, x, shared);
     double length = 1;
     for (int i = 0; i < max_tries; ++i, length *= 0.5) {
       shared.run(x.size(), [&](std::size_t first, std::size_t last) {
@@ -77,7 +77,7 @@ class QuasiNewton {
 
   template <class Preconditioner>
   void find_direction(Preconditioner& preconditioner, const Vectors& force, const SharedLoop& shared) {
-    residual_ = force;
+    assign(residual_, force, shared);
     std::vector<double> fractions(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
       fractions[i] = dot(pairs_[i].step, residual_, shared) / pairs_[i].product;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -30,7 +31,10 @@ class SharedLoop {
   /// Calls work(first, last) for all blocks below `count`.
   template <class Work>
   void run(std::size_t count, Work work) const {
-    for_each_block(count, [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
+    // Where the coarser levels of a multigrid have few rows, each of them is long.
+    constexpr std::size_t small = 512, usual_blocks = 16;
+    for_each_block(count, std::clamp(count / usual_blocks, small, block),
+                   [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
   }
   /// Returns the sum of term(first, last) over all blocks, in their order.
   template <class Term>
@@ -38,30 +42,73 @@ class SharedLoop {
     if (count <= block) {
       return count > 0 ? term(std::size_t{0}, count) : 0;
     }
-    std::vector<double> terms((count + block - 1) / block);
-    for_each_block(count,
-                   [&](std::size_t number, std::size_t first, std::size_t last) { terms[number] = term(first, last); });
     double total = 0;
-    for (const double one : terms) {
+    for (const double one : terms_of(count, term)) {
       total += one;
     }
     return total;
+  }
+  /// Returns the largest term(first, last) of all blocks, at least 0.
+  template <class Term>
+  double largest(std::size_t count, Term term) const {
+    double largest = 0;
+    for (const double one : terms_of(count, term)) {
+      largest = std::max(largest, one);
+    }
+    return largest;
+  }
+  /// Returns true if holds(i) for all i below `count`.
+  template <class Holds>
+  bool all(std::size_t count, Holds holds) const {
+    std::atomic<bool> result = true;
+    run(count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last && result.load(std::memory_order_relaxed); ++i) {
+        if (!holds(i)) {
+          result.store(false, std::memory_order_relaxed);
+        }
+      }
+    });
+    return result.load();
   }
 
  private:
   static constexpr std::size_t block = 4096;
 
+  template <class Term>
+  std::vector<double> terms_of(std::size_t count, Term term) const {
+    std::vector<double> terms((count + block - 1) / block);
+    for_each_block(count, block,
+                   [&](std::size_t number, std::size_t first, std::size_t last) { terms[number] = term(first, last); });
+    return terms;
+  }
   template <class Work>
-  void for_each_block(std::size_t count, Work work) const {
-    const std::size_t blocks = (count + block - 1) / block, parts = std::min(blocks, ThreadTeam::max_parts);
+  void for_each_block(std::size_t count, std::size_t size, Work work) const {
+    const std::size_t blocks = (count + size - 1) / size, parts = std::min(blocks, ThreadTeam::max_parts);
     each(parts, [&](std::size_t part) {
       for (std::size_t number = part; number < blocks; number += parts) {
-        work(number, number * block, std::min(count, (number + 1) * block));
+        work(number, number * size, std::min(count, (number + 1) * size));
       }
     });
   }
 
   ThreadTeam* team_ = nullptr;
+};
+
+/// The threads of loops over some elements: helpers come if the elements are worth it.
+class LoopTeam {
+ public:
+  LoopTeam(int max_threads, std::size_t elements) : team_(max_threads) {
+    if (max_threads > 1 && elements >= worth_helpers) {
+      team_.call_helpers();
+    }
+  }
+  SharedLoop loop() { return SharedLoop(team_); }
+
+ private:
+  // Less is done before a helper has come.
+  static constexpr std::size_t worth_helpers = 8192;
+
+  ThreadTeam team_;
 };
 
 }  // namespace chainmail

@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "equilibrium/shared_loop.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -29,20 +30,22 @@ class ValidProjection {
 
   /// Returns true if all links are valid in these displacements.
   template <class Positions>
-  bool is_valid(const Positions& positions) const {
-    for (ElementId e = 0; e < state_.mesh->element_count(); ++e) {
+  bool is_valid(const Positions& positions, const SharedLoop& shared = {}) const {
+    return shared.all(state_.mesh->element_count(), [&](std::size_t element) {
+      const auto e = static_cast<ElementId>(element);
       bool holds = true;
-      for_each_free(e, [&](ElementId n, const auto& region) {
-        for (int k = 0; n > e && k < Dimension; ++k) {
+      state_.for_each_neighbour(e, [&](ElementId n, EntryId entry) {
+        if (n < e || (fixed_[e] != 0 && fixed_[n] != 0)) {
+          return;
+        }
+        const auto& region = state_.regions[entry];
+        for (int k = 0; k < Dimension; ++k) {
           const double apart = positions[n][k] - positions[e][k];
           holds = holds && apart >= region.low[k] - tolerance_ && apart <= region.high[k] + tolerance_;
         }
       });
-      if (!holds) {
-        return false;
-      }
-    }
-    return true;
+      return holds;
+    });
   }
 
   /// Moves the positions `valid` on all axes toward `wanted`.

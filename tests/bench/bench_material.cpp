@@ -1,5 +1,6 @@
 // Measures relaxation to the material (see README.md): bench_material ORGAN, with the file of the sample organ,
-// compares it with its own minimum; bench_material alone measures threads and cuts of a large object.
+// compares it with its own minimum; bench_material alone measures threads and cuts of a large object, iterations on
+// small and large blocks, and the lag behind the handle.
 
 #include <algorithm>
 #include <array>
@@ -33,6 +34,17 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// RMS of the distance between two states over RMS of the displacements of the second.
+double distance_between(const std::vector<double>& now, const std::vector<double>& goal,
+                        const std::vector<double>& rest) {
+  double apart = 0, way = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    apart += std::pow(now[i] - goal[i], 2);
+    way += std::pow(goal[i] - rest[i], 2);
+  }
+  return std::sqrt(apart / way);
+}
+
 struct Contestant {
   const char* name;
   Algorithm algorithm;
@@ -43,15 +55,19 @@ constexpr std::array contestants{Contestant{"material, multigrid", Algorithm::ex
                                  Contestant{"co-rotated links", Algorithm::exact, EnergyKind::corotated},
                                  Contestant{"quasi-Newton FEM", Algorithm::quasi_newton}};
 
-/// An object under a contestant whose valid regions do not bind; positions in single precision.
+enum class Regions { free, binding };  // wide open, or the default
+
+/// An object under a contestant, whose valid regions do not bind unless said; positions in single precision.
 class Run {
  public:
-  Run(const report::Case& object, const Contestant& contestant, int iterations, int threads = 1)
+  Run(const report::Case& object, const Contestant& contestant, int iterations, int threads = 1,
+      Regions regions = Regions::free)
       : contestant_(contestant),
         iterations_(iterations),
         simulation_(object.mesh, contestant.algorithm, Precision::single_precision) {
     simulation_.set_threads(threads);
-    Softness softness = report::softness_of({.algorithm = Algorithm::exact, .open_regions = true}, object.softness);
+    const bool open = regions == Regions::free;
+    Softness softness = report::softness_of({.algorithm = Algorithm::exact, .open_regions = open}, object.softness);
     softness.energy = contestant.energy;
     simulation_.apply(commands::SetSoftness{softness});
     ElasticOptions options = object.elastic;
@@ -73,6 +89,19 @@ class Run {
     if (count > 0) {
       simulation_.apply(commands::Relax{std::uint32_t(count), 1, RelaxationScheme::equilibrium});
     }
+  }
+  /// Runs one iteration. Returns the residual.
+  double residual_of_one() {
+    iterate(1);
+    return simulation_.statistics().residual.value_or(0);
+  }
+  /// Drags, then runs iterations for this time, at least one.
+  void frame(const Command& command, double ms) {
+    simulation_.apply(command);
+    const auto start = std::chrono::steady_clock::now();
+    do {
+      iterate(1);
+    } while (std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() < ms);
   }
   std::vector<double> positions() const {
     std::vector<double> all(simulation_.mesh().rest.size());
@@ -98,15 +127,7 @@ class Minimum {
   }
 
   /// RMS of the distance from it over RMS of its displacements.
-  double error_of(const Run& run) const {
-    const std::vector<double> now = run.positions();
-    double apart = 0, way = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      apart += std::pow(now[i] - positions_[i], 2);
-      way += std::pow(positions_[i] - rest_[i], 2);
-    }
-    return std::sqrt(apart / way);
-  }
+  double error_of(const Run& run) const { return distance_between(run.positions(), positions_, rest_); }
 
  private:
   std::vector<double> rest_, positions_;
@@ -207,6 +228,110 @@ void threads_and_repair(const report::Case& object) {
   }
 }
 
+/// Iterates to the equilibrium. Returns how many iterations it takes until the object stays within 1 % of it; one more
+/// than are kept if those do not suffice.
+int iterations_to_equilibrium(Run& run, const std::vector<double>& rest) {
+  constexpr int kept = 100, most = 500;
+  constexpr double residual = 1e-6, near = 0.01;
+  std::vector<std::vector<double>> states;
+  int count = 0;
+  for (double now = 1; now > residual && count < most; ++count) {
+    now = run.residual_of_one();
+    if (count < kept) {
+      states.push_back(run.positions());
+    }
+  }
+  const std::vector<double> goal = run.positions();
+  int needed = int(states.size()) + 1;
+  while (needed > 1 && distance_between(states[std::size_t(needed) - 2], goal, rest) <= near) {
+    --needed;
+  }
+  if (count == most) {
+    std::printf("  (residual above %g after %d iterations)\n", residual, most);
+  }
+  return needed;
+}
+
+report::Case block_of(std::uint32_t width) {
+  report::Case object;
+  object.name = "block";
+  object.mesh = generate({MeshKind::tetra, {width, width, width}});
+  object.pins = layer(*object.mesh, *find_side("left"));
+  return object;
+}
+
+std::vector<LinkId> half_of_the_middle_plane(const Mesh& mesh) {
+  const double middle = mesh.box[1].x() / 2 + 0.25, half = mesh.box[1].y() / 2;
+  std::vector<LinkId> links;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    const Point a = mesh.rest_position(mesh.links[link][0]), b = mesh.rest_position(mesh.links[link][1]);
+    if ((a.x() < middle) != (b.x() < middle) && std::min(a.y(), b.y()) > half) {
+      links.push_back(link);
+    }
+  }
+  return links;
+}
+
+/// A drag of a patch across by a fifth of the width.
+struct PatchDrag {
+  explicit PatchDrag(const report::Case& object)
+      : grab(moves_of(report::physics_drags(object, false, report::patch_share), "bend").front()),
+        way(std::get<commands::Drag>(moves_of(report::physics_drags(object, false, report::patch_share), "bend").back())
+                .target) {}
+  Command to(double share) const { return commands::Drag{share * way, {}, true}; }
+
+  Command grab;
+  Point way;
+};
+
+/// Iterations to 1 % of the equilibrium from a fresh grab, after a move 5 % of the width farther, and after a cut
+/// through half of the middle plane.
+std::array<int, 3> iterations_of(const report::Case& object, Regions regions) {
+  const PatchDrag drag(object);
+  const std::vector<double>& rest = object.mesh->rest;
+  Run run(object, contestants.front(), 0, 1, regions);
+  run.apply(drag.grab);
+  run.apply(drag.to(1));
+  const int fresh = iterations_to_equilibrium(run, rest);
+  run.apply(drag.to(1.25));
+  const int later = iterations_to_equilibrium(run, rest);
+  run.apply(commands::Cut{half_of_the_middle_plane(*object.mesh)});
+  return {fresh, later, iterations_to_equilibrium(run, rest)};
+}
+
+void growth_of_iterations() {
+  for (const Regions regions : {Regions::free, Regions::binding}) {
+    std::array<int, 3> small{};
+    for (const std::uint32_t width : {9U, 17U, 41U}) {
+      const std::array<int, 3> now = iterations_of(block_of(width), regions);
+      small = width == 9 ? now : small;
+      std::printf("block of %u^3 cells, %s: iterations to 1 %%: fresh grab %d, later move %d, after a cut %d",
+                  width - 1, regions == Regions::free ? "free" : "binding", now[0], now[1], now[2]);
+      std::printf(" (over 8^3: %.2f, %.2f, %.2f)\n", double(now[0]) / small[0], double(now[1]) / small[1],
+                  double(now[2]) / small[2]);
+    }
+  }
+}
+
+/// How far the object is behind the equilibrium at the end of a drag of a second, with 8 ms of iterations per frame.
+void lag() {
+  constexpr int frames = 60;
+  const report::Case object = block_of(37);
+  const PatchDrag drag(object);
+  for (const Regions regions : {Regions::free, Regions::binding}) {
+    Run run(object, contestants.front(), 0, 1, regions);
+    run.apply(drag.grab);
+    for (int frame = 1; frame <= frames; ++frame) {
+      run.frame(drag.to(double(frame) / frames), 8);
+    }
+    const std::vector<double> shown = run.positions();
+    iterations_to_equilibrium(run, object.mesh->rest);
+    std::printf("lag, %u elements, %s: %.4f\n", object.mesh->element_count(),
+                regions == Regions::free ? "free" : "binding",
+                distance_between(shown, run.positions(), object.mesh->rest));
+  }
+}
+
 report::Case organ_of(const char* file) {
   report::Case object;
   object.name = "organ";
@@ -225,6 +350,8 @@ int main(int count, char** arguments) {
   constexpr std::uint64_t small = 256, large = 5184, huge = 100'000;
   if (count < 2) {
     threads_and_repair(report::pinned_bar(huge, {}, {}, false));
+    growth_of_iterations();
+    lag();
     return 0;
   }
   measure(report::pinned_bar(small, {}, {}));

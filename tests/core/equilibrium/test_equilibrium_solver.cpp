@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/scenarios.h"
 #include "equilibrium/block_vectors.h"
@@ -33,6 +34,7 @@ class EquilibriumSolverTest : public QObject {
   void what_is_kept_matches_the_object();
   void a_long_cut_costs_no_iterations();
   void all_levels_follow_a_cut_and_its_undoing();
+  void an_update_of_some_rows_equals_one_of_all();
   void other_pins_cost_no_iterations_where_regions_bind();
   void iterations_hardly_grow_with_the_size();
   void the_gap_is_an_upper_bound();
@@ -424,6 +426,47 @@ void EquilibriumSolverTest::all_levels_follow_a_cut_and_its_undoing() {
     anew.build(matrix);
     const int of_kept = iterations_of(kept, matrix, error), of_anew = iterations_of(anew, matrix, error);
     QVERIFY2(of_anew < 20 && of_kept <= of_anew + 2, qPrintable(QString("%1, not %2").arg(of_kept).arg(of_anew)));
+  }
+}
+
+/// Bit for bit: an update leaves out only what does not change.
+void EquilibriumSolverTest::an_update_of_some_rows_equals_one_of_all() {
+  const auto mesh = make_mesh(MeshKind::cloth, {96, 96, 1});
+  const auto weight_of = [](LinkId link) { return float(1 + link % 7) / 4; };
+  LinkLaplacian<2> matrix(mesh);
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    matrix.set_link(link, weight_of(link));
+  }
+  Multigrid<LinkLaplacian<2>> some, all;
+  some.build(matrix);
+  all.build(matrix);
+  std::vector<ElementId> rows, all_rows(mesh->element_count());
+  std::iota(all_rows.begin(), all_rows.end(), ElementId{0});
+  std::vector<LinkId> changed;
+  LinkLaplacian<2>::Vectors right(mesh->element_count()), before, of_some, of_all;
+  for (ElementId e = 0; e < right.size(); ++e) {
+    const Point at = mesh->rest_position(e);
+    right[e] = {float(std::sin(at.x())), float(std::cos(at.y()))};
+  }
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    const Point a = mesh->rest_position(mesh->links[link][0]), b = mesh->rest_position(mesh->links[link][1]);
+    if ((a.y() < 47.5) != (b.y() < 47.5) && a.x() > 20 && a.x() < 60) {
+      changed.push_back(link);
+      rows.insert(rows.end(), {mesh->links[link][0], mesh->links[link][1]});
+    }
+  }
+  some.cycle(matrix, right, before);
+  for (const float factor : {0.0F, 1.0F, 0.3F}) {
+    for (const LinkId link : changed) {
+      matrix.set_link(link, factor * weight_of(link));
+    }
+    some.update(matrix, rows, factor == 0);
+    all.update(matrix, all_rows, factor == 0);
+    some.cycle(matrix, right, of_some);
+    all.cycle(matrix, right, of_all);
+    QVERIFY(of_some == of_all);
+    QVERIFY(of_some != before);
+    before = of_some;
   }
 }
 

@@ -36,6 +36,8 @@ class MaterialTest : public QObject {
   void it_is_found_after_half_the_width_in_one_move();
   void no_iteration_raises_the_energy();
   void a_cut_gives_the_minimum_of_the_cut_object();
+  void a_cut_changes_the_energy_by_its_cells_data();
+  void a_cut_changes_the_energy_by_its_cells();
   void a_turned_object_has_no_energy();
   void links_without_cells_keep_their_length();
   void regions_bind_where_they_bind();
@@ -385,6 +387,57 @@ void MaterialTest::a_cut_gives_the_minimum_of_the_cut_object() {
   QVERIFY(relative_error(positions_of(body), whole, *scene.mesh) < 1e-6);
 }
 
+void MaterialTest::a_cut_changes_the_energy_by_its_cells_data() {
+  QTest::addColumn<MeshKind>("kind");
+  QTest::newRow("tetrahedra") << MeshKind::tetra;
+  QTest::newRow("hexahedra") << MeshKind::block;
+}
+
+/// Cuts of all links of an element, of every other one, which leaves loose links, and their undoing, without a whole
+/// evaluation in between.
+void MaterialTest::a_cut_changes_the_energy_by_its_cells() {
+  QFETCH(MeshKind, kind);
+  const MeshPointer mesh = block(kind, 5);
+  std::mt19937 random(3);
+  const auto made = [&] {
+    MaterialEnergy<3> energy;
+    energy.build(mesh);
+    energy.set_material({});
+    return energy;
+  };
+  Vectors<3> at(mesh->element_count());
+  for (auto& one : at) {
+    one = 0.3 * Eigen::Vector3d::NullaryExpr([&] { return std::uniform_real_distribution<double>(-1, 1)(random); });
+  }
+  MaterialEnergy<3> kept = made();
+  Vectors<3> force, expected;
+  Cuts cuts(mesh);
+  double value = kept.evaluate(at, &force);
+  for (int round = 0; round < 8; ++round) {
+    for (int twice = 0; twice < 2; ++twice) {
+      const ElementId lone = random() % mesh->element_count();
+      for (EntryId entry = mesh->first_entry[lone]; entry < mesh->first_entry[lone + 1]; ++entry) {
+        const LinkId link = mesh->entry_link[entry];
+        const bool is_cut = round % 3 == 0 || (round % 3 == 1 && entry % 2 == 0);
+        is_cut ? cuts.cut(link) : cuts.uncut(link);
+      }
+      kept.set_cuts(cuts);
+    }
+    value += kept.add_changes(at, force);
+    MaterialEnergy<3> anew = made();
+    anew.set_cuts(cuts);
+    const double whole = anew.evaluate(at, &expected);
+    QVERIFY2(std::abs(value - whole) <= 1e-12 * whole, qPrintable(QString("%1, not %2").arg(value).arg(whole)));
+    double largest = 0, apart = 0;
+    for (ElementId e = 0; e < at.size(); ++e) {
+      largest = std::max(largest, expected[e].norm());
+      apart = std::max(apart, (force[e] - expected[e]).norm());
+    }
+    QVERIFY2(apart <= 1e-12 * largest, qPrintable(QString("%1 of %2").arg(apart).arg(largest)));
+    QVERIFY(kept.least_volume() <= anew.least_volume());
+  }
+}
+
 void MaterialTest::a_turned_object_has_no_energy() {
   Scene scene(block(MeshKind::tetra, 5));
   std::vector<double> at = scene.mesh->rest;
@@ -480,15 +533,18 @@ void MaterialTest::a_handle_of_one_element_equals_finite_elements() {
 }
 
 void MaterialTest::threads_change_no_bit() {
-  const Scene scene(block(MeshKind::tetra, 21), 3);  // large enough for helpers
+  const Scene scene(block(MeshKind::tetra, 26), 3);  // large enough for helpers, and for several parts of each loop
   std::vector<double> once;
   for (const int threads : {1, 2, 4}) {
     Body body = scene.body();
     body.set_positions(scene.moved(std::vector<double>{2, -1, 1}));
     const auto solver = EquilibriumSolver::make(3);
     solver->set_threads(threads);
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < 6; ++i) {
       solver->iterate(body, scene.handle);
+      if (i == 2) {
+        body.cut({20'000, 20'001, 20'002, 20'003, 20'004});
+      }
     }
     const std::vector<double> at = positions_of(body);
     QVERIFY(once.empty() || at == once);
