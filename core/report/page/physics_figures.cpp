@@ -135,6 +135,8 @@ constexpr Figure<Row> figures[]{
     {"turned_90_relative", turned<1, &TurnDifference::relative>},
     {"residual", measured<&PhysicsMeasurement::residual>, "/residual", equilibrium, "residual (ratio)", figure, true},
     {"regions_bind", measured<&PhysicsMeasurement::binds>, "/regions_bind", equilibrium, "regions bind", yes_no, true},
+    // Per move: the least with which the contestant is close to its own limit.
+    {"iterations", measured<&PhysicsMeasurement::iterations>, "/iterations", "", "", count, true},
 };
 static_assert(symmetry_angles == std::array{45.0, 90.0}, "the columns turned_… name the angles");
 

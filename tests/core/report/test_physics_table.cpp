@@ -44,6 +44,7 @@ PhysicsMeasurement measurement() {
   all.shape = {0.21, 0.22, 23, 0.24, 0.25};
   all.residual = 0.0625;
   all.binds = true;
+  all.iterations = 40;
   return all;
 }
 
@@ -246,6 +247,7 @@ void PhysicsTableTest::the_file_has_each_number_under_its_name_data() {
   row("violation_max", "0.25");
   row("residual", "0.0625");
   row("regions_bind", "1");
+  row("iterations", "40");
 }
 
 void PhysicsTableTest::the_file_has_each_number_under_its_name() {
