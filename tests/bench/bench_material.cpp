@@ -71,7 +71,7 @@ class Run {
     softness.energy = contestant.energy;
     simulation_.apply(commands::SetSoftness{softness});
     ElasticOptions options = object.elastic;
-    options.iterations = std::uint32_t(iterations);
+    options.iterations = std::uint32_t(std::max(1, iterations));  // of other methods
     simulation_.apply(commands::SetElastic{options});
     simulation_.apply(commands::Pin{object.pins});
   }
