@@ -543,7 +543,7 @@ void MaterialTest::threads_change_no_bit() {
     for (int i = 0; i < 6; ++i) {
       solver->iterate(body, scene.handle);
       if (i == 2) {
-        body.cut({20'000, 20'001, 20'002, 20'003, 20'004});
+        body.cut(std::vector<LinkId>{20'000, 20'001, 20'002, 20'003, 20'004});
       }
     }
     const std::vector<double> at = positions_of(body);
