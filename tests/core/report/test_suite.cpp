@@ -291,22 +291,29 @@ void SuiteTest::the_coarse_organ_has_a_reference_of_three_levels() {
 /// A cube of a block is six tetrahedra.
 void SuiteTest::bars_for_fronts_have_the_size_that_they_say() {
   const auto all = suite_experiments();
-  for (const auto& [name, tetrahedra] :
-       {std::pair{"fronts-2k", 3 * 5 * 5 * 5 * 6}, {"fronts-10k", 3 * 8 * 8 * 8 * 6}}) {
+  for (const auto& [name, tetrahedra] : {std::pair{"fronts-2k", 3 * 5 * 5 * 5 * 6},
+                                         {"fronts-10k", 3 * 8 * 8 * 8 * 6},
+                                         {"fronts-50k", 3 * 14 * 14 * 14 * 6}}) {
     const SuiteExperiment& one = *std::ranges::find(all, name, &SuiteExperiment::name);
     QVERIFY(one.description.find(thousands(std::uint64_t(tetrahedra))) != std::string_view::npos);
     const Case object = one.cases({}).front();
     QCOMPARE(object.mesh->tetrahedra.size(), std::size_t(tetrahedra));
-    QCOMPARE(object.drags.size(), std::size_t{2});
-    const RecordedMoves &bend = object.drags[0], &cut = object.drags[1];
+    QCOMPARE(object.drags.size(), std::size_t{3});
+    const RecordedMoves &bend = object.drags[0], &fresh = object.drags[1], &cut = object.drags[2];
     QCOMPARE(count_moves(bend), 6);
+    QCOMPARE(count_moves(fresh), 1);
+    QCOMPARE(grabbed_by(fresh), grabbed_by(bend));
     QVERIFY(cuts_of(bend).empty() && !cuts_of(cut).empty() &&
             std::holds_alternative<commands::Drag>(cut.commands.back()));
     QCOMPARE(count_moves(cut), 7);
     // The bend ends where that of the bar does, 20 % of the length across.
     const Point way = std::get<commands::Drag>(bend.commands.back()).target;
+    QCOMPARE(std::get<commands::Drag>(fresh.commands.back()).target, way);
     const auto [low, high] = bounds(*object.mesh);
     QVERIFY(std::abs(way.norm() - 0.2 * (high - low).maxCoeff()) < 1e-9);
+    // No limit of a method refuses its reference.
+    const DragReferences references(object, reference_of(one));
+    const ConvergingReference converging(reference_problem(object), reference_of(one));
   }
 }
 
