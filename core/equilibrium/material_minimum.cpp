@@ -90,6 +90,7 @@ void MaterialMinimum<D, Steps>::extend(const Vectors& jump, Vectors& at) {
 
 template <int D, class Steps>
 bool MaterialMinimum<D, Steps>::is_inverted(const Vectors& at) {
+  is_material_outdated_ = is_material_outdated_ || has_changed_cells_;  // what they change is forgotten
   energy_.evaluate(at, nullptr);
   return energy_.is_inverted();
 }
