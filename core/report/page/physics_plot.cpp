@@ -50,7 +50,7 @@ PlotPanel panel_of(Plot& plot, const PhysicsDrag& drag, const std::string& title
     panel.marks.push_back({ms.median, ms.lower_quartile, ms.upper_quartile, error, series,
                            entry.contestant.sweeps > 0 || equilibrium,
                            calibrated                      ? "cal."
-                           : entry.contestant.open_regions ? "open"
+                           : entry.contestant.open_regions ? material_mark
                            : equilibrium                   ? equilibrium_mark
                                                            : "",
                            in_words(drag, entry)});
@@ -135,6 +135,7 @@ Plot empty_plot(const std::string& title, const PhysicsObject& object) {
   }
   if (has_equilibrium(object)) {
     plot.legend_notes.emplace_back(equilibrium_note);
+    plot.legend_notes.emplace_back(material_note);
   }
   plot.legend_notes.emplace_back("cal.: calibrated on other drags");
   plot.legend_notes.emplace_back("0: the reference, neo-Hookean FEM");

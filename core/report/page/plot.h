@@ -12,11 +12,13 @@
 
 namespace chainmail::report {
 
-/// A point of a plot, with the quartiles of x as its error bar.
-/// Note of a contestant that is relaxed to the equilibrium, and its explanation in the legend.
+/// Notes of contestants that are relaxed, and their explanations in the legend.
 inline constexpr const char* equilibrium_mark = "eq.";
 inline constexpr const char* equilibrium_note = "eq.: relaxed to the equilibrium";
+inline constexpr const char* material_mark = "mat.";
+inline constexpr const char* material_note = "mat.: to the material, regions open";
 
+/// A point of a plot, with the quartiles of x as its error bar.
 struct PlotMark {
   double x = 0, x_low = 0, x_high = 0;
   double y = 0;

@@ -30,7 +30,7 @@ void add_mark(Plot& plot, PlotPanel& panel, const SuiteMean& mean, const SpeedAg
   const bool calibrated = says("calibrated"), equilibrium = says("equilibrium"), material = says("Material");
   const std::string note = equilibrium  ? (calibrated ? "eq. cal." : equilibrium_mark)
                            : calibrated ? "cal."
-                           : material   ? "mat."
+                           : material   ? material_mark
                                         : "";
   panel.marks.push_back({*ms, *ms, *ms, counted_error(mean, measure), series_of(plot, *algorithm),
                          calibrated || equilibrium || material, note,
@@ -80,7 +80,7 @@ Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure) {
   plot.x.title = "ms per " + what;
   plot.y.title = "relative error";
   plot.y.smallest = smallest_error;
-  plot.legend_notes = {"hollow: with relaxation", "mat.: to the material, regions open", equilibrium_note};
+  plot.legend_notes = {"hollow: with relaxation", material_note, equilibrium_note};
   bool has_curves = false;
   std::vector<std::vector<SuiteMean>> shown;  // of each panel
   for (const SuiteResult& result : suite.results) {
