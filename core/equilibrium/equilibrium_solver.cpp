@@ -50,8 +50,8 @@ struct Displacements {
 };
 
 /// Two states are kept, as displacements from rest: the iterate, which goes to the equilibrium and may violate regions,
-/// and the shown state, which is valid and is written into the body. Each iteration follows what has changed in the body,
-/// takes a step of the minimiser of the kind of energy, and shows the valid state next to the iterate.
+/// and the shown state, which is valid and is written into the body. Each iteration follows what has changed in the
+/// body, takes a step of the minimiser of the kind of energy, and shows the valid state next to the iterate.
 template <int D>
 class Equilibrator final : public EquilibriumSolver {
  public:
