@@ -163,8 +163,7 @@ void ReportJsonTest::a_point_without_iterations_is_refused() {
   auto json = nlohmann::json::parse(text_of(suite()));
   json["experiments"][0]["times"][0]["curve"][1].erase("iterations");
   const QString error = error_of([&] { read_text_of_suite(json.dump()); });
-  QVERIFY2(error.endsWith("suite.json: 'iterations' is missing; add it"),
-           qPrintable(error));
+  QVERIFY2(error.endsWith("suite.json: 'iterations' is missing; add it"), qPrintable(error));
 }
 
 CHAINMAIL_TEST(ReportJsonTest)

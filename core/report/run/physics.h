@@ -109,8 +109,8 @@ struct PhysicsReport {
   bool stopped = false;  // true: the report contains only the finished parts
 };
 
-/// A contestant that iterates makes the least number of iterations per move with which its answer at the end of a drag is
-/// within this share of its own limit, the answer after as many as it wants.
+/// A contestant that iterates makes the least number of iterations per move with which its answer at the end of a drag
+/// is within this share of its own limit, the answer after as many as it wants.
 inline constexpr double own_limit_of_comparisons = 0.01;
 
 /// Compares all contestants, at the end of each drag, with neo-Hookean FEM in double, converged on the same cells with
