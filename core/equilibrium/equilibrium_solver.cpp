@@ -196,7 +196,7 @@ class Equilibrator final : public EquilibriumSolver {
     });
     epsilon_ = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
                                                                : std::numeric_limits<double>::epsilon();
-    tolerance_ = 16 * epsilon_ * largest_;
+    tolerance_ = 4 * epsilon_ * largest_;
   }
 
   Vector rest_vector(LinkId link) const {

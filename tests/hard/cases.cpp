@@ -35,7 +35,7 @@ void add_softness(std::vector<Case>& all) {
   all.push_back(
       make("softness changed under load", test::jittered_triangles(16, 16, 2), {0.2, 3, 1}, [](Scene& scene, Outcome&) {
         scene.drag_by(136, Point(9, -7, 0), 5);
-        scene.set_softness({0.95, 1.05, 0.02});
+        scene.set_softness({{0.95, 1.05, 0.02}, {}});
         scene.drag_by(136, Point(1, 1, 0));
       }));
 }
@@ -98,7 +98,7 @@ void add_pins(std::vector<Case>& all) {
   all.push_back(make("pins that contradict", make_grid(12, 12), {0.2, 3, 1}, [](Scene& scene, Outcome&) {
     scene.drag_by(143, Point(15, 15, 0));
     scene.pin({0, 143});
-    scene.set_softness(usual);
+    scene.set_softness({usual, {}});
     scene.drag_by(70, Point(1, 0, 0));
   }));
 }

@@ -13,13 +13,17 @@ double smallest(Precision precision) { return precision == Precision::single_pre
 }  // namespace
 
 std::string label(const Contender& contender) {
-  return report::label(report::Contestant{contender.algorithm, 0, contender.equilibrium});
+  return report::label(report::Contestant{contender.algorithm, 0, contender.equilibrium}) +
+         (contender.energy == EnergyKind::material ? ", material" : "");
 }
 
 Scene::Scene(MeshPointer mesh, const Contender& contender, Precision precision, const Softness& softness)
-    : simulation_(std::move(mesh), contender.algorithm, precision),
-      equilibrium_(contender.equilibrium),
-      precision_(precision) {
+    : simulation_(std::move(mesh), contender.algorithm, precision), contender_(contender), precision_(precision) {
+  set_softness(softness);
+}
+
+void Scene::set_softness(Softness softness) {
+  softness.energy = contender_.energy;
   simulation_.apply(commands::SetSoftness{softness});
 }
 
@@ -82,7 +86,7 @@ void Scene::relax() {
 }
 
 Outcome Scene::outcome() {
-  if (equilibrium_) {
+  if (contender_.equilibrium) {
     relax();
   }
   Outcome outcome;

@@ -26,6 +26,7 @@ struct Outcome {
 struct Contender {
   Algorithm algorithm;
   bool equilibrium = false;
+  EnergyKind energy = link_energy;
 };
 std::string label(const Contender& contender);
 
@@ -39,7 +40,7 @@ class Scene {
   void drag(ElementId element, const Point& target, int steps = 1);
   void drag_by(ElementId element, const Point& by, int steps = 1);
   void pin(const std::vector<ElementId>& elements);
-  void set_softness(const LinkSoftness& softness) { simulation_.apply(commands::SetSoftness{{softness, {}}}); }
+  void set_softness(Softness softness);
 
   std::vector<double> positions() const { return test::positions_of(simulation_); }
   /// Goes to the equilibrium, if the contender does, and returns what is true there.
@@ -52,7 +53,7 @@ class Scene {
   void relax();
 
   Simulation simulation_;
-  bool equilibrium_;
+  Contender contender_;
   Precision precision_;
   std::optional<ElementId> handle_;
   Point target_ = Point::Zero();

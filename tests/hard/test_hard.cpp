@@ -127,6 +127,7 @@ std::vector<Contender> contenders_for(const Mesh* mesh) {
     }
   }
   contenders.push_back({Algorithm::exact, true});
+  contenders.push_back({Algorithm::exact, true, EnergyKind::material});
   return contenders;
 }
 
@@ -188,13 +189,15 @@ void HardTest::holds_data() {
   QTest::addColumn<int>("index");
   QTest::addColumn<int>("algorithm");
   QTest::addColumn<bool>("equilibrium");
+  QTest::addColumn<int>("energy");
   static const std::vector<Case> all = cases(large);
   if (!large) {
     qInfo("cases of a million moves or elements run only in the release build");
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const Contender& one : contenders_for(all[i].mesh.get())) {
-      QTest::newRow((all[i].name + ", " + label(one)).c_str()) << int(i) << int(one.algorithm) << one.equilibrium;
+      QTest::newRow((all[i].name + ", " + label(one)).c_str())
+          << int(i) << int(one.algorithm) << one.equilibrium << int(one.energy);
     }
   }
 }
@@ -203,11 +206,12 @@ void HardTest::holds() {
   QFETCH(int, index);
   QFETCH(int, algorithm);
   QFETCH(bool, equilibrium);
+  QFETCH(int, energy);
   static const std::vector<Case> all = cases(large);
   const Case& one = all[static_cast<std::size_t>(index)];
   const auto of = static_cast<Algorithm>(algorithm);
   for (const Precision precision : test::precisions) {
-    const Contender contender{of, equilibrium};
+    const Contender contender{of, equilibrium, static_cast<EnergyKind>(energy)};
     Row row{one.name, label(contender), contender, precision, {}, {}};
     try {
       row.outcome = one.run(contender, precision);
