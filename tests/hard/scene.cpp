@@ -13,8 +13,8 @@ double smallest(Precision precision) { return precision == Precision::single_pre
 }  // namespace
 
 std::string label(const Contender& contender) {
-  return report::label(report::Contestant{contender.algorithm, 0, contender.equilibrium}) +
-         (contender.energy == EnergyKind::material ? ", material" : "");
+  return contender.equilibrium ? contender.energy == EnergyKind::material ? "Exact + material" : "Exact + links"
+                               : report::label(report::Contestant{contender.algorithm});
 }
 
 Scene::Scene(MeshPointer mesh, const Contender& contender, Precision precision, const Softness& softness)
