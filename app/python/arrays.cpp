@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "chainmail/error.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
 
 using api::Error;
 
-constexpr std::int64_t max_ids = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t max_ids = std::numeric_limits<std::uint32_t>::max();
+/// Most rows of an array. A mesh has about seven links or six cells for each element.
+constexpr std::size_t most_rows = 10 * std::size_t{api::element_limit};
+constexpr py::ssize_t rows_between_looks = 1 << 18;  // copied in a few ms
 
 std::string shape_in_words(const py::array& array) {
   std::string words = "(";
@@ -23,8 +29,11 @@ std::string shape_in_words(const py::array& array) {
 }
 
 /// Returns numbers as an array. Lists whose rows differ in length become arrays of objects. What else NumPy raises,
-/// such as MemoryError, is thrown.
-py::array array_from(py::handle values, const std::string& name) {
+/// such as MemoryError, is thrown. Throws Error for more than `most` rows, before memory is taken.
+py::array array_from(py::handle values, const std::string& name, std::size_t most = most_rows) {
+  if (const std::size_t rows = py::len_hint(values); rows > most) {
+    throw Error(name, "it has " + std::to_string(rows) + " rows", "give at most " + std::to_string(most));
+  }
   try {
     return py::array(py::reinterpret_borrow<py::object>(values));
   } catch (const py::error_already_set& error) {
@@ -40,51 +49,79 @@ std::string type_in_words(const py::array& array) { return py::str(py::object(ar
 bool is_whole(const py::array& array) { return array.dtype().kind() == 'i' || array.dtype().kind() == 'u'; }
 bool is_number(const py::array& array) { return array.dtype().kind() == 'f' || is_whole(array); }
 
-/// An array whose numbers lie one after the other. Its constructor converts, and throws what NumPy raises.
-template <class Number>
-using Flat = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+/// Calls `take` with the numbers of an array as spans, a part of the rows at a time: a copy takes little memory, and
+/// Ctrl-C ends it. What NumPy raises is thrown.
+template <class Number, class Take>
+void take_in_parts(const py::array& array, Take take) {
+  const py::ssize_t rows = array.ndim() == 0 ? 1 : array.shape(0);
+  for (py::ssize_t row = 0; row < rows; row += rows_between_looks) {
+    const py::array part =
+        rows <= rows_between_looks ? array : py::array(array[py::slice(row, row + rows_between_looks, 1)]);
+    const py::array_t<Number, py::array::c_style | py::array::forcecast> flat(part);
+    take(std::span<const Number>(flat.data(), std::size_t(flat.size())));
+    if (PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
+  }
+}
 
-Flat<std::int64_t> whole_numbers(const py::array& array, const std::string& name) {
+void check_whole(const py::array& array, const std::string& name) {
   if (array.size() > 0 && !is_whole(array)) {
     throw Error(name, "the numbers are of type " + type_in_words(array), "give whole numbers, such as dtype uint32");
   }
-  return Flat<std::int64_t>(array);
 }
 
-Flat<double> real_numbers(const py::array& array, const std::string& name) {
+std::vector<double> real_numbers(const py::array& array, const std::string& name) {
   if (array.size() > 0 && !is_number(array)) {
     throw Error(name, "the numbers are of type " + type_in_words(array), "give real numbers, such as dtype float64");
   }
-  return Flat<double>(array);
+  std::vector<double> numbers;
+  numbers.reserve(std::size_t(array.size()));
+  take_in_parts<double>(array,
+                        [&](std::span<const double> part) { numbers.insert(numbers.end(), part.begin(), part.end()); });
+  return numbers;
 }
 
-std::uint32_t checked_id(std::int64_t id, const char* what) {
-  if (id < 0 || id >= max_ids) {
+template <class Whole>
+std::uint32_t checked_id(Whole id, const char* what) {
+  if (std::cmp_less(id, 0) || std::cmp_greater_equal(id, max_ids)) {
     throw Error(std::string(what) + " " + std::to_string(id), std::string("there is no such ") + what,
                 "use a number from 0");
   }
   return static_cast<std::uint32_t>(id);
 }
 
-std::vector<std::uint32_t> checked_ids(const Flat<std::int64_t>& numbers, const char* what) {
-  std::vector<std::uint32_t> ids(std::size_t(numbers.size()));
-  std::transform(numbers.data(), numbers.data() + numbers.size(), ids.begin(),
-                 [what](std::int64_t id) { return checked_id(id, what); });
+std::vector<std::uint32_t> checked_ids(const py::array& array, const std::string& name, const char* what) {
+  check_whole(array, name);
+  std::vector<std::uint32_t> ids;
+  ids.reserve(std::size_t(array.size()));
+  const auto take = [&](const auto part) {
+    std::ranges::transform(part, std::back_inserter(ids), [&](auto id) { return checked_id(id, what); });
+  };
+  if (array.dtype().kind() == 'u') {
+    take_in_parts<std::uint64_t>(array, take);
+  } else {
+    take_in_parts<std::int64_t>(array, take);
+  }
   return ids;
 }
 
 /// Returns x, y and z for each row. Fewer than three columns are `axes`, and the other coordinates are `origin`.
-std::vector<double> spread_out(const Flat<double>& numbers, const std::array<int, 3>& axes,
+std::vector<double> spread_out(const py::array& array, const std::array<int, 3>& axes,
                                const std::array<double, 3>& origin) {
-  const auto rows = std::size_t(numbers.shape(0));
-  const auto columns = std::size_t(numbers.shape(1));
+  std::vector<double> numbers = real_numbers(array, "positions");
+  const auto columns = std::size_t(array.shape(1));
+  if (columns == 3) {
+    return numbers;
+  }
+  const auto rows = std::size_t(array.shape(0));
   std::vector<double> positions(3 * rows);
   const double* in = numbers.data();
   for (std::size_t row = 0; row < rows; ++row) {
     double* at = positions.data() + 3 * row;
     std::copy(origin.begin(), origin.end(), at);
     for (std::size_t k = 0; k < columns; ++k) {
-      at[columns == 3 ? k : std::size_t(axes[k])] = *in++;
+      at[std::size_t(axes[k])] = *in++;
     }
   }
   return positions;
@@ -96,10 +133,6 @@ double number_of(PyObject* value) {
     throw py::error_already_set();
   }
   return number;
-}
-
-[[noreturn]] void refuse_length(const char* where, py::ssize_t length) {
-  throw Error(where, "it has " + std::to_string(length) + " numbers", "give x, y and z; those left out are 0");
 }
 
 }  // namespace
@@ -134,7 +167,7 @@ std::vector<std::uint32_t> ids_of(py::handle values, const char* what) {
   if (array.ndim() > 1) {
     throw Error(name, "the array has the shape " + shape_in_words(array), "give one dimension");
   }
-  return checked_ids(whole_numbers(array, name), what);
+  return checked_ids(array, name, what);
 }
 
 std::vector<std::uint32_t> rows_of(py::handle values, const std::string& name, std::size_t columns) {
@@ -149,37 +182,48 @@ std::vector<std::uint32_t> rows_of(py::handle values, const std::string& name, s
     throw Error(name, "the array has the shape " + shape_in_words(array),
                 "give the shape (n, " + std::to_string(columns) + ")");
   }
-  return checked_ids(whole_numbers(array, name), "element");
+  return checked_ids(array, name, "element");
+}
+
+py::object next_of(const py::object& iterator) {
+  auto item = py::reinterpret_steal<py::object>(outlive_python([&] { return PyIter_Next(iterator.ptr()); }));
+  if (PyErr_CheckSignals() != 0 || (!item && PyErr_Occurred() != nullptr)) {
+    throw py::error_already_set();
+  }
+  return item;
 }
 
 api::Vector3 vector_of(py::handle value, const char* where) {
   std::array<double, 3> at{};
-  const py::object items = py::reinterpret_steal<py::object>(
-      PySequence_Fast(value.ptr(), (std::string(where) + " must be a sequence of numbers: x, y, z").c_str()));
+  const auto items = py::reinterpret_steal<py::object>(PyObject_GetIter(value.ptr()));
   if (!items) {
-    throw py::error_already_set();
+    PyErr_Clear();
+    throw py::type_error(std::string(where) + " must be a sequence of numbers: x, y, z");
   }
-  const py::ssize_t length = PySequence_Fast_GET_SIZE(items.ptr());
-  if (length < 1 || length > 3) {
-    refuse_length(where, length);
+  std::size_t count = 0;
+  while (const py::object item = next_of(items)) {
+    if (count == at.size()) {
+      throw Error(where, "it has more than 3 numbers", "give x, y and z; those left out are 0");
+    }
+    at[count++] = number_of(item.ptr());
   }
-  for (py::ssize_t k = 0; k < length; ++k) {
-    at[std::size_t(k)] = number_of(PySequence_Fast_GET_ITEM(items.ptr(), k));
+  if (count == 0) {
+    throw Error(where, "it has no numbers", "give x, y and z; those left out are 0");
   }
   return {at[0], at[1], at[2]};
 }
 
 std::vector<double> positions_of(py::handle values) {
-  const py::array array = array_from(values, "positions");
+  const py::array array = array_from(values, "positions", api::element_limit);
   if (array.ndim() != 2 || array.shape(1) < 1 || array.shape(1) > 3) {
     throw Error("positions", "the array has the shape " + shape_in_words(array),
                 "give the shape (n, 3): x, y and z for each of n elements; or (n, 2) or (n, 1)");
   }
-  return spread_out(real_numbers(array, "positions"), {0, 1, 2}, {0, 0, 0});
+  return spread_out(array, {0, 1, 2}, {0, 0, 0});
 }
 
 std::vector<double> positions_on(const api::Mesh& mesh, py::handle values) {
-  const py::array array = array_from(values, "positions");
+  const py::array array = array_from(values, "positions", api::element_limit);
   const std::string count = std::to_string(mesh.element_count());
   const bool fits = array.ndim() == 2 && array.shape(0) == py::ssize_t(mesh.element_count()) &&
                     (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension());
@@ -191,33 +235,17 @@ std::vector<double> positions_on(const api::Mesh& mesh, py::handle values) {
   std::array<int, 3> axes{};
   std::ranges::transform(mesh.axes(), axes.begin(), [](char axis) { return axis - 'x'; });
   const api::Vector3 constant = mesh.rest_position(0);  // on the axes that do not exist
-  return spread_out(real_numbers(array, "positions"), axes, {constant.x, constant.y, constant.z});
+  return spread_out(array, axes, {constant.x, constant.y, constant.z});
 }
 
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count) {
   const py::array array = array_from(value, name);
-  const Flat<double> numbers = real_numbers(array, name);
-  if (array.ndim() == 0) {
-    return std::vector<double>(count, *numbers.data());
-  }
-  if (array.ndim() != 1 || std::size_t(array.shape(0)) != count) {
+  if (array.ndim() > 1 || (array.ndim() == 1 && std::size_t(array.shape(0)) != count)) {
     throw Error(name, "the array has the shape " + shape_in_words(array),
                 "give one number, or the shape (" + std::to_string(count) + ",)");
   }
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
-api::StateValue flat_numbers_of(py::handle values, const std::string& name) {
-  const py::array array = array_from(values, name);
-  if (array.size() == 0 || is_whole(array)) {
-    const Flat<std::int64_t> numbers = whole_numbers(array, name);
-    const std::span<const std::int64_t> all(numbers.data(), std::size_t(numbers.size()));
-    if (std::ranges::all_of(all, [](std::int64_t one) { return one >= 0 && one <= max_ids; })) {
-      return std::vector<std::uint32_t>(all.begin(), all.end());
-    }
-  }
-  const Flat<double> numbers = real_numbers(array, name);
-  return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
+  std::vector<double> numbers = real_numbers(array, name);
+  return array.ndim() == 0 ? std::vector<double>(count, numbers.front()) : numbers;
 }
 
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words) {

@@ -2,16 +2,18 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "chainmail/error.h"
 #include "chainmail/mesh.h"
-#include "chainmail/state.h"
 #include "chainmail/types.h"
 
 namespace chainmail::python {
@@ -39,8 +41,22 @@ std::vector<double> positions_on(const api::Mesh& mesh, py::handle values);
 /// Returns a number, or one for each of `count` links. `name` is that of the argument.
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count);
 
-/// Returns the numbers of an array of any shape, one row after the other: ids if all of them can be.
-api::StateValue flat_numbers_of(py::handle values, const std::string& name);
+/// Returns the next object of an iterator; nothing after the last one. Throws what Python raises, also for Ctrl-C.
+py::object next_of(const py::object& iterator);
+/// Returns a short list. `name` is that of the argument.
+template <class Value>
+std::vector<Value> list_of(const py::sequence& values, const std::string& name) {
+  constexpr std::size_t most = 10'000;
+  if (values.size() > most) {
+    throw api::Error(name, "it has " + std::to_string(values.size()) + " entries",
+                     "give at most " + std::to_string(most));
+  }
+  py::detail::make_caster<std::vector<Value>> list;
+  if (!list.load(values, true)) {
+    throw py::type_error(name + " has an entry of a wrong type");
+  }
+  return py::detail::cast_op<std::vector<Value>>(std::move(list));
+}
 
 /// Returns the position of a word in a list. Throws Error, with all words, if it is not in it.
 std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words);

@@ -6,6 +6,7 @@
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/table.h"
+#include "python/unlocked.h"
 #include "python/words.h"
 
 namespace chainmail::python {
@@ -70,7 +71,7 @@ void add_calibrate(py::module_& module) {
       "out\n"
       "of its range, if the object has no static solution, and if no reference solution converges; and Cancelled.");
   module.def("write_preset", &api::write_preset, py::arg("path"), py::arg("name"), py::arg("softness"),
-             py::call_guard<py::gil_scoped_release>(),
+             py::call_guard<Unlocked>(),
              "Writes a softness as a preset (JSON), which the workbench and `chainmail compare --preset` open.");
 }
 

@@ -24,9 +24,15 @@ api::Motion motion_of(py::handle step) {
   return {vector_of(step, "path"), {}};
 }
 
+constexpr std::size_t most_motions = 1'000'000;
+
 api::Drag drag_from(const std::string& name, const py::object& elements, const py::iterable& path) {
   api::Drag drag{name, ids_of(elements, "element"), {}};
-  for (const py::handle step : path) {
+  const py::iterator steps = py::iter(path);
+  while (const py::object step = next_of(steps)) {
+    if (drag.path.size() == most_motions) {
+      throw api::Error("path", "it has more than " + std::to_string(most_motions) + " motions", "give fewer");
+    }
     drag.path.push_back(motion_of(step));
   }
   return drag;
@@ -120,15 +126,16 @@ void add_compare(py::module_& module) {
   const api::CompareOptions defaults;
   module.def(
       "compare",
-      [](Object& body, const std::vector<api::Drag>& drags, const std::vector<std::string>& methods,
-         const std::vector<int>& sweeps, bool equilibrium, double relax_step, const std::string& scheme,
-         const std::string& precision, std::optional<int> repetitions, double seconds, const std::string& against,
-         const std::string& title, const std::optional<std::filesystem::path>& folder,
-         const std::optional<api::Job>& job, const py::object& progress) {
-        const Options options{{title, methods, sweeps, equilibrium, relax_step, scheme_of(scheme),
-                               precision_of(precision), repetitions, seconds, reference_of(against)},
-                              folder};
-        return compare(body, drags, options, job.value_or(api::Job()), progress);
+      [](Object& body, const py::sequence& drags, const py::sequence& methods, const py::sequence& sweeps,
+         bool equilibrium, double relax_step, const std::string& scheme, const std::string& precision,
+         std::optional<int> repetitions, double seconds, const std::string& against, const std::string& title,
+         const std::optional<std::filesystem::path>& folder, const std::optional<api::Job>& job,
+         const py::object& progress) {
+        const Options options{
+            {title, list_of<std::string>(methods, "methods"), list_of<int>(sweeps, "sweeps"), equilibrium, relax_step,
+             scheme_of(scheme), precision_of(precision), repetitions, seconds, reference_of(against)},
+            folder};
+        return compare(body, list_of<api::Drag>(drags, "drags"), options, job.value_or(api::Job()), progress);
       },
       py::arg("body"), py::arg("drags") = py::list(), py::kw_only(), py::arg("methods") = py::list(),
       py::arg("sweeps") = py::make_tuple(0), py::arg("equilibrium") = defaults.equilibrium,

@@ -12,6 +12,7 @@
 #include "python/module.h"
 #include "python/mover.h"
 #include "python/pickling.h"
+#include "python/unlocked.h"
 #include "python/words.h"
 
 namespace chainmail::python {
@@ -24,7 +25,7 @@ template <class Work>
 auto run(Object& object, bool is_slow, Work work) {
   api::Deformer& deformer = object.deformer();
   if (!is_slow) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return work(deformer);
   }
   const api::Job job = object.job();

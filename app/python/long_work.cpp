@@ -13,7 +13,12 @@ void look(const api::Job& job, const py::object& progress) {
     throw py::error_already_set();
   }
   if (!progress.is_none()) {
-    progress(job.share());
+    const py::float_ share(job.share());
+    const auto shown =
+        outlive_python([&] { return PyObject_CallFunctionObjArgs(progress.ptr(), share.ptr(), nullptr); });
+    if (!py::reinterpret_steal<py::object>(shown)) {
+      throw py::error_already_set();
+    }
   }
 }
 
@@ -22,7 +27,7 @@ void look(const api::Job& job, const py::object& progress) {
 void wait_for_work(const api::Job& job, const py::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within) {
   const auto is_done = [&](std::chrono::milliseconds time) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return is_done_within(time);
   };
   while (!is_done(between_looks)) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "chainmail/job.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 
@@ -36,7 +37,7 @@ auto run_long(const api::Job& job, const pybind11::object& progress, Work work) 
       return work();
     });
   } catch (const std::system_error&) {
-    const pybind11::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return work();
   }
   wait_for_work(job, progress,

@@ -6,6 +6,7 @@
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
@@ -38,14 +39,14 @@ py::dict named(const api::Violation& violation) {
 template <class Figure>
 auto figure_of(Object& object, Figure figure) {
   const UseObject use(object);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return figure(std::as_const(object.body()));
 }
 
 api::Spread distance_to_positions(Object& object, const py::object& values) {
   const UseObject use(object);
   const std::vector<double> positions = positions_on(object.body().mesh(), values);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return api::distance(object.body(), positions);
 }
 

@@ -8,6 +8,7 @@
 #include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
@@ -62,7 +63,7 @@ api::Mesh mesh_from(const py::object& positions, const py::object& links, const 
   const auto faces = rows_of(triangles, "triangles", 3);
   const auto cells = rows_of(tetrahedra, "tetrahedra", 4);
   const auto blocks = rows_of(hexahedra, "hexahedra", 8);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return api::make_mesh({rest, pairs, faces, cells, blocks, space_dimension});
 }
 

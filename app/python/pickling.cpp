@@ -63,7 +63,7 @@ std::optional<std::string> text_of(py::handle text) {
 }
 
 /// Returns a part of a dictionary as a value of a state; nothing if no state has such a value.
-std::optional<api::StateValue> value_of(py::handle part, const std::string& name) {
+std::optional<api::StateValue> value_of(py::handle part) {
   PyObject* const object = part.ptr();
   if (PyBool_Check(object) != 0) {
     return part.cast<bool>();
@@ -84,7 +84,7 @@ std::optional<api::StateValue> value_of(py::handle part, const std::string& name
            : bytes.starts_with(reals_mark) ? unpacked<double>(bytes.substr(1))
                                            : std::nullopt;
   }
-  return part.is_none() ? std::nullopt : std::optional(flat_numbers_of(part, name));
+  return std::nullopt;
 }
 
 }  // namespace
@@ -184,7 +184,7 @@ api::State PickledParts::without(const char* name) const {
     if (*of == name) {
       continue;
     }
-    auto value = value_of(part, "part");
+    auto value = value_of(part);
     if (!value) {
       refuse(*of);
     }

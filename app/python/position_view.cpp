@@ -6,6 +6,7 @@
 #include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
@@ -44,7 +45,7 @@ py::array positions(Object& object, const py::object& out) {
   py::array array = out.is_none() ? py::array(new_array(body)) : checked_out(out, body.mesh().element_count());
   const std::span<double> numbers(static_cast<double*>(array.mutable_data()), std::size_t(array.size()));
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     body.copy_positions(numbers);
   }
   return array;
@@ -66,7 +67,7 @@ py::array view(const ObjectPointer& object) {
 void set_positions(Object& object, const py::object& values) {
   const UseObject use(object);
   const std::vector<double> all = positions_on(object.body().mesh(), values);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   object.body().set_positions(all);
 }
 

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/table.h"
@@ -53,10 +54,17 @@ void add_ramp(py::module_& module) {
   const api::RampOptions defaults;
   module.def(
       "ramp",
-      [](const std::vector<std::string>& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
-         int moves, const std::string& precision, const api::LinkSoftness& softness, const std::optional<api::Job>& job,
+      [](const py::sequence& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags, int moves,
+         const std::string& precision, const api::LinkSoftness& softness, const std::optional<api::Job>& job,
          const py::object& progress) {
-        const api::RampOptions options{methods, seed, budget, largest, drags, moves, precision_of(precision), softness};
+        const api::RampOptions options{list_of<std::string>(methods, "methods"),
+                                       seed,
+                                       budget,
+                                       largest,
+                                       drags,
+                                       moves,
+                                       precision_of(precision),
+                                       softness};
         const api::Job watched = job.value_or(api::Job());
         return named(run_long(watched, progress, [&] { return api::ramp(options, watched); }));
       },

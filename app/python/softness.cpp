@@ -8,6 +8,7 @@
 #include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
@@ -50,7 +51,7 @@ void set_link_softness(Object& object, const py::object& links, const py::kwargs
   api::Body& body = object.body();
   const std::vector<LinkId> ids = links.is_none() ? every_link(body.mesh()) : ids_of(links, "link");
   const Numbers numbers = numbers_given(given, ids.size());
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   std::vector<api::LinkSoftness> next;
   next.reserve(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {

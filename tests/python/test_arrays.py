@@ -172,7 +172,7 @@ def test_an_array_that_takes_positions():
     assert np.array_equal(out, body.mesh.rest_positions())
 
 
-BAD_IDS = [-1, 6, 2**31, 2**32, 2**64, -(2**70)]
+BAD_IDS = [-1, 6, 2**31, 2**32, 2**64 - 1, 2**64, -(2**70)]
 
 
 @pytest.mark.parametrize("element", BAD_IDS)
@@ -204,6 +204,12 @@ def test_lists_of_ids_that_do_not_exist(ids):
         with pytest.raises(chainmail.Error):
             call(ids)
         assert (body.pins().tolist(), body.cuts().tolist()) == before
+
+
+@pytest.mark.parametrize("ids", [2**64 - 1, [2**64 - 1], np.array([2**64 - 1], np.uint64)])
+def test_an_id_is_named_as_it_was_given(ids):
+    with pytest.raises(chainmail.Error, match="element 18446744073709551615: there is no such element"):
+        chainmail.Body(chainmail.make_grid(3, 2)).pin(ids)
 
 
 @pytest.mark.parametrize("link", [-1, 7, 2**32])

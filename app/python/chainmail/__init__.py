@@ -11,6 +11,11 @@ A first drag::
     print(deformer.body.positions())
 """
 
+from importlib.util import find_spec as _find_spec
+
+if _find_spec("numpy") is None:
+    raise ImportError("chainmail needs NumPy, which is not installed; install python3-numpy, or run pip install numpy")
+
 from ._core import (
     Body,
     Deformer,

@@ -6,6 +6,7 @@ again after a process was lost, and give the same rows.
 
 from __future__ import annotations
 
+import math
 import statistics
 import time
 from typing import Any, Callable, Iterable, Iterator, Literal, Mapping, NamedTuple, Optional, Sequence, Union
@@ -31,6 +32,8 @@ Meshes = Union[Mesh, Mapping[str, Mesh]]
 Softnesses = Union[LinkSoftness, Sequence[LinkSoftness], None]
 DragOf = Union[Drag, Callable[[Mesh], Drag], None]
 Prepare = Optional[Callable[[Body], object]]
+
+_MOST_POINTS = 1_000_000
 
 _NO_FIGURES: dict[str, Any] = {
     "passes": None,
@@ -162,18 +165,16 @@ def _checked(
     if isinstance(methods, str):
         methods = [methods]
     named = {"mesh": meshes} if isinstance(meshes, Mesh) else dict(meshes)
-    softnesses = [softness or LinkSoftness()] if not isinstance(softness, Sequence) else list(softness)
-    for name, count in (
-        ("meshes", len(named)),
-        ("methods", len(methods)),
-        ("softness", len(softnesses)),
-        ("sweeps", len(sweeps)),
-    ):
+    softnesses = softness if isinstance(softness, Sequence) else [softness or LinkSoftness()]
+    counts = {"meshes": len(named), "methods": len(methods), "softness": len(softnesses), "sweeps": len(sweeps)}
+    for name, count in counts.items():
         if count == 0:
             raise Error(name, "there is none", "give at least one")
+    if math.prod(counts.values()) > _MOST_POINTS:
+        raise Error("study", f"it has {math.prod(counts.values())} points", f"give at most {_MOST_POINTS}")
     if repetitions < 1:
         raise Error("repetitions", "the number is below 1", "use a number from 1")
-    return named, list(methods), softnesses, list(sweeps)
+    return named, list(methods), list(softnesses), list(sweeps)
 
 
 def _objects(
