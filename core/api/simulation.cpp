@@ -87,7 +87,7 @@ void Simulation::Impl::pass(const commands::Drag& drag) {
 DeformSummary Simulation::Impl::summary() {
   const inner::Mesh& object = simulation.mesh();
   const auto positions = simulation.body().positions();
-  simulation.refresh_statistics(true);
+  simulation.measure_all();
   const Statistics& statistics = simulation.statistics();
   return {std::string(info(statistics.algorithm).name),
           object.element_count(),

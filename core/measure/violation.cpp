@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
 
 #include "body/region.h"
 #include "equilibrium/link_energy.h"
@@ -27,6 +30,14 @@ double excess(const Mesh& mesh, const LinkSoftness& softness, const RegionAxes& 
     square += outside * outside;
   }
   return std::sqrt(square);
+}
+
+/// Returns the number of blocks in the set.
+std::size_t count_of(const ElementBlocks& blocks) {
+  constexpr ElementId size = ElementBlocks::block_elements;
+  std::size_t count = 0;
+  blocks.for_each_run([&](ElementId first, ElementId end) { count += (end - first + size - 1) / size; });
+  return count;
 }
 
 double isotropic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position) {
@@ -85,10 +96,18 @@ double link_violation(const Mesh& mesh, const Softness& softness, const Position
 }
 
 void ViolationSum::add(double violation) {
+  violation = std::isnan(violation) ? std::numeric_limits<double>::infinity() : violation;
   ++links_;
   max_ = std::max(max_, violation);
   squares_ += violation * violation;
   violated_ += violation > counts_as_violated ? 1 : 0;
+}
+
+void ViolationSum::add(const ViolationSum& other) {
+  links_ += other.links_;
+  max_ = std::max(max_, other.max_);
+  squares_ += other.squares_;
+  violated_ += other.violated_;
 }
 
 Violation ViolationSum::result() const {
@@ -98,59 +117,105 @@ Violation ViolationSum::result() const {
   return {max_, std::sqrt(squares_ / double(links_)), double(violated_) / double(links_), links_};
 }
 
-bool WholeViolation::go_on(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                           LinkId count) {
-  const LinkId end = next_ + std::min(count, mesh.link_count() - next_);
-  for (; next_ < end; ++next_) {
-    if (!cuts.is_cut(next_)) {
-      sum_.add(link_violation(mesh, softness, position, next_));
+ViolationMeter::ViolationMeter(LinkId links) : stale_(links), left_(links), measured_(links) {
+  sums_.resize(stale_.block_count());
+  groups_ = ElementBlocks(static_cast<ElementId>(sums_.size()));
+  sums_of_groups_.resize(groups_.block_count());
+  stale_.insert_all();
+  // With steps of the golden section, some blocks lie evenly between all others.
+  stride_ = static_cast<std::size_t>(static_cast<double>(sums_.size()) / std::numbers::phi) + 1;
+  while (std::gcd(stride_, sums_.size()) > 1) {
+    ++stride_;
+  }
+}
+
+void ViolationMeter::forget(const Mesh& mesh, const ElementBlocks& moved) {
+  if (sums_.empty()) {
+    return;  // all links are measured first
+  }
+  if (count_of(moved) > moved.block_count() / 2) {
+    forget_all();
+    return;
+  }
+  moved.for_each_run([&](ElementId first, ElementId end) {
+    for (EntryId entry = mesh.first_entry[first]; entry < mesh.first_entry[end]; ++entry) {
+      stale_.insert(mesh.entry_link[entry]);
+    }
+  });
+}
+
+void ViolationMeter::forget(std::span<const LinkId> links) {
+  for (const LinkId link : sums_.empty() ? std::span<const LinkId>() : links) {
+    stale_.insert(link);
+  }
+}
+
+/// Calls visit(block) with up to `most` stale blocks. If there are more, the next calls visit the others.
+template <class Visit>
+void ViolationMeter::for_each_measured(std::size_t most, Visit visit) {
+  stale_.for_each_run([this](LinkId first, LinkId end) {
+    groups_.insert_run(first / block_links, (end + block_links - 1) / block_links);
+  });
+  if (count_of(stale_) <= most) {
+    stale_.for_each_block([&](std::size_t block, LinkId /*first*/, LinkId /*end*/) { visit(block); });
+    stale_.clear();
+    return;
+  }
+  for (std::size_t left = most; left > 0; next_ = (next_ + stride_) % sums_.size()) {
+    if (stale_.contains_block(next_) && !measured_.contains_block(next_)) {
+      visit(next_);
+      measured_.insert_block(next_);
+      --left;
     }
   }
-  return end < mesh.link_count();
+  left_.clear();
+  stale_.for_each_block([this](std::size_t block, LinkId /*first*/, LinkId /*end*/) {
+    if (!measured_.contains_block(block)) {
+      left_.insert_block(block);
+    }
+  });
+  measured_.clear();
+  std::swap(stale_, left_);
+}
+
+Violation ViolationMeter::total() {
+  groups_.for_each_block([this](std::size_t group, ElementId first, ElementId end) {
+    sums_of_groups_[group] = {};
+    for (ElementId block = first; block < end; ++block) {
+      if (!stale_.contains_block(block)) {
+        sums_of_groups_[group].add(sums_[block]);
+      }
+    }
+  });
+  groups_.clear();
+  ViolationSum sum;
+  for (const ViolationSum& one : sums_of_groups_) {
+    sum.add(one);
+  }
+  return sum.result();
+}
+
+MeasuredViolation ViolationMeter::measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
+                                          const PositionView& position, LinkId most) {
+  if (sums_.empty()) {
+    *this = ViolationMeter(mesh.link_count());
+  }
+  for_each_measured(most / block_links + 1, [&](std::size_t block) {
+    ViolationSum sum;
+    const auto first = static_cast<LinkId>(block * block_links);
+    for (LinkId link = first; link < mesh.link_count() && link - first < block_links; ++link) {
+      if (!cuts.is_cut(link)) {
+        sum.add(link_violation(mesh, softness, position, link));
+      }
+    }
+    sums_[block] = sum;
+  });
+  return {total(), stale_.empty(), std::chrono::steady_clock::now()};
 }
 
 Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                             const PositionView& position) {
-  WholeViolation whole;
-  whole.go_on(mesh, softness, cuts, position, mesh.link_count());
-  return whole.result();
-}
-
-template <class Use>
-void TouchedViolation::for_each_sampled(std::initializer_list<std::span<const ElementId>> elements, std::size_t nth,
-                                        Use use) {
-  for (const auto& some : elements) {
-    for (std::size_t i = 0; i < some.size(); i += nth) {
-      use(some[i]);
-    }
-  }
-}
-
-Violation TouchedViolation::measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
-                                    const PositionView& position,
-                                    std::initializer_list<std::span<const ElementId>> elements, std::size_t most) {
-  std::size_t count = 0;
-  for (const auto& some : elements) {
-    count += some.size();
-  }
-  const std::size_t nth = count / most + (count % most == 0 ? 0 : 1);
-  sampled_ = nth > 1;
-  ViolationSum sum;
-  seen_.resize(mesh.element_count());
-  for_each_sampled(elements, nth, [&](ElementId element) {
-    if (seen_[element]) {
-      return;
-    }
-    for (EntryId entry = mesh.first_entry[element]; entry < mesh.first_entry[element + 1]; ++entry) {
-      // The link to a neighbour that was seen before is already counted.
-      if (const LinkId link = mesh.entry_link[entry]; !seen_[mesh.neighbours[entry]] && !cuts.is_cut(link)) {
-        sum.add(link_violation(mesh, softness, position, link));
-      }
-    }
-    seen_[element] = true;
-  });
-  for_each_sampled(elements, nth, [&](ElementId element) { seen_[element] = false; });
-  return sum.result();
+  return ViolationMeter().measure(mesh, softness, cuts, position, mesh.link_count());
 }
 
 double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,

@@ -1,14 +1,14 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <initializer_list>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "body/softness.h"
 #include "elastic/material.h"
 #include "mesh/cuts.h"
+#include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 #include "solver/solver.h"
 
@@ -38,6 +38,7 @@ Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cu
 class ViolationSum {
  public:
   void add(double violation);
+  void add(const ViolationSum& other);
   Violation result() const;
 
  private:
@@ -47,35 +48,44 @@ class ViolationSum {
   std::uint64_t links_ = 0;
 };
 
-/// Measures the violation of the whole mesh in slices. The object must not change in between.
-class WholeViolation {
- public:
-  /// Measures the next `count` links. Returns true if more links remain.
-  bool go_on(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position, LinkId count);
-  Violation result() const { return sum_.result(); }
-
- private:
-  ViolationSum sum_;
-  LinkId next_ = 0;
+/// The violation of an object, from one measurement. Everything that shows it reads the same one.
+struct MeasuredViolation : Violation {
+  bool is_whole = false;                       // false: some links that changed are not measured yet and do not count
+  std::chrono::steady_clock::time_point at{};  // when it was measured
 };
 
-/// Measures the violation of the links of some elements, each link once.
-class TouchedViolation {
+/// Measures the violation of all links of an object again after each change. It keeps the sums of blocks of links, so
+/// the cost depends on what changed.
+class ViolationMeter {
  public:
-  /// Takes time in proportion to the number of links of `elements`, or of every n-th of them if they are more than
-  /// `most`. Keeps one bit per element between calls.
-  Violation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                    std::initializer_list<std::span<const ElementId>> elements,
-                    std::size_t most = std::numeric_limits<std::size_t>::max());
-  /// True if the last measurement left some of the elements out.
-  bool sampled() const { return sampled_; }
+  ViolationMeter() = default;
+
+  /// The elements of these blocks may have moved.
+  void forget(const Mesh& mesh, const ElementBlocks& moved);
+  /// These links were cut or restored.
+  void forget(std::span<const LinkId> links);
+  /// The softness has changed.
+  void forget_all() { stale_.insert_all(); }
+  /// True if no link has to be measured again.
+  bool is_complete() const { return stale_.empty(); }
+  /// Measures links that changed, about `most` of them at once, here and there in the object. Allocates memory only for
+  /// the first measurement.
+  MeasuredViolation measure(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                            LinkId most);
 
  private:
-  template <class Use>
-  static void for_each_sampled(std::initializer_list<std::span<const ElementId>> elements, std::size_t nth, Use use);
+  static constexpr LinkId block_links = ElementBlocks::block_elements;
 
-  std::vector<bool> seen_;  // all false between two calls
-  bool sampled_ = false;
+  explicit ViolationMeter(LinkId links);
+  template <class Visit>
+  void for_each_measured(std::size_t most, Visit visit);
+  Violation total();
+
+  ElementBlocks stale_;            // blocks of links to measure
+  ElementBlocks left_, measured_;  // while only some of them are measured
+  ElementBlocks groups_;           // groups of 64 blocks whose sums are out of date
+  std::vector<ViolationSum> sums_, sums_of_groups_;
+  std::size_t next_ = 0, stride_ = 1;  // the next block, if only some are measured, and the way to the one after it
 };
 
 /// Returns the elastic energy over the uncut links, of the kind that the softness names (see

@@ -23,9 +23,7 @@ constexpr auto relaxation_time = std::chrono::seconds(10);
 constexpr double settled_below = 1e-4;
 // About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
-constexpr LinkId links_per_slice = 20'000;
-// Elements whose links are measured while something is dragged. It takes some milliseconds.
-constexpr std::size_t max_measured = 20'000;
+constexpr LinkId links_per_slice = 50'000;
 
 }  // namespace
 
@@ -35,6 +33,7 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
       precision_(precision),
       solver_(make_solver(mesh_, algorithm, precision)),
       changed_(mesh_->element_count()),
+      unmeasured_(mesh_->element_count()),
       away_(mesh_->element_count()),
       unkept_(mesh_->element_count()) {
   changed_.insert_all();
@@ -58,7 +57,6 @@ void Simulation::prepare(ElementId element) {
 }
 
 void Simulation::apply(const Command& command) {
-  measure_.reset();
   std::visit([this](const auto& one) { carry_out(one); }, command);
 }
 
@@ -115,14 +113,21 @@ std::span<const double> Simulation::control_points() {
   }
 }
 
+void Simulation::note_change(const ElementBlocks& blocks) {
+  changed_.insert(blocks);
+  unmeasured_.insert(blocks);
+}
+
 void Simulation::mark(std::span<const ElementId> moved) {
   changed_.insert(moved);
+  unmeasured_.insert(moved);
   away_.insert(moved);
   unkept_.insert(moved);
 }
 
 void Simulation::mark_all() {
   changed_.insert_all();
+  unmeasured_.insert_all();
   away_.insert_all();
   unkept_.insert_all();
 }
@@ -131,7 +136,6 @@ bool Simulation::continue_relaxation() {
   if (!statistics_.relaxing) {
     return false;
   }
-  measure_.reset();
   try {
     if (run_slice()) {
       fall_asleep();
@@ -198,7 +202,6 @@ void Simulation::relax(int count, double step, double until) {
   if (count == 0 || !info(algorithm_).relaxes()) {
     return;
   }
-  measure_.reset();
   if (!info(solver_->relaxation()).sweeps) {
     take_relaxed([&] { return solver_->solve(until, count, grabbed(), progress_); });
     return;
@@ -224,38 +227,22 @@ std::uint64_t Simulation::sweep(double step, const Progress& progress) {
   }
 }
 
-void Simulation::refresh_statistics(bool whole_mesh) {
-  if (whole_mesh) {
-    while (measure()) {
-    }
-    return;
+bool Simulation::measure() {
+  if (!unmeasured_.empty()) {
+    meter_.forget(*mesh_, unmeasured_);
+    unmeasured_.clear();
   }
+  statistics_.violation = meter_.measure(*mesh_, softness(), body().cuts(), body().positions(), links_per_slice);
   statistics_.last_second = times_.summary(Clock::now());
-  statistics_.violation_of_whole_mesh = false;
-  statistics_.violation_of_sample = false;
-  if (last_handle_) {
-    statistics_.violation = touched_.measure(*mesh_, softness(), body().cuts(), body().positions(),
-                                             {last_handle_->elements(), solver_->moved()}, max_measured);
-    statistics_.violation_of_sample = touched_.sampled();
-  } else {
-    statistics_.violation = {};
+  if (statistics_.violation.is_whole) {
+    valid_ = statistics_.violation.fraction == 0;
   }
+  return statistics_.violation.is_whole;
 }
 
-bool Simulation::measure() {
-  if (!measure_) {
-    measure_.emplace();
+void Simulation::measure_all() {
+  while (!measure()) {
   }
-  if (measure_->go_on(*mesh_, softness(), body().cuts(), body().positions(), links_per_slice)) {
-    return true;
-  }
-  statistics_.last_second = times_.summary(Clock::now());
-  statistics_.violation = measure_->result();
-  statistics_.violation_of_whole_mesh = true;
-  statistics_.violation_of_sample = false;
-  valid_ = statistics_.violation.fraction == 0;
-  measure_.reset();
-  return false;
 }
 
 void Simulation::take_mesh(MeshPointer mesh) {
@@ -268,7 +255,9 @@ void Simulation::take_mesh(MeshPointer mesh) {
   solver_->set_threads(threads_);
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
-  away_ = changed_ = unkept_ = ElementBlocks(mesh_->element_count());
+  away_ = changed_ = unkept_ = unmeasured_ = ElementBlocks(mesh_->element_count());
+  meter_ = {};
+  statistics_.violation = {};
   last_kept_ = {};
   changed_.insert_all();
   grabbed_.reset();
@@ -369,6 +358,7 @@ void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
     const RegionAxes before = body().region_axes();
     solver_->body().set_softness(softness);
+    meter_.forget_all();
     note_axes(before);
   }
 }
@@ -383,6 +373,7 @@ void Simulation::note_axes(const RegionAxes& before) {
 /// All positions are rounded anew. What is at rest stays so for snapshots.
 void Simulation::note_rounding() {
   changed_.insert_all();
+  unmeasured_.insert_all();
   if (!away_.empty()) {
     mark_all();
   }
@@ -481,12 +472,14 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
 void Simulation::carry_out(const commands::Cut& command) {
   check_links(*mesh_, command.links);
   solver_->body().cut(command.links);
+  meter_.forget(command.links);
   wake_ends(command.links);
 }
 
 void Simulation::carry_out(const commands::Uncut& command) {
   check_links(*mesh_, command.links);
   solver_->body().uncut(command.links);
+  meter_.forget(command.links);
   valid_ = false;  // the ends may have moved too far apart while the link was cut
   wake_ends(command.links);
 }
@@ -512,7 +505,7 @@ void Simulation::carry_out(const commands::Unpin& command) {
 
 void Simulation::carry_out(const commands::Reset&) {
   solver_->body().reset(away_);
-  changed_.insert(away_);
+  note_change(away_);
   unkept_.insert(away_);
   away_.clear();
   last_handle_.reset();
@@ -590,7 +583,7 @@ void Simulation::carry_out(const commands::SetPositions& command) {
   ElementBlocks away = command.snapshot->away(*mesh_), changed = away_;
   changed.insert(away);
   solver_->body().restore(*command.snapshot, changed);
-  changed_.insert(changed);
+  note_change(changed);
   unkept_.insert(changed);
   away_ = std::move(away);
   valid_ = command.snapshot->is_at_rest();
@@ -616,7 +609,6 @@ SimulationState Simulation::hand_over() {
 }
 
 void Simulation::take(const SimulationState& state, Algorithm algorithm) {
-  measure_.reset();
   algorithm_ = algorithm;
   solver_->body().set_elastic(state.elastic);
   take_mesh(state.object.mesh);
@@ -672,9 +664,11 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   // Makes only the calls that change something: a method of elasticity prepares again after each of them.
   if (!excess.empty()) {
     solver_->body().uncut(excess);
+    meter_.forget(excess);
   }
   if (!missing.empty()) {
     solver_->body().cut(missing);
+    meter_.forget(missing);
   }
 }
 
@@ -691,7 +685,7 @@ void Simulation::take_positions(const Snapshot& positions) {
     }
   }
   solver_->body().restore(positions, unkept_);
-  changed_.insert(unkept_);
+  note_change(unkept_);
   last_kept_ = positions;
   unkept_.clear();
   if (positions.from_rest != body().stores_displacements() ||

@@ -23,9 +23,7 @@ struct Statistics {
   PassCount last_pass;
   double last_pass_ms = 0;
   PassTimes::Summary last_second;
-  Violation violation;
-  bool violation_of_whole_mesh = false;  // false: of the links that the last pass touched
-  bool violation_of_sample = false;      // of some of these only: there were too many
+  MeasuredViolation violation;
   bool relaxing = false;
   std::uint64_t sweeps = 0;  // since the last pass; iterations with the scheme `equilibrium`
   /// After an iteration toward the equilibrium: the estimated distance from it, see EquilibriumCertificate.
@@ -94,12 +92,14 @@ class Simulation {
   /// Returns true if it is known, without a check of the whole mesh, that no link is violated beyond rounding.
   bool valid() const { return valid_; }
 
-  /// Updates the statistics that are too expensive for each pass: the times of the last second, and the violation of
-  /// the whole mesh or of the links that the last pass touched.
-  void refresh_statistics(bool whole_mesh);
-  /// Runs a slice, of some milliseconds, of the measurement of the whole mesh, for idle time. A command or a step drops
-  /// an unfinished measurement. Returns true if there is more to do. The statistics are updated at the end.
+  /// Updates the statistics that are too expensive for each pass: the times of the last second, and the violation. It
+  /// measures the links that changed since it was measured, but only some milliseconds long: if there are too many,
+  /// some stay for the next call. Returns true if all are measured.
   bool measure();
+  /// Updates them, however long it takes.
+  void measure_all();
+  /// Returns true if the violation in the statistics is that of the present positions of all links.
+  bool is_measured() const { return statistics_.violation.is_whole && meter_.is_complete() && unmeasured_.empty(); }
 
  private:
   using State = ObjectState;
@@ -142,6 +142,7 @@ class Simulation {
   void pass(const std::shared_ptr<Handle>& handle, const Pose& target);
   template <class Move>
   void time_pass(Move move);
+  void note_change(const ElementBlocks& blocks);
   void mark(std::span<const ElementId> moved);
   void mark_all();
   State& kept(commands::StateId state);
@@ -161,6 +162,7 @@ class Simulation {
   Precision precision_;
   std::unique_ptr<Solver> solver_;
   ElementBlocks changed_;                // changed blocks since forget_changes()
+  ElementBlocks unmeasured_;             // changed blocks since the violation was measured
   ElementBlocks away_;                   // all elements outside these blocks are at rest
   Snapshot last_kept_;                   // positions that were last saved or restored
   ElementBlocks unkept_;                 // blocks in which a position may have changed since then
@@ -176,8 +178,7 @@ class Simulation {
   PassTimes::Clock::time_point relaxation_deadline_{};
   std::map<commands::StateId, State> kept_;
   PassTimes times_;
-  std::optional<WholeViolation> measure_;  // unfinished measurement
-  TouchedViolation touched_;
+  ViolationMeter meter_;
   Statistics statistics_;
   Trace* trace_ = nullptr;
   Progress progress_;

@@ -23,7 +23,7 @@ constexpr auto pause_of_handle = std::chrono::milliseconds(100);
 constexpr auto rest_of_pointer = std::chrono::milliseconds(80);
 // After a failure, the thread waits so long before it tries the same again.
 constexpr auto pause_of_failure = std::chrono::milliseconds(500);
-// Interval between updates of the displayed figures.
+// After the last change, links that are not measured yet wait for this time.
 constexpr auto violation_time = std::chrono::milliseconds(250);
 
 using namespace commands;
@@ -373,7 +373,7 @@ bool SolverThread::measure(const std::stop_token& stop) {
   const RunningPass running;
   try {
     while (idle() && !stop.stop_requested()) {
-      if (!simulation_.measure()) {
+      if (simulation_.measure()) {
         return true;
       }
     }
@@ -384,19 +384,16 @@ bool SolverThread::measure(const std::stop_token& stop) {
   return false;
 }
 
-/// Updates the statistics that are shown during a drag.
+/// Updates the statistics of a frame, which takes at most a tenth of the time.
 void SolverThread::refresh_figures() {
   const auto now = Clock::now();
-  // The violation of the whole mesh is out of date after elements have moved.
-  const bool outdated = simulation_.statistics().violation_of_whole_mesh;
-  if (!simulation_.changed().empty() && (outdated || now >= next_violation_)) {
+  if (!simulation_.is_measured() && now >= next_violation_) {
     try {
-      simulation_.refresh_statistics(false);
+      simulation_.measure();
     } catch (...) {
       report_failure();  // the frame shows the figures of before
     }
-    // The measurement of a large mesh takes longer than a pass, so it gets at most a tenth of the time.
-    next_violation_ = now + std::max<Clock::duration>(violation_time, 10 * (Clock::now() - now));
+    next_violation_ = now + 10 * (Clock::now() - now);
   }
 }
 
@@ -417,6 +414,7 @@ void SolverThread::publish() {
   writer_.publish(simulation_);
   published_.store(writer_.number(), std::memory_order_release);
   unseen_ = false;
+  measured_ = measured_ || simulation_.is_measured();
   frame_ready_();
 }
 

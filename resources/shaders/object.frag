@@ -25,6 +25,7 @@ uniform vec3 stops[6];   // the colour map's control points
 uniform vec2 range;      // the values at its two ends
 uniform float threshold; // values that differ from `centre` by at most this are neutral
 uniform float centre;
+uniform bool diverging;   // the centre is in the middle of the map, with a range on each side
 uniform bool logarithmic; // equal ratios of values are equally far apart
 uniform int first_value;  // of the drawn links, in link_values
 uniform vec4 neutral;
@@ -35,7 +36,8 @@ vec4 mapped(float value) {
   if (abs(value - centre) <= threshold) {
     return neutral;
   }
-  vec2 ends = range;
+  vec2 ends = !diverging ? range
+              : value < centre ? vec2(range.x, 2.0 * centre - range.x) : vec2(2.0 * centre - range.y, range.y);
   if (logarithmic) {
     value = log(max(value, range.x));
     ends = log(range);

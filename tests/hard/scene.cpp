@@ -99,7 +99,7 @@ Outcome Scene::outcome() {
   for (const auto& [pin, position] : pins_) {
     outcome.anchors = outcome.anchors && is_at(pin, position, 0);
   }
-  simulation_.refresh_statistics(true);
+  simulation_.measure_all();
   outcome.violation = simulation_.statistics().violation;
   // Absolute positions round in proportion to their coordinates, displacements in proportion to their own size.
   const bool absolute = simulation_.statistics().algorithm != Algorithm::exact;

@@ -38,6 +38,7 @@ struct SolverSettings {
 struct Workbench {
   explicit Workbench(const MeshPointer& mesh = generate({MeshKind::grid, {9, 7, 1}, 1, {}}))
       : window(mesh, QStringLiteral("sample")) {
+    window.colouring().setMode(ColourMode::plain);  // most tests look for the colours of panels
     QCursor::setPos(QGuiApplication::primaryScreen()->geometry().topLeft());  // else a view below it shows the hover
     window.show();
     window.activateWindow();  // shortcuts go to the active window

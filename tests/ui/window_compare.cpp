@@ -144,7 +144,7 @@ class WindowCompare : public QObject {
     const QPointF theirs = middleOf(bench, 1, apart);  // the cameras are linked, so it is the same position in panel A
     QVERIFY(bench.distanceFromColour(0, theirs, panelColour(bench.document(), 1)) > 2 * alike);
     bench.chooseGhost(0, QStringLiteral("Panel B"));
-    QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("ghost of B, 50 %")));
+    QTRY_VERIFY(bench.find<QLabel>("state0")->toolTip().contains(QStringLiteral("50 % ghost of B")));
     QVERIFY(bench.view(0).grabFramebuffer() != own);
     const int faint = bench.distanceFromColour(0, theirs, panelColour(bench.document(), 1));
     auto* slider = bench.window.panel(0).findChild<QSlider*>(QStringLiteral("ghostBlend0"));

@@ -245,7 +245,7 @@ class WindowLayout : public QObject {
     }
     // The last frames have the violation of the whole object.
     for (int panel = 0; panel < 2; ++panel) {
-      QTRY_VERIFY(bench.document().solvers().frame(panel)->statistics.violation_of_whole_mesh);
+      QTRY_VERIFY(bench.document().solvers().frame(panel)->statistics.violation.is_whole);
     }
     bench.settleFigures();
     QTRY_VERIFY(!isTimed(bench));  // no timer is left that could start painting

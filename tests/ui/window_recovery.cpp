@@ -97,7 +97,7 @@ struct SafeBench : Workbench {
   void save() {
     for (int panel = 0; panel < document().panels(); ++panel) {
       // No frame follows this one for some time.
-      QTRY_VERIFY(document().solvers().frame(panel)->statistics.violation_of_whole_mesh);
+      QTRY_VERIFY(document().solvers().frame(panel)->statistics.violation.is_whole);
     }
     do {
       settle();

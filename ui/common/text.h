@@ -20,6 +20,16 @@ inline QString counted(const QString& verb, std::size_t count, const QString& no
   return QStringLiteral("%1 %2").arg(verb, counted(count, noun));
 }
 
+/// Returns the first parts, which middle dots separate, that fit together; at least one. So no number is cut.
+template <class Fits>
+QString wholeParts(QString parts, Fits fits) {
+  for (qsizetype dot = 0; dot >= 0 && !fits(parts);) {
+    dot = parts.lastIndexOf(QChar(0xb7));
+    parts = parts.left(dot).trimmed();  // all of it if there is no dot
+  }
+  return parts;
+}
+
 /// Returns a time of `milliseconds` with three digits, in ms or, if it is short, in µs.
 inline QString shownTime(double milliseconds) {
   const bool isShort = milliseconds < 0.1;

@@ -37,6 +37,10 @@ QColor at(double share, const Stops& all) {
 const Stops& stopsOf(const ColourScale& scale) { return scale.diverging ? differenceStops() : stops(); }
 
 double shareOf(float value, const ColourScale& scale) {
+  if (scale.diverging) {
+    const double side = std::abs(double(value < scale.centre ? scale.lowest : scale.highest) - double(scale.centre));
+    return side > 0 ? std::clamp(0.5 + 0.5 * (double(value) - double(scale.centre)) / side, 0.0, 1.0) : 0.5;
+  }
   const auto along = [&](float one) {
     return scale.logarithmic ? std::log(double(std::max(one, scale.lowest))) : double(one);
   };

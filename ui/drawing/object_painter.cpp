@@ -275,6 +275,7 @@ void ObjectPainter::useMap(const ColourScale& scale, QColor neutral) {
   program_->setUniformValue("range", QVector2D(scale.lowest, scale.highest));
   program_->setUniformValue("threshold", scale.threshold);
   program_->setUniformValue("centre", scale.centre);
+  program_->setUniformValue("diverging", scale.diverging);
   program_->setUniformValue("logarithmic", scale.logarithmic);
   program_->setUniformValue("neutral", neutral);
 }

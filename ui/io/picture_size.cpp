@@ -97,7 +97,9 @@ void PictureSizeDialog::arrange() {
   row->addWidget(unit_);
   auto* form = new QFormLayout(this);
   form->addRow(asOnScreen_);
-  form->addRow(QStringLiteral("&Width"), row);
+  auto* width = new QLabel(QStringLiteral("&Width"));  // the form makes no buddy of a layout
+  width->setBuddy(width_);
+  form->addRow(width, row);
   form->addRow(QStringLiteral("&Dots per inch"), dpi_);
   form->addRow(QStringLiteral("Picture"), pixels_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);

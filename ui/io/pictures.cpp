@@ -12,6 +12,7 @@
 #include "common/colours.h"
 #include "common/write_bytes.h"
 #include "mesh/error.h"
+#include "panels/legend.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
 
@@ -80,11 +81,21 @@ QImage figureOf(const QWidget& widget, double scale, bool transparent,
 }
 
 void drawPanels(QPainter& painter, PanelArea& area, const QColor& ground, std::optional<double> pixelRatio) {
+  const Legend& legend = area.legend();
+  if (legend.isVisibleTo(&area)) {
+    painter.fillRect(legend.geometry(), ground);
+    painter.setPen(QColor(colours::marked));
+    painter.setFont(legend.font());
+    painter.save();
+    painter.translate(legend.pos());
+    legend.draw(painter);
+    painter.restore();
+  }
   for (const int one : area.inSight()) {
     Panel& panel = *area.panels()[std::size_t(one)];
     painter.save();
     painter.translate(panel.mapTo(&area, QPoint()));
-    panel.drawIn(painter, ground, pixelRatio);
+    panel.drawIn(painter, ground, pixelRatio, !legend.isVisibleTo(&area));
     painter.restore();
   }
 }

@@ -22,19 +22,28 @@ constexpr std::size_t valuesPerClockCheck = 4096;
 constexpr float violationThreshold = 1e-4F;
 constexpr float logarithmicSpan = 1000;  // of a logarithmic scale whose lowest value is not positive
 
+constexpr float unlimited = std::numeric_limits<float>::infinity();
 constexpr std::array modeInfos{
-    ColourModeInfo{ColourMode::plain, "plain", "Plain", "", ""},
+    ColourModeInfo{ColourMode::plain, "plain", "Plain", "", "", "Each object has the colour of its panel"},
     ColourModeInfo{ColourMode::compression, "compression", "Limit of compression", "Limit of compression",
-                   "of rest length"},
-    ColourModeInfo{ColourMode::stretch, "stretch", "Limit of stretch", "Limit of stretch", "of rest length"},
-    ColourModeInfo{ColourMode::shear, "shear", "Limit of shear", "Limit of shear", "of length along the other axes"},
-    ColourModeInfo{ColourMode::length, "length", "Length / rest length", "Length of links, live", "of rest length"},
-    ColourModeInfo{ColourMode::violation, "violation", "Violation of links", "Violation, live", "rest lengths"},
-    ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths"},
+                   "of rest length", "How short a link may become, divided by its rest length", 0, 1},
+    ColourModeInfo{ColourMode::stretch, "stretch", "Limit of stretch", "Limit of stretch", "of rest length",
+                   "How long a link may become, divided by its rest length", 1},
+    ColourModeInfo{ColourMode::shear, "shear", "Limit of shear", "Limit of shear", "of length along the other axes",
+                   "How far a link may lean along an axis, divided by its rest length along the other axes"},
+    ColourModeInfo{ColourMode::length, "length", "Length / rest length", "Length of links, live", "of rest length",
+                   "The length of a link now, divided by its rest length", 0, unlimited, 1},
+    ColourModeInfo{ColourMode::violation, "violation", "Violation of links", "Violation, live", "rest lengths",
+                   "How far a link lies outside its valid region, divided by its rest length"},
+    ColourModeInfo{ColourMode::distance, "distance", "Distance between panels", "Distance", "mean rest lengths",
+                   "The distance between the positions of an element in two panels, divided by the mean rest length"},
     ColourModeInfo{ColourMode::violationDifference, "violationDifference", "Violation, difference of panels",
-                   "Violation", "rest lengths"},
+                   "Violation", "rest lengths", "The violation of a link in one panel minus that in another",
+                   -unlimited},
     ColourModeInfo{ColourMode::physicsError, "truth", "Error against physics", "Error against physics",
-                   "of the handle's displacement"},
+                   "of the handle's displacement",
+                   "The distance of an element from its position in the reference solution, divided by the "
+                   "displacement of the handle"},
 };
 
 bool isOfElements(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::physicsError; }
@@ -47,9 +56,6 @@ bool isOfSoftness(ColourMode mode) {
 bool followsFrame(ColourMode mode) {
   return mode == ColourMode::length || mode == ColourMode::violation || mode == ColourMode::physicsError;
 }
-
-/// True if the values of links also colour the faces of objects in space.
-bool coloursFaces(ColourMode mode) { return mode == ColourMode::violation || mode == ColourMode::violationDifference; }
 
 }  // namespace
 
@@ -124,6 +130,9 @@ void Colouring::setRange(ColourMode mode, const ColourRange& range) {
 void Colouring::receiveFrame(int panel) {
   if (followsFrame(mode_)) {
     works_[panel].outdated = true;
+    if (mode_ == ColourMode::violation) {
+      updateScales();
+    }
   } else if (comparesPanels(mode_)) {
     for (Work& work : works_) {
       work.outdated = true;
@@ -193,9 +202,10 @@ bool Colouring::start(int panel) {
   work.building.mesh = document_.mesh();
   work.building.ofLinks = !isOfElements(mode_);
   work.building.values.resize(work.building.ofLinks ? mesh.link_count() : mesh.element_count());
-  work.building.atElements.assign(coloursFaces(mode_) && mesh.space_dimension == 3 ? mesh.element_count() : 0, 0);
-  work.building.lowest = std::numeric_limits<float>::max();
-  work.building.highest = 0;
+  work.building.atElements.assign(work.building.ofLinks && mesh.space_dimension == 3 ? mesh.element_count() : 0,
+                                  info(mode_).centre);
+  work.building.lowest = unlimited;
+  work.building.highest = -unlimited;
   work.softness = document_.wholeSoftness();
   work.solution = solution_.answer();
   for (const int one : all) {
@@ -281,9 +291,10 @@ void Colouring::take(Work& work, std::size_t i, float value) const {
   building.lowest = std::min(building.lowest, value);
   building.highest = std::max(building.highest, value);
   if (!building.atElements.empty()) {
+    const float centre = info(mode_).centre;
     for (const ElementId end : building.mesh->links[i]) {
       float& largest = building.atElements[end];
-      largest = std::abs(value) > std::abs(largest) ? value : largest;
+      largest = std::abs(value - centre) > std::abs(largest - centre) ? value : largest;
     }
   }
 }
@@ -371,16 +382,25 @@ float Colouring::physicsError(const Work& work, int panel, ElementId element) co
 
 // Scales and titles
 
+/// Returns the highest value of a panel. The largest violation is that of the statistics, which the window also shows
+/// in words; the colours may be of a frame before.
+float Colouring::highestOf(int panel) const {
+  const Frame* frame = mode_ == ColourMode::violation ? document_.solvers().frame(panel) : nullptr;
+  return frame != nullptr && frame->statistics.violation.links > 0 ? float(frame->statistics.violation.max)
+                                                                   : works_[std::size_t(panel)].shown.highest;
+}
+
 void Colouring::updateScales() {
   std::array<ColourScale, Document::maxPanels> scales;
   ColourScale all;
   for (std::size_t panel = 0; panel < works_.size(); ++panel) {
     const ColourValues& shown = works_[panel].shown;
     if (shown.number != 0 && shown.lowest <= shown.highest) {
+      const float highest = highestOf(int(panel));
       all.lowest = all.known() ? std::min(all.lowest, shown.lowest) : shown.lowest;
-      all.highest = std::max(all.highest, shown.highest);
+      all.highest = all.known() ? std::max(all.highest, highest) : highest;
       scales[panel].lowest = shown.lowest;
-      scales[panel].highest = shown.highest;
+      scales[panel].highest = highest;
     }
   }
   for (ColourScale& scale : scales) {
@@ -397,20 +417,15 @@ ColourScale Colouring::finished(ColourScale scale) const {
   if (mode_ == ColourMode::violation) {
     scale.lowest = scale.threshold = violationThreshold;
     scale.highest = std::max(scale.highest, violationThreshold);
-  } else if (mode_ == ColourMode::length && scale.known()) {
+  } else if (isDiverging(mode_) && scale.known()) {
     scale.diverging = true;
-    scale.centre = 1;
+    scale.centre = info(mode_).centre;
     scale.threshold = violationThreshold;
-    const float off = std::max({1 - scale.lowest, scale.highest - 1, violationThreshold});
-    scale.lowest = 1 - off;
-    scale.highest = 1 + off;
+    const float off = std::max({scale.centre - scale.lowest, scale.highest - scale.centre, violationThreshold});
+    scale.lowest = scale.centre - off;
+    scale.highest = scale.centre + off;
   } else if (mode_ == ColourMode::distance || (mode_ == ColourMode::physicsError && scale.known())) {
     scale.lowest = 0;
-  } else if (mode_ == ColourMode::violationDifference && scale.known()) {
-    scale.diverging = true;
-    scale.threshold = violationThreshold;
-    scale.highest = std::max({std::abs(scale.lowest), std::abs(scale.highest), violationThreshold});
-    scale.lowest = -scale.highest;
   }
   return scale;
 }
@@ -433,6 +448,8 @@ ColourScale Colouring::ranged(ColourScale scale) const {
     scale.logarithmic = true;
     scale.lowest = scale.lowest > 0 ? scale.lowest : scale.highest / logarithmicSpan;
   }
+  scale.lowest = std::max(scale.lowest, info(mode_).least);
+  scale.highest = std::max(std::min(scale.highest, info(mode_).most), scale.lowest);
   return scale;
 }
 
@@ -447,7 +464,7 @@ QString Colouring::title(int panel) const {
     return QStringLiteral("%1: %2").arg(what, solution_.state());
   }
   if (mode_ == ColourMode::physicsError && works_[panel].shown.number != 0) {
-    what += errorText(works_[panel]);
+    return errorText(works_[panel]) + title();
   }
   if (comparesPanels(mode_)) {
     const auto others = comparedWith(panel);
@@ -461,11 +478,11 @@ QString Colouring::title(int panel) const {
   return QStringLiteral("%1 (%2)").arg(what, text(mode.unit));
 }
 
-/// Returns the errors of a panel as text. The relative error is divided by the RMS displacement of the reference
-/// solution, so it is about 1 for an object that does not move.
+/// Returns the errors of a panel as text, in parts of which a narrow legend shows the first ones. The relative error is
+/// divided by the RMS displacement of the reference solution, so it is about 1 for an object that does not move.
 QString Colouring::errorText(const Work& work) const {
   const BackgroundReference::Answer& answer = *solution_.answer();
-  return QStringLiteral(" on the same cells: relative error %1 (nothing moves: %2), RMS %3")
+  return QStringLiteral("%1 relative error on the same cells · %2 if nothing moves · %3 RMS · ")
       .arg(shownNumber(work.rms * answer.solution.handle_displacement / answer.rms, 'g', 3),
            shownNumber(answer.nothing, 'g', 3), shownNumber(work.rms, 'g', 3));
 }

@@ -4,6 +4,7 @@
 #include <QString>
 #include <QTimer>
 #include <array>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -27,10 +28,12 @@ enum class ColourMode {
   physicsError
 };
 
-/// The names of a mode: `name` in settings and tests, `label` in the menu, `title` and `unit` in the legend.
+/// The quantity of a mode. Its names: `name` in settings and tests, `label` in the menu, `title` and `unit` in the
+/// legend. Its values lie between `least` and `most`, and `centre` is the value of an object at rest.
 struct ColourModeInfo {
   ColourMode mode;
-  std::string_view name, label, title, unit;
+  std::string_view name, label, title, unit, definition;
+  float least = 0, most = std::numeric_limits<float>::infinity(), centre = 0;
 };
 std::span<const ColourModeInfo> colourModes();
 const ColourModeInfo& info(ColourMode mode);
@@ -120,6 +123,7 @@ class Colouring : public QObject {
   float distance(const Work& work, int panel, int other, ElementId element) const;
   float physicsError(const Work& work, int panel, ElementId element) const;
 
+  float highestOf(int panel) const;
   void updateScales();
   ColourScale ranged(ColourScale scale) const;
   ColourScale finished(ColourScale scale) const;
@@ -127,7 +131,7 @@ class Colouring : public QObject {
 
   const Document& document_;
   BackgroundReference solution_;  // the reference solution
-  ColourMode mode_ = ColourMode::plain;
+  ColourMode mode_ = ColourMode::violation;
   std::array<Work, Document::maxPanels> works_;
   std::array<ColourScale, Document::maxPanels> scales_;
   int reference_ = 0;

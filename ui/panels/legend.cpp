@@ -88,13 +88,15 @@ void Legend::follow(const Colouring& colouring, int panel) {
   wanted_ = colouring.mode() != ColourMode::plain;
   shared_ = colouring.sharesScale();
   ofOverlay_ = false;
-  QString help = shared_ ? QStringLiteral("One scale for all panels: a colour means the same value in each.")
-                         : QStringLiteral("The scale of this panel only: other panels have their own.");
-  if (colouring.mode() == ColourMode::violation || colouring.mode() == ColourMode::violationDifference) {
-    help += QStringLiteral(
-        "\nViolated links are thicker, and over valid ones. In space, each corner of a face has the value of its\n"
-        "link with the largest one.");
+  const ColourModeInfo& mode = info(colouring.mode());
+  QString help = text(mode.definition) + QLatin1Char('\n');
+  help += shared_ ? QStringLiteral("One scale for all panels: a colour means the same value in each.")
+                  : QStringLiteral("The scale of this panel only: other panels have their own.");
+  if (colouring.scale(panel).threshold >= 0) {
+    help += QStringLiteral("\nLinks outside the grey range are thicker, and over the others.");
   }
+  help += QStringLiteral(
+      "\nIn space, each corner of a face has the value of the one of its links that is furthest from rest.");
   setToolTip(help);
   set(colouring.title(panel), colouring.scale(panel));
   fit();
@@ -144,8 +146,10 @@ void Legend::paintEvent(QPaintEvent* /*event*/) {
 
 void Legend::draw(QPainter& painter) const {
   QRect line(legendMargin, topMargin, width() - 2 * legendMargin, fontMetrics().height());
+  const QString fitting =
+      wholeParts(title(), [&](const QString& text) { return fontMetrics().horizontalAdvance(text) <= line.width(); });
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
-                   fontMetrics().elidedText(title(), Qt::ElideRight, line.width()));
+                   fontMetrics().elidedText(fitting, Qt::ElideRight, line.width()));
   line.translate(0, fontMetrics().height() + 2);
   if (!scale_.known()) {
     return;

@@ -19,7 +19,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int refreshMilliseconds = 100;
+constexpr qsizetype mostFigures = 3;   // in a line
 constexpr int lateMilliseconds = 300;  // a solver that works for longer without a frame is said to work
 constexpr int printMargin = 8;         // pixels, the same as on the screen
 const colours::Colour& ink = colours::marked;
@@ -37,7 +37,7 @@ void drawAt(QPainter& painter, const QRect& part, const std::function<void()>& d
 }  // namespace
 
 Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int panel, std::shared_ptr<Camera> camera,
-             std::shared_ptr<MeshLevels> levels)
+             std::shared_ptr<MeshLevels> levels, QTimer& refresh)
     : document_(document),
       colouring_(colouring),
       panel_(panel),
@@ -46,7 +46,7 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
       view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
       head_(new PanelHead(document, *view_, panel)),
       legend_(new Legend),
-      refresh_(this),
+      refresh_(refresh),
       late_(this) {
   view_->setObjectName(QStringLiteral("view%1").arg(panel));
   legend_->setObjectName(QStringLiteral("legend%1").arg(panel));
@@ -77,30 +77,29 @@ void Panel::arrange() {
 }
 
 void Panel::listen() {
-  refresh_.setSingleShot(true);
-  refresh_.setInterval(refreshMilliseconds);
   connect(&refresh_, &QTimer::timeout, this, &Panel::showStatistics);
   connect(&document_.solvers(), &PanelSolvers::frameReady, this, [this](int ready) {
     if (ready == panel_) {
       busy_.invalidate();
       answered_ = true;
     }
-    if (!refresh_.isActive()) {  // also for other panels: the bar is relative to the worst of them
-      refresh_.start();
-    }
+    refreshLater();  // also for other panels: the bar is relative to the worst of them
   });
+  connect(&document_, &Document::meshChanged, this, &Panel::showStatistics);
   followWork();
-  connect(view_, &View::drawnStepChanged, &refresh_, qOverload<>(&QTimer::start));
-  connect(view_, &View::resized, &refresh_, qOverload<>(&QTimer::start));
-  connect(view_, &View::ghostChanged, &refresh_, qOverload<>(&QTimer::start));
-  connect(&document_, &Document::pinsChanged, &refresh_, qOverload<>(&QTimer::start));
-  connect(&document_, &Document::cutsChanged, &refresh_, qOverload<>(&QTimer::start));
+  connect(view_, &View::drawnStepChanged, this, &Panel::refreshLater);
+  connect(view_, &View::resized, this, &Panel::refreshLater);
+  connect(view_, &View::ghostChanged, this, &Panel::refreshLater);
+  connect(&document_, &Document::pinsChanged, this, &Panel::refreshLater);
+  connect(&document_, &Document::cutsChanged, this, &Panel::refreshLater);
   connect(&colouring_, &Colouring::modeChanged, this, &Panel::showStatistics);
-  connect(&colouring_, &Colouring::changed, this, [this] {
-    if (!refresh_.isActive()) {
-      refresh_.start();
-    }
-  });
+  connect(&colouring_, &Colouring::changed, this, &Panel::refreshLater);
+}
+
+void Panel::refreshLater() {
+  if (!refresh_.isActive()) {
+    refresh_.start();
+  }
 }
 
 /// Looks whether the solver works each time it may have begun, and while it does.
@@ -181,9 +180,7 @@ double Panel::worstViolation() const {
 
 void Panel::refresh() {
   view_->update();
-  if (!refresh_.isActive()) {
-    refresh_.start();
-  }
+  refreshLater();
 }
 
 void Panel::showStatistics() {
@@ -193,11 +190,15 @@ void Panel::showStatistics() {
     legend_->follow(colouring_, panel_);
   }
   emit legendChanged();
-  if (document_.solvers().frame(panel_) != nullptr) {
-    const Statistics& statistics = document_.solvers().statistics(panel_);
-    update(statistics);
-    head_->showStates(states(statistics));
+  if (document_.solvers().frame(panel_) == nullptr) {  // what was shown is of another object
+    violation_->clear();
+    statistics_->clear();
+    head_->showStates({});
+    return;
   }
+  const Statistics& statistics = document_.solvers().statistics(panel_);
+  update(statistics);
+  head_->showStates(states(statistics));
 }
 
 QString Panel::overlayTitle() const {
@@ -208,6 +209,11 @@ QString Panel::overlayTitle() const {
 void Panel::showFigures(bool on) {
   statistics_->setVisible(on);
   refresh();
+}
+
+void Panel::setLecture(bool on) {
+  view_->setLecture(on);
+  violation_->setLarge(on);
 }
 
 /// Shows the sentence and the figures of the last pass. Uses a shorter text if the panel is narrow.
@@ -222,51 +228,54 @@ void Panel::update(const Statistics& statistics) {
           "the share of links above 1e-4 rest lengths.\n")
           .arg(shownNumber(ViolationLine::fullAt(worst), 'g', 2)) +
       QStringLiteral(
-          "During a drag it covers the links that the pass touched, at rest all links. While the\n"
-          "Propagation dock shows a candidate, it is the violation after the whole pass.");
+          "It is of all links, also during a drag; 'so far' if there was no time for some of those that\n"
+          "moved. While the Propagation dock shows a candidate, it is the violation after the whole pass.");
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
-  statistics_->setText(describe(statistics, false));
   violation_->setToolTip(QStringLiteral("%1\n\n%2\n\n%3").arg(violation_->sentence(), inWords(statistics), help));
-  if (statistics_->sizeHint().width() > statistics_->width()) {
-    statistics_->setText(describe(statistics, true));
+  statistics_->setText(describe(statistics, false, mostFigures));
+  for (qsizetype parts = mostFigures; parts > 0 && statistics_->sizeHint().width() > statistics_->width(); --parts) {
+    statistics_->setText(describe(statistics, true, parts));
   }
 }
 
-/// Returns the figures as HTML. If the solver reports a problem, its remark replaces the violation.
-QString Panel::describe(const Statistics& statistics, bool briefly) const {
-  return describePass(statistics, briefly) + QStringLiteral("<br>") +
-         (statistics.remark.empty() ? describeViolation(statistics, briefly) : describeRemark(statistics));
+/// Returns the first figures as HTML, in two lines. If the solver reports a problem, its remark replaces the violation.
+QString Panel::describe(const Statistics& statistics, bool briefly, qsizetype parts) const {
+  const QString dot = QStringLiteral(" · ");
+  return describePass(statistics, briefly).mid(0, parts).join(dot) + QStringLiteral("<br>") +
+         (statistics.remark.empty() ? describeViolation(statistics, briefly).mid(0, parts).join(dot)
+                                    : describeRemark(statistics));
 }
 
 /// Returns the figures as plain text.
 QString Panel::inWords(const Statistics& statistics) {
-  QString figures = describePass(statistics, false) + QLatin1Char('\n') + describeViolation(statistics, false);
+  const QString dot = QStringLiteral(" · ");
+  QString figures =
+      describePass(statistics, false).join(dot) + QLatin1Char('\n') + describeViolation(statistics, false).join(dot);
   figures.remove(QStringLiteral("<b>")).remove(QStringLiteral("</b>"));
   return statistics.remark.empty() ? figures : figures + QLatin1Char('\n') + QString::fromStdString(statistics.remark);
 }
 
-QString Panel::describePass(const Statistics& statistics, bool briefly) {
+QStringList Panel::describePass(const Statistics& statistics, bool briefly) {
   const QLocale locale;
   const bool solved = !info(statistics.algorithm).has_steps();
   const QLatin1String several(statistics.last_pass.checked == 1 ? "" : "s");
-  const QString checked = solved    ? QStringLiteral("solved for <b>%2</b> element") + several
-                          : briefly ? QStringLiteral("<b>%2</b> checked")
-                                    : QStringLiteral("<b>%2</b> link") + several + QStringLiteral(" checked");
-  return (QStringLiteral("<b>%1</b> moved · ") + checked + QStringLiteral(" · <b>%3</b>") +
-          (briefly ? QString() : QStringLiteral(" per pass")))
-      .arg(locale.toString(qulonglong(statistics.last_pass.moved)),
-           locale.toString(qulonglong(statistics.last_pass.checked)), shownTime(statistics.last_pass_ms));
+  const QString checked = solved    ? QStringLiteral("solved for <b>%1</b> element") + several
+                          : briefly ? QStringLiteral("<b>%1</b> checked")
+                                    : QStringLiteral("<b>%1</b> link") + several + QStringLiteral(" checked");
+  return {QStringLiteral("<b>%1</b> moved").arg(locale.toString(qulonglong(statistics.last_pass.moved))),
+          checked.arg(locale.toString(qulonglong(statistics.last_pass.checked))),
+          QStringLiteral("<b>%1</b>").arg(shownTime(statistics.last_pass_ms)) +
+              (briefly ? QString() : QStringLiteral(" per pass"))};
 }
 
-QString Panel::describeViolation(const Statistics& statistics, bool briefly) {
-  const Violation& violation = statistics.violation;
-  const QString of = briefly                              ? QString()
-                     : statistics.violation_of_whole_mesh ? QStringLiteral(" of all links:")
-                     : statistics.violation_of_sample     ? QStringLiteral(" of sampled touched links:")
-                                                          : QStringLiteral(" of touched links:");
-  return QStringLiteral("violation%1 max <b>%2</b> · RMS <b>%3</b> · <b>%4</b> %")
-      .arg(of, shownNumber(violation.max, 'g', 3), shownNumber(violation.rms, 'g', 3),
-           shownNumber(100 * violation.fraction, 'f', 1));
+QStringList Panel::describeViolation(const Statistics& statistics, bool briefly) {
+  const MeasuredViolation& violation = statistics.violation;
+  const QString of = briefly              ? QString()
+                     : violation.is_whole ? QStringLiteral(" of all links:")
+                                          : QStringLiteral(" so far:");
+  return {QStringLiteral("violation%1 max <b>%2</b>").arg(of, shownNumber(violation.max, 'g', 3)),
+          QStringLiteral("RMS <b>%1</b>").arg(shownNumber(violation.rms, 'g', 3)),
+          QStringLiteral("<b>%1</b> %").arg(shownNumber(100 * violation.fraction, 'f', 1))};
 }
 
 QString Panel::describeRemark(const Statistics& statistics) const {
@@ -294,10 +303,10 @@ QStringList Panel::states(const Statistics& statistics) const {
                   .arg(statistics.sweeps);
   }
   if (const Ghost& ghost = view_->ghost(); ghost.of) {
-    states << QStringLiteral("ghost of %1, %2 %").arg(panelName(*ghost.of)).arg(std::lround(100 * ghost.blend));
+    states << QStringLiteral("%2 % ghost of %1").arg(panelName(*ghost.of)).arg(std::lround(100 * ghost.blend));
   }
   if (view_->drawnStep() > 1) {
-    states << QStringLiteral("simplified drawing, 1 of %1 links").arg(view_->drawnStep());
+    states << QStringLiteral("1 of %1 links drawn").arg(view_->drawnStep());
   }
   if (view_->leavesLinksOut()) {
     states << QStringLiteral("zoom in to see links");
@@ -305,16 +314,17 @@ QStringList Panel::states(const Statistics& statistics) const {
   return states + view_->notes();
 }
 
-void Panel::drawIn(QPainter& painter, const QColor& ground, std::optional<double> pixelRatio) {
+void Panel::drawIn(QPainter& painter, const QColor& ground, std::optional<double> pixelRatio, bool legend) {
   painter.fillRect(rect(), ground);
   painter.setFont(font());
   drawAt(painter, head_->geometry(), [&] { drawHead(painter); });
   drawAt(painter, view_->geometry(), [&] {
     pixelRatio ? painter.drawImage(QPoint(), view_->picture(*pixelRatio, true)) : view_->drawIn(painter, ground);
   });
-  if (legend_->isWanted()) {  // also if the window has one legend for all panels, because a drawing may be of one panel
+  if (legend ? legend_->isWanted() : legend_->isVisibleTo(this)) {
     const QPoint at = legend_->isVisibleTo(this) ? legend_->pos() : view_->pos();
-    drawAt(painter, QRect(at, QSize(width(), legend_->wholeHeight())), [&] { legend_->draw(painter); });
+    const int height = legend ? legend_->wholeHeight() : legend_->height();
+    drawAt(painter, QRect(at, QSize(width(), height)), [&] { legend_->draw(painter); });
   }
   drawAt(painter, violation_->geometry(), [&] {
     painter.setPen(QColor(ink));

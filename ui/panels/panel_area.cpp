@@ -16,6 +16,7 @@ namespace chainmail {
 namespace {
 
 constexpr int panelsPerRow = 2;
+constexpr int refreshMilliseconds = 100;
 constexpr int handleWidth = 3;
 constexpr int panelRest = 90;  // height of a panel's head and figures at the usual size of texts (pixels)
 // Panels change between next to each other and above each other if that shows the object larger by this factor.
@@ -45,6 +46,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
       legend_(new Legend),
       column_(makeSplitter(Qt::Vertical)),
       rows_{makeSplitter(Qt::Horizontal), makeSplitter(Qt::Horizontal)},
+      refresh_(this),
       refit_(this) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -55,6 +57,8 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
   for (QSplitter* row : rows_) {
     column_->addWidget(row);
   }
+  refresh_.setSingleShot(true);
+  refresh_.setInterval(refreshMilliseconds);
   refit_.setSingleShot(true);
   refit_.setInterval(0);  // runs after all views have their sizes
   connect(&refit_, &QTimer::timeout, this, &PanelArea::fitAgain);
@@ -98,7 +102,7 @@ void PanelArea::followPanels() {
 
 void PanelArea::addPanel() {
   const int number = int(panels_.size());
-  auto* panel = new Panel(document_, colouring_, links_, number, camera_, levels_);
+  auto* panel = new Panel(document_, colouring_, links_, number, camera_, levels_, refresh_);
   if (!panels_.empty() && number >= Document::minPanels) {
     const auto& first = panels_.front()->view().camera();
     panel->view().setCamera(links_.cameras() ? first : std::make_shared<Camera>(*first));
@@ -116,7 +120,7 @@ void PanelArea::addPanel() {
   panel->view().setDrawOptions(drawOptions_);
   panel->head().setActions(headActions_);
   panel->showFigures(figures_);
-  panel->view().setLecture(lecture_);
+  panel->setLecture(lecture_);
   listenTo(*panel, number);
 }
 
@@ -194,7 +198,7 @@ void PanelArea::setFigures(bool on) {
 void PanelArea::setLecture(bool on) {
   lecture_ = on;
   for (Panel* panel : panels_) {
-    panel->view().setLecture(on);
+    panel->setLecture(on);
   }
   if (!panels_.empty()) {
     legend_->setFont(panels_.front()->legend().font());

@@ -132,6 +132,7 @@ class PanelArea : public QWidget {
   std::vector<bool> shown_;
   std::optional<int> alone_;
   bool figures_ = false, lecture_ = false;
+  QTimer refresh_;  // of the figures of all panels at once, so that they and the legend are of one moment
   QTimer refit_;
   bool dragged_ = false;  // since the views were fitted to the object after a drag
   bool fitsRest_ = true;  // true if the views show the rest shape since the last fit

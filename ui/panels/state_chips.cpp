@@ -44,21 +44,23 @@ void StateChips::changeEvent(QEvent* event) {
   }
 }
 
-/// Puts the chips into rows from left to right. A state that is wider than the view is shortened when it is painted.
+/// Puts the chips into rows from left to right. A state that is wider than the view has several lines.
 void StateChips::place() {
   chips_.clear();
   const int width = std::max(0, view_.width() - 2 * distance - rightSpace);
-  const int height = fontMetrics().height() + 2 * marginY;
   QPoint at;
+  int bottom = 0;
   for (const QString& state : states_) {
-    const int wide = std::min(width, fontMetrics().horizontalAdvance(state) + 2 * marginX);
-    if (at.x() > 0 && at.x() + wide > width) {
-      at = {0, at.y() + height + distance};
+    const QRect room(0, 0, std::max(1, width - 2 * marginX), QWIDGETSIZE_MAX);
+    const QRect words = fontMetrics().boundingRect(room, Qt::TextWordWrap, state);
+    if (at.x() > 0 && at.x() + words.width() + 2 * marginX > width) {
+      at = {0, bottom + distance};
     }
-    chips_.emplace_back(at, QSize(wide, height));
-    at.rx() += wide + distance;
+    chips_.emplace_back(at, words.size() + QSize(2 * marginX, 2 * marginY));
+    bottom = std::max(bottom, at.y() + chips_.back().height());
+    at.rx() += chips_.back().width() + distance;
   }
-  setGeometry({view_.pos() + QPoint(distance, distance), QSize(width, at.y() + height)});
+  setGeometry({view_.pos() + QPoint(distance, distance), QSize(width, bottom)});
   setVisible(!states_.isEmpty());
   raise();
   update();
@@ -72,11 +74,10 @@ void StateChips::paintEvent(QPaintEvent* /*event*/) {
   for (std::size_t i = 0; i < chips_.size(); ++i) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(ground);
-    painter.drawRoundedRect(chips_[i], chips_[i].height() / 2.0, chips_[i].height() / 2.0);
+    const double round = fontMetrics().height() / 2.0 + marginY;
+    painter.drawRoundedRect(chips_[i], round, round);
     painter.setPen(palette().color(QPalette::WindowText));
-    const QRect inside = chips_[i].adjusted(marginX, 0, -marginX, 0);
-    painter.drawText(inside, Qt::AlignVCenter | Qt::AlignLeft,
-                     fontMetrics().elidedText(states_[qsizetype(i)], Qt::ElideRight, inside.width()));
+    painter.drawText(chips_[i].adjusted(marginX, marginY, 0, 0), Qt::TextWordWrap, states_[qsizetype(i)]);
   }
 }
 

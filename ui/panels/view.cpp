@@ -19,6 +19,7 @@
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
+#include "drawing/colour_map.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
@@ -667,7 +668,9 @@ ObjectDrawing::Paint View::colouredPaint() {
     }
   }
   const ColourValues* values = colouring_.follow(panel_);
-  return {panelColour(document_, panel_), values, colouring_.scale(panel_)};
+  const bool plain = colouring_.mode() == ColourMode::plain || values != nullptr;  // else grey until values are known
+  return {plain ? QColor(panelColour(document_, panel_)) : QColor(colour_map::neutral), values,
+          colouring_.scale(panel_)};
 }
 
 /// Draws the selection, the highlight, the pins and the tool's stroke. Pins are drawn after the highlight, so that the

@@ -12,6 +12,7 @@ namespace chainmail {
 namespace {
 
 constexpr int shareWidth = 44, shareHeight = 10, shareMargin = 8;  // pixels
+constexpr int largeDigits = 48;      // pixels, which the last row of a lecture hall can read
 constexpr double leastShown = 0.04;  // a smaller share is drawn as this fraction of the bar
 constexpr double leastFull = 0.1;    // rest lengths; see fullAt()
 
@@ -22,90 +23,100 @@ QString rounded(double value) {
 
 /// Returns a share as a percentage that is not rounded to none or all.
 QString percentage(double share) {
-  const double percent = 100 * share;
-  const QLocale locale;
-  return percent < 1    ? QStringLiteral("less than 1 %")
-         : percent > 99 ? QStringLiteral("%1 %").arg(share < 1 ? QStringLiteral("more than 99") : QStringLiteral("100"))
-                        : QStringLiteral("%1 %").arg(locale.toString(std::lround(percent)));
+  return share > 0 && share < 0.01   ? QStringLiteral("< 1 %")
+         : share < 1 && share > 0.99 ? QStringLiteral("> 99 %")
+                                     : QStringLiteral("%1 %").arg(std::lround(100 * share));
 }
 
-/// Says that a sentence is about the end of the pass.
-QString afterThePass(QString sentence) {
-  sentence[0] = sentence[0].toLower();
-  return QStringLiteral("After the pass: ") + sentence;
+/// Says in a sentence how many links are violated, and by how much. Shorter sentences follow; they begin with the same
+/// number.
+QStringList inSentences(const Statistics& statistics, const ViolationLine::State& state) {
+  if (!statistics.remark.empty()) {
+    return {QString::fromStdString(statistics.remark)};
+  }
+  const MeasuredViolation& violation = statistics.violation;
+  const QString when = state.inMidPass      ? QStringLiteral(" after the pass")
+                       : violation.is_whole ? QString()
+                                            : QStringLiteral(" so far");
+  if (violation.fraction == 0) {
+    return {state.hasMoved ? QStringLiteral("All links are valid") + when : QStringLiteral("Nothing has moved yet"),
+            QStringLiteral("All valid")};
+  }
+  const QString number = percentage(violation.fraction), brief = number + QStringLiteral(" violated");
+  const bool finite = std::isfinite(violation.max);
+  const QString worst =
+      finite ? QStringLiteral(", worst %1 ×").arg(rounded(violation.max)) : QStringLiteral(", some not finite");
+  return {number + QStringLiteral(" of links violated") + when +
+              (finite ? worst + QStringLiteral(" rest length") : QStringLiteral(", some without a finite length")),
+          brief + when + worst, brief, number};
 }
 
 }  // namespace
 
-QString violationInWords(const Statistics& statistics, bool hasMoved) {
-  if (!statistics.remark.empty()) {
-    return QString::fromStdString(statistics.remark);
-  }
-  const Violation& violation = statistics.violation;
-  const bool whole = statistics.violation_of_whole_mesh, sampled = statistics.violation_of_sample;
-  if (std::isnan(violation.fraction)) {
-    return QStringLiteral("Some links without a finite length");
-  }
-  if (violation.fraction == 0) {
-    return !hasMoved ? QStringLiteral("Nothing has moved yet")
-           : whole   ? QStringLiteral("All links are valid")
-           : sampled ? QStringLiteral("All links in a sample of the touched links are valid")
-                     : QStringLiteral("All touched links are valid");
-  }
-  const QString share = QStringLiteral("%1 of %2violated, ")
-                            .arg(percentage(violation.fraction), whole     ? QStringLiteral("links ")
-                                                                 : sampled ? QStringLiteral("sampled touched links ")
-                                                                           : QStringLiteral("touched links "));
-  return share + (std::isfinite(violation.max) ? QStringLiteral("worst %1 × rest length").arg(rounded(violation.max))
-                                               : QStringLiteral("some without a finite length"));
-}
-
-ViolationLine::ViolationLine() : sentence_(new QLabel) {
+ViolationLine::ViolationLine() : number_(new QLabel), sentence_(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(shareWidth + shareMargin, 0, 0, 0);
-  row->addWidget(sentence_);
-  words_ = brief_ = QStringLiteral("No figures yet");
+  row->addWidget(number_);
+  row->addWidget(sentence_, 1);
+  number_->setObjectName(QStringLiteral("number"));
+  number_->setTextFormat(Qt::PlainText);
+  number_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  number_->hide();
+  sentence_->setObjectName(QStringLiteral("sentence"));
   sentence_->setTextFormat(Qt::PlainText);
   sentence_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  clear();
   followTheme(*this, [this] { update(); });
+}
+
+/// The width has room for every number, so that it does not change while dragging.
+void ViolationLine::setLarge(bool on) {
+  QFont large = font();
+  large.setPixelSize(largeDigits);
+  large.setBold(true);
+  number_->setFont(large);
+  number_->setFixedWidth(QFontMetrics(large).horizontalAdvance(percentage(0.999)) + shareMargin);
+  number_->setVisible(on);
+  fitWords();
 }
 
 double ViolationLine::fullAt(double worst) { return std::isfinite(worst) ? std::max(worst, leastFull) : leastFull; }
 
 void ViolationLine::show(const Statistics& statistics, const State& state) {
-  const Violation& violation = statistics.violation;
-  const bool inMidPass = state.inMidPass;
-  const double share = violation.rms / fullAt(state.worst);
-  share_ = !state.hasMoved || violation.fraction == 0 ? 0 : std::isfinite(share) ? std::min(share, 1.0) : 1;
-  words_ = brief_ = violationInWords(statistics, state.hasMoved);
   if (!state.work.isEmpty()) {
-    share_ = -1;
-    words_ = brief_ = state.work;
-    fitWords();
-    update();
+    say({state.work}, QStringLiteral("–"), -1);
     return;
   }
-  const bool isViolated = statistics.remark.empty() && violation.fraction > 0;
-  if (isViolated) {
-    brief_ = QStringLiteral("%1 violated").arg(percentage(violation.fraction));
-    brief_ += inMidPass                      ? QString()
-              : std::isfinite(violation.max) ? QStringLiteral(", worst %1 ×").arg(rounded(violation.max))
-                                             : QStringLiteral(", some not finite");
-  }
-  if (inMidPass) {
-    words_ = afterThePass(words_);
-    brief_ = afterThePass(statistics.remark.empty() && violation.fraction == 0 ? QStringLiteral("all valid") : brief_);
-  }
+  const Violation& violation = statistics.violation;
+  const double share = violation.rms / fullAt(state.worst);
+  const bool none = !state.hasMoved || violation.fraction == 0;
+  say(inSentences(statistics, state), percentage(state.hasMoved ? violation.fraction : 0),
+      none                   ? 0
+      : std::isfinite(share) ? std::min(share, 1.0)
+                             : 1);
+}
+
+void ViolationLine::say(const QStringList& sentences, const QString& number, double share) {
+  sentences_ = sentences;
+  number_->setText(number);
+  share_ = share;
   fitWords();
   update();
 }
 
-/// Shortens the sentence only as far as the room requires.
+/// Shows the longest sentence for which there is room. After the large number, it does not begin with that number.
 void ViolationLine::fitWords() {
   const QFontMetrics metrics = sentence_->fontMetrics();
-  const bool fits = metrics.horizontalAdvance(words_) <= sentence_->width();
-  sentence_->setText(metrics.elidedText(fits ? words_ : brief_, Qt::ElideRight, sentence_->width()));
+  QString fitting;
+  for (const QString& sentence : sentences_) {
+    const bool repeats = number_->isVisibleTo(this) && sentence.startsWith(number_->text());
+    fitting = repeats ? sentence.mid(number_->text().size()).trimmed() : sentence;
+    if (metrics.horizontalAdvance(fitting) <= sentence_->width()) {
+      break;
+    }
+  }
+  sentence_->setText(metrics.elidedText(fitting, Qt::ElideRight, sentence_->width()));
 }
 
 void ViolationLine::resizeEvent(QResizeEvent* event) {

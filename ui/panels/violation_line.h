@@ -22,12 +22,16 @@ class ViolationLine : public QWidget {
     QString work = {};       // what the solver has been doing for a while, if it is late; its figures are old then
     double worst = 0;        // RMS violation of the panel where it is largest; see fullAt()
   };
-  /// Shows the figures of the last pass.
+  /// Shows the figures of the last measurement.
   void show(const Statistics& statistics, const State& state);
+  /// Says that there are no figures of the object yet.
+  void clear() { say({QStringLiteral("No figures yet")}, QStringLiteral("–"), -1); }
+  /// Shows the share of violated links in large digits before the sentence, for an audience.
+  void setLarge(bool on);
   /// Returns the RMS violation (rest lengths) at which the bar is full: that of the worst panel, but at least 0.1, so
   /// that tiny violations do not look large.
   static double fullAt(double worst);
-  const QString& sentence() const { return words_; }
+  const QString& sentence() const { return sentences_.front(); }
   /// Length of the bar, from 0 to 1; negative while there is nothing to show.
   double share() const { return share_; }
 
@@ -36,14 +40,12 @@ class ViolationLine : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void say(const QStringList& sentences, const QString& number, double share);
   void fitWords();
 
-  QLabel* sentence_;
-  QString words_, brief_;  // the whole sentence, and one for narrow panels
+  QLabel *number_, *sentence_;
+  QStringList sentences_;  // the whole sentence, and shorter ones for narrow panels
   double share_ = -1;
 };
-
-/// Describes the violation of links in a sentence.
-QString violationInWords(const Statistics& statistics, bool hasMoved);
 
 }  // namespace chainmail

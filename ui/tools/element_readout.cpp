@@ -51,24 +51,16 @@ void ElementReadout::updateText() {
   const auto& element = document_.highlight().marks().element;
   // At an end of the measured distance, the distance is more useful.
   const bool measured = element && (element == measurement_.from() || element == measurement_.to());
-  setText(element && !measured  ? describe(*element)
-          : holdsMany()         ? describeHandle()
-          : measurement_.from() ? measurement_.sentence()
-                                : fittingHint());
+  setText(wholeParts(element && !measured  ? describe(*element)
+                     : holdsMany()         ? describeHandle()
+                     : measurement_.from() ? measurement_.sentence()
+                                           : hint_,
+                     [this](const QString& text) { return hasRoomFor(text); }));
 }
 
 void ElementReadout::resizeEvent(QResizeEvent* event) {
   QLabel::resizeEvent(event);
   updateText();
-}
-
-/// Returns as many parts of the hint as there is room for.
-QString ElementReadout::fittingHint() const {
-  QString fitting = hint_;
-  while (!fitting.isEmpty() && !hasRoomFor(fitting)) {
-    fitting = fitting.left(std::max<qsizetype>(0, fitting.lastIndexOf(QChar(0xb7)))).trimmed();  // a middle dot
-  }
-  return fitting;
 }
 
 bool ElementReadout::holdsMany() const {
@@ -98,17 +90,14 @@ QString ElementReadout::describeHandle() const {
   return text;
 }
 
-/// Describes the element in all panels; the panel under the cursor comes first. Leaves out the softness, then the other
-/// panels, if there is no room for them.
+/// Describes the element in all panels; the panel under the cursor comes first.
 QString ElementReadout::describe(ElementId element) const {
-  const int first = hovered_();
-  QString place, others;
+  QString places;
   for (const int panel : panelsInOrder()) {
-    (panel == first ? place : others) +=
-        QStringLiteral("  ·  %1: %2, violation %3")
-            .arg(panel == first ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
-                 coordinates(*document_.mesh(), positionIn(document_, panel, element)),
-                 QLocale().toString(violationIn(document_, panel, element), 'g', 3));
+    places += QStringLiteral("  ·  %1: %2, violation %3")
+                  .arg(panel == hovered_() ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
+                       coordinates(*document_.mesh(), positionIn(document_, panel, element)),
+                       QLocale().toString(violationIn(document_, panel, element), 'g', 3));
   }
   const SoftnessRange softness = softnessOf(document_, element);
   const QString links = softness.links == 0 ? QStringLiteral("  ·  no links")
@@ -116,13 +105,7 @@ QString ElementReadout::describe(ElementId element) const {
   const QString head = QStringLiteral("<b>Element %L1</b>%2")
                            .arg(element)
                            .arg(isPinned(document_, element) ? QStringLiteral(", pinned") : QString());
-  for (const QString& text :
-       {head + place + others + links + softnessInWords(softness), head + place + others + links}) {
-    if (hasRoomFor(text)) {
-      return text;
-    }
-  }
-  return head + place + links;
+  return head + places + links + softnessInWords(softness);
 }
 
 bool ElementReadout::hasRoomFor(const QString& text) const {

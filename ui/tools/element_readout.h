@@ -23,7 +23,6 @@ class ElementReadout : public QLabel {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QString fittingHint() const;
   void updateText();
   QString describe(ElementId element) const;
   bool hasRoomFor(const QString& text) const;

@@ -508,11 +508,7 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
 
-void MainWindow::welcome() {
-  if (help_->welcome()) {
-    colouring_.setMode(ColourMode::violation);  // shows at once how the algorithms differ
-  }
-}
+void MainWindow::welcome() { help_->welcome(); }
 
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 

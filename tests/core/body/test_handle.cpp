@@ -503,7 +503,7 @@ void HandleTest::a_rotated_handle_violates_its_own_links() {
   QVERIFY(simulation.valid());
   simulation.apply(commands::Drag{Point(0.5, 0.5, 0), {Point(0, 0, 1), 15}, true});
   QVERIFY(!simulation.valid());
-  simulation.refresh_statistics(true);
+  simulation.measure_all();
   QVERIFY(std::abs(simulation.statistics().violation.max - (std::sin(15 * std::numbers::pi / 180) - 0.1)) < 1e-12);
   QCOMPARE(simulation.statistics().violation.fraction, 1.0 / 144);
 }

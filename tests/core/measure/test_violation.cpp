@@ -22,8 +22,9 @@ class ViolationTest : public QObject {
   void is_in_rest_lengths_of_the_link();
   void over_the_whole_mesh();
   void cut_links_do_not_count();
-  void over_some_elements();
-  void over_a_sample();
+  void again_after_a_change();
+  void costs_what_changed();
+  void what_is_no_number_is_violated();
   void of_a_link_without_length();
   void counts_from_1e_4_on();
   void energy_by_hand();
@@ -100,42 +101,83 @@ void ViolationTest::cut_links_do_not_count() {
   QCOMPARE(elastic_energy(*mesh, {}, solver->body().cuts(), solver->body().positions()), 0.0);
 }
 
-void ViolationTest::over_some_elements() {
-  const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
-  const auto solver = at(mesh, {0, 1.5, 2.5, 4.1, 5.1});
-  TouchedViolation touched;
-  const ElementId some[] = {1, 4};  // links 0, 1 and 3
-  const Violation violation = touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {some});
-  QCOMPARE(violation.links, std::uint64_t{3});
-  QVERIFY(close(violation.max, 0.3));
-  // Links 0, 1, 2 and 3. Each counts once, however many of its ends are named.
-  const ElementId one[] = {2}, others[] = {1, 2, 3};
-  const Violation once = touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {one, others});
-  QCOMPARE(once.links, std::uint64_t{4});
-  QVERIFY(close(once.max, 0.4));
-  QVERIFY(close(once.rms, std::sqrt((0.09 + 0.16) / 4)));
-  QCOMPARE(once.fraction, 0.5);
-  // Earlier measurements do not matter, nor do cut links.
-  QVERIFY(touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {some}) == violation);
-  const LinkId worst = 2;
-  solver->body().cut(std::span(&worst, 1));
-  QCOMPARE(touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {others}).links,
-           std::uint64_t{3});
+/// Some elements move, links are cut, the softness changes: the sums are those of a new measurement.
+void ViolationTest::again_after_a_change() {
+  std::mt19937_64 random(7);
+  for (const MeshFamily& family : families()) {
+    const Mesh& mesh = *family.mesh;
+    const auto solver = at(family.mesh, mesh.rest);
+    std::vector<double> positions = mesh.rest;
+    Softness softness;
+    ViolationMeter meter;
+    const auto agrees = [&] {
+      solver->body().set_positions(positions);
+      const Cuts& cuts = solver->body().cuts();
+      const PositionView view = solver->body().positions();
+      const MeasuredViolation again = meter.measure(mesh, softness, cuts, view, mesh.link_count());
+      return again.is_whole && again == measure_violation(mesh, softness, cuts, view);
+    };
+    QVERIFY(agrees());
+    for (int i = 0; i < 20; ++i) {
+      ElementBlocks moved(mesh.element_count());
+      const auto element = static_cast<ElementId>(random() % mesh.element_count());
+      positions[std::size_t{element} * mesh.space_dimension] += uniform(random, -2, 2);
+      moved.insert(element);
+      meter.forget(mesh, moved);
+      QVERIFY(agrees());
+    }
+    const LinkId cut = mesh.link_count() / 2;
+    solver->body().cut(std::span(&cut, 1));
+    meter.forget(std::span(&cut, 1));
+    QVERIFY(agrees());
+    softness.global = {1, 1, 0};
+    meter.forget_all();
+    QVERIFY(agrees());
+  }
 }
 
-void ViolationTest::over_a_sample() {
-  const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
-  const auto solver = at(mesh, {0, 1, 2, 3, 4, 5, 6, 7, 8.5});
-  std::vector<ElementId> all(9);
-  std::iota(all.begin(), all.end(), ElementId{0});
-  TouchedViolation touched;
-  const auto links = [&](std::size_t most) {
-    return touched.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), {all}, most).links;
+/// After a local change of a large object, only few links are measured. If that is not enough, the result says so, and
+/// the links measured so far are from all parts.
+void ViolationTest::costs_what_changed() {
+  const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
+  std::vector<double> positions = mesh->rest;
+  const auto solver = at(mesh, positions);
+  ViolationMeter meter;
+  const auto measure = [&](LinkId most) {
+    return meter.measure(*mesh, {}, solver->body().cuts(), solver->body().positions(), most);
   };
-  QCOMPARE(links(9), std::uint64_t{8});
-  QCOMPARE(links(3), std::uint64_t{5});  // of elements 0, 3 and 6
-  QCOMPARE(links(2), std::uint64_t{3});  // of elements 0 and 5
-  QCOMPARE(links(9), std::uint64_t{8});  // nothing is left of earlier measurements
+  const MeasuredViolation first = measure(mesh->link_count());
+  QVERIFY(first.is_whole && first.links == mesh->link_count());
+  positions[2 * 20'100] += 3;
+  solver->body().set_positions(positions);
+  ElementBlocks moved(mesh->element_count());
+  moved.insert(20'100);
+  meter.forget(*mesh, moved);
+  QVERIFY(!meter.is_complete());
+  const MeasuredViolation second = measure(1000);
+  QVERIFY(second.is_whole && second.links == mesh->link_count() && second.max > 1 && second.at >= first.at);
+  // All elements on the right are far too far away: half of the links are stretched across.
+  for (ElementId e = 0; e < mesh->element_count(); ++e) {
+    positions[2 * std::size_t{e}] = mesh->rest_position(e).x() * (mesh->rest_position(e).y() < 100 ? 1 : 3);
+  }
+  solver->body().set_positions(positions);
+  meter.forget_all();
+  const MeasuredViolation part = measure(4000);
+  QVERIFY(!part.is_whole && part.links >= 4000 && part.links < 5000);
+  QVERIFY2(part.fraction > 0.2 && part.fraction < 0.3, std::to_string(part.fraction).c_str());
+  MeasuredViolation whole;
+  for (int i = 0; i < 20 && !whole.is_whole; ++i) {
+    whole = measure(4000);
+  }
+  QVERIFY(whole.is_whole && whole == measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()));
+}
+
+void ViolationTest::what_is_no_number_is_violated() {
+  const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
+  const auto solver = at(mesh, {0, 1, std::nan("")});
+  const Violation violation = measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions());
+  QCOMPARE(violation.fraction, 0.5);
+  QVERIFY(std::isinf(violation.max));
 }
 
 void ViolationTest::of_a_link_without_length() {

@@ -22,8 +22,8 @@ namespace {
 void drag_and_show(Simulation& simulation, FrameWriter& writer, FrameExchange& frames) {
   for (int i = 0; i < 40; ++i) {
     simulation.apply(commands::Drag{Point(i % 2 == 0 ? -30 : 5, i % 3, 0)});
-    simulation.refresh_statistics(false);
-    simulation.refresh_statistics(true);
+    simulation.measure();
+    simulation.measure_all();
     writer.publish(simulation);
     if (i % 4 != 0) {
       frames.latest();

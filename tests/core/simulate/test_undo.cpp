@@ -136,7 +136,7 @@ void UndoTest::whether_the_object_is_valid_comes_back_too() {
   Simulation simulation(sphere(12, 6), Algorithm::generalized, Precision::double_precision);
   carry_out(simulation, commands::KeepState{1});
   drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves some of its links invalid
-  simulation.refresh_statistics(true);
+  simulation.measure_all();
   QVERIFY(!simulation.valid());
   exchange(simulation, 1);
   QVERIFY(simulation.valid());

@@ -42,7 +42,8 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
     : document_(document),
       panels_(panels),
       histories_(Document::maxPanels),
-      passesSeen_(Document::maxPanels, 0),
+      seen_(Document::maxPanels),
+      object_(document.unsplitMesh()),
       figures_(new RateFigures(document)),
       plot_(new PlotWidget(QStringLiteral("Drag the object to see its rates"))),
       quantity_(new QComboBox),
@@ -66,12 +67,23 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
   timer_.setInterval(refreshMilliseconds);
   connect(&timer_, &QTimer::timeout, this, &FrameRateDock::refresh);
   connect(&document.solvers(), &PanelSolvers::frameReady, this, &FrameRateDock::receive);
-  connect(&document, &Document::panelLeaves, this, [this](int panel) {
-    histories_[std::size_t(panel)] = {};
-    passesSeen_[std::size_t(panel)] = 0;
+  connect(&document, &Document::panelLeaves, this, &FrameRateDock::forget);
+  connect(&document, &Document::meshChanged, this, [this] {
+    if (std::exchange(object_, document_.unsplitMesh()) != document_.unsplitMesh()) {
+      for (int panel = 0; panel < Document::maxPanels; ++panel) {
+        forget(panel);
+      }
+      showPlot();
+    }
   });
   connect(&document, &Document::panelsChanged, this, &FrameRateDock::showPlot);
   followTheme(*this, [this] { showPlot(); });
+}
+
+void FrameRateDock::forget(int panel) {
+  histories_[std::size_t(panel)] = {};
+  seen_[std::size_t(panel)] = {};
+  figures_->clear(panel);
 }
 
 void FrameRateDock::fillChoices() {
@@ -146,8 +158,13 @@ void FrameRateDock::receive(int panel) {
   const Frame* frame = document_.solvers().frame(panel);
   if (frame != nullptr && !pause_->isChecked()) {
     RateSample sample = read(panel);
-    if (std::exchange(passesSeen_[std::size_t(panel)], frame->statistics.passes) == frame->statistics.passes) {
+    const Statistics& statistics = frame->statistics;
+    Seen& seen = seen_[std::size_t(panel)];
+    if (std::exchange(seen.passes, statistics.passes) == statistics.passes) {
       sample.ms = sample.medianMs = sample.worstMs = RateSample::none;
+    }
+    if (std::exchange(seen.measured, statistics.violation.at) == statistics.violation.at) {
+      sample.violationMax = sample.violationRms = RateSample::none;  // a sample has it already
     }
     histories_[std::size_t(panel)].add(sample);
   }
@@ -166,8 +183,7 @@ RateSample FrameRateDock::read(int panel) {
     const Statistics& statistics = frame->statistics;
     sample.violationMax = statistics.violation.max;
     sample.violationRms = statistics.violation.rms;
-    sample.ofSample = statistics.violation_of_sample;
-    sample.ofWholeMesh = statistics.violation_of_whole_mesh;
+    sample.ofWholeMesh = statistics.violation.is_whole;
     sample.lag = statistics.residual.value_or(RateSample::none);
     if (statistics.last_second.passes != 0 && statistics.algorithm == sample.algorithm) {
       sample.ms = statistics.last_pass_ms;

@@ -40,10 +40,17 @@ class FrameRateDock : public QDockWidget {
   void failed(const QString& sentence);
 
  private:
+  /// What the newest sample of a panel is about.
+  struct Seen {
+    std::uint64_t passes = 0;
+    std::chrono::steady_clock::time_point measured{};
+  };
+
   void fillChoices();
   QWidget* makeControls();
   void addActions();
   void receive(int panel);
+  void forget(int panel);
   double now() const { return 1e-9 * double(clock_.nsecsElapsed()); }
   RateSample read(int panel);
   void refresh();
@@ -57,7 +64,8 @@ class FrameRateDock : public QDockWidget {
   Document& document_;
   const std::vector<Panel*>& panels_;
   std::vector<RateHistory> histories_;
-  std::vector<std::uint64_t> passesSeen_;
+  std::vector<Seen> seen_;
+  MeshPointer object_;  // Document::unsplitMesh() of the figures
   RateFigures* figures_;
   PlotWidget* plot_;
   QComboBox* quantity_;

@@ -97,7 +97,6 @@ void RateFigures::nameRow(int panel) {
                              text(info(document_.algorithm(panel)).label)));
 }
 
-/// Removes the figures of the algorithm before.
 void RateFigures::clear(int panel) {
   const Row& row = rows_[std::size_t(panel)];
   for (QLabel* label : {row.passes, row.median, row.worst}) {

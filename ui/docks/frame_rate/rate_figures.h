@@ -20,6 +20,8 @@ class RateFigures : public QWidget {
   explicit RateFigures(const Document& document);
   /// Shows a sample. If the sample has no figures of passes, the earlier ones stay.
   void show(int panel, const RateSample& sample);
+  /// Removes the figures of the algorithm or the object before.
+  void clear(int panel);
 
  private:
   struct Row {
@@ -30,7 +32,6 @@ class RateFigures : public QWidget {
   void addRow(QGridLayout& grid);
   void followPanels();
   void nameRow(int panel);
-  void clear(int panel);
 
   const Document& document_;
   std::vector<Row> rows_;

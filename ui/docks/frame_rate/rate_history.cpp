@@ -18,12 +18,10 @@ constexpr std::array quantities{
                  [](const RateSample& one) { return one.ms; }},
     RateQuantity{"painted", "Painted frames per second", "1/s", "Frames that reached the screen in the last second",
                  [](const RateSample& one) { return one.painted; }},
-    RateQuantity{
-        "violation-max", "Violation, max", "rest lengths",
-        "Distance of the worst link from its valid region; while dragging, of links that the last pass touched",
-        [](const RateSample& one) { return one.violationMax; }},
-    RateQuantity{"violation-rms", "Violation, RMS", "rest lengths",
-                 "Root mean square over the links; while dragging, over links that the last pass touched",
+    RateQuantity{"violation-max", "Violation, max", "rest lengths",
+                 "Distance of the worst link of the object from its valid region",
+                 [](const RateSample& one) { return one.violationMax; }},
+    RateQuantity{"violation-rms", "Violation, RMS", "rest lengths", "Root mean square over the links of the object",
                  [](const RateSample& one) { return one.violationRms; }},
     RateQuantity{
         "lag", "Lag behind the equilibrium", "relative",
@@ -117,8 +115,7 @@ void writeRow(std::ostream& out, std::size_t panel, const RateSample& one) {
       << digits(one.violationRms) << ','
       << (std::isnan(one.violationMax) ? ""
           : one.ofWholeMesh            ? "all"
-          : one.ofSample               ? "sample"
-                                       : "touched")
+                                       : "part")
       << ',' << digits(one.lag) << '\n';
 }
 

@@ -22,8 +22,7 @@ struct RateSample {
   double medianMs = none, worstMs = none;           // of the passes of the last second
   double violationMax = none, violationRms = none;  // rest lengths
   double lag = none;                                // residual of relaxation to the equilibrium: see Statistics
-  bool ofSample = false;                            // of some of the links that the last pass touched
-  bool ofWholeMesh = false;  // true if the violation is of all links, false if of the links that the last pass touched
+  bool ofWholeMesh = false;                         // false if some of the links were not measured yet
   Algorithm algorithm = Algorithm::natural_queue;
 
   /// Returns the rate of the algorithm without drawing: 1 over the median time of a pass.

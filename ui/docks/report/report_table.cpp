@@ -75,7 +75,8 @@ constexpr std::array columns{
              return report::figure(one.ms_per_move.lower_quartile) + " – " +
                     report::figure(one.ms_per_move.upper_quartile);
            }},
-    Column{"Moved\n(elements)", "Elements moved, in all moves together, without the handle",
+    Column{"Moved\n(sum over\nmoves)",
+           "Elements moved, added up over all moves: an element counts once for each move. Without the handle",
            [](auto& one) { return std::optional(double(one.moved)); },
            [](auto& one) { return report::thousands(one.moved); }},
     Column{"Float to\ndouble\n(mean rest\nlengths)",
