@@ -13,7 +13,7 @@ namespace {
 struct RampArguments {
   CLI::Option *algorithms, *seed, *budget, *largest, *precision;
   CLI::Option *compression, *stretch, *shear;
-  CLI::Option *json, *csv;
+  CLI::Option *json, *csv, *svg;
 };
 
 constexpr std::uint32_t smallest_grid = 16;
@@ -92,6 +92,9 @@ void ramp(const RampArguments& options) {
   if (const auto path = value_of(options.csv)) {
     targets.push_back({*path, [&](std::ostream& out) { out << result.csv; }});
   }
+  if (const auto path = value_of(options.svg)) {
+    targets.push_back({*path, [&](std::ostream& out) { out << result.svg; }});
+  }
   if (std::none_of(targets.begin(), targets.end(), [](const Target& target) { return target.path == "-"; })) {
     targets.push_back({"-", [&](std::ostream& out) { out << result.text; }});
   }
@@ -119,6 +122,7 @@ Command add_ramp(CLI::App& root) {
   options.shear = add_parameter(*app, api::parameter("shear"));
   options.json = add_value(*app, "--json", "FILE", "write all results as JSON");
   options.csv = add_value(*app, "--csv", "FILE", "write one row per algorithm and size as CSV");
+  options.svg = add_value(*app, "--svg", "FILE", "write a plot of the times against the number of elements as SVG");
   app->footer(ramp_footer);
   return {app, [options] { ramp(options); }};
 }

@@ -8,7 +8,9 @@
 
 #include "api/access.h"
 #include "mesh/parameters.h"
+#include "report/page/ramp_plot.h"
 #include "report/page/ramp_table.h"
+#include "report/page/svg.h"
 #include "report/run/machine.h"
 #include "report/run/ramp.h"
 #ifdef CHAINMAIL_HAS_JSON
@@ -77,6 +79,7 @@ void write_report(const report::Ramp& found, Ramp& result) {
   const report::Machine machine = report::this_machine();
   result.text = written([&](std::ostream& out) { write_text(out, found, machine); });
   result.csv = written([&](std::ostream& out) { write_csv(out, found); });
+  result.svg = written([&](std::ostream& out) { write_svg(out, ramp_plot(found), "#808080"); });
 #ifdef CHAINMAIL_HAS_JSON
   result.json = written([&](std::ostream& out) { write_json(out, found, machine); });
 #endif

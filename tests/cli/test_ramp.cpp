@@ -13,7 +13,7 @@ class RampCommandTest : public QObject {
  private slots:
   void init() { program_ = std::make_unique<Program>(); }
   void a_table_for_people();
-  void json_and_csv();
+  void json_csv_and_a_plot();
   void the_same_seed_makes_the_same_moves();
   void a_budget_that_nobody_keeps();
   void wrong_arguments_data();
@@ -38,9 +38,9 @@ void RampCommandTest::a_table_for_people() {
   QVERIFY(!outcome.out.contains("7x7"));
 }
 
-void RampCommandTest::json_and_csv() {
+void RampCommandTest::json_csv_and_a_plot() {
   const auto outcome =
-      ramp("--algorithms spiral,exact --seed 7 --precision double --stretch 1.5 --json a.json --csv a.csv");
+      ramp("--algorithms spiral,exact --seed 7 --precision double --stretch 1.5 --json a.json --csv a.csv --svg a.svg");
   QCOMPARE(outcome.code, 0);
   QVERIFY(outcome.out.contains("Exact ChainMail"));
   const auto json = program_->json("a.json");
@@ -62,6 +62,9 @@ void RampCommandTest::json_and_csv() {
   QCOMPARE(rows.size(), 6);
   QCOMPARE(rows[5][3], QByteArray("exact"));
   QCOMPARE(rows[5][0], QByteArray("6"));
+  const QByteArray plot = program_->read("a.svg");
+  QVERIFY(plot.startsWith("<svg") && plot.count("<polyline") == 2);
+  QVERIFY(plot.contains("Exact ChainMail, 6x6: median ") && plot.contains("real time"));
 
   QVERIFY(ramp("--algorithms spiral --csv -").out.startsWith("width,elements,"));
   QVERIFY(QJsonDocument::fromJson(ramp("--algorithms spiral --json -").out).isObject());

@@ -23,14 +23,14 @@ Monkey::Monkey(Workbench& bench, const QString& folder, unsigned seed, const Wit
 
 void Monkey::act() {
   static constexpr std::array kinds{
-      Kind{14, &Monkey::stroke},        Kind{3, &Monkey::moveCamera},   Kind{3, &Monkey::hover},
-      Kind{3, &Monkey::turnWheel},      Kind{2, &Monkey::doubleClick},  Kind{6, &Monkey::clickAnywhere},
-      Kind{9, &Monkey::pressKey},       Kind{2, &Monkey::resize},       Kind{4, &Monkey::wait},
-      Kind{14, &Monkey::triggerAction}, Kind{5, &Monkey::chooseTool},   Kind{7, &Monkey::goBackAndForth},
-      Kind{6, &Monkey::pressButton},    Kind{4, &Monkey::turnSpin},     Kind{5, &Monkey::pullSlider},
-      Kind{5, &Monkey::chooseFromList}, Kind{4, &Monkey::arrangeDock},  Kind{3, &Monkey::lookAtPass},
-      Kind{1, &Monkey::startSizeTest},  Kind{1, &Monkey::startReport},  Kind{3, &Monkey::build},
-      Kind{4, &Monkey::openSomething},  Kind{3, &Monkey::saveSomething}};
+      Kind{14, &Monkey::stroke},        Kind{3, &Monkey::moveCamera},  Kind{3, &Monkey::hover},
+      Kind{3, &Monkey::turnWheel},      Kind{2, &Monkey::doubleClick}, Kind{6, &Monkey::clickAnywhere},
+      Kind{9, &Monkey::pressKey},       Kind{2, &Monkey::resize},      Kind{4, &Monkey::wait},
+      Kind{14, &Monkey::triggerAction}, Kind{5, &Monkey::chooseTool},  Kind{7, &Monkey::goBackAndForth},
+      Kind{6, &Monkey::pressButton},    Kind{4, &Monkey::turnSpin},    Kind{5, &Monkey::pullSlider},
+      Kind{5, &Monkey::chooseFromList}, Kind{4, &Monkey::arrangeDock}, Kind{3, &Monkey::lookAtPass},
+      Kind{1, &Monkey::startReport},    Kind{3, &Monkey::build},       Kind{4, &Monkey::openSomething},
+      Kind{3, &Monkey::saveSomething}};
   static constexpr std::size_t all = std::accumulate(kinds.begin(), kinds.end(), std::size_t(0),
                                                      [](auto sum, auto& kind) { return sum + kind.weight; });
   random_.seed(seed_ * 1'000'003ULL + ++event_);
@@ -40,10 +40,6 @@ void Monkey::act() {
     drawn -= kind->weight;
   }
   (this->*kind->act)();
-  if (event_ == testEnds_) {
-    say(QStringLiteral("cancel the size test"));
-    click("sizeTestCancel");
-  }
   if (!once(4)) {
     QCoreApplication::processEvents();
   }

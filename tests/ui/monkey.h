@@ -26,7 +26,7 @@ class Monkey {
 
   /// Performs the next event.
   void act();
-  /// Releases the handle and ends what still runs: size test, report, film, playback, relaxation.
+  /// Releases the handle and ends what still runs: report, film, playback, relaxation.
   void rest();
 
  private:
@@ -64,7 +64,6 @@ class Monkey {
   void chooseFromList();
   void arrangeDock();
   void lookAtPass();
-  void startSizeTest();
   void startReport();
   void click(const char* button);
   QList<QAction*> actions() const;
@@ -85,8 +84,7 @@ class Monkey {
   const Witness& witness_;
   std::mt19937_64 random_;
   std::size_t event_ = 0;
-  std::size_t testEnds_ = 0;  // event that cancels the running size test
-  QTimer popups_;             // closes menus and dialogs, which would wait for an answer
+  QTimer popups_;  // closes menus and dialogs, which would wait for an answer
 };
 
 }  // namespace chainmail

@@ -128,8 +128,7 @@ void Monkey::pressButton() {
   auto* button = any<QAbstractButton>([](const QAbstractButton& one) {
     const auto* tool = qobject_cast<const QToolButton*>(&one);
     const bool asksWhere = tool != nullptr && tool->defaultAction() != nullptr && isLeft(*tool->defaultAction());
-    return !asksWhere && !one.text().endsWith(QChar(0x2026)) && one.objectName() != QLatin1String("buildMesh") &&
-           one.objectName() != QLatin1String("sizeTestRun");
+    return !asksWhere && !one.text().endsWith(QChar(0x2026)) && one.objectName() != QLatin1String("buildMesh");
   });
   if (button != nullptr) {
     say(QStringLiteral("button %1").arg(nameOf(*button)));
@@ -216,18 +215,6 @@ void Monkey::lookAtPass() {
 
 void Monkey::click(const char* button) { bench_.find<QAbstractButton>(button)->click(); }
 
-void Monkey::startSizeTest() {
-  if (auto* show = bench_.window.findChild<QAction*>(QStringLiteral("showSizeTest")); !show->isChecked()) {
-    show->trigger();
-  }
-  bench_.find<QSpinBox>("sizeTestFirst")->setValue(4 + int(below(8)));
-  bench_.find<QSpinBox>("sizeTestLargest")->setValue(16 + int(below(1000)));
-  bench_.find<QSpinBox>("sizeTestDrags")->setValue(1);
-  testEnds_ = event_ + below(15);
-  say(QStringLiteral("size test"));
-  click("sizeTestRun");
-}
-
 void Monkey::startReport() {
   if (auto* show = bench_.window.findChild<QAction*>(QStringLiteral("showReport"));
       show->isEnabled() && !show->isChecked()) {
@@ -240,7 +227,7 @@ void Monkey::startReport() {
 void Monkey::rest() {
   say(QStringLiteral("rest"));
   QTest::keyClick(&bench_.window, Qt::Key_Escape);
-  for (const char* cancel : {"sizeTestCancel", "reportCancel", "cancelFilm"}) {
+  for (const char* cancel : {"reportCancel", "cancelFilm"}) {
     click(cancel);
   }
   auto* play = bench_.window.findChild<QAction*>(QStringLiteral("replayPlay"));

@@ -90,14 +90,6 @@ void reports(Workbench& bench) {
   QVERIFY(bench.window.findChild<ReportThread*>()->atWork());
 }
 
-void testsSizes(Workbench& bench) {
-  bench.trigger("showSizeTest");
-  bench.settle();
-  bench.find<QSpinBox>("sizeTestFirst")->setValue(400);
-  bench.find<QPushButton>("sizeTestRun")->click();
-  QTRY_VERIFY(bench.find<QWidget>("sizeTestStage") != nullptr);
-}
-
 void builds(Workbench& bench) {
   bench.find<QSpinBox>("sizeW")->setValue(1024);
   bench.find<QSpinBox>("sizeH")->setValue(1024);
@@ -172,7 +164,6 @@ class WindowClose : public QObject {
     row("filling", small, fills);
     row("calibrating", finite, calibrates);
     row("the report", grid(120), reports);
-    row("the size test", small, testsSizes);
     row("the reference solution", finite, computesTheReference);
     row("sweeps of relaxation", large, relaxForHours);
     row("going to the end of many moves", large, goesToTheEnd);

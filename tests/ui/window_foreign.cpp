@@ -281,8 +281,6 @@ class WindowForeign : public QObject {
                             "docks/physics_dock.cpp",
                             "docks/propagation/propagation_column.cpp",
                             "docks/selected_links.cpp",
-                            "docks/size_test/size_test_panel.cpp",
-                            "docks/size_test/size_test_results.cpp",
                             "panels/panel.cpp",
                             "tools/element_readout.cpp",
                             "window/hints.cpp",

@@ -90,7 +90,6 @@ constexpr std::array drawings{
         "M 9.5 2.2 L 13.8 2.2 L 13.8 6.5 M 13.8 2.2 L 9.8 6.2 M 6.5 13.8 L 2.2 13.8 L 2.2 9.5 M 2.2 13.8 L 6.2 9.8"},
     IconDrawing{"overlay", "E 6 8 4.4 4.4 E 10 8 4.4 4.4"},
     IconDrawing{"difference", "M 8 2 L 8 9 M 4.5 5.5 L 11.5 5.5 M 4.5 12.8 L 11.5 12.8"},
-    IconDrawing{"grow", {}, "R 2 10 3 4 R 6.5 6.5 3 7.5 R 11 2.5 3 11.5"},
     // Docks.
     IconDrawing{"tools", "R 2 2 4.6 4.6 R 9.4 2 4.6 4.6 R 2 9.4 4.6 4.6 R 9.4 9.4 4.6 4.6"},
     IconDrawing{"mesh", "M 2 13 L 8 2.5 L 14 13 Z M 5 7.7 L 11 7.7 L 8 13 Z"},

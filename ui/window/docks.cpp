@@ -20,7 +20,6 @@
 #include "docks/replay/replay_dock.h"
 #include "docks/report/report_dock.h"
 #include "docks/section_dock.h"
-#include "docks/size_test/size_test_dock.h"
 #include "docks/stiffness_dock.h"
 #include "docks/tools_dock.h"
 #include "document/panel_colour.h"
@@ -87,19 +86,6 @@ QDockWidget* makeFrameRate(const DockParts& parts, const Docks& /*made*/) {
 
 QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
   return connectFiles(new ReportDock(parts.document), parts);
-}
-
-QDockWidget* makeSizeTest(const DockParts& parts, const Docks& /*made*/) {
-  const auto contestants = [&document = parts.document, &area = parts.area] {
-    std::vector<SizeTestContestant> inSight;
-    for (const int panel : area.inSight()) {
-      if (info(document.algorithm(panel)).family() == Family::chainmail) {
-        inSight.push_back({panel, document.algorithm(panel), panelColour(document, panel)});
-      }
-    }
-    return inSight;
-  };
-  return connectFiles(new SizeTestDock(parts.window, parts.document, parts.area, contestants), parts);
 }
 
 QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
@@ -185,18 +171,6 @@ const std::array entries{
               .visible = false,
               .floating = true,
               .make = makeReport},
-    DockEntry{.id = "sizeTestDock",
-              .action = "showSizeTest",
-              .title = "Size test",
-              .menuText = "&Size test: largest mesh in real time",
-              .tooltip = "Drags growing grids by a script until no panel keeps up with real time",
-              .icon = "grow",
-              .key = Qt::SHIFT | Qt::Key_E,
-              .inViewMenu = true,
-              .area = Qt::BottomDockWidgetArea,
-              .tabbedWith = "reportDock",
-              .visible = false,
-              .make = makeSizeTest},
     DockEntry{.id = "propagationDock",
               .action = "showPropagation",
               .title = "Propagation",

@@ -53,6 +53,7 @@ struct Ramp {
 
   std::string text = {};  ///< The results and the times for readers.
   std::string csv = {};   ///< A header, then one row per size and method.
+  std::string svg = {};   ///< A plot of the times against the number of elements.
   std::string json = {};  ///< All figures, as `chainmail ramp --json` writes them; empty without nlohmann/json.
 };
 

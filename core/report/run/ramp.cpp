@@ -12,6 +12,15 @@ namespace {
 
 constexpr std::uint32_t first_width = 4;
 
+/// Returns the widths of the square grids of up to `largest` elements.
+std::vector<std::uint32_t> widths_up_to(std::uint64_t largest) {
+  std::vector<std::uint32_t> widths;
+  for (std::uint32_t width = first_width; std::uint64_t{width} * width <= largest; width = next_width(width)) {
+    widths.push_back(width);
+  }
+  return widths;
+}
+
 /// The mesh of one size, with its solvers. The list-driven algorithms share one solver to save memory.
 class RampSize {
  public:
@@ -54,7 +63,7 @@ class RampRun {
   Ramp run() {
     const RampOptions& options = result_.options;
     const double start = now();
-    RampRace race(ramp_widths(first_width, options.largest), options.algorithms, options.budget);
+    RampRace race(widths_up_to(options.largest), options.algorithms, options.budget);
     while (!race.is_over() && !stop_.stop_requested()) {
       measure(race);
     }
@@ -141,16 +150,6 @@ class RampRun {
 }  // namespace
 
 std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (width + 5) / 10); }
-
-std::vector<std::uint32_t> ramp_widths(std::uint32_t first, std::uint64_t largest, double growth) {
-  std::vector<std::uint32_t> widths;
-  for (std::uint32_t width = first; std::uint64_t{width} * width <= largest;) {
-    widths.push_back(width);
-    width =
-        growth == 0 ? next_width(width) : std::max(width + 1, static_cast<std::uint32_t>(std::lround(width * growth)));
-  }
-  return widths;
-}
 
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
           const std::stop_token& stop) {

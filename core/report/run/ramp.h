@@ -70,9 +70,6 @@ inline constexpr double growth_from = 1000;
 
 /// Returns a width that is about a tenth larger.
 std::uint32_t next_width(std::uint32_t width);
-/// Returns the widths of square grids from `first` up to `largest` elements. Each width is `growth` times the last one,
-/// or next_width() of it if `growth` is 0.
-std::vector<std::uint32_t> ramp_widths(std::uint32_t first, std::uint64_t largest, double growth = 0);
 
 /// Runs the ramp of Dean 2004, chapter 6: square grids grow until no algorithm can answer a move within the budget.
 ///

@@ -43,9 +43,6 @@ class RampRace {
   /// True when no size or no contestant is left.
   bool is_over() const { return size_ == widths_.size() || in_race_.empty(); }
   std::uint32_t width() const { return widths_[size_]; }
-  /// Share of the sizes that are done, from 0 to 1.
-  double share() const { return double(size_) / double(widths_.size()); }
-  std::size_t sizes() const { return widths_.size(); }
   const std::vector<std::size_t>& in_race() const { return in_race_; }
   /// Returns 0 for the first attempt, 1 for the second.
   int attempt() const { return attempt_; }

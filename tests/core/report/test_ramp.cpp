@@ -4,6 +4,7 @@
 
 #include "core/families.h"
 #include "program.h"
+#include "report/page/ramp_plot.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
 #include "report/run/ramp.h"
@@ -311,6 +312,11 @@ void RampTest::each_size_shows_who_is_still_in() {
   }
   std::ostringstream text;
   write_text(text, ramp, {});
+  const Plot plot = ramp_plot(ramp);
+  QCOMPARE(plot.panels.front().marks.size(), std::size_t{3});
+  QVERIFY(!plot.panels.front().marks[0].hollow && plot.panels.front().marks[2].hollow);  // 20 ms are no real time
+  QCOMPARE(plot.panels.front().curves[0].points.size(), std::size_t{2});
+  QCOMPARE(plot.good_below.value(), 1e3 / 60);
   const QStringList lines = QString::fromStdString(text.str()).split('\n');
   const auto cells = [&](const QString& size) {
     const auto line = std::ranges::find_if(lines, [&](const QString& one) { return one.startsWith(size); });
