@@ -30,8 +30,11 @@ QString wholeParts(QString parts, Fits fits) {
   return parts;
 }
 
-/// Returns a time of `milliseconds` with three digits, in ms or, if it is short, in µs.
+/// Returns a time of `milliseconds` with three digits, in ms or, if it is short, in µs, or, if it is long, in s.
 inline QString shownTime(double milliseconds) {
+  if (milliseconds >= 1e4) {
+    return QLocale().toString(milliseconds / 1000, 'g', milliseconds < 1e6 ? 3 : 6) + QStringLiteral(" s");
+  }
   const bool isShort = milliseconds < 0.1;
   const double time = isShort ? 1000 * milliseconds : milliseconds;
   return QLocale().toString(time, time < 1000 ? 'g' : 'f', time < 1000 ? 3 : 0) +

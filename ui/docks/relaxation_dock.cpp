@@ -40,6 +40,7 @@ RelaxationDock::RelaxationDock(Document& document)
   column->addWidget(step_);
   column->addWidget(residual_);
   residual_->setObjectName(QStringLiteral("residual"));
+  residual_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   residual_->setToolTip(QStringLiteral(
       "Estimated distance of each panel from the equilibrium, in the norm of the energy, relative to its "
       "root:\n1 far away, 0.001 close, 0 at the equilibrium. The object sleeps below 0.0001."));
@@ -92,16 +93,18 @@ void RelaxationDock::showRelaxation() {
 }
 
 void RelaxationDock::showResidual() {
-  QStringList residuals;
+  // Two in a line: the figures change while dragging, and the dock must not.
+  QString residuals = QStringLiteral("Residual (relative):");
   for (int panel = 0; panel < document_.panels(); ++panel) {
     const Frame* frame = document_.solvers().frame(panel);
     const auto residual = frame != nullptr ? frame->statistics.residual : std::nullopt;
     const QString figure = !residual                  ? QStringLiteral("–")
                            : std::isfinite(*residual) ? QString::fromStdString(report::figure(*residual))
                                                       : shownNumber(*residual, 'g', 3);
-    residuals << QStringLiteral("%1 %2").arg(panelName(panel), figure);
+    residuals += QStringLiteral("%1%2 %3").arg(panel % 2 == 0 ? QStringLiteral("\n") : QStringLiteral(", "),
+                                               panelName(panel), figure);
   }
-  residual_->setText(QStringLiteral("Residual (relative): ") + residuals.join(QStringLiteral(", ")));
+  residual_->setText(residuals);
 }
 
 }  // namespace chainmail

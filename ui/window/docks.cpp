@@ -22,7 +22,6 @@
 #include "docks/section_dock.h"
 #include "docks/stiffness_dock.h"
 #include "docks/tools_dock.h"
-#include "document/panel_colour.h"
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
