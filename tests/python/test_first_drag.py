@@ -15,14 +15,6 @@ def positions_of_program(program, folder, mesh, *options):
         return np.array([[float(row[axis]) for axis in "xyz"] for row in csv.DictReader(file)])
 
 
-def test_ten_lines_are_enough():
-    sheet = chainmail.make_cloth(20, 20)
-    deformer = chainmail.Deformer(sheet, "natural-queue")
-    result = deformer.move(0, (-5, -3))
-    assert result.moved > 0
-    assert deformer.body.position(0) == (-5, -3, 0)
-
-
 @pytest.mark.parametrize("to, one, two", [(-1.0, -1 + 1.2, -1 + 1.2 + 1.2), (0.5, 0.5 + 0.8, 0.5 + 0.8 + 0.8)])
 def test_a_line_stretches_and_shortens(to, one, two):
     """Each link of rest length 1 may be 0.8 to 1.2 long, and each element moves just far enough."""
@@ -32,28 +24,6 @@ def test_a_line_stretches_and_shortens(to, one, two):
     assert (result.moved, result.checked, result.stopped, result.remark) == (2, 2, False, "")
     assert result.reached.pivot == (to, 0, 0)
     assert deformer.moved().tolist() == [1, 2]
-
-
-def test_a_small_move_ends_at_the_first_valid_link():
-    deformer = chainmail.Deformer(chainmail.make_line(3))
-    assert deformer.move(0, (-0.1,)).moved == 0
-    assert deformer.body.positions()[:, 0].tolist() == [-0.1, 1, 2]
-
-
-@pytest.mark.parametrize("method", [row["name"] for row in chainmail.methods() if row["family"] == "chainmail"])
-def test_equals_the_command_line(method, program, tmp_path):
-    mesh = chainmail.make_grid(8, 6)
-    chainmail.write_mesh(tmp_path / "grid.obj", mesh)
-    chainmail.write_mesh(tmp_path / "8x6.dat", mesh)
-    file = tmp_path / "8x6.dat"
-    deformer = chainmail.Deformer(chainmail.read_mesh(file), method)
-    deformer.body.pin([47])
-    deformer.body.cut(20, 21)
-    deformer.move(0, (-3, -2))
-    deformer.relax(5)
-    options = ["--algorithm", method, "--pin", "47", "--cut", "20-21", "--move", "0:-3,-2", "--relax", "5"]
-    expected = positions_of_program(program, tmp_path, file, *options)
-    assert np.array_equal(deformer.body.positions(), expected)
 
 
 def test_a_handle_of_many_equals_the_command_line(program, tmp_path):
