@@ -69,5 +69,5 @@ chainmail_part(IMPORT "chainmail-import: .msh, .vtu, .nrrd, filling, repair"
 chainmail_part(COMMAND_LINE "the program chainmail"
   NEEDS CLI11 CLI11_FOUND libpng PNG_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
 chainmail_part(WINDOW "the workbench"
-  NEEDS "Qt 6 (Widgets, OpenGL, Svg)" Qt6_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
+  NEEDS "Qt 6 (Widgets, OpenGL, Svg)" Qt6_FOUND JSON CHAINMAIL_JSON)
 chainmail_part(DBUS "the theme of the desktop, in the workbench" NEEDS "Qt 6 (DBus)" Qt6DBus_FOUND)

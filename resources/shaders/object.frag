@@ -1,7 +1,6 @@
 // Compiled once for each pair of SHADING and COLOURED_BY, because a software renderer executes every branch at every
 // pixel.
-//   SHADING: 0 plain, 1 a lit face; points: 2 a disc, 3 a diamond, 4 a ring; 5 a face in a plane, darker if folded;
-//   6 a face with a material capture: as bright as a lit sphere of clay where it has the same normal
+//   SHADING: 0 plain, 1 a lit face; points: 2 a disc, 3 a diamond, 4 a ring; 5 a face in a plane, darker if folded
 //   COLOURED_BY: 0 `colour`, 1 values of elements, 2 values of links (a primitive is a link), 3 a picture, 4 a volume
 
 in vec3 in_view;
@@ -47,7 +46,7 @@ vec4 mapped(float value) {
   return vec4(mix(stops[from], stops[from + 1], share * 5.0 - float(from)), 1.0);
 }
 
-#if SHADING == 1 || SHADING == 6
+#if SHADING == 1
 // Returns the smooth normal towards the viewer, or that of the face if the two differ much.
 vec3 normal_seen() {
   vec3 of_face = normalize(cross(dFdx(in_view), dFdy(in_view)));
@@ -61,16 +60,6 @@ vec3 normal_seen() {
 const vec3 to_key = normalize(vec3(-0.42, 0.58, 0.70));
 const vec3 halfway = normalize(to_key + vec3(0.0, 0.0, 1.0));
 
-#if SHADING == 6
-// The same formula as Lighting::ofClay.
-vec3 lit(vec3 of_surface) {
-  vec3 normal = normal_seen();
-  vec3 tint = mix(vec3(0.22, 0.24, 0.34), vec3(1.08, 1.03, 0.96), smoothstep(-0.6, 0.95, dot(normal, to_key)));
-  float grazing = 1.0 - clamp(normal.z, 0.0, 1.0);
-  return of_surface * tint + 0.28 * pow(max(0.0, dot(normal, halfway)), 18.0) +
-         0.16 * grazing * grazing * vec3(0.6, 0.75, 1.0);
-}
-#else
 vec3 lit(vec3 of_surface) {
   vec3 normal = normal_seen();
   of_surface *= light.x + light.y * (0.5 + 0.5 * normal.y) + light.z * max(0.0, dot(normal, to_key));
@@ -82,7 +71,6 @@ vec3 lit(vec3 of_surface) {
 #endif
   return of_surface;
 }
-#endif
 #endif
 
 #if SHADING >= 2 && SHADING <= 4
@@ -108,7 +96,7 @@ void main() {
 #else
   vec4 result = colour;
 #endif
-#if SHADING == 1 || SHADING == 6
+#if SHADING == 1
   result.rgb = lit(result.rgb);
 #elif SHADING == 5
   if ((gl_FrontFacing ? front_sign : -front_sign) < 0.0) {

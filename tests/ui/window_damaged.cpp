@@ -1,4 +1,4 @@
-// Tests a real window with damaged files: sessions with all that they say of the window, lessons, moves, presets,
+// Tests a real window with damaged files: sessions with all that they say of the window, lessons, moves,
 // pictures, volumes and meshes, one after another in the same window, as a user would open them. A run has a fixed
 // number of files. With the environment variable CHAINMAIL_DAMAGED_SECONDS, it takes that time instead.
 // CHAINMAIL_DAMAGED_SEED sets the seed, and CHAINMAIL_DAMAGED_KEEP names a folder for the file that was open when the
@@ -12,7 +12,6 @@
 #include <QLoggingCategory>
 #include <QPushButton>
 
-#include "docks/preset_row.h"
 #include "docks/replay/replay_dock.h"
 #include "document/edits.h"
 #include "folders.h"
@@ -64,7 +63,6 @@ class WindowDamaged : public QObject {
     makePictures();
     takeFiles(sourceFile("tests/fuzz/corpus/session"));
     takeFiles(sourceFile("tests/fuzz/corpus/moves"), QStringLiteral("moves-"));
-    takeFiles(sourceFile("tests/fuzz/corpus/presets"), QStringLiteral("presets-"));
     takeFiles(sourceFile("tests/fuzz/corpus/metaimage"));
     takeFiles(sourceFile("tests/fuzz/corpus/nrrd"));
     takeFiles(sourceFile("tests/fuzz/corpus/obj"));
@@ -180,8 +178,6 @@ class WindowDamaged : public QObject {
   void openIn(Workbench& bench, const QString& path) {
     if (open_.startsWith(QLatin1String("moves-"))) {
       bench.window.findChild<ReplayDock*>()->openMoves(path);
-    } else if (open_.startsWith(QLatin1String("presets-"))) {
-      bench.window.findChild<PresetRow*>()->importPath(path);
     } else {
       bench.open(path);
       for (const char* agree : {"sheetAgree", "volumeAgree"}) {

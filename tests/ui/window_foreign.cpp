@@ -275,7 +275,6 @@ class WindowForeign : public QObject {
   void richTextIsAskedForByName() {
     const QStringList known{"common/workbench_style.cpp",
                             "common/workbench_style.h",
-                            "docks/calibration_box.cpp",
                             "docks/frame_rate/rate_figures.cpp",
                             "docks/mesh_dock.cpp",
                             "docks/physics_dock.cpp",

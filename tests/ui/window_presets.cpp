@@ -88,7 +88,7 @@ class WindowPresets : public QObject {
     bench.set("shearSpin", 0.5);
     bench.set("stretchSpin", 2);
     QCOMPARE(bench.shown(), QStringLiteral("Rubber"));
-    QVERIFY(!bench.enabled("savePreset") && !bench.enabled("renamePreset") && !bench.enabled("deletePreset"));
+    QVERIFY(!bench.enabled("savePreset") && !bench.enabled("deletePreset"));
     QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("built in")));
   }
 
@@ -100,67 +100,21 @@ class WindowPresets : public QObject {
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
   }
 
-  void ofTwoPresetsWithTheSameValuesTheOneThatWasPickedIsShown() {
-    const QTemporaryDir folder;
-    QFile file(folder.filePath(QStringLiteral("presets.json")));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(
-        "{\"version\": 1, \"presets\": ["
-        "{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, \"shear\": 0.25},"
-        "{\"name\": \"wool\", \"compression\": 0.5, \"stretch\": 1.5, \"shear\": 0.25}]}");
-    file.close();
-    PresetBench bench;
-    bench.row().importPath(file.fileName());
-    for (const char* name : {"wool", "felt", "wool"}) {
-      bench.pick(name);
-      QCOMPARE(bench.document().softness(), (LinkSoftness{0.5, 1.5, 0.25}));
-      QCOMPARE(bench.shown(), QString::fromLatin1(name));
-    }
-  }
-
-  void oneOfTheUsersIsSavedRenamedDeletedAndKept() {
+  void oneOfTheUsersIsSavedDeletedAndKept() {
     {
       PresetBench bench;
       bench.set("stretchSpin", 1.25);
       bench.name("savePreset", "wet clay");
       QCOMPARE(bench.shown(), QStringLiteral("wet clay"));
-      bench.name("renamePreset", "dry clay");
-      QCOMPARE(bench.shown(), QStringLiteral("dry clay"));
-      QVERIFY(!bench.has("wet clay"));
       bench.pick("Jelly");
     }
     PresetBench bench;  // the next start of the program
-    bench.pick("dry clay");
+    bench.pick("wet clay");
     QCOMPARE(bench.document().softness().stretch, 1.25);
     bench.trigger("deletePreset");
-    QVERIFY(!bench.has("dry clay"));
+    QVERIFY(!bench.has("wet clay"));
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
     QCOMPARE(bench.document().softness().stretch, 1.25);
-    QVERIFY(!bench.enabled("exportPresets"));
-  }
-
-  void theOneThatWasChosenIsRenamedWhateverIsUndoneMeanwhile() {
-    PresetBench bench;
-    bench.set("stretchSpin", 1.25);
-    bench.name("savePreset", "clay");
-    bench.trigger("renamePreset");
-    bench.trigger("undo");  // a click on the tool bar does not move the keyboard focus
-    QCOMPARE(bench.shown(), QStringLiteral("Standard"));
-    auto* line = bench.find<QLineEdit>("presetName");
-    QVERIFY(line->isVisible());
-    line->setText(QStringLiteral("dry clay"));
-    QTest::keyClick(line, Qt::Key_Return);
-    QVERIFY(bench.has("dry clay") && !bench.has("clay"));
-  }
-
-  void whatIsDeletedIsNotRenamed() {
-    PresetBench bench;
-    bench.set("stretchSpin", 1.25);
-    bench.name("savePreset", "clay");
-    bench.trigger("renamePreset");
-    bench.trigger("deletePreset");
-    QVERIFY(bench.field().isVisible());
-    QVERIFY(!bench.has("clay"));
   }
 
   void namesThatAreTakenAreRefusedWithASentence() {
@@ -172,14 +126,6 @@ class WindowPresets : public QObject {
     QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
     QVERIFY(bench.field().isVisible());
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
-    bench.name("savePreset", "a");
-    bench.set("stretchSpin", 1.5);
-    bench.name("savePreset", "b");
-    bench.window.messages().hide();
-    bench.name("renamePreset", "a");
-    QVERIFY(bench.window.messages().isVisible());
-    QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
-    QCOMPARE(bench.shown(), QStringLiteral("b"));
   }
 
   void aNameThatTheUserLeavesIsNotSaved() {
@@ -197,44 +143,6 @@ class WindowPresets : public QObject {
     QVERIFY(!line->isVisible() && bench.field().isVisible());
     QVERIFY(!bench.has("clay"));
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
-  }
-
-  void presetsGoFromOneUserToAnother() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("presets.json"));
-    PresetBench bench;
-    bench.set("stretchSpin", 1.25);
-    bench.name("savePreset", "felt");
-    bench.set("shearSpin", 0.375);
-    bench.name("savePreset", "wool");
-    bench.row().exportPath(path);
-    bench.row().importPath(path);  // adds nothing new
-    QVERIFY(!bench.has("felt (2)"));
-    bench.trigger("deletePreset");
-    bench.pick("felt");
-    bench.trigger("deletePreset");
-    bench.set("stretchSpin", 2.5);
-    bench.name("savePreset", "felt");  // another preset with that name
-    bench.row().importPath(path);
-    QVERIFY(bench.has("felt") && bench.has("felt (2)"));
-    bench.pick("wool");
-    QCOMPARE(bench.document().softness(), (LinkSoftness{0.8, 1.25, 0.375}));
-  }
-
-  void aFileThatIsNoneChangesNothing() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("presets.json"));
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("{\"version\": 1, \"presets\": [{\"name\": \"x\", \"compression\": 7, \"stretch\": 1, \"shear\": 0}]}");
-    file.close();
-    PresetBench bench;
-    const int before = bench.field().count();
-    bench.row().importPath(path);
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("compression")));
-    QCOMPARE(bench.field().count(), before);
-    bench.row().exportPath(folder.filePath(QStringLiteral("missing/presets.json")));
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
   }
 
   void presetsThatAreBrokenSaySo() {

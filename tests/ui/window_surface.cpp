@@ -74,32 +74,6 @@ class WindowSurface : public QObject {
     QCOMPARE(picture(bench), surface);
   }
 
-  void matcapShadingIsAChoiceThatStays() {
-    {
-      Workbench bench(tetraBlock());
-      bench.trigger("showSurface");
-      bench.trigger("viewFront");
-      const QImage lit = picture(bench);
-      bench.trigger("matcap");
-      const QImage clay = picture(bench);
-      QVERIFY(clay != lit);
-      QCOMPARE(groundAbout(bench, middleOfTheFront), 0.0);
-      bench.trigger("showLinks");
-      bench.trigger("showSurface");
-      QCOMPARE(picture(bench), clay);
-    }
-    Workbench again(tetraBlock());
-    QVERIFY(again.find<QAction>("matcap")->isChecked());
-    // Colours that stand for values read the same as in the legend.
-    again.trigger("showSurface");
-    again.trigger("colourBy-violation");
-    const QImage byValues = picture(again);
-    again.trigger("matcap");
-    QCOMPARE(picture(again), byValues);
-    Workbench sheet;
-    QVERIFY(!sheet.find<QAction>("matcap")->isEnabled());
-  }
-
   void aCutShowsTheInsideAtOnceAndUndoClosesIt() {
     Workbench bench(tetraBlock());
     bench.trigger("viewFront");

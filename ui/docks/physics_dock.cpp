@@ -9,12 +9,11 @@
 #include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "common/text.h"
-#include "docks/calibration_box.h"
 #include "document/edits.h"
 #include "elastic/surface_cells.h"
 
 namespace chainmail {
-PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
+PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
     : document_(document),
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
@@ -32,9 +31,7 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs)
   column_->addLayout(makeLattice());
   addIterations();
   column_->addLayout(makePins(layers));
-  auto* calibration = new CalibrationBox(document, jobs);
-  column_->addWidget(calibration);
-  connect(calibration, &CalibrationBox::presetRequested, this, &PhysicsDock::presetRequested);
+  addCalibration();
   setColumn(*this, *column_);
   connect(&document, &Document::elasticChanged, this, &PhysicsDock::showElastic);
   connect(&document, &Document::pinsChanged, this, &PhysicsDock::showPins);
@@ -94,6 +91,18 @@ void PhysicsDock::addThickness() {
     options.thickness = value;
     edits::setElastic(document_, options, thickness_->label(), gesture);
   });
+}
+
+/// Says how to find the softness that comes closest to the material.
+void PhysicsDock::addCalibration() {
+  auto* calibrate =
+      new QLabel(QStringLiteral("To find the softness closest to this material, run\n"
+                                "chainmail calibrate FILE --pins LAYER --poisson RATIO -o softness.json"));
+  calibrate->setObjectName(QStringLiteral("calibrate"));
+  calibrate->setWordWrap(true);
+  calibrate->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  calibrate->setToolTip(QStringLiteral("A command of the terminal. Help > Manual, page Physics, describes it"));
+  column_->addWidget(calibrate);
 }
 
 void PhysicsDock::addIterations() {

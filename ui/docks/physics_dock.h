@@ -7,7 +7,6 @@
 #include <QVBoxLayout>
 #include <array>
 
-#include "common/jobs.h"
 #include "common/parameter_row.h"
 #include "document/document.h"
 #include "tools/pin_layers.h"
@@ -19,17 +18,14 @@ class PhysicsDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  PhysicsDock(Document& document, PinLayers& layers, Jobs& jobs);
-
- signals:
-  /// See CalibrationBox::presetRequested.
-  void presetRequested();
+  PhysicsDock(Document& document, PinLayers& layers);
 
  private:
   void addRow(ParameterRow* row, double Material::*member);
   void addLaw();
   void addThickness();
   void addIterations();
+  void addCalibration();
   QLayout* makeLattice();
   QLayout* makePins(PinLayers& layers);
   void setLattice();

@@ -1,6 +1,5 @@
 #include "docks/preset_row.h"
 
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -8,7 +7,6 @@
 #include <QStyleOption>
 #include <algorithm>
 
-#include "common/ask_where.h"
 #include "common/icons.h"
 #include "common/text.h"
 #include "document/edits.h"
@@ -27,8 +25,6 @@ class PlainMenuButton : public QToolButton {
     option->features.setFlag(QStyleOptionToolButton::HasMenu, false);
   }
 };
-
-QString presetFilter() { return QStringLiteral("Softness presets (*.json)"); }
 
 }  // namespace
 
@@ -69,7 +65,7 @@ void PresetRow::arrange() {
   name_->setMaxLength(int(limits::preset_name_bytes));
   more_->setObjectName(QStringLiteral("presetMore"));
   more_->setText(QStringLiteral("⋯"));
-  more_->setAccessibleName(QStringLiteral("Save, rename, delete, import or export presets"));
+  more_->setAccessibleName(QStringLiteral("Save or delete presets"));
   more_->setToolTip(more_->accessibleName());
   more_->setPopupMode(QToolButton::InstantPopup);
   more_->setMenu(menu_);
@@ -101,16 +97,8 @@ QAction* PresetRow::add(const char* name, const QString& text, const QString& he
 void PresetRow::addActions() {
   save_ = add("savePreset", QStringLiteral("&Save as preset…"),
               QStringLiteral("Saves the softness of all links under a name"), &PresetRow::saveAs);
-  rename_ = add("renamePreset", QStringLiteral("&Rename preset…"),
-                QStringLiteral("Renames the selected preset; its values stay"), &PresetRow::rename);
   remove_ = add("deletePreset", QStringLiteral("&Delete preset"),
                 QStringLiteral("Deletes the selected preset; the object keeps its softness"), &PresetRow::remove);
-  menu_->addSeparator();
-  add("importPresets", QStringLiteral("&Import presets…"),
-      QStringLiteral("Adds the presets of a JSON file to your presets"), &PresetRow::import)
-      ->setToolTip(QStringLiteral("Adds the presets of a JSON file to your presets"));
-  export_ = add("exportPresets", QStringLiteral("&Export presets…"),
-                QStringLiteral("Writes all your presets to a JSON file"), &PresetRow::exportAll);
 }
 
 /// Lists 'Custom', which cannot be chosen, the built-in presets and the user's presets.
@@ -167,9 +155,7 @@ void PresetRow::adaptActions() {
             : QStringLiteral("These values are already saved as '%1'").arg(QString::fromStdString(one->name)));
   const QString notOwn = one == nullptr ? QStringLiteral("The values match no preset: select one of your presets")
                                         : QStringLiteral("This preset is built in: select one of your presets");
-  allow(rename_, chosenOwn() != nullptr, notOwn);
   allow(remove_, chosenOwn() != nullptr, notOwn);
-  allow(export_, !store_.own().empty(), QStringLiteral("You have no presets: save one first"));
 }
 
 const SoftnessPreset* PresetRow::chosen() const {
@@ -190,10 +176,9 @@ void PresetRow::choose(int index) {
 }
 
 /// Replaces the list by a field for the name, until the user presses Enter or Esc.
-void PresetRow::ask(Naming naming, const QString& name) {
-  naming_ = naming;
-  name_->setText(name);
-  name_->selectAll();
+void PresetRow::saveAs() {
+  isNaming_ = true;
+  name_->clear();
   fields_->setCurrentWidget(name_);
   for (QWidget* above = parentWidget(); above != nullptr; above = above->parentWidget()) {
     if (above->isHidden()) {
@@ -205,14 +190,7 @@ void PresetRow::ask(Naming naming, const QString& name) {
 
 void PresetRow::takeName() {
   const std::string name = name_->text().trimmed().toStdString();
-  const bool done = attempt([&] {
-    if (naming_ == Naming::rename) {
-      store_.rename(renamed_, name);
-    } else {
-      store_.save({name, document_.softness()});
-    }
-  });
-  if (done) {
+  if (attempt([&] { store_.save({name, document_.softness()}); })) {
     last_ = name;
     endNaming();
     fill();
@@ -220,50 +198,16 @@ void PresetRow::takeName() {
 }
 
 void PresetRow::endNaming() {
-  naming_ = Naming::none;
+  isNaming_ = false;
   fields_->setCurrentWidget(field_);
-}
-
-void PresetRow::saveAs() { ask(Naming::save, {}); }
-
-void PresetRow::rename() {
-  renamed_ = chosen()->name;
-  ask(Naming::rename, QString::fromStdString(renamed_));
 }
 
 void PresetRow::remove() {
   const std::string name = chosen()->name;
-  store_.remove(name);
-  endNaming();  // in case the user was renaming it
-  fill();
-  emit noted(QStringLiteral("Deleted preset '%1'").arg(QString::fromStdString(name)));
-}
-
-void PresetRow::import() {
-  const QString path = QFileDialog::getOpenFileName(this, QStringLiteral("Import presets"), {}, presetFilter());
-  if (!path.isEmpty()) {
-    importPath(path);
-  }
-}
-
-void PresetRow::importPath(const QString& path) {
-  std::size_t added = 0;
-  if (attempt([&] { added = store_.addFrom(path); })) {
+  if (attempt([&] { store_.remove(name); })) {
+    endNaming();  // in case the user was naming one
     fill();
-    emit noted(counted(QStringLiteral("Added"), added, QStringLiteral("preset")));
-  }
-}
-
-void PresetRow::exportAll() {
-  const QString path = askWhere(*this, QStringLiteral("Export presets"), {presetFilter()}, QStringLiteral("presets"));
-  if (!path.isEmpty()) {
-    exportPath(path);
-  }
-}
-
-void PresetRow::exportPath(const QString& path) {
-  if (attempt([&] { store_.writeTo(path); })) {
-    emit noted(QStringLiteral("Saved %1").arg(path));
+    emit noted(QStringLiteral("Deleted preset '%1'").arg(QString::fromStdString(name)));
   }
 }
 
@@ -291,7 +235,7 @@ bool PresetRow::eventFilter(QObject* watched, QEvent* event) {
     }
     return true;
   }
-  if (watched == name_ && event->type() == QEvent::FocusOut && naming_ != Naming::none) {
+  if (watched == name_ && event->type() == QEvent::FocusOut && isNaming_) {
     const Qt::FocusReason reason = dynamic_cast<QFocusEvent*>(event)->reason();
     if (reason != Qt::ActiveWindowFocusReason && reason != Qt::PopupFocusReason) {
       endNaming();

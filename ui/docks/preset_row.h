@@ -14,8 +14,7 @@
 
 namespace chainmail {
 
-/// The preset of the softness of all links. Shows and chooses a preset; saves, renames, deletes, imports and exports
-/// the user's presets.
+/// The preset of the softness of all links. Shows and chooses a preset; saves and deletes the user's presets.
 class PresetRow : public QWidget {
   Q_OBJECT
 
@@ -24,10 +23,6 @@ class PresetRow : public QWidget {
 
   /// Returns the actions on presets, for a menu of the window.
   QMenu& menu() { return *menu_; }
-  /// Asks for a name and saves the current values under it.
-  void save() { save_->trigger(); }
-  void importPath(const QString& path);
-  void exportPath(const QString& path);
 
  signals:
   /// Emitted when something fails; `sentence` says why and what to do.
@@ -39,8 +34,6 @@ class PresetRow : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  enum class Naming { none, save, rename };
-
   void arrange();
   void addActions();
   QAction* add(const char* name, const QString& text, const QString& help, void (PresetRow::*act)());
@@ -50,14 +43,10 @@ class PresetRow : public QWidget {
   const SoftnessPreset* chosen() const;
   const SoftnessPreset* chosenOwn() const;
   void choose(int index);
-  void ask(Naming naming, const QString& name);
   void takeName();
   void endNaming();
   void saveAs();
-  void rename();
   void remove();
-  void import();
-  void exportAll();
   /// Runs `act` and reports an Error if it throws one. Returns true if it succeeded.
   bool attempt(const std::function<void()>& act);
 
@@ -65,14 +54,13 @@ class PresetRow : public QWidget {
   PresetStore store_;
   std::vector<SoftnessPreset> all_;  // in the order of the field: the built-in ones first
   std::string last_;                 // the last chosen name, shown if several presets have equal values
-  Naming naming_ = Naming::none;
-  std::string renamed_;  // the preset to rename; the user may choose another one meanwhile
+  bool isNaming_ = false;            // the field for a name is shown
   QStackedLayout* fields_;
   QComboBox* field_;
   QLineEdit* name_;
   QToolButton* more_;
   QMenu* menu_;
-  QAction *save_ = nullptr, *rename_ = nullptr, *remove_ = nullptr, *export_ = nullptr;
+  QAction *save_ = nullptr, *remove_ = nullptr;
 };
 
 }  // namespace chainmail

@@ -7,9 +7,8 @@
 
 namespace chainmail {
 
-/// The user's softness presets, in a file beside the settings, which all windows share: each change is made to the
-/// presets as another window has left them. Names are unique and differ from those of built-in presets. Functions throw
-/// Error if they fail; then nothing has changed.
+/// The user's softness presets, in a file beside the settings. Names are unique and differ from those of built-in
+/// presets. Functions throw Error if they fail; then nothing has changed.
 class PresetStore {
  public:
   const std::vector<SoftnessPreset>& own() const { return own_; }
@@ -21,21 +20,11 @@ class PresetStore {
   void load();
   /// Adds a preset, or replaces the user's preset of this name.
   void save(const SoftnessPreset& preset);
-  void rename(const std::string& name, const std::string& to);
   void remove(const std::string& name);
-  /// Adds the presets of a file that are new, under another name if theirs is taken. Returns the number of added
-  /// presets.
-  std::size_t addFrom(const QString& path);
-  /// Writes the user's presets to a file, completely or not at all.
-  void writeTo(const QString& path) const;
 
  private:
-  template <class Edit>
-  void change(Edit edit);
   void refresh();
-  void check(const std::string& name) const;
-  /// Throws Error if there are limits::presets already.
-  static void checkRoom(std::size_t present);
+  void write(std::vector<SoftnessPreset> presets);
 
   std::vector<SoftnessPreset> own_;
 };

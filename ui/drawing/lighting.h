@@ -17,8 +17,7 @@ struct Lighting {
   float everywhere = 1, sky = 0, key = 0;
   /// Light from behind on faces that are seen edge-on, as a fraction of white. If negative, these faces are darker.
   float edge = 0;
-  float glint = 0;    // of a shiny surface, as a fraction of white
-  bool clay = false;  // a material capture instead: see ofClay
+  float glint = 0;  // of a shiny surface, as a fraction of white
 
   /// Returns the light on objects of one colour, on the current ground.
   static Lighting onGround() {
@@ -28,10 +27,6 @@ struct Lighting {
   /// Returns weaker light without highlights, so that colours which stand for values read the same as in the legend.
   static Lighting ofValues() { return {0.80F, 0.08F, 0.26F, 0, 0}; }
 
-  /// Returns a material capture: the brightness of a lit sphere of clay at the place with the same normal. Its shadows
-  /// are bluish and its lights yellowish, so that forms show where brightness alone is flat.
-  static Lighting ofClay() { return {.clay = true}; }
-
   QVector4D shares() const { return {everywhere, sky, key, edge}; }
 
   /// Returns the colour of a lit face; `normal` has length 1 and points to the viewer.
@@ -40,11 +35,6 @@ struct Lighting {
     const QVector3D halfway = (QVector3D(-0.42F, 0.58F, 0.70F).normalized() + QVector3D(0, 0, 1)).normalized();
     const float mirrored = std::max(0.0F, QVector3D::dotProduct(normal, halfway));
     const float grazing = 1 - std::clamp(normal.z(), 0.0F, 1.0F);
-    return clay ? clayed(colour, toLight, mirrored, grazing) : lit(colour, normal, toLight, mirrored, grazing);
-  }
-
- private:
-  QColor lit(const QColor& colour, const QVector3D& normal, float toLight, float mirrored, float grazing) const {
     const float brightness = everywhere + sky * (0.5F + 0.5F * normal.y()) + key * std::max(0.0F, toLight);
     const float rim = edge * std::pow(grazing, 3.0F);
     const float shine = glint * std::pow(mirrored, 32.0F);
@@ -54,18 +44,6 @@ struct Lighting {
       return std::clamp(rimmed + shine, 0.0F, 1.0F);
     };
     return QColor::fromRgbF(channelOf(colour.redF()), channelOf(colour.greenF()), channelOf(colour.blueF()),
-                            colour.alphaF());
-  }
-
-  static QColor clayed(const QColor& colour, float toLight, float mirrored, float grazing) {
-    const float share = std::clamp((toLight + 0.6F) / 1.55F, 0.0F, 1.0F);
-    const float light = share * share * (3 - 2 * share);
-    const float shine = 0.28F * std::pow(mirrored, 18.0F), rim = 0.16F * grazing * grazing;
-    const auto channelOf = [&](float channel, float dark, float bright, float tint) {
-      return std::clamp(channel * (dark + light * (bright - dark)) + shine + rim * tint, 0.0F, 1.0F);
-    };
-    return QColor::fromRgbF(channelOf(colour.redF(), 0.22F, 1.08F, 0.6F),
-                            channelOf(colour.greenF(), 0.24F, 1.03F, 0.75F), channelOf(colour.blueF(), 0.34F, 0.96F, 1),
                             colour.alphaF());
   }
 };

@@ -86,9 +86,7 @@ bool ObjectDrawing::distinguishesEdges(const Mesh& mesh, double pixelsPerUnit) {
 }
 
 Lighting ObjectDrawing::lighting(const Mesh& mesh, const Paint& paint) {
-  return facesByValues(&mesh, paint) ? Lighting::ofValues()
-         : paint.options.matcap      ? Lighting::ofClay()
-                                     : Lighting::onGround();
+  return facesByValues(&mesh, paint) ? Lighting::ofValues() : Lighting::onGround();
 }
 
 float ObjectDrawing::fade(const Mesh& mesh, const Paint& paint) {

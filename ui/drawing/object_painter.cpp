@@ -417,7 +417,7 @@ void ObjectPainter::drawFaces(const Scene& scene, const Paint& paint) {
   }
   positions_.bind();
   const bool pictured = showsPicture(*mesh_);
-  const Shading shading = !spatial ? Shading::plane : pictured ? Shading::plain : inSpace();
+  const Shading shading = !spatial ? Shading::plane : pictured ? Shading::plain : Shading::lit;
   if (facesByValues(mesh_.get(), paint)) {
     useValues(scene, paint, shading, false);
   } else {
@@ -450,7 +450,7 @@ void ObjectPainter::drawFresh(const Scene& scene, const Paint& paint) {
   }
   if (!facesByValues(mesh_.get(), paint)) {
     positions_.bind();
-    use(scene, colours::inner, inSpace(), 3);
+    use(scene, colours::inner, Shading::lit, 3);
     useNormals();
     useRest(paint.options);
   }
@@ -486,7 +486,7 @@ void ObjectPainter::drawCap(const Scene& scene) {
   }
   const bool sliced = showsSlices(*mesh_);
   capPositions_.bind();
-  use(scene, colours::inner, sliced ? Shading::plain : inSpace(), 3, sliced ? Colouring::volume : Colouring::one);
+  use(scene, colours::inner, sliced ? Shading::plain : Shading::lit, 3, sliced ? Colouring::volume : Colouring::one);
   if (sliced) {
     useTexture();
     capRest_.bind();

@@ -66,8 +66,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
     disc,   // points as marks
     diamond,
     ring,
-    plane,  // faces in a plane, darker if folded
-    clay    // faces in space, with a material capture
+    plane  // faces in a plane, darker if folded
   };
   /// Where colours come from: COLOURED_BY of object.frag.
   enum class Colouring { one, elements, links, picture, volume };
@@ -78,7 +77,6 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
   };
   static QByteArray definitions(const Variant& variant);
   static Shading shadingOf(Mark mark);
-  Shading inSpace() const { return lighting_.clay ? Shading::clay : Shading::lit; }
 
   /// All that the picture of the object depends on.
   struct Drawn {
@@ -125,7 +123,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
                float diameter);
 
   // The shaders, compiled for each pair that is used.
-  static constexpr std::array<Variant, 16> variants{{{Shading::plain, Colouring::one},
+  static constexpr std::array<Variant, 15> variants{{{Shading::plain, Colouring::one},
                                                      {Shading::plain, Colouring::elements},
                                                      {Shading::plain, Colouring::links},
                                                      {Shading::plain, Colouring::picture},
@@ -139,8 +137,7 @@ class ObjectPainter : public ObjectDrawing, protected QOpenGLExtraFunctions {
                                                      {Shading::ring, Colouring::elements},
                                                      {Shading::plane, Colouring::one},
                                                      {Shading::plane, Colouring::elements},
-                                                     {Shading::plane, Colouring::picture},
-                                                     {Shading::clay, Colouring::one}}};
+                                                     {Shading::plane, Colouring::picture}}};
   std::array<QOpenGLShaderProgram, variants.size()> programs_;
   QOpenGLShaderProgram* program_ = nullptr;  // the one in use
   QOpenGLVertexArrayObject vertexArray_;

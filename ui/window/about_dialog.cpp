@@ -44,7 +44,7 @@ QString aboutText() {
 
 QString licenceInWords() {
   return QStringLiteral(
-      "MIT licence. Linked libraries: Qt 6 (LGPL-3), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), zlib and "
+      "MIT licence. Linked libraries: Qt 6 (LGPL-3), Eigen (MPL-2.0), zlib and "
       "nlohmann/json (MIT).\n"
       "It starts chainmail-import, which is under the GPL, as a separate program.");
 }

@@ -45,10 +45,7 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"linkMarks", "select"},
                                  ActionIcon{"showValidRegions", "region"},
                                  ActionIcon{"savePreset", "save"},
-                                 ActionIcon{"renamePreset", "file"},
                                  ActionIcon{"deletePreset", "close"},
-                                 ActionIcon{"importPresets", "open"},
-                                 ActionIcon{"exportPresets", "copy"},
                                  ActionIcon{"showShortcuts", "keyboard"},
                                  ActionIcon{"showHints", "hints"}};
 

@@ -34,8 +34,6 @@ constexpr std::array choices{
            "The faces (of a volume: its outside) and the links on them",
            {true, true}}};
 
-const QString matcapKey = QStringLiteral("matcapShading");
-
 bool hasFaces(const Mesh& mesh) { return !mesh.triangles.empty() || mesh.has_cells(); }
 
 QString settingsKey(const Mesh& mesh) {
@@ -63,23 +61,7 @@ void ShowMenu::fill(QMenu& menu) {
     menu_->addAction(action);
     actions_[name] = action;
   }
-  addMatcap();
   adapt();
-}
-
-void ShowMenu::addMatcap() {
-  menu_->addSeparator();
-  matcap_ = menu_->addAction(QStringLiteral("&Matcap shading"));
-  matcap_->setObjectName(QStringLiteral("matcap"));
-  matcap_->setCheckable(true);
-  matcap_->setStatusTip(
-      QStringLiteral("Shades surfaces in space like a lit sphere of clay, so that forms show better; "
-                     "values keep their colours"));
-  matcap_->setChecked(QSettings().value(matcapKey).toBool());
-  connect(matcap_, &QAction::toggled, this, [this](bool on) {
-    QSettings().setValue(matcapKey, on);
-    adapt();
-  });
 }
 
 QStringList ShowMenu::names() {
@@ -125,10 +107,7 @@ DrawOptions ShowMenu::drawOptions() const {
     return {};
   }
   const QString name = chosen();
-  DrawOptions options =
-      std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->options;
-  options.matcap = matcap_->isChecked();
-  return options;
+  return std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->options;
 }
 
 void ShowMenu::adapt() {
@@ -138,10 +117,6 @@ void ShowMenu::adapt() {
     action->setEnabled(possible);
     action->setToolTip(possible ? action->statusTip() : QStringLiteral("Not available: this object has no faces"));
   }
-  const bool inSpace = faces && document_.mesh()->space_dimension == 3;
-  matcap_->setEnabled(inSpace);
-  matcap_->setToolTip(inSpace ? matcap_->statusTip()
-                              : QStringLiteral("Not available: this object has no faces in space"));
   actions_.at(faces ? chosen() : QStringLiteral("links"))->setChecked(true);
   emit changed();
 }

@@ -37,12 +37,10 @@ class ShowMenu : public QObject {
   void changed();
 
  private:
-  void addMatcap();
   void adapt();
 
   const Document& document_;
   QMenu* menu_ = nullptr;
-  QAction* matcap_ = nullptr;
   std::map<QString, QAction*> actions_;  // by name
   std::map<QString, QString> shown_;     // not stored; by the key of the stored choice
 };
