@@ -45,22 +45,20 @@ QString DragTool::hint() const {
       "(3D)  ·  Middle: pan  ·  Wheel: zoom  ·  F: fit");
 }
 
-// Hover: control points, the rotation ring, the brush, and the element under the cursor
+// Hover: the rotation ring, the brush, and the element under the cursor
 
 void DragTool::hover(View& view, QPointF position) {
   if (busy()) {
     cancel();  // no button is pressed: another widget, for example a dialog, received the release
   }
-  const auto point = controlPoints_.at(view, position);
-  controlPoints_.mark(point);
-  const bool onRing = !point && ring_.isAt(view, position);
+  const bool onRing = ring_.isAt(view, position);
   setRingHovered(onRing ? &view : nullptr);
   outline_.clear();
-  if (!point && !onRing && brush_.radius() > 0) {
+  if (!onRing && brush_.radius() > 0) {
     hoverBrush(view, position);
     prepare(std::nullopt);
   } else {
-    const auto element = point || onRing ? std::nullopt : view.search().elementAt(position);
+    const auto element = onRing ? std::nullopt : view.search().elementAt(position);
     document_.highlight().set({element, false, {}});
     prepare(element);
   }
@@ -107,7 +105,6 @@ void DragTool::leave(View& view) {
   if (busy()) {
     return;
   }
-  controlPoints_.mark({});
   setRingHovered(nullptr);
   document_.solvers().prepare({});
   if (!outline_.empty()) {
@@ -134,22 +131,7 @@ bool DragTool::wheel(View& view, QPointF position, double notches) {
 
 // Press: the elements of the handle
 
-bool DragTool::pressOnPoint(View& view, QPointF position) {
-  point_ = controlPoints_.at(view, position);
-  if (point_) {
-    grip_ = Grip::controlPoint;
-    start_ = controlPoints_.position(*point_);
-    gripAt_ = view.pointAt(position, start_);
-    controlPoints_.mark(point_, true);
-    document_.handle().grabControlPoint(point_->point);
-  }
-  return point_.has_value();
-}
-
 void DragTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
-  if (pressOnPoint(view, position)) {
-    return;
-  }
   if (ring_.isAt(view, position)) {
     grab(view, position, ring_.elements(), Grip::ring);
   } else if (const auto elements = elementsToGrab(view, position); !elements.empty()) {
@@ -213,8 +195,7 @@ void DragTool::move(View& view, QPointF position, Qt::KeyboardModifiers modifier
     moveHandle(view, position, grip_ == Grip::ring || (shift && RotationRing::canRotate(*document_.mesh())));
     return;
   }
-  const Point target = start_ + (view.pointAt(position, start_) - gripAt_);
-  grip_ == Grip::element ? document_.handle().drag(target) : document_.handle().dragControlPoint(target);
+  document_.handle().drag(start_ + (view.pointAt(position, start_) - gripAt_));
 }
 
 void DragTool::moveHandle(View& view, QPointF position, bool turns) {
@@ -277,10 +258,8 @@ void DragTool::release(View& view, QPointF /*position*/) {
 void DragTool::cancel() {
   if (busy()) {
     grip_ = Grip::nothing;
-    point_.reset();
     document_.handle().release();
   }
-  controlPoints_.mark({});
   ring_.hideRotation();
   setRingHovered(nullptr);
   outline_.clear();
@@ -292,7 +271,6 @@ void DragTool::cancel() {
 void DragTool::escape() {
   if (busy()) {
     grip_ = Grip::nothing;
-    point_.reset();
     document_.handle().cancel();
   } else if (brush_.radius() > 0) {
     brush_.setNotches(0);

@@ -7,7 +7,6 @@
 
 #include "document/document.h"
 #include "panels/tool.h"
-#include "tools/control_points.h"
 #include "tools/grab_brush.h"
 #include "tools/rotation_ring.h"
 
@@ -15,12 +14,11 @@ namespace chainmail {
 
 /// Grabs a handle and moves it in all panels, in the plane through the handle that is parallel to the view: the element
 /// under the cursor, the selection that this element belongs to, or all elements within the brush. A handle of many
-/// elements rotates about the axis across the view while Shift is held, or when the user drags the rotation ring. Near
-/// a control point of free-form deformation, grabs and moves that point instead.
+/// elements rotates about the axis across the view while Shift is held, or when the user drags the rotation ring.
 class DragTool : public Tool {
  public:
-  DragTool(Document& document, ControlPoints& controlPoints, GrabBrush& brush, RotationRing& ring)
-      : document_(document), controlPoints_(controlPoints), brush_(brush), ring_(ring) {}
+  DragTool(Document& document, GrabBrush& brush, RotationRing& ring)
+      : document_(document), brush_(brush), ring_(ring) {}
 
   QString name() const override { return QStringLiteral("Drag"); }
   QString hint() const override;
@@ -39,7 +37,7 @@ class DragTool : public Tool {
   std::span<const QPointF> stroke(const View& view) const override;
 
  private:
-  enum class Grip { nothing, element, controlPoint, handle, ring };
+  enum class Grip { nothing, element, handle, ring };
   /// The motion of a handle of many elements since it was grabbed (mesh units).
   struct Motion {
     Point pivot = Point::Zero();  // when it was grabbed
@@ -55,7 +53,6 @@ class DragTool : public Tool {
     QPointF cursor;               // its last position
   };
 
-  bool pressOnPoint(View& view, QPointF position);
   void grab(View& view, QPointF position, const std::vector<ElementId>& elements, Grip grip);
   std::vector<ElementId> elementsToGrab(View& view, QPointF position) const;
   std::vector<ElementId> withinBrush(const View& view, QPointF position) const;
@@ -69,11 +66,9 @@ class DragTool : public Tool {
   std::optional<double> angleAt(const View& view, QPointF position) const;
 
   Document& document_;
-  ControlPoints& controlPoints_;
   GrabBrush& brush_;
   RotationRing& ring_;
   Grip grip_ = Grip::nothing;
-  std::optional<ControlPoints::PointId> point_;
   Point start_ = Point::Zero();   // position of what is under the cursor when it was grabbed (mesh units)
   Point gripAt_ = Point::Zero();  // position of the cursor at that moment, in the same plane (mesh units)
   Motion motion_;

@@ -30,7 +30,6 @@ class ElasticSimulationTest : public QObject {
   void without_pins_nothing_moves();
   void a_change_of_algorithm_or_material_answers_at_once();
   void relaxation_leaves_a_static_answer_alone();
-  void control_points_are_for_free_form_alone();
   void a_remark_comes_and_goes();
   void a_pass_is_given_up_data() { every_method(); }
   void a_pass_is_given_up();
@@ -240,7 +239,8 @@ void ElasticSimulationTest::an_updated_factor_changes_no_bit() {
 /// Exact stores positions as displacements from rest. The change must not treat the object as being at rest.
 void ElasticSimulationTest::a_shape_is_kept_when_exact_takes_over() {
   Bar bar(Algorithm::free_form, false);
-  bar.apply(commands::MoveControlPoint{63, Point(4.2, 2.1, 2)});
+  bar.apply(commands::Grab{44});
+  bar.apply(commands::Drag{Point(4.2, 2.1, 2)});
   const auto shaped = bar.all();
   bar.apply(commands::SetAlgorithm{Algorithm::exact});
   QVERIFY(largest_step(bar.all(), shaped) < 1e-12);
@@ -294,25 +294,6 @@ void ElasticSimulationTest::relaxation_leaves_a_static_answer_alone() {
   QVERIFY(!bar.continue_relaxation());
   bar.relax(5, 1);
   QVERIFY(same_bits(bar.all(), answer));
-}
-
-void ElasticSimulationTest::control_points_are_for_free_form_alone() {
-  Bar bar(Algorithm::free_form, false);
-  QCOMPARE(bar.control_points().size(), std::size_t(3 * 64));
-  const auto rest = bar.all();
-  const commands::MoveControlPoint up{63, Point(4, 3, 2)};  // the corner of x 4, y 2, z 2
-  bar.apply(up);
-  QCOMPARE(bar.at(44), Point(4, 3, 2));
-  QVERIFY(bar.statistics().last_pass.moved > 0);
-  QVERIFY_THROWS_EXCEPTION(Error, bar.apply(commands::MoveControlPoint{64, Point(1, 1, 1)}));
-  bar.apply(commands::Reset{});
-  QVERIFY(same_bits(bar.all(), rest));
-  QCOMPARE(bar.control_points()[3 * 63 + 1], 2.0);
-
-  Bar chain(Algorithm::natural_queue);
-  QVERIFY(chain.control_points().empty());
-  chain.apply(up);  // has no control points, so nothing moves
-  QVERIFY(same_bits(chain.all(), rest));
 }
 
 void ElasticSimulationTest::a_remark_comes_and_goes() {
