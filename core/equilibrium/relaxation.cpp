@@ -408,8 +408,7 @@ class Relaxation::Slice {
 void Relaxation::follow(const Body& body) {
   if (positions_ != body.revisions().positions) {
     positions_ = body.revisions().positions;
-    sleep();
-    rotations_.clear();  // the search starts from them: after a reset, the same moves have the same last digits
+    forget();  // the search starts from the rotations: after a reset, the same moves have the same last digits
   }
 }
 
@@ -449,6 +448,11 @@ void Relaxation::sleep() {
   current_.clear();
   next_.clear();
   end_sweep();
+}
+
+void Relaxation::forget() {
+  sleep();
+  rotations_.clear();
 }
 
 Relaxation::Pending Relaxation::hand_over(const Body& body) {

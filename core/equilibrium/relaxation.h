@@ -124,6 +124,8 @@ class Relaxation {
   void wake_all(const Body& body);
   /// Makes all elements inactive.
   void sleep();
+  /// The same, and drops the rotations that were found.
+  void forget();
 
   /// What a relaxation has still to visit.
   struct Pending {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -49,6 +51,7 @@ struct SetRelaxation {
   bool on = false;
   double step = 1;
   RelaxationScheme scheme = RelaxationScheme::mean;
+  bool anew = false;  // all elements begin again, even if it was on
 
   bool operator==(const SetRelaxation&) const = default;
 };
@@ -60,14 +63,43 @@ struct Relax {
   RelaxationScheme scheme = RelaxationScheme::mean;
   double until = 0;  // residual to reach: see parameters::relax_until. 0: none
 };
+/// Number of slices of relaxation in each panel. A solver notes it when it reaches the command that follows them.
+class SliceCounts {
+ public:
+  explicit SliceCounts(std::size_t panels) : panels_(panels) {}
+
+  std::size_t size() const { return panels_.size(); }
+  void note(std::size_t panel, Algorithm algorithm, std::uint32_t slices);
+  /// Return what a panel did. They wait until it is noted.
+  std::uint32_t slices(std::size_t panel) const;
+  Algorithm algorithm(std::size_t panel) const;
+  /// Returns the number of slices for a simulation that runs `algorithm` in place of this panel: that of a panel with
+  /// the same algorithm, if there is one.
+  std::uint32_t slices_for(std::size_t panel, Algorithm algorithm) const;
+
+ private:
+  static constexpr std::uint32_t unknown = ~std::uint32_t{0};
+  struct Panel {
+    Algorithm algorithm = Algorithm::natural_queue;
+    std::atomic<std::uint32_t> slices = unknown;
+  };
+  std::vector<Panel> panels_;
+};
+/// What relaxation did in idle time since the command before. It is recorded, and repeats that when it is carried out:
+/// to the bit, if everything before it is repeated, too.
+struct Relaxed {
+  enum class Start { goes_on, awake, asleep };
+
+  RelaxationScheme scheme = RelaxationScheme::mean;
+  double step = 1;
+  /// What happened before: nothing, all elements woke, or none was awake any more, after undo.
+  Start start = Start::goes_on;
+  std::shared_ptr<const SliceCounts> counts;
+  std::size_t panel = 0;  // of the simulation that carries it out
+};
 /// Sets the options of methods of elasticity and free-form deformation.
 struct SetElastic {
   ElasticOptions options;
-};
-/// Moves a control point of free-form deformation to a target (mesh units).
-struct MoveControlPoint {
-  std::uint32_t point = 0;
-  Point target = Point::Zero();
 };
 struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
@@ -121,9 +153,9 @@ struct DropState {
 }  // namespace commands
 
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
-                             commands::SetRelaxation, commands::Relax, commands::SetAlgorithm, commands::Cut,
-                             commands::Uncut, commands::Pin, commands::Unpin, commands::Reset, commands::ReplaceMesh,
-                             commands::SetPositions, commands::KeepState, commands::RestoreState, commands::DropState,
-                             commands::SetElastic, commands::MoveControlPoint, commands::Split>;
+                             commands::SetRelaxation, commands::Relax, commands::Relaxed, commands::SetAlgorithm,
+                             commands::Cut, commands::Uncut, commands::Pin, commands::Unpin, commands::Reset,
+                             commands::ReplaceMesh, commands::SetPositions, commands::KeepState, commands::RestoreState,
+                             commands::DropState, commands::SetElastic, commands::Split>;
 
 }  // namespace chainmail

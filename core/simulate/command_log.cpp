@@ -1,17 +1,83 @@
 #include "simulate/command_log.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace chainmail {
+namespace {
 
-void CommandLog::send(const Command& command) {
-  history_.note(command);
-  send_to_all(command);
+using Start = commands::Relaxed::Start;
+
+template <class... Kinds>
+bool is_one_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
 }
 
-void CommandLog::send_to_all(const Command& command) {
-  for (SolverThread* solver : solvers_) {
-    solver->post(command);
+}  // namespace
+
+/// Records what relaxation did before a command, if that can matter to it. While it sleeps after undo, it does nothing,
+/// which only a command that makes it go on must know.
+void CommandLog::send(const Command& command) {
+  using namespace commands;
+  if (repeats_ && !is_one_of<KeepState, DropState>(command)) {
+    repeats_ = false;
+    send_to_all(relaxation_, nullptr);
+  }
+  const bool is_setting = is_one_of<SetAlgorithm, SetElastic, DropState>(command);
+  const bool moves_nothing = is_one_of<KeepState, SetRelaxation>(command);
+  std::shared_ptr<SliceCounts> counts;
+  if (relaxation_.on && !is_setting && !(start_ == Start::asleep && moves_nothing)) {
+    // What was done before the object returns to another state is noted for nobody.
+    counts = is_one_of<RestoreState, ReplaceMesh>(command) ? new_counts() : record_relaxation();
+  }
+  send_to_all(command, counts);
+  history_.note(command);
+  follow(command);
+}
+
+void CommandLog::follow(const Command& command) {
+  if (const auto* set = std::get_if<commands::SetRelaxation>(&command)) {
+    const bool begins = set->on && (!relaxation_.on || set->scheme != relaxation_.scheme || set->anew);
+    start_ = begins ? Start::awake : start_;
+    relaxation_ = *set;
+  } else if (is_one_of<commands::RestoreState, commands::ReplaceMesh>(command)) {
+    start_ = Start::asleep;
+  }
+}
+
+std::shared_ptr<commands::SliceCounts> CommandLog::new_counts() const {
+  return std::make_shared<commands::SliceCounts>(solvers_.size());
+}
+
+std::shared_ptr<commands::SliceCounts> CommandLog::record_relaxation() {
+  auto counts = new_counts();
+  history_.note(commands::Relaxed{relaxation_.scheme, relaxation_.step, std::exchange(start_, Start::goes_on), counts});
+  return counts;
+}
+
+void CommandLog::ask_all(const std::vector<SolverThread::Question>& questions) {
+  flush();
+  const auto counts = relaxation_.on && start_ != Start::asleep ? record_relaxation() : nullptr;
+  for (std::size_t i = 0; i < solvers_.size(); ++i) {
+    solvers_[i]->ask(questions[i], {counts, i});
+  }
+}
+
+/// What relaxation did differs between the solvers. `counts`, if any, are noted before.
+void CommandLog::send_to_all(const Command& command, const std::shared_ptr<commands::SliceCounts>& counts) {
+  for (std::size_t i = 0; i < solvers_.size(); ++i) {
+    Command own = command;
+    if (auto* relaxed = std::get_if<commands::Relaxed>(&own)) {
+      relaxed->panel = i;
+    }
+    try {
+      solvers_[i]->post(std::move(own), {counts, i});
+    } catch (...) {
+      for (; counts && i < solvers_.size(); ++i) {
+        counts->note(i, Algorithm::natural_queue, 0);  // or readers would wait for ever
+      }
+      throw;
+    }
   }
 }
 
@@ -23,11 +89,9 @@ void CommandLog::flush() {
 }
 
 void CommandLog::post(const Command& command) {
-  const bool sampled = std::holds_alternative<commands::Drag>(command) ||
-                       std::holds_alternative<commands::SetSoftness>(command) ||
-                       std::holds_alternative<commands::SetRelaxation>(command) ||
-                       std::holds_alternative<commands::SetElastic>(command) ||
-                       std::holds_alternative<commands::MoveControlPoint>(command);
+  const bool sampled =
+      std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command) ||
+      std::holds_alternative<commands::SetRelaxation>(command) || std::holds_alternative<commands::SetElastic>(command);
   if (waiting_ && waiting_->index() != command.index()) {
     flush();
   }
@@ -45,7 +109,9 @@ void CommandLog::post_to(SolverThread& solver, const Command& command) {
 
 void CommandLog::replay(const Command& command) {
   flush();
-  send_to_all(command);
+  repeats_ = repeats_ || is_one_of<commands::Relaxed>(command);
+  send_to_all(command, relaxation_.on ? new_counts() : nullptr);
+  follow(command);
 }
 
 void CommandLog::add(SolverThread& solver) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ class CommandLog {
   /// Adds or removes a solver, after any waiting command.
   void add(SolverThread& solver);
   void remove(const SolverThread& solver);
+  /// Records what relaxation has done since the last command, and calls questions[i] on the thread of solver i in that
+  /// state: see SolverThread::ask.
+  void ask_all(const std::vector<SolverThread::Question>& questions);
   /// Sends the waiting command. Call this before you use a solver directly.
   void flush();
   /// Sends the waiting command if every solver is idle. Call this after each post, and each time a solver becomes idle.
@@ -35,11 +39,17 @@ class CommandLog {
 
  private:
   void send(const Command& command);
-  void send_to_all(const Command& command);
+  void send_to_all(const Command& command, const std::shared_ptr<commands::SliceCounts>& counts);
+  std::shared_ptr<commands::SliceCounts> new_counts() const;
+  std::shared_ptr<commands::SliceCounts> record_relaxation();
+  void follow(const Command& command);
 
   std::vector<SolverThread*> solvers_;
   std::optional<Command> waiting_;
   MoveHistory history_;
+  commands::SetRelaxation relaxation_;  // as sent last
+  bool repeats_ = false;                // the solvers repeat recorded relaxation, and do so as long as a replay goes on
+  commands::Relaxed::Start start_ = commands::Relaxed::Start::goes_on;  // what happened since the last note
 };
 
 }  // namespace chainmail

@@ -23,9 +23,6 @@ struct Frame {
   /// last changed. A reader that has shown frame n needs only the blocks with higher numbers. If the mesh has changed,
   /// it needs all blocks.
   std::vector<std::uint64_t> changed;
-  /// The control points of free-form deformation, space_dimension coordinates each, in `space`; empty for other
-  /// algorithms.
-  std::vector<float> control_points;
   Statistics statistics;
   std::uint64_t number = 0;
   /// Id of the series of frames. Frame numbers of different series cannot be compared: a reader needs all blocks after
@@ -35,6 +32,9 @@ struct Frame {
   /// Returns a view of the positions in mesh units; valid while the frame does not change.
   PositionView view() const { return space.view(positions); }
 };
+
+/// Returns the id of a new series of frames.
+std::uint64_t new_series();
 
 /// Passes frames from one writer to one reader without locks, in two frames: the reader's, and the one that the writer
 /// fills. The reader takes the latter once it is filled; until then, the writer may fill it again with something newer.

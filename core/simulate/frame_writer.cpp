@@ -1,6 +1,7 @@
 #include "simulate/frame_writer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 
 namespace chainmail {
@@ -13,6 +14,11 @@ std::span<std::uint64_t> blocks_of(std::vector<std::uint64_t>& stamps, ElementId
 }
 
 }  // namespace
+
+std::uint64_t new_series() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
 
 void FrameWriter::publish(Simulation& simulation) {
   ++number_;
@@ -59,11 +65,11 @@ void FrameWriter::fill(Frame& frame, ElementBlocks& pending, Simulation& simulat
     std::ranges::copy(blocks_of(changed_, first, end), blocks_of(frame.changed, first, end).begin());
   });
   pending.clear();
-  const auto control_points = simulation.control_points();
-  frame.control_points.resize(control_points.size());
-  frame.space.into(control_points, frame.control_points);
   frame.statistics = simulation.statistics();
+  frame.statistics.relaxing = simulation.relaxes_in_idle_time();
+  simulation.begin_frame();
   frame.number = number_;
+  frame.series = series_;
 }
 
 }  // namespace chainmail

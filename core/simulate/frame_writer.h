@@ -25,6 +25,7 @@ class FrameWriter {
   void fill(Frame& frame, ElementBlocks& pending, Simulation& simulation);
 
   FrameExchange& frames_;
+  const std::uint64_t series_ = new_series();
   std::uint64_t number_ = 0;
   // State of the newest frame:
   MeshPointer mesh_;

@@ -36,7 +36,7 @@ void MoveHistory::note(const Command& command) {
     kept_.erase(drop->state);
   } else if (std::holds_alternative<ReplaceMesh>(command)) {
     begin_mesh(*std::get<ReplaceMesh>(command).mesh);
-  } else if (!is_one_of<SetAlgorithm, SetRelaxation, SetElastic, MoveControlPoint>(command)) {
+  } else if (!is_one_of<SetAlgorithm, SetRelaxation, SetElastic>(command)) {
     add(command);
   }
 }

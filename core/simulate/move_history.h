@@ -16,7 +16,7 @@ MeshPointer first_mesh(const std::vector<Command>& commands);
 MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands);
 
 /// The recorded commands. They lead from an object at rest, without cuts and pins and with Softness(), to the current
-/// object. Settings of the solver (algorithm, relaxation) are not recorded.
+/// object. Settings of the solver (algorithm, relaxation) are not recorded, but what relaxation did is.
 /// RestoreState moves the position back to where the state was saved. Later commands stay until a new command replaces
 /// them.
 class MoveHistory {

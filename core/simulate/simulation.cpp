@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "body/split_state.h"
+#include "measure/inverted_cells.h"
 #include "mesh/error.h"
 #include "mesh/failure.h"
 #include "mesh/parameters.h"
@@ -16,11 +17,14 @@ namespace {
 
 using Clock = PassTimes::Clock;
 
-// Relaxation stops when no step of a sweep exceeds this share of the mean rest length, or after this time.
+// Relaxation has settled when no step of a sweep exceeds this share of the mean rest length.
 constexpr double asleep_below = 1e-4;
-constexpr auto relaxation_time = std::chrono::seconds(10);
 // The scheme `equilibrium` also needs a residual of at most this.
 constexpr double settled_below = 1e-4;
+// Relaxation gives up if its residual, or the largest step of its sweeps, has not fallen below this share of the least
+// so far in so many iterations or sweeps. Counts, unlike a time, are the same in a replay.
+constexpr double falls_below = 0.99;
+constexpr std::uint64_t most_iterations = 500, most_sweeps = 2000;
 // About 2 ms, so that commands never wait longer for a slice of relaxation.
 constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 50'000;
@@ -96,23 +100,6 @@ void Simulation::time_pass(Move move) {
   relaxation_fails_ = false;
 }
 
-void Simulation::carry_out(const commands::MoveControlPoint& command) {
-  if (!info(algorithm_).has_control_points) {
-    return;
-  }
-  time_pass([&] { return solver_->move_control_point(command.point, command.target); });
-  valid_ = false;
-  mark(solver_->moved());
-}
-
-std::span<const double> Simulation::control_points() {
-  try {
-    return solver_->control_points();
-  } catch (const Error&) {
-    return {};  // the next move reports the reason
-  }
-}
-
 void Simulation::note_change(const ElementBlocks& blocks) {
   changed_.insert(blocks);
   unmeasured_.insert(blocks);
@@ -133,27 +120,36 @@ void Simulation::mark_all() {
 }
 
 bool Simulation::continue_relaxation() {
-  if (!statistics_.relaxing) {
+  if (!relaxes_in_idle_time()) {
     return false;
   }
+  const auto start = Clock::now();
+  try {
+    try_slice();
+  } catch (const Cancelled&) {
+    // A command waits.
+  }
+  statistics_.relaxation_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return statistics_.relaxing;
+}
+
+/// Runs a slice of relaxation, or ends relaxation if that fails.
+void Simulation::try_slice() {
   try {
     if (run_slice()) {
       fall_asleep();
     }
   } catch (const Cancelled&) {
-    // A command waits.
+    throw;
   } catch (const Error& error) {
     refuse_relaxation(error.what());
   } catch (...) {
     refuse_relaxation(failure_sentence("relaxation"));
   }
-  if (Clock::now() > relaxation_deadline_) {
-    fall_asleep();
-  }
-  return statistics_.relaxing;
+  ++slices_;
 }
 
-/// Runs a slice of relaxation. Returns true if the object has come to rest.
+/// Runs a slice of relaxation. Returns true if the object has settled, or comes no closer to that.
 bool Simulation::run_slice() {
   const RelaxationResult slice = relax_slice(relaxation_step_);
   prepared_ = slice.has_prepared;
@@ -162,8 +158,49 @@ bool Simulation::run_slice() {
   }
   ++statistics_.sweeps;
   // Elements that became active during the sweep have not been visited yet.
-  return !std::exchange(woken_, false) && slice.largest_step <= asleep_below * mesh_->mean_link_length &&
-         (!slice.residual || *slice.residual <= settled_below);
+  if (std::exchange(woken_, false)) {
+    return false;
+  }
+  const double length = mesh_->mean_link_length;
+  const double distance = slice.residual.value_or(length > 0 ? slice.largest_step / length : slice.largest_step);
+  const bool has_settled =
+      slice.largest_step <= asleep_below * length && (!slice.residual || *slice.residual <= settled_below);
+  if (!has_settled && comes_closer(distance)) {
+    return false;
+  }
+  const auto turned = softness().energy == EnergyKind::material ? inverted_cells(*mesh_, body().positions()) : 0;
+  if ((!has_settled || turned.value_or(0) > 0) && !std::exchange(has_begun_again_, true)) {
+    closest_sweep_ = 0;  // another start may find a way out
+    solver_->forget_relaxation();
+    solver_->wake_all();
+    return false;
+  }
+  if (!has_settled) {
+    statistics_.unsettled = distance;
+  }
+  if (turned.value_or(0) > 0) {
+    statistics_.remark = "relaxation stays in a local minimum, cells inside out: " + std::to_string(*turned);
+    relaxation_fails_ = true;
+  }
+  return true;
+}
+
+bool Simulation::comes_closer(double distance) {
+  if (closest_sweep_ == 0 || distance < falls_below * closest_) {
+    closest_ = distance;
+    closest_sweep_ = statistics_.sweeps;
+  }
+  return statistics_.sweeps - closest_sweep_ < (info(relaxation_scheme_).sweeps ? most_sweeps : most_iterations);
+}
+
+/// Begins relaxation as if it had done nothing before, with all elements or with none.
+void Simulation::begin_relaxation(bool awake) {
+  fall_asleep();
+  solver_->forget_relaxation();
+  if (awake && info(algorithm_).relaxes()) {
+    solver_->wake_all();
+    wake({});
+  }
 }
 
 RelaxationResult Simulation::relax_slice(double step) {
@@ -274,6 +311,7 @@ void Simulation::forget_passes() {
   statistics_.last_second = {};
   statistics_.remark.clear();
   statistics_.residual.reset();
+  statistics_.unsettled.reset();
   relaxation_fails_ = false;
   times_.clear();
 }
@@ -282,9 +320,10 @@ void Simulation::wake(std::span<const ElementId> elements) {
   if (relaxation_on_ && info(algorithm_).relaxes()) {
     solver_->wake(elements);
     woken_ = true;
-    relaxation_deadline_ = Clock::now() + relaxation_time;
     statistics_.relaxing = true;
-    statistics_.sweeps = 0;
+    has_begun_again_ = false;
+    statistics_.unsettled.reset();
+    statistics_.sweeps = closest_sweep_ = 0;
   }
 }
 
@@ -430,8 +469,25 @@ void Simulation::carry_out(const commands::Relax& command) {
   solver_->set_relaxation(relaxation_scheme_);
 }
 
+void Simulation::carry_out(const commands::Relaxed& command) {
+  check(parameters::relax_step, command.step);
+  relaxation_on_ = repeats_slices_ = true;
+  relaxation_step_ = command.step;
+  relaxation_scheme_ = command.scheme;
+  solver_->set_relaxation(command.scheme);
+  if (command.start != commands::Relaxed::Start::goes_on) {
+    begin_relaxation(command.start == commands::Relaxed::Start::awake);
+  }
+  const std::uint32_t count = command.counts->slices_for(command.panel, algorithm_);
+  for (std::uint32_t i = 0; i < count && statistics_.relaxing; ++i) {
+    progress_.report(i, count);
+    try_slice();
+  }
+}
+
 void Simulation::carry_out(const commands::SetRelaxation& command) {
   check(parameters::relax_step, command.step);
+  repeats_slices_ = false;
   const bool was_on = std::exchange(relaxation_on_, command.on);
   const bool is_other = std::exchange(relaxation_scheme_, command.scheme) != command.scheme;
   relaxation_step_ = command.step;
@@ -439,11 +495,11 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   if (is_other) {
     statistics_.residual.reset();
   }
-  if (command.on && (!was_on || is_other) && info(algorithm_).relaxes()) {
-    solver_->wake_all();
-    wake({});
-  } else if (!command.on) {
+  if (!command.on) {
+    statistics_.unsettled.reset();
     fall_asleep();
+  } else if (!was_on || is_other || command.anew) {
+    begin_relaxation(true);
   }
 }
 
@@ -514,7 +570,7 @@ void Simulation::carry_out(const commands::Reset&) {
   }
   forget_passes();
   valid_ = true;
-  fall_asleep();
+  begin_relaxation(false);
 }
 
 void Simulation::carry_out(const commands::ReplaceMesh& command) {
@@ -590,7 +646,7 @@ void Simulation::carry_out(const commands::SetPositions& command) {
   forget_passes();
   grabbed_.reset();
   last_handle_.reset();
-  fall_asleep();
+  begin_relaxation(false);
 }
 
 Simulation::State& Simulation::kept(commands::StateId state) {
@@ -653,7 +709,7 @@ void Simulation::take_state(const State& state) {
   forget_passes();
   grabbed_.reset();
   last_handle_.reset();
-  fall_asleep();
+  begin_relaxation(false);
 }
 
 void Simulation::take_cuts(const std::vector<LinkId>& cuts) {

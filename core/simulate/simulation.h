@@ -25,6 +25,10 @@ struct Statistics {
   PassTimes::Summary last_second;
   MeasuredViolation violation;
   bool relaxing = false;
+  double relaxation_ms = 0;  // of slices of relaxation since the last frame
+  /// Set if relaxation has stopped because it came no closer: the residual, or the largest step of a sweep in mean rest
+  /// lengths.
+  std::optional<double> unsettled;
   std::uint64_t sweeps = 0;  // since the last pass; iterations with the scheme `equilibrium`
   /// After an iteration toward the equilibrium: the estimated distance from it, see EquilibriumCertificate.
   std::optional<double> residual;
@@ -44,6 +48,10 @@ class Simulation {
   /// Runs a slice of relaxation of about 2 ms, or one iteration toward the equilibrium, for idle time. Returns true if
   /// there is more to do. If there is no equilibrium, or if it fails, relaxation ends and the remark says why.
   bool continue_relaxation();
+  /// True if there is something to relax in idle time.
+  bool relaxes_in_idle_time() const { return statistics_.relaxing && !repeats_slices_; }
+  /// Returns the number of slices so far that were not cancelled.
+  std::uint32_t slices() const { return slices_; }
   /// True if the last slice prepared later ones, which are much faster.
   bool has_prepared() const { return prepared_; }
 
@@ -75,12 +83,11 @@ class Simulation {
   const Body& body() const { return solver_->body(); }
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }
-  commands::SetRelaxation relaxation() const { return {relaxation_on_, relaxation_step_, relaxation_scheme_}; }
+  commands::SetRelaxation relaxation() const {
+    return {relaxation_on_ && !repeats_slices_, relaxation_step_, relaxation_scheme_};
+  }
   /// The elements of the handle, ascending; empty while nothing is grabbed.
   std::span<const ElementId> grabbed() const { return elements_of(grabbed_); }
-  /// Returns the control points of free-form deformation, and prepares it. Returns nothing for other algorithms, or if
-  /// it has no solution.
-  std::span<const double> control_points();
   /// Returns the handle of the last pass; null before the first one.
   const Handle* last_handle() const { return last_handle_.get(); }
   /// Returns a snapshot of the positions, for SetPositions.
@@ -88,6 +95,8 @@ class Simulation {
   /// Returns the blocks in which a position may have changed since forget_changes().
   const ElementBlocks& changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
+  /// Begins a frame: the time of relaxation is counted from here.
+  void begin_frame() { statistics_.relaxation_ms = 0; }
   const Statistics& statistics() const { return statistics_; }
   /// Returns true if it is known, without a check of the whole mesh, that no link is violated beyond rounding.
   bool valid() const { return valid_; }
@@ -110,6 +119,7 @@ class Simulation {
   void carry_out(const commands::SetSoftness& command);
   void carry_out(const commands::SetRelaxation& command);
   void carry_out(const commands::Relax& command);
+  void carry_out(const commands::Relaxed& command);
   void carry_out(const commands::SetAlgorithm& command);
   void carry_out(const commands::Cut& command);
   void carry_out(const commands::Uncut& command);
@@ -120,12 +130,14 @@ class Simulation {
   void carry_out(const commands::Split& command);
   void carry_out(const commands::SetPositions& command);
   void carry_out(const commands::SetElastic& command);
-  void carry_out(const commands::MoveControlPoint& command);
   void carry_out(const commands::KeepState& command);
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
   bool run_slice();
+  void try_slice();
+  bool comes_closer(double distance);
+  void begin_relaxation(bool awake);
   RelaxationResult relax_slice(double step);
   template <class Relax>
   RelaxationResult take_relaxed(Relax relax);
@@ -175,7 +187,11 @@ class Simulation {
   bool woken_ = false;             // true if elements became active since the last sweep ended
   bool prepared_ = false;          // true if the last slice prepared later ones
   bool relaxation_fails_ = false;  // true if the remark is about relaxation
-  PassTimes::Clock::time_point relaxation_deadline_{};
+  bool repeats_slices_ = false;    // relaxation runs only as often as commands say: see commands::Relaxed
+  std::uint32_t slices_ = 0;
+  double closest_ = 0;               // residual, or largest step in mean rest lengths, that relaxation has reached
+  std::uint64_t closest_sweep_ = 0;  // when: see Statistics::sweeps. 0: not yet
+  bool has_begun_again_ = false;     // because it came no closer
   std::map<commands::StateId, State> kept_;
   PassTimes times_;
   ViolationMeter meter_;

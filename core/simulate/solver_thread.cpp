@@ -40,9 +40,7 @@ bool overrules(const Task& task) {
 }
 
 /// Returns true if a command only moves elements of the current object.
-bool only_moves(const Command* command) {
-  return is_one_of<Drag, MoveControlPoint, Relax, SetSoftness, SetElastic>(command);
-}
+bool only_moves(const Command* command) { return is_one_of<Drag, Relax, Relaxed, SetSoftness, SetElastic>(command); }
 
 /// Returns an object of one element, used until the real one arrives.
 MeshPointer no_mesh() { return generate({MeshKind::line, {1, 1, 1}, 1, {}}); }
@@ -77,21 +75,37 @@ SolverThread::~SolverThread() {
   work_.cancelled = true;
 }
 
-void SolverThread::post(Command command) { add(std::move(command)); }
+void SolverThread::post(Command command, const SliceNote& note) { add(std::move(command), note); }
 
-void SolverThread::ask(Question question) { add(std::move(question)); }
+void SolverThread::ask(Question question, const SliceNote& note) { add(std::move(question), note); }
 
-void SolverThread::add(Task task) {
+/// Adds a task, and a note before it: nothing else happens between them.
+void SolverThread::add(Task task, const SliceNote& note) {
   {
     const std::lock_guard lock(mutex_);
-    const int more = overrules(task) ? 1 : 0;
-    tasks_.push_back(std::move(task));  // may run out of memory, so it comes before any change
+    const int more = overrules(task) ? 1 : 0, count = note.counts ? 2 : 1;
+    if (note.counts) {
+      tasks_.emplace_back(Question([this, note](const Simulation& simulation) { note_slices(note, simulation); }));
+    }
+    try {
+      tasks_.push_back(std::move(task));  // may run out of memory, so it comes before any change
+    } catch (...) {
+      if (note.counts) {
+        tasks_.pop_back();
+      }
+      throw;
+    }
     overrulers_ += more;
     work_.cancelled = work_.cancelled || overrulers_ > 0 || preparing_;
-    ++posted_;
-    waiting_.fetch_add(1, std::memory_order_release);
+    posted_ += std::size_t(count);
+    waiting_.fetch_add(count, std::memory_order_release);
   }
   changed_.notify_one();
+}
+
+void SolverThread::note_slices(const SliceNote& note, const Simulation& simulation) {
+  const std::uint32_t before = std::exchange(noted_slices_, simulation.slices());
+  note.counts->note(note.panel, simulation.statistics().algorithm, noted_slices_ - before);
 }
 
 void SolverThread::prepare(std::optional<ElementId> element) {
@@ -124,6 +138,11 @@ void SolverThread::go_on() {
   abandoned_ = false;
 }
 
+void SolverThread::pause(bool on) {
+  paused_ = on;
+  ask([](const Simulation&) {});  // wakes the thread
+}
+
 std::string SolverThread::take_error() {
   const std::lock_guard lock(mutex_);
   return std::exchange(error_, {});
@@ -144,7 +163,7 @@ void SolverThread::report_failure() noexcept {
 /// same handle.
 bool SolverThread::is_dropped(const Task& task) const {
   const auto* command = std::get_if<Command>(&task);
-  return (abandoned_ && only_moves(command)) || (stopped_ && is_one_of<Drag, MoveControlPoint>(command));
+  return (abandoned_ && only_moves(command)) || (stopped_ && is_one_of<Drag>(command));
 }
 
 void SolverThread::carry_out(const Task& task) {
@@ -164,6 +183,7 @@ void SolverThread::carry_out(const Task& task) {
 
 void SolverThread::run_task(const Task& task) {
   const auto* command = std::get_if<Command>(&task);
+  work_.share = 0;
   stopped_ = stopped_ && command == nullptr;
   try {
     if (command != nullptr) {
@@ -182,7 +202,7 @@ void SolverThread::run_task(const Task& task) {
     // The panel whose state this task should copy no longer exists.
   } catch (...) {
     report_failure();
-    stopped_ = is_one_of<Drag, MoveControlPoint>(command);
+    stopped_ = is_one_of<Drag>(command);
   }
   if (command != nullptr) {
     recorder_.end(simulation_);
@@ -211,7 +231,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   Task task = std::move(tasks_.front());
   tasks_.pop_front();
   overrulers_ -= overrules(task) ? 1 : 0;
-  sweeping_ = is_one_of<Relax>(std::get_if<Command>(&task));
+  sweeping_ = is_one_of<Relax, Relaxed>(std::get_if<Command>(&task));
   is_prepared_ = is_prepared_ && std::holds_alternative<Question>(task);
   const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
   work_.cancelled = stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut;
@@ -237,7 +257,7 @@ void SolverThread::run(const std::stop_token& stop) {
 
 /// Does what is most urgent, or waits until there is something to do. The caller must hold the lock.
 void SolverThread::take_turn(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
-  const bool is_still = !unseen_ && !simulation_.statistics().relaxing;
+  const bool is_still = !unseen_ && !relaxes();
   if (!tasks_.empty()) {
     const Task task = take_task(stop);
     lock.unlock();
@@ -285,8 +305,8 @@ void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const st
 
 /// Returns true if there is something to relax and this does not delay the next move of the handle.
 bool SolverThread::may_relax() const {
-  return simulation_.statistics().relaxing && (slice_time_ <= relaxation_share || simulation_.grabbed().empty() ||
-                                               Clock::now() >= last_command_ + pause_of_handle);
+  return relaxes() && (slice_time_ <= relaxation_share || simulation_.grabbed().empty() ||
+                       Clock::now() >= last_command_ + pause_of_handle);
 }
 
 void SolverThread::relax() {
@@ -341,7 +361,7 @@ void SolverThread::prepare_next(std::unique_lock<std::mutex>& lock) {
 
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto has_command = [this] { return !tasks_.empty(); };
-  if (unseen_ || simulation_.statistics().relaxing) {
+  if (unseen_ || relaxes()) {
     const auto share = may_relax() ? relaxation_share : frame_time.zero();
     const bool only_waits = !unseen_ && !may_relax();
     changed_.wait_until(lock, stop, only_waits ? last_command_ + pause_of_handle : last_frame_ + frame_time - share,

@@ -15,6 +15,12 @@
 
 namespace chainmail {
 
+/// Notes the slices of relaxation since the last note, directly before a command or a question.
+struct SliceNote {
+  std::shared_ptr<commands::SliceCounts> counts = {};  // null: nothing is noted
+  std::size_t panel = 0;                               // of the solver
+};
+
 /// Runs one Simulation on its own thread. It sleeps while there is nothing to do, relaxes in idle time, and publishes a
 /// frame after changes, at most 60 times per second.
 class SolverThread {
@@ -35,7 +41,7 @@ class SolverThread {
   ~SolverThread();
 
   /// Appends a command to the queue. A command that sets another algorithm or object cancels long passes before it.
-  void post(Command command);
+  void post(Command command, const SliceNote& note = {});
   /// Cancels the sweeps of relaxation that were posted so far; they may take hours. Call this before the object is
   /// replaced.
   void cut_sweeps();
@@ -44,6 +50,8 @@ class SolverThread {
   void abandon();
   /// Takes abandon() back, because the window stays open.
   void go_on();
+  /// Stops relaxation in idle time, or takes that back.
+  void pause(bool on);
   /// Names the element that the next drag will probably grab, if any. Its drag is prepared when the solver has had
   /// nothing to do for a while, and again after commands. A command, a question or another element ends a preparation
   /// at once.
@@ -52,11 +60,13 @@ class SolverThread {
   int prepared() const { return prepared_.load(std::memory_order_acquire); }
   /// Calls `question` on the solver's thread, after everything posted before. It must not block. What it throws is
   /// reported as an error. When the solver ends, it answers the remaining questions for the current object.
-  void ask(Question question);
+  void ask(Question question, const SliceNote& note = {});
   /// Returns true if all posted commands are done and all questions are answered.
   bool idle() const { return waiting() == 0; }
   /// Returns the number of commands and questions that are not done, including the running one.
   int waiting() const { return waiting_.load(std::memory_order_acquire); }
+  /// Share of the running task that is done, if it reports any; from 0 to 1.
+  double share() const { return work_.share; }
   /// Returns true if idle and the newest frame is up to date.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// Returns the number of the newest frame. A reader that has an older one is about to be told.
@@ -76,7 +86,8 @@ class SolverThread {
   using Job = std::function<void(Simulation&)>;
   using Task = std::variant<Command, Job, Question>;
 
-  void add(Task task);
+  void add(Task task, const SliceNote& note = {});
+  void note_slices(const SliceNote& note, const Simulation& simulation);
   Task take_task(const std::stop_token& stop);
   void run(const std::stop_token& stop);
   void take_turn(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -88,6 +99,7 @@ class SolverThread {
   void finish_task();
   void announce_idle();
   void relax();
+  bool relaxes() const { return !paused_ && simulation_.relaxes_in_idle_time(); }
   bool may_relax() const;
   void wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void measure_later(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -117,8 +129,11 @@ class SolverThread {
   bool stopped_ = false;                      // a move failed: further moves of this handle are dropped
   bool owes_idle_ = false;                    // became_idle has to be called again, because it threw
 
+  std::uint32_t noted_slices_ = 0;  // of all slices so far
+
   std::atomic<int> prepared_ = 0;
   std::atomic<bool> abandoned_ = false;
+  std::atomic<bool> paused_ = false;
 
   std::mutex mutex_;  // guards the following members
   std::condition_variable_any changed_;

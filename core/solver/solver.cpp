@@ -163,6 +163,12 @@ void Solver::sleep() {
   awake_at_.reset();
 }
 
+void Solver::forget_relaxation() {
+  relaxation_.forget();
+  equilibrium_.reset();
+  awake_at_.reset();
+}
+
 void Solver::set_relaxation(RelaxationScheme scheme) {
   scheme_ = scheme;
   if (info(scheme).sweeps) {

@@ -87,6 +87,8 @@ class Solver {
   void wake_all();
   /// Makes all elements inactive.
   void sleep();
+  /// Drops all that relaxation has kept, so that it goes on as a new solver would. Makes all elements inactive.
+  void forget_relaxation();
   void set_relaxation(RelaxationScheme scheme);
   RelaxationScheme relaxation() const { return scheme_; }
   /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The scheme `equilibrium` runs

@@ -15,6 +15,7 @@ namespace chainmail {
 namespace {
 
 constexpr int residualMilliseconds = 100;  // interval between updates of the residual
+constexpr int toMaterial = -1;             // in place of a scheme, in the list
 
 }  // namespace
 
@@ -43,13 +44,18 @@ RelaxationDock::RelaxationDock(Document& document)
   residual_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   residual_->setToolTip(QStringLiteral(
       "Estimated distance of each panel from the equilibrium, in the norm of the energy, relative to its "
-      "root:\n1 far away, 0.001 close, 0 at the equilibrium. The object sleeps below 0.0001."));
+      "root:\n1 far away, 0.001 close, 0 at the equilibrium. The object has settled below 0.0001."));
   refresh_.setSingleShot(true);
   refresh_.setInterval(residualMilliseconds);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // leaves the height to other docks
   setWidget(new DockScroll(content));
   connect(on_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
-  connect(scheme_, &QComboBox::currentIndexChanged, this, [this] { edits::setRelaxation(document_, chosen()); });
+  connect(scheme_, &QComboBox::currentIndexChanged, this, [this] {
+    scheme_->currentData() == toMaterial ? edits::relaxToMaterial(document_)
+                                         : edits::setRelaxation(document_, chosen());
+    showRelaxation();  // the equilibrium may be that of the material already
+  });
+  connect(&document, &Document::softnessChanged, this, &RelaxationDock::showRelaxation);
   connect(step_, &ParameterRow::changed, this,
           [this](double /*value*/, int gesture) { edits::setRelaxation(document_, chosen(), gesture); });
   connect(&document, &Document::relaxationChanged, this, &RelaxationDock::showRelaxation);
@@ -73,18 +79,25 @@ void RelaxationDock::fillSchemes() {
     help << QStringLiteral("%1: %2.").arg(text(one.label), text(one.summary));
     scheme_->setItemData(scheme_->count() - 1, help.back(), Qt::ToolTipRole);
   }
+  help << QStringLiteral(
+      "material: the equilibrium of the material, with regions that hardly bind. Sets softness, energy and scheme.");
+  scheme_->addItem(QStringLiteral("material"), toMaterial);
+  scheme_->setItemData(scheme_->count() - 1, help.back(), Qt::ToolTipRole);
   scheme_->setToolTip(help.join(QLatin1Char('\n')));
 }
 
 commands::SetRelaxation RelaxationDock::chosen() const {
-  return {on_->isChecked(), step_->value(), RelaxationScheme(scheme_->currentData().toInt())};
+  const int scheme = scheme_->currentData().toInt();
+  return {on_->isChecked(), step_->value(),
+          scheme == toMaterial ? RelaxationScheme::equilibrium : RelaxationScheme(scheme)};
 }
 
 void RelaxationDock::showRelaxation() {
   const QSignalBlocker blockOn(on_), blockScheme(scheme_);
   const auto& relaxation = document_.relaxation();
   on_->setChecked(relaxation.on);
-  scheme_->setCurrentIndex(scheme_->findData(int(relaxation.scheme)));
+  scheme_->setCurrentIndex(
+      scheme_->findData(edits::isRelaxedToMaterial(document_) ? toMaterial : int(relaxation.scheme)));
   step_->show(relaxation.step);
   const bool sweeps = info(relaxation.scheme).sweeps;
   step_->disable(sweeps ? QString() : QStringLiteral("The equilibrium has no step: it moves the whole object at once"));

@@ -130,10 +130,11 @@ QString BackgroundReference::state() const {
 void BackgroundReference::compute() {
   if (const std::string why = whyNot(); !why.empty()) {
     setState(why);
-  } else if (auto asked = task(); asked && document_.solvers().idle()) {
+  } else if (auto asked = task(); asked && document_.solvers().idle(0)) {
     start(std::move(*asked));
   } else {
-    delay_.start();  // the solvers are still busy
+    setState("waiting for panel A");  // its positions are part of the task
+    delay_.start();
   }
 }
 

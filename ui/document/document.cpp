@@ -99,7 +99,8 @@ Document::~Document() {
 
 // Edits: each change becomes one undo step.
 
-Change Document::change(const QString& text, int gesture) const {
+Change Document::change(const QString& text, int gesture) {
+  moves_.endFilm();
   Change result;
   result.text = text;
   result.after = contents_;
@@ -250,18 +251,27 @@ void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
 }
 
 void Document::undo() {
+  moves_.endFilm();
   handle_.end();
   moves_.endSweeps();
   undoStack_.undo();
 }
 
 void Document::redo() {
+  moves_.endFilm();
   handle_.end();
   moves_.endSweeps();
   undoStack_.redo();
 }
 
 // Commands to the solvers, and their refusals.
+
+void Document::continueRelaxation() {
+  moves_.endFilm();
+  commands::SetRelaxation again = relaxation();
+  again.anew = true;
+  post(again);
+}
 
 void Document::post(const Command& command) {
   CommandLog& log = solvers_.log();
@@ -297,6 +307,7 @@ void Document::addSolver(Algorithm algorithm) {
 
 void Document::addPanel() {
   if (panels() < maxPanels) {
+    moves_.endFilm();
     const Algorithm algorithm = unusedAlgorithm();
     addSolver(algorithm);  // may find no memory or no thread, so it comes before any change
     contents_.algorithms[std::size_t(panels()) - 1] = algorithm;
@@ -307,6 +318,7 @@ void Document::addPanel() {
 
 void Document::removePanel() {
   if (panels() > minPanels) {
+    moves_.endFilm();
     emit panelLeaves(panels() - 1);
     solvers_.removeLast();
     contents_.panels = panels();

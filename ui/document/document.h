@@ -85,7 +85,9 @@ class Document : public QObject {
   /// True if there are changes since the session was opened or saved.
   bool isModified() const { return handle_.isActive() || (!undoStack_.isClean() && !moves_.onlyLessonMoved()); }
   /// Returns a change that does nothing yet: its values are the current ones.
-  Change change(const QString& text, int gesture = 0) const;
+  Change change(const QString& text, int gesture = 0);
+  /// Begins relaxation anew in all panels, where it has stopped before it has settled.
+  void continueRelaxation();
   /// Carries out a change as one undo step. All edits use this function.
   void apply(Change change);
 

@@ -25,16 +25,10 @@ void DragSession::grab(std::vector<ElementId> elements) {
   document_.post(commands::Grab{std::move(free)});
 }
 
-void DragSession::grabControlPoint(std::uint32_t point) {
-  end();
-  begin({}, QStringLiteral("move of control point %1").arg(point));
-  handle_->controlPoint = point;
-}
-
 void DragSession::begin(std::vector<ElementId> elements, const QString& text) {
-  document_.moves().noteRelaxation();
+  document_.moves().endFilm();
   document_.forgetRefusals();
-  handle_ = Handle{std::move(elements), 0, text, document_.newState()};
+  handle_ = Handle{std::move(elements), text, document_.newState()};
   document_.post(commands::KeepState{handle_->before});
 }
 
@@ -45,21 +39,14 @@ void DragSession::dragBy(const Point& by, const Rotation& rotation) { post({by, 
 /// A drag of nothing, for example after all elements of a grab were pinned, must not be recorded: no session with it
 /// could be opened.
 void DragSession::post(const commands::Drag& drag) {
-  if (handle_ && !handle_->elements.empty()) {
+  if (handle_) {
     handle_->moved = true;
     document_.post(drag);
   }
 }
 
-void DragSession::dragControlPoint(const Point& target) {
-  if (handle_) {
-    handle_->moved = true;
-    document_.post(commands::MoveControlPoint{handle_->controlPoint, target});
-  }
-}
-
 void DragSession::release() {
-  if (!handle_) {
+  if (!handle_ && document_.moves().history().holds()) {  // a session that was saved while dragging
     document_.post(commands::Release{});
   }
   end();
@@ -70,9 +57,7 @@ void DragSession::cancel() {
   if (!handle) {
     return;
   }
-  if (!handle->elements.empty()) {
-    document_.post(commands::Release{});
-  }
+  document_.post(commands::Release{});
   if (handle->moved) {
     document_.post(commands::RestoreState{handle->before});
   }
@@ -81,9 +66,7 @@ void DragSession::cancel() {
 
 void DragSession::end() {
   if (const auto handle = std::exchange(handle_, {})) {
-    if (!handle->elements.empty()) {
-      document_.post(commands::Release{});
-    }
+    document_.post(commands::Release{});
     if (handle->moved) {
       document_.addDone(document_.change(handle->text), handle->before);
     } else {

@@ -25,9 +25,6 @@ class DragSession {
   void drag(const Point& target);
   /// Moves the handle by a displacement and a rotation about its pivot, both since it was grabbed.
   void dragBy(const Point& by, const Rotation& rotation = {});
-  /// Grabs a control point in the panels that run free-form deformation. release() releases it.
-  void grabControlPoint(std::uint32_t point);
-  void dragControlPoint(const Point& target);
   void release();
   /// Ends the drag and restores the object as it was before. It does not become an undo step.
   void cancel();
@@ -37,15 +34,14 @@ class DragSession {
 
   /// True between a grab and its end.
   bool isActive() const { return handle_.has_value(); }
-  /// The grabbed elements, ascending; empty while nothing or a control point is grabbed.
+  /// The grabbed elements, ascending; empty while nothing is grabbed.
   std::span<const ElementId> held() const { return handle_ ? handle_->elements : std::span<const ElementId>(); }
 
  private:
   struct Handle {
-    std::vector<ElementId> elements;  // ascending; none while a control point is grabbed
-    std::uint32_t controlPoint = 0;
-    QString text;                  // of the undo step
-    commands::StateId before = 0;  // state before the drag, which the solvers have saved
+    std::vector<ElementId> elements;  // ascending
+    QString text;                     // of the undo step
+    commands::StateId before = 0;     // state before the drag, which the solvers have saved
     bool moved = false;
   };
 

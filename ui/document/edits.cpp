@@ -11,6 +11,7 @@
 #include "document/document.h"
 #include "document/lesson_steps.h"
 #include "files/session/session.h"
+#include "files/session/softness_presets.h"
 #include "mesh/error.h"
 
 namespace chainmail::edits {
@@ -67,7 +68,7 @@ void takeOwnSettings(Contents& after) {
   }
 }
 
-Change meshChange(const Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
+Change meshChange(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                   OwnSoftness own) {
   requireMemoryFor(*mesh);
   requireDrawable(*mesh);
@@ -83,8 +84,8 @@ Change meshChange(const Document& document, const MeshPointer& mesh, const QStri
   return edit;
 }
 
-/// Loads the moves and the positions of a session. The solvers already have its object. The positions are posted last:
-/// relaxation sleeps after them, so that no element moves.
+/// Loads the moves and the positions of a session. The solvers already have its object. Relaxation sleeps after the
+/// positions, so it begins anew if it is on.
 void placeSession(Document& document, const std::shared_ptr<const Session>& session) {
   document.moves().open(*session);
   for (int panel = 0; panel < document.panels(); ++panel) {
@@ -92,6 +93,10 @@ void placeSession(Document& document, const std::shared_ptr<const Session>& sess
     const auto& from = std::size_t(panel) < saved.size() ? saved[std::size_t(panel)] : saved.front();
     // The pointer shares the session instead of copying its numbers.
     document.solvers().post(panel, commands::SetPositions{std::shared_ptr<const Snapshot>(session, &from.positions)});
+  }
+  if (commands::SetRelaxation relaxation = session->relaxation; relaxation.on) {
+    relaxation.anew = true;
+    document.solvers().log().replay(relaxation);
   }
 }
 
@@ -158,19 +163,22 @@ void setRelaxation(Document& document, const commands::SetRelaxation& relaxation
   }
 }
 
-void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind energy,
-                   const commands::SetRelaxation& relaxation) {
+bool isRelaxedToMaterial(const Document& document) {
+  return document.wholeSoftness()->energy == EnergyKind::material && document.softness() == open_regions &&
+         document.relaxation().scheme == RelaxationScheme::equilibrium;
+}
+
+void relaxToMaterial(Document& document) {
   Softness softness = *document.wholeSoftness();
-  softness.global = global;
-  softness.energy = energy;
-  if (softness != *document.wholeSoftness() || relaxation != document.relaxation()) {
-    Change edit = document.change(QStringLiteral("calibrated softness"));
-    if (softness != *document.wholeSoftness()) {
-      edit.after.softness = std::make_shared<const Softness>(std::move(softness));
-    }
-    edit.after.relaxation = relaxation;
-    document.apply(std::move(edit));
+  softness.global = open_regions;
+  softness.energy = EnergyKind::material;
+  Change edit = document.change(QStringLiteral("relaxation to the material"));
+  if (softness != *document.wholeSoftness()) {
+    edit.after.softness = std::make_shared<const Softness>(std::move(softness));
   }
+  edit.after.relaxation.on = true;
+  edit.after.relaxation.scheme = RelaxationScheme::equilibrium;
+  document.apply(std::move(edit));
 }
 
 void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture) {

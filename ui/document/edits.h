@@ -25,9 +25,10 @@ void setSoftnessOf(Document& document, const std::vector<LinkId>& links, const s
 /// Resets all links to the softness of a new object, including links with a softness of their own.
 void resetSoftness(Document& document);
 void setRelaxation(Document& document, const commands::SetRelaxation& relaxation, int gesture = 0);
-/// Takes a calibrated softness with the kind of energy and the relaxation that it was calibrated for.
-void setCalibrated(Document& document, const LinkSoftness& global, EnergyKind energy,
-                   const commands::SetRelaxation& relaxation);
+/// Relaxation to the material is on: the energy, the scheme, and regions that hardly bind.
+void relaxToMaterial(Document& document);
+/// True if these are set, whether relaxation is on or not.
+bool isRelaxedToMaterial(const Document& document);
 /// The document emits refused() if the options contradict each other.
 void setElastic(Document& document, const ElasticOptions& options, const QString& text, int gesture = 0);
 /// Sets the algorithm of a panel. The document emits refused() if the algorithm does not work on the mesh.

@@ -17,7 +17,6 @@ constexpr int lessonGesture = travelGesture - 1;
 // Waypoints: largest number of saved states, and smallest number of commands between two of them.
 constexpr std::size_t maxWaypoints = 16;
 constexpr std::size_t minApart = 32;
-constexpr std::uint64_t maxSweepsNoted = 1'000'000;
 
 /// True if the object of a session is as recorded moves expect it at their beginning.
 bool startsFromRest(const Session& session) {
@@ -41,6 +40,15 @@ std::vector<Command> commandsFor(const std::shared_ptr<const Softness>& softness
 
 }  // namespace
 
+/// The work while a film is made.
+struct MovePlayer::Work {
+  Contents contents;
+  Replayed replayed;
+};
+
+MovePlayer::MovePlayer(Document& document) : document_(document) {}
+MovePlayer::~MovePlayer() = default;
+
 const MoveHistory& MovePlayer::history() const { return std::as_const(document_).solvers().log().history(); }
 
 /// A session without moves gets recorded commands that start with the object at rest.
@@ -52,18 +60,18 @@ void MovePlayer::open(const Session& session) {
   log.history().load(hasMoves ? session.moves : object);
   log.history().go_to(hasMoves ? session.moves_done : object.size());
   noteRecorded(&session);
-  replayed_ = hasMoves && startsFromRest(session);
+  replayed_.isCurrent = hasMoves && startsFromRest(session);
 }
 
 void MovePlayer::noteSent(const Command& command) {
-  replayed_ = replayed_ && (std::holds_alternative<commands::KeepState>(command) ||
-                            std::holds_alternative<commands::DropState>(command));
+  replayed_.isCurrent = replayed_.isCurrent && (std::holds_alternative<commands::KeepState>(command) ||
+                                                std::holds_alternative<commands::DropState>(command));
   Application::guarded([this] { emit changed(); });
 }
 
 void MovePlayer::noteDeparture() {
   dropWaypoints();
-  replayed_ = false;
+  replayed_.isCurrent = false;
 }
 
 void MovePlayer::forget() {
@@ -76,15 +84,8 @@ void MovePlayer::forget() {
 }
 
 void MovePlayer::noteRelaxation() {
-  const Frame* now = document_.solvers().frame(0);
-  if (!document_.relaxation().on || now == nullptr || now->statistics.sweeps == 0 ||
-      now->statistics.passes == relaxationNoted_) {
-    return;
-  }
-  relaxationNoted_ = now->statistics.passes;
-  const auto sweeps = std::min<std::uint64_t>(now->statistics.sweeps, maxSweepsNoted);
-  document_.solvers().log().history().note(
-      commands::Relax{static_cast<std::uint32_t>(sweeps), document_.relaxation().step, document_.relaxation().scheme});
+  PanelSolvers& solvers = document_.solvers();
+  solvers.log().ask_all(std::vector<SolverThread::Question>(std::size_t(solvers.count()), [](const Simulation&) {}));
   emit changed();
 }
 
@@ -96,13 +97,24 @@ void MovePlayer::endSweeps() {
 }
 
 void MovePlayer::goTo(std::size_t position) {
+  endFilm();
+  const bool toEnd = position >= history().length();
   noteRelaxation();
-  position = std::min(position, history().length());
+  position = toEnd ? history().length() : std::min(position, history().length());
   if (position == history().position()) {
     return;
   }
   endSweeps();
-  Change edit = document_.change(QStringLiteral("replay"), travelGesture);
+  document_.apply(travelTo(position));
+  emit changed();
+}
+
+/// Returns a change that leads to a position. It turns relaxation off.
+Change MovePlayer::travelTo(std::size_t position) {
+  Change edit;
+  edit.text = QStringLiteral("replay");
+  edit.gesture = travelGesture;
+  edit.after = document_.contents_;
   edit.after.relaxation.on = false;
   const MeshPointer first = history().first_mesh();
   if (first) {
@@ -110,8 +122,33 @@ void MovePlayer::goTo(std::size_t position) {
   }
   edit.carryOut = [this, position, first] { travel(position, first); };
   edit.followsMoves = true;
-  document_.apply(std::move(edit));
-  emit changed();
+  return edit;
+}
+
+void MovePlayer::beginFilm() {
+  noteRelaxation();
+  document_.solvers().setAside();
+  work_ = std::make_unique<Work>(Work{document_.contents_, std::exchange(replayed_, {})});
+}
+
+void MovePlayer::showInFilm(std::size_t position) {
+  Change edit = travelTo(position);
+  const Contents before = document_.contents_;
+  document_.carryOut(edit, before);
+  document_.show(edit, before, edit.after, true);
+}
+
+void MovePlayer::endFilm() {
+  if (const auto work = std::exchange(work_, {})) {
+    document_.solvers().takeBack();
+    replayed_ = work->replayed;
+    Change back;
+    back.followsMoves = true;
+    const Contents shown = document_.contents_;
+    Application::guarded([&] { document_.show(back, shown, work->contents, true); });
+    emit filmEnded();
+    emit changed();
+  }
 }
 
 /// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
@@ -132,7 +169,7 @@ void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, 
   edit.carryOut = [this, moves, first] {
     goToBeginning(first);
     document_.solvers().log().history().load(*moves);
-    replayed_ = true;
+    replayed_.isCurrent = true;
   };
   edit.followsMoves = true;
   document_.apply(std::move(edit));
@@ -146,7 +183,7 @@ bool MovePlayer::recordsLesson() const {
 
 /// True if the solvers have done nothing but replay the lesson's moves with these algorithms.
 bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
-  return recordsLesson() && replayed_ && !document_.handle().isActive() && !document_.relaxation().on &&
+  return recordsLesson() && replayed_.isCurrent && !document_.handle().isActive() && !document_.relaxation().on &&
          document_.elastic() == document_.lesson().session->elastic &&
          std::ranges::equal(algorithms, document_.runningAlgorithms());
 }
@@ -208,23 +245,24 @@ void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>
 /// a replay. `first` is the mesh with which the commands begin; null if that is the present one.
 void MovePlayer::travel(std::size_t position, const MeshPointer& first) {
   MoveHistory& history = document_.solvers().log().history();
-  if (waypointTimeline_ != history.timeline()) {
+  if (replayed_.waypointTimeline != history.timeline()) {
     dropWaypoints();
-    waypointTimeline_ = history.timeline();
+    replayed_.waypointTimeline = history.timeline();
   }
   std::size_t at = history.position();
-  if (!replayed_ || position < at) {
-    const auto after = waypoints_.upper_bound(position);
-    at = after == waypoints_.begin() ? 0 : std::prev(after)->first;
-    after == waypoints_.begin() ? goToBeginning(first)
-                                : document_.solvers().log().replay(commands::RestoreState{std::prev(after)->second});
+  if (!replayed_.isCurrent || position < at) {
+    const auto after = replayed_.waypoints.upper_bound(position);
+    at = after == replayed_.waypoints.begin() ? 0 : std::prev(after)->first;
+    after == replayed_.waypoints.begin()
+        ? goToBeginning(first)
+        : document_.solvers().log().replay(commands::RestoreState{std::prev(after)->second});
   }
   for (; at < position; ++at) {
     keepWaypoint(at);
     document_.solvers().log().replay(history.at(at));
   }
   history.go_to(position);
-  replayed_ = true;
+  replayed_.isCurrent = true;
 }
 
 /// Resets the object: at rest, uncut, unpinned, with the default softness. Recorded commands always start from this
@@ -246,18 +284,21 @@ void MovePlayer::goToBeginning(const MeshPointer& first) {
 /// include the handle.
 void MovePlayer::keepWaypoint(std::size_t position) {
   const std::size_t apart = std::max(minApart, history().length() / maxWaypoints);
-  const std::size_t last = waypoints_.empty() ? 0 : std::prev(waypoints_.end())->first;
-  if (position >= last + apart && std::holds_alternative<commands::Grab>(history().at(position))) {
-    waypoints_[position] = document_.newState();
-    document_.solvers().log().replay(commands::KeepState{waypoints_[position]});
+  replayed_.hasRelaxed = replayed_.hasRelaxed || std::holds_alternative<commands::Relaxed>(history().at(position));
+  const std::size_t last = replayed_.waypoints.empty() ? 0 : std::prev(replayed_.waypoints.end())->first;
+  if (!replayed_.hasRelaxed && position >= last + apart &&
+      std::holds_alternative<commands::Grab>(history().at(position))) {
+    replayed_.waypoints[position] = document_.newState();
+    document_.solvers().log().replay(commands::KeepState{replayed_.waypoints[position]});
   }
 }
 
 void MovePlayer::dropWaypoints() {
-  for (const auto& [position, state] : waypoints_) {
+  for (const auto& [position, state] : replayed_.waypoints) {
     document_.solvers().log().replay(commands::DropState{state});
   }
-  waypoints_.clear();
+  replayed_.waypoints.clear();
+  replayed_.hasRelaxed = false;
 }
 
 }  // namespace chainmail

@@ -17,7 +17,8 @@ class MovePlayer : public QObject {
   Q_OBJECT
 
  public:
-  explicit MovePlayer(Document& document) : document_(document) {}
+  explicit MovePlayer(Document& document);
+  ~MovePlayer() override;
 
   /// The commands carried out since the object was at rest, and the current position in them.
   const MoveHistory& history() const;
@@ -25,7 +26,7 @@ class MovePlayer : public QObject {
   std::vector<Command> lastDrag() const { return history().last_drag(); }
   /// Replaces the recorded commands with those that lead to the present object at rest; positions stay.
   void forget();
-  /// Adds the relaxation since the last pass to the recorded commands. Call it before they are saved.
+  /// Adds what relaxation has done since the last command to the recorded ones. Call it before they are saved.
   void noteRelaxation();
   /// Brings the object in all panels to its state after the first `position` recorded commands. Each panel uses its own
   /// algorithm. Turns relaxation off, because its steps are recorded. Several calls in a row become one undo step.
@@ -33,6 +34,13 @@ class MovePlayer : public QObject {
   /// Replaces the recorded commands with moves of this mesh, and resets the object: at rest, uncut and unpinned. One
   /// undo step.
   void load(const std::shared_ptr<const std::vector<Command>>& moves, const QString& text);
+
+  /// For a film, the document shows other solvers than those of the work, which stays as it is. It ends when the user
+  /// changes something.
+  void beginFilm();
+  void showInFilm(std::size_t position);
+  void endFilm();
+  bool isFilming() const { return work_ != nullptr; }
 
   /// Brings the object to its state after the first `position` moves of its lesson, from rest, with these algorithms
   /// (one per panel) and the lesson's options, on the way to the end of a step. Several calls in a row become one undo
@@ -65,8 +73,12 @@ class MovePlayer : public QObject {
   /// The recorded commands, or the current position in them, have changed.
   void changed();
   void lastDragChanged();
+  void filmEnded();
 
  private:
+  struct Work;
+
+  Change travelTo(std::size_t position);
   void travel(std::size_t position, const MeshPointer& first);
   void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
@@ -76,13 +88,20 @@ class MovePlayer : public QObject {
   void dropWaypoints();
 
   Document& document_;
-  // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of them.
-  std::map<std::size_t, commands::StateId> waypoints_;
-  std::uint64_t waypointTimeline_ = 0;       // MoveHistory::timeline() of the waypoints
-  bool replayed_ = false;                    // true if the solvers have done nothing since the last replay
+  /// What the solvers have replayed.
+  struct Replayed {
+    // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of
+    // them.
+    std::map<std::size_t, commands::StateId> waypoints;
+    std::uint64_t waypointTimeline = 0;  // MoveHistory::timeline() of the waypoints
+    bool isCurrent = false;              // true if the solvers have done nothing since the last replay
+    /// Relaxation was repeated: what it keeps is not saved, so there are no waypoints after it.
+    bool hasRelaxed = false;
+  };
+  Replayed replayed_;
   std::uint64_t lessonTimeline_ = 0;         // MoveHistory::timeline() of the lesson's moves
   const Session* lessonRecorded_ = nullptr;  // the lesson of this timeline, only to compare it
-  std::uint64_t relaxationNoted_ = 0;        // number of passes when relaxation was last noted
+  std::unique_ptr<Work> work_;               // while a film shows other states
 };
 
 }  // namespace chainmail

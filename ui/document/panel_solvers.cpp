@@ -4,8 +4,10 @@
 #include <QThread>
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "common/announce.h"
+#include "common/application.h"
 #include "common/panel_names.h"
 #include "mesh/error.h"
 
@@ -27,6 +29,43 @@ void PanelSolvers::add(Algorithm algorithm) {
 void PanelSolvers::removeLast() {
   log_.remove(*solvers_.back());
   solvers_.pop_back();
+}
+
+void PanelSolvers::setAside() {
+  log_.flush();
+  std::vector<std::unique_ptr<SolverThread>> copies;
+  std::vector<SolverThread*> targets;
+  for (int panel = 0; panel < count(); ++panel) {
+    copies.push_back(std::make_unique<SolverThread>(*solvers_[std::size_t(panel)],
+                                                    contents_.algorithms[std::size_t(panel)], frameAnnouncer(panel),
+                                                    idleAnnouncer()));
+    targets.push_back(copies.back().get());
+  }
+  CommandLog log(targets);
+  log.history() = log_.history();
+  aside_ = std::exchange(solvers_, std::move(copies));
+  logAside_ = std::exchange(log_, std::move(log));
+  showOthers();
+  for (const auto& solver : aside_) {
+    solver->pause(true);
+  }
+}
+
+void PanelSolvers::takeBack() {
+  const auto copies = std::exchange(solvers_, std::exchange(aside_, {}));  // end after the frames are no longer theirs
+  log_ = std::move(logAside_);
+  showOthers();
+  for (const auto& solver : solvers_) {
+    solver->pause(false);
+  }
+}
+
+void PanelSolvers::showOthers() {
+  for (std::size_t panel = 0; panel < solvers_.size(); ++panel) {
+    solvers_[panel]->record_passes(recordsPasses_);
+    frames_[panel] = &solvers_[panel]->latest_frame();
+    Application::guarded([&] { emit frameReady(int(panel)); });
+  }
 }
 
 void PanelSolvers::cutSweeps() {
@@ -105,20 +144,26 @@ void PanelSolvers::ask(int panel, SolverThread::Question question) {
   solvers_[std::size_t(panel)]->ask(std::move(question));
 }
 
-std::future<Snapshot> PanelSolvers::snapshot(int panel) {
-  const auto promise = std::make_shared<std::promise<Snapshot>>();
-  ask(panel, [promise, panel, mesh = contents_.object->mesh](const Simulation& simulation) {
-    try {
-      if (simulation.mesh_pointer() != mesh) {
-        throw Error("panel " + panelName(panel).toStdString(), "its solver could not take over the object",
-                    "undo the last step");
+std::vector<std::future<Snapshot>> PanelSolvers::snapshots() {
+  std::vector<std::future<Snapshot>> result;
+  std::vector<SolverThread::Question> questions;
+  for (int panel = 0; panel < count(); ++panel) {
+    const auto promise = std::make_shared<std::promise<Snapshot>>();
+    result.push_back(promise->get_future());
+    questions.emplace_back([promise, panel, mesh = contents_.object->mesh](const Simulation& simulation) {
+      try {
+        if (simulation.mesh_pointer() != mesh) {
+          throw Error("panel " + panelName(panel).toStdString(), "its solver could not take over the object",
+                      "undo the last step");
+        }
+        promise->set_value(simulation.snapshot());
+      } catch (...) {
+        promise->set_exception(std::current_exception());
       }
-      promise->set_value(simulation.snapshot());
-    } catch (...) {
-      promise->set_exception(std::current_exception());
-    }
-  });
-  return promise->get_future();
+    });
+  }
+  log_.ask_all(questions);
+  return result;
 }
 
 // Idle time

@@ -28,6 +28,9 @@ class PanelSolvers : public QObject {
   /// solver, with its states for undo. Throws if there is no memory or no thread; nothing has changed then.
   void add(Algorithm algorithm);
   void removeLast();
+  /// Replaces all solvers, which pause, by copies with a copy of the log. takeBack() drops these. Throws as add() does.
+  void setAside();
+  void takeBack();
   /// Sends commands to all solvers, and records them.
   CommandLog& log() { return log_; }
   const CommandLog& log() const { return log_; }
@@ -52,13 +55,16 @@ class PanelSolvers : public QObject {
   }
   /// Calls `question` on the thread of a panel's solver, after all commands posted before. `question` must not block.
   void ask(int panel, SolverThread::Question question);
-  /// Returns the positions of a panel's elements after all commands posted before.
-  std::future<Snapshot> snapshot(int panel);
+  /// Returns the positions of each panel's elements after all commands posted before, and records what relaxation has
+  /// done until then.
+  std::vector<std::future<Snapshot>> snapshots();
 
   /// True while all solvers have carried out all posted commands.
   bool idle() const;
   /// True while a solver has carried out all commands that were sent to it.
   bool idle(int panel) const { return solvers_[std::size_t(panel)]->idle(); }
+  /// Share of a solver's long work that is done, if it reports any; from 0 to 1.
+  double share(int panel) const { return solvers_[std::size_t(panel)]->share(); }
   /// True while idle() and all frames are up to date. While relaxation runs, this is true only for short moments.
   bool settled() const;
   /// Call this when the window closes. Waits up to `patience` for posted moves, then skips the rest.
@@ -80,6 +86,7 @@ class PanelSolvers : public QObject {
   void refused(int panel, const QString& sentence);
 
  private:
+  void showOthers();
   void receiveFrame(int panel);
   void receiveIdle();
   std::function<void()> frameAnnouncer(int panel);
@@ -94,6 +101,8 @@ class PanelSolvers : public QObject {
   std::array<const Frame*, Contents::maxPanels> instead_{};  // null if the panel shows its own frame
   bool recordsPasses_ = false;
   CommandLog log_{{}};
+  std::vector<std::unique_ptr<SolverThread>> aside_;  // see setAside()
+  CommandLog logAside_{{}};
 };
 
 }  // namespace chainmail

@@ -5,16 +5,6 @@
 #include "solver/algorithms.h"
 
 namespace chainmail {
-namespace {
-
-/// Returns the number of a new series of frames. Each pass gets its own.
-std::uint64_t newSeries() {
-  static std::uint64_t last = 0;  // the solvers use 0
-  return ++last;
-}
-
-}  // namespace
-
 PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& statistics)
     : pass_(std::move(pass)),
       history_(stepCount() <= listedSteps ? waiting_history(*pass_) : WaitingHistory()),
@@ -36,7 +26,7 @@ PassPlayer::PassPlayer(std::unique_ptr<RecordedPass> pass, const Statistics& sta
   }
   frame_.changed.assign(ElementBlocks(pass_->mesh->element_count()).block_count(), 1);
   frame_.statistics = statistics;
-  frame_.series = newSeries();
+  frame_.series = new_series();
   frame_.number = 1;
   for (std::size_t i = 0; i < pass_->handle.size(); ++i) {
     move(pass_->handle[i], pass_->handle_after(i));

@@ -5,6 +5,10 @@
 namespace chainmail {
 
 SessionDraft::SessionDraft(Document& document, std::string layout) {
+  document.moves().endFilm();
+  for (auto& snapshot : document.solvers().snapshots()) {  // first: this records what relaxation has done
+    snapshots_.push_back(snapshot.share());
+  }
   session_.name = document.name().toStdString();
   session_.mesh = document.mesh();
   session_.cuts = document.cuts().links();
@@ -18,7 +22,6 @@ SessionDraft::SessionDraft(Document& document, std::string layout) {
   session_.ui = std::move(layout);
   for (int panel = 0; panel < document.panels(); ++panel) {
     session_.panels.push_back({document.algorithm(panel), Precision::single_precision, {}});
-    snapshots_.push_back(document.solvers().snapshot(panel).share());
   }
 }
 

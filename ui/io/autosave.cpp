@@ -292,6 +292,10 @@ void Autosave::save() {
     changed_ = true;  // its end starts the next one
     return;
   }
+  if (document_.moves().isFilming()) {
+    timer_.start();  // a film shows other states than that of the work, which changes only after it
+    return;
+  }
   if (!document_.isModified()) {
     remove();
     return;

@@ -1,12 +1,9 @@
 #include "io/questions.h"
 
-#include <QDir>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
 #include <array>
-
-#include "common/text.h"
 
 namespace chainmail {
 namespace {
@@ -48,20 +45,6 @@ OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path) {
       ask(window, "overwriteQuestion", QStringLiteral("Another program has changed %1").arg(QFileInfo(path).fileName()),
           QStringLiteral("Saving replaces what it wrote since this window opened or saved it."),
           QStringLiteral("&Overwrite")))];
-}
-
-bool askBeforeReplacingFilm(QWidget& window, const QString& folder, std::size_t pictures) {
-  QMessageBox box(&window);
-  setUp(
-      box, "filmQuestion",
-      QStringLiteral("%1 already has a film of %2")
-          .arg(QDir(folder).dirName(), counted(pictures, QStringLiteral("picture"))),
-      QStringLiteral("Its numbered pictures are replaced. If the new film is shorter, the others are removed. To keep "
-                     "them, choose another folder."));
-  const auto* replace = box.addButton(QStringLiteral("&Replace"), QMessageBox::DestructiveRole);
-  box.setDefaultButton(box.addButton(QStringLiteral("&Cancel"), QMessageBox::RejectRole));
-  box.exec();
-  return box.clickedButton() == replace;
 }
 
 OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why) {

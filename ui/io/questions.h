@@ -19,10 +19,6 @@ enum class OverwriteAnswer { overwrite, saveAs, cancel };
 /// Asks before a session overwrites a file that another program has changed.
 OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path);
 
-/// Asks before a film replaces the pictures of an earlier one in a folder, some of which it may only remove. Returns
-/// true for yes.
-bool askBeforeReplacingFilm(QWidget& window, const QString& folder, std::size_t pictures);
-
 /// Asks whether a file that cannot be replaced as a whole is written in place. `why` is the sentence that says so.
 OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why);
 

@@ -3,6 +3,7 @@
 #include "panels/panel.h"
 
 #include <QPainter>
+#include <QPushButton>
 #include <QTextDocument>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -19,7 +20,7 @@
 namespace chainmail {
 namespace {
 
-constexpr qsizetype mostFigures = 3;   // in a line
+constexpr qsizetype mostFigures = 4;   // in a line
 constexpr int lateMilliseconds = 300;  // a solver that works for longer without a frame is said to work
 constexpr int printMargin = 8;         // pixels, the same as on the screen
 const colours::Colour& ink = colours::marked;
@@ -42,6 +43,8 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
       colouring_(colouring),
       panel_(panel),
       violation_(new ViolationLine),
+      unsettled_(new QWidget),
+      distance_(new QLabel),
       statistics_(new QLabel),
       view_(new View(document, colouring, links, panel, std::move(camera), std::move(levels))),
       head_(new PanelHead(document, *view_, panel)),
@@ -64,6 +67,8 @@ void Panel::arrange() {
   auto* foot = new QVBoxLayout;
   foot->setContentsMargins(8, 5, 8, 6);
   foot->addWidget(violation_);
+  foot->addWidget(unsettled_);
+  makeUnsettled();
   foot->addWidget(statistics_);
   statistics_->hide();
   auto* column = new QVBoxLayout(this);
@@ -74,6 +79,29 @@ void Panel::arrange() {
   column->addWidget(view_, 1);
   column->addLayout(foot);
   connect(head_, &PanelHead::leftOver, new StateChips(*view_), &StateChips::setStates);
+}
+
+/// Says that relaxation has stopped before it has settled, with a button that continues it.
+void Panel::makeUnsettled() {
+  distance_->setObjectName(QStringLiteral("unsettled%1").arg(panel_));
+  distance_->setToolTip(
+      QStringLiteral("Relaxation came no closer to the equilibrium, so it has stopped. At an equilibrium this figure "
+                     "is below 0.0001"));
+  auto* goOn = new QPushButton(QStringLiteral("Continue"));
+  goOn->setObjectName(QStringLiteral("continueRelaxation%1").arg(panel_));
+  goOn->setToolTip(QStringLiteral("Begins relaxation again from the present shape, in all panels"));
+  auto* row = new QHBoxLayout(unsettled_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(distance_);
+  row->addWidget(goOn);
+  row->addStretch();
+  unsettled_->hide();
+  connect(goOn, &QPushButton::clicked, &document_, &Document::continueRelaxation);
+  followTheme(*distance_, [this] {
+    QPalette amber = palette();
+    amber.setColor(QPalette::WindowText, QColor(colours::warningSign));
+    distance_->setPalette(amber);
+  });
 }
 
 void Panel::listen() {
@@ -146,7 +174,9 @@ QString Panel::work(const Statistics& statistics) {
   if (busy_.elapsed() < lateMilliseconds / 2 || statistics.relaxing) {
     return {};
   }
-  return answered_ ? QStringLiteral("Computing…") : QStringLiteral("Preparing…");
+  const double share = document_.solvers().share(panel_);
+  return (answered_ ? QStringLiteral("Computing…") : QStringLiteral("Preparing…")) +
+         (share > 0 && share < 1 ? QStringLiteral(" %1 %").arg(std::lround(100 * share)) : QString());
 }
 
 /// True if the panel's object is not at rest, however it came there: a session may bring positions without moves.
@@ -230,6 +260,10 @@ void Panel::update(const Statistics& statistics) {
       QStringLiteral(
           "It is of all links, also during a drag; 'so far' if there was no time for some of those that\n"
           "moved. While the Propagation dock shows a candidate, it is the violation after the whole pass.");
+  unsettled_->setVisible(statistics.unsettled.has_value());
+  distance_->setText(QStringLiteral("not settled: %1 %2")
+                         .arg(statistics.residual ? QStringLiteral("residual") : QStringLiteral("step"),
+                              shownNumber(statistics.unsettled.value_or(0), 'g', 2)));
   statistics_->setToolTip(statistics.remark.empty() ? help : QString::fromStdString(statistics.remark));
   violation_->setToolTip(QStringLiteral("%1\n\n%2\n\n%3").arg(violation_->sentence(), inWords(statistics), help));
   statistics_->setText(describe(statistics, false, mostFigures));
@@ -262,10 +296,15 @@ QStringList Panel::describePass(const Statistics& statistics, bool briefly) {
   const QString checked = solved    ? QStringLiteral("solved for <b>%1</b> element") + several
                           : briefly ? QStringLiteral("<b>%1</b> checked")
                                     : QStringLiteral("<b>%1</b> link") + several + QStringLiteral(" checked");
-  return {QStringLiteral("<b>%1</b> moved").arg(locale.toString(qulonglong(statistics.last_pass.moved))),
-          checked.arg(locale.toString(qulonglong(statistics.last_pass.checked))),
-          QStringLiteral("<b>%1</b>").arg(shownTime(statistics.last_pass_ms)) +
-              (briefly ? QString() : QStringLiteral(" per pass"))};
+  QStringList figures{QStringLiteral("<b>%1</b> moved").arg(locale.toString(qulonglong(statistics.last_pass.moved))),
+                      checked.arg(locale.toString(qulonglong(statistics.last_pass.checked))),
+                      QStringLiteral("<b>%1</b>").arg(shownTime(statistics.last_pass_ms)) +
+                          (briefly ? QString() : QStringLiteral(" per pass"))};
+  if (statistics.relaxation_ms > 0) {
+    figures << QStringLiteral("<b>%1</b> relaxation").arg(shownTime(statistics.relaxation_ms)) +
+                   (briefly ? QString() : QStringLiteral(" per frame"));
+  }
+  return figures;
 }
 
 QStringList Panel::describeViolation(const Statistics& statistics, bool briefly) {

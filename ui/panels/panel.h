@@ -50,6 +50,7 @@ class Panel : public QFrame {
 
  private:
   void arrange();
+  void makeUnsettled();
   void listen();
   void refreshLater();
   void followWork();
@@ -70,6 +71,8 @@ class Panel : public QFrame {
   Colouring& colouring_;
   int panel_;
   ViolationLine* violation_;
+  QWidget* unsettled_;
+  QLabel* distance_;  // in `unsettled_`
   QLabel* statistics_;
   View* view_;
   PanelHead* head_;

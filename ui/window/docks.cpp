@@ -63,14 +63,8 @@ QDockWidget* makeStiffness(const DockParts& parts, const Docks& /*made*/) {
   return dock;
 }
 
-QDockWidget* makePhysics(const DockParts& parts, const Docks& made) {
-  auto* dock = new PhysicsDock(parts.document, parts.pinLayers, parts.jobs);
-  auto& stiffness = made.get<StiffnessDock>();
-  QObject::connect(dock, &PhysicsDock::presetRequested, &stiffness, [&stiffness] {
-    bringUp(stiffness);
-    stiffness.presets().save();
-  });
-  return dock;
+QDockWidget* makePhysics(const DockParts& parts, const Docks& /*made*/) {
+  return new PhysicsDock(parts.document, parts.pinLayers);
 }
 
 QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
@@ -95,7 +89,7 @@ QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
 }
 
 QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new ReplayDock(parts.document, parts.propagation, parts.area, parts.jobs), parts);
+  auto* dock = connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs), parts);
   parts.objectMenu.addMenu(&dock->menu());
   return dock;
 }
@@ -185,8 +179,7 @@ const std::array entries{
     DockEntry{.id = "replayDock",
               .action = "showReplay",
               .title = "Record and replay",
-              .tooltip = "Steps through all moves since the object was opened; plays them and saves them as files, "
-                         "pictures or video",
+              .tooltip = "Steps through all moves since the object was opened; plays them and saves them as files",
               .icon = "record",
               .key = Qt::CTRL | Qt::Key_R,
               .area = Qt::BottomDockWidgetArea,

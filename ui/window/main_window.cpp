@@ -83,9 +83,8 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       propagation_(document_),
       propagationOverlay_(propagation_),
       regions_(document_),
-      controlPoints_(document_),
       rotationRing_(document_),
-      dragTool_(document_, controlPoints_, grabBrush_, rotationRing_),
+      dragTool_(document_, grabBrush_, rotationRing_),
       cutTool_(document_),
       pinTool_(document_),
       measurement_(document_),
@@ -175,11 +174,9 @@ void MainWindow::listen() {
   area_->addOverlay(propagationOverlay_);
   area_->addOverlay(regions_);
   area_->addOverlay(measurement_);
-  area_->addOverlay(controlPoints_);
   area_->addOverlay(rotationRing_);
   connect(&rotationRing_, &RotationRing::changed, area_, &PanelArea::refresh);
   connect(&grabBrush_, &GrabBrush::changed, this, [this] { readout_->setHint(tool_->hint()); });
-  connect(&controlPoints_, &ControlPoints::changed, area_, &PanelArea::refresh);
   connect(&measurement_, &Measurement::changed, area_, &PanelArea::refresh);
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::overlayTitleChanged, this, [this] { colourBy_->showOverlay(area_->overlayTitle()); });
@@ -328,7 +325,7 @@ void MainWindow::fillFileMenu(QMenu& menu) {
   connect(pictures, &PictureActions::failed, messages_, &MessageBar::say);
   connect(pictures, &PictureActions::noted, this, &MainWindow::showStatus);
   connect(pictures, &PictureActions::saved, files_, &FileActions::saved);
-  menu.addSeparator();
+  afterFilm_ = menu.addSeparator();
   auto* quit = menu.addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setObjectName(QStringLiteral("quit"));
   quit->setStatusTip(
@@ -457,6 +454,7 @@ void MainWindow::makeDocks() {
                                              propagation_, propagationOverlay_, *toolActions_, cutTool_, selectTool_,
                                              *editMenu_, *objectMenu_, *viewMenu_, showMenu_->menu(),
                                              [this](const QString& sentence) { showStatus(sentence); }});
+  menuBar()->actions().first()->menu()->insertAction(afterFilm_, &docks_->get<ReplayDock>().exportFilm());
   docks_->get<ReplayDock>().menu().addAction(&lessons_->newLesson());
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }

@@ -108,7 +108,6 @@ class MainWindow : public QMainWindow {
   Propagation propagation_;
   PropagationOverlay propagationOverlay_;
   ValidRegions regions_;
-  ControlPoints controlPoints_;
   GrabBrush grabBrush_;
   RotationRing rotationRing_;
   DragTool dragTool_;
@@ -143,6 +142,7 @@ class MainWindow : public QMainWindow {
   bool closesWhenSaved_ = false;
   ElementReadout* readout_;
   QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
+  QAction* afterFilm_ = nullptr;  // of the File menu
   std::unique_ptr<Docks> docks_;
 };
 

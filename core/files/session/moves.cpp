@@ -1,6 +1,7 @@
 #include "files/session/moves.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 
 #include "files/session/moves_scan.h"
 #include "files/text/json_fields.h"
+#include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "simulate/move_history.h"
@@ -187,8 +189,9 @@ SplitEdit MoveFields::split(const MoveMembers& command) const {
   return edit;
 }
 
-// The second version knows `split`.
-constexpr std::uint64_t first_version = 1, split_version = 2;
+// The second version knows `split`, the third `relaxed`.
+constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = 3;
+constexpr std::array<std::string_view, 3> starts{"goes on", "awake", "asleep"};  // see commands::Relaxed::Start
 constexpr std::uint64_t max_sweeps = 1'000'000;
 // Every split has its own mesh, so a short file could ask for much memory.
 constexpr std::uint64_t max_split_elements = 10 * element_limit;
@@ -221,6 +224,7 @@ class MovesReader {
   LinkSoftness own_softness(const Json& row) const;
   Command reset(const Members& of);
   Command relax(const Members& of);
+  Command relaxed(const Members& of);
   Command split(const Members& of);
 
   std::string where_;
@@ -339,6 +343,35 @@ Command MovesReader::reset(const Members& of) {
   return commands::Reset{};
 }
 
+Command MovesReader::relaxed(const Members& of) {
+  fields_.check_keys(of.members, {"do", "scheme", "step", "start", "panels", "slices"});
+  commands::Relaxed relaxed;
+  relaxed.scheme = fields_.relaxation_scheme(fields_.member(of.members, "scheme"));
+  relaxed.step = fields_.number(fields_.member(of.members, "step"), parameters::relax_step);
+  const Json& start = fields_.member(of.members, "start");
+  const auto found = std::ranges::find(starts, start.is_string() ? start.get<std::string>() : "");
+  if (found == starts.end()) {
+    fields_.fail("'start' is not known", "write \"goes on\", \"awake\" or \"asleep\"");
+  }
+  relaxed.start = commands::Relaxed::Start(found - starts.begin());
+  const Json& panels = fields_.array(of.members, "panels");
+  const auto slices = fields_.indices(of, "slices");
+  if (slices.empty() || slices.size() > limits::session_panels || panels.size() != slices.size()) {
+    fields_.fail("'panels' and 'slices' do not have one item for each panel",
+                 "write 1 to " + std::to_string(limits::session_panels) + " of each");
+  }
+  const auto counts = std::make_shared<commands::SliceCounts>(slices.size());
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const auto algorithm = find_algorithm(panels[i].is_string() ? panels[i].get<std::string>() : "");
+    if (!algorithm) {
+      fields_.fail("'panels' contains an algorithm that is not known", "use one that 'chainmail deform --help' lists");
+    }
+    counts->note(i, *algorithm, slices[i]);
+  }
+  relaxed.counts = counts;
+  return relaxed;
+}
+
 Command MovesReader::relax(const Members& of) {
   fields_.check_keys(of.members, {"do", "sweeps", "step", "scheme", "until"});
   const Json& sweeps = fields_.member(of.members, "sweeps");
@@ -380,12 +413,12 @@ Command MovesReader::command(const Members& of) {
       {"grab", &MovesReader::grab},   {"drag", &MovesReader::drag},         {"release", &MovesReader::release},
       {"cut", &MovesReader::cut},     {"uncut", &MovesReader::uncut},       {"pin", &MovesReader::pin},
       {"unpin", &MovesReader::unpin}, {"softness", &MovesReader::softness}, {"reset", &MovesReader::reset},
-      {"relax", &MovesReader::relax}, {"split", &MovesReader::split}};
+      {"relax", &MovesReader::relax}, {"relaxed", &MovesReader::relaxed},   {"split", &MovesReader::split}};
   const Json& what = fields_.member(of.members, "do");
   const auto found = known.find(what.is_string() ? what.get<std::string>() : "");
   if (found == known.end()) {
     fields_.fail("'do' is not a known command",
-                 "use grab, drag, release, cut, uncut, split, pin, unpin, softness, relax or reset");
+                 "use grab, drag, release, cut, uncut, split, pin, unpin, softness, relax, relaxed or reset");
   }
   return (this->*found->second)(of);
 }
@@ -411,8 +444,8 @@ void MovesReader::check_head(const Json& head) const {
   }
   const Json& version = fields_.member(head, "version");
   if (!version.is_number_unsigned() || version.get<std::uint64_t>() < first_version ||
-      version.get<std::uint64_t>() > split_version) {
-    fields_.fail("its version is not " + std::to_string(first_version) + " or " + std::to_string(split_version),
+      version.get<std::uint64_t>() > relaxed_version) {
+    fields_.fail("its version is not " + std::to_string(first_version) + " to " + std::to_string(relaxed_version),
                  "record the moves again with this program");
   }
   fields_.check_keys(head, {"version", "commands"});
@@ -504,6 +537,17 @@ class MoveWriter {
     }
     return json;
   }
+  OrderedJson operator()(const commands::Relaxed& one) const {
+    OrderedJson json{{"do", "relaxed"},
+                     {"scheme", info(one.scheme).name},
+                     {"step", one.step},
+                     {"start", starts[std::size_t(one.start)]}};
+    for (std::size_t i = 0; i < one.counts->size(); ++i) {
+      json["panels"].push_back(info(one.counts->algorithm(i)).name);
+      json["slices"].push_back(one.counts->slices(i));
+    }
+    return json;
+  }
   OrderedJson operator()(const commands::Split& one) {
     mesh_ = one.split->after.get();  // of the commands after this one
     return json_of(one.split->edit);
@@ -513,7 +557,6 @@ class MoveWriter {
   OrderedJson operator()(const commands::RestoreState&) const { refuse(); }
   OrderedJson operator()(const commands::SetRelaxation&) const { return {}; }
   OrderedJson operator()(const commands::SetElastic&) const { return {}; }
-  OrderedJson operator()(const commands::MoveControlPoint&) const { return {}; }
   OrderedJson operator()(const commands::SetAlgorithm&) const { return {}; }
   OrderedJson operator()(const commands::KeepState&) const { return {}; }
   OrderedJson operator()(const commands::DropState&) const { return {}; }
@@ -546,7 +589,9 @@ std::vector<Command> read_moves(const std::filesystem::path& path, const MeshPoi
 void write_moves(std::ostream& out, const std::vector<Command>& commands, const Mesh& mesh, const Progress& progress) {
   const MeshPointer first = first_mesh(commands);
   MoveWriter write(first ? *first : mesh);
-  out << "{\"version\": " << (first ? split_version : first_version) << ", \"commands\": [";
+  const bool relaxed =
+      std::ranges::any_of(commands, [](const Command& one) { return std::holds_alternative<commands::Relaxed>(one); });
+  out << "{\"version\": " << (relaxed ? relaxed_version : first ? split_version : first_version) << ", \"commands\": [";
   const char* before = "\n";
   for (std::size_t i = 0; i < commands.size(); ++i) {
     progress.report(i, commands.size());

@@ -31,6 +31,15 @@ namespace chainmail {
 /// A new element is at a + s (b − a) + t (c − a) at rest, where a, b and c have lower ids. See SplitEdit. The commands
 /// after it are about the object after the split.
 ///
+/// It is 3 if moves contain what relaxation in idle time did since the command before, for each panel:
+///
+///     {"do": "relaxed", "scheme": "mean", "step": 1, "start": "goes on", "awake" or "asleep",
+///        "panels": [algorithm…], "slices": [number…]}
+///
+/// A slice is an iteration of the scheme `equilibrium`, or a sweep, but at most 20,000 elements of it. Another
+/// simulation repeats that of the panel with its algorithm. "awake" and "asleep" say that relaxation began anew before,
+/// with all elements or with none.
+///
 /// Links are named by their ends. A softness has all numbers of softness_numbers and replaces the softness of all
 /// links; "links" may be left out. So may "energy", and the numbers after the first three: they have their defaults
 /// then.

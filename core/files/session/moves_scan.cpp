@@ -16,9 +16,10 @@ using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 2> file_keys{"version", "commands"};
 // The keys of a command, besides the numbers of a softness.
-constexpr std::array<std::string_view, 17> command_keys{
-    "do",   "element", "target", "by",    "rotate",  "links",     "elements", "energy",          "sweeps",
-    "step", "scheme",  "until",  "frame", "removed", "triangles", "polygons", "removed_polygons"};
+constexpr std::array<std::string_view, 20> command_keys{
+    "do",     "element", "target", "by",    "rotate",  "links",     "elements", "energy",           "sweeps",
+    "step",   "scheme",  "until",  "frame", "removed", "triangles", "polygons", "removed_polygons", "start",
+    "panels", "slices"};
 
 bool is_command_key(std::string_view key) {
   const auto is_named = [key](const SoftnessNumber& number) { return number.parameter->name == key; };
@@ -26,7 +27,7 @@ bool is_command_key(std::string_view key) {
 }
 
 // The long lists, which are kept without a tree.
-constexpr std::array<std::string_view, 6> list_keys{"links",     "elements", "removed",
+constexpr std::array<std::string_view, 7> list_keys{"slices",    "links",    "elements",        "removed",
                                                     "triangles", "polygons", "removed_polygons"};
 
 bool is_number_array(const Json& json) {

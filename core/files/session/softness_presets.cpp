@@ -17,6 +17,7 @@ constexpr std::uint64_t presets_version = 1;
 // A preset describes how far a material deforms before it reaches its limit, not the force for this.
 constexpr std::array all_built_in_presets{
     BuiltInPreset{"Standard", {}, "the softness of a new object"},
+    BuiltInPreset{open_regions_name, open_regions, "regions that hardly bind: the energy of the material decides"},
     // Rings of wire do not lengthen. They slide together until wires touch, at about half their distance if four rings
     // pass through each one. They turn by little more than their play.
     BuiltInPreset{"Steel mail", {0.5, 1, 0.15}, "rings do not lengthen, they slide together and turn a little"},

@@ -26,6 +26,9 @@ struct BuiltInPreset {
   std::string_view reason;
 };
 std::span<const BuiltInPreset> built_in_presets();
+/// The preset for relaxation to the material.
+inline constexpr std::string_view open_regions_name = "Open regions (material)";
+inline constexpr LinkSoftness open_regions{0, 3, 2};
 
 /// Returns what a valid name needs, or an empty text if the name is valid.
 std::string fault_of_name(std::string_view name);

@@ -4,7 +4,6 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
-#include <QProgressBar>
 #include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -16,7 +15,6 @@
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
-#include "io/questions.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -25,23 +23,20 @@ namespace {
 constexpr int movesRefreshMilliseconds = 50;
 constexpr int standardSpeed = 60;  // moves per second, the rate at which drags are sampled
 
-QString filmSizeKey() { return QStringLiteral("film/size"); }
 QString movesFilter() { return QStringLiteral("Recorded moves (*.json)"); }
 
 bool isMove(const Command& command) { return std::holds_alternative<commands::Drag>(command); }
 
 }  // namespace
 
-ReplayDock::ReplayDock(Document& document, Propagation& propagation, QWidget& scene, Jobs& jobs)
+ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
     : document_(document),
-      scene_(scene),
       jobs_(jobs),
-      film_(document, propagation, scene),
+      film_(document, scene, jobs),
       menu_(new QMenu(QStringLiteral("&Record and replay"), this)),
       slider_(new QSlider(Qt::Horizontal)),
       position_(new QLabel),
       speed_(new QComboBox),
-      filmBar_(makeFilmBar()),
       refresh_(this) {
   makeActions();
   arrange();
@@ -56,7 +51,9 @@ ReplayDock::ReplayDock(Document& document, Propagation& propagation, QWidget& sc
       setPlaying(false);
     }
   });
-  listenToFilm();
+  connect(&film_, &Film::failed, this, &ReplayDock::failed);
+  connect(&film_, &Film::saved, this, &ReplayDock::saved);
+  connect(&film_, &Film::changed, this, &ReplayDock::showMoves);
   showMoves();
 }
 
@@ -104,33 +101,13 @@ void ReplayDock::makeActions() {
   save_ = add("saveMoves", QStringLiteral("&Save moves…"), "save", {},
               QStringLiteral("Saves the moves as JSON for chainmail deform --script and chainmail compare --moves"),
               [this] { askWhereMoves(); });
-  menu_->addSeparator();
-  pictures_ = add("savePictures", QStringLiteral("Save as p&ictures…"), "picture", {},
-                  QStringLiteral("Saves a numbered picture of the panels after every move into a folder"),
-                  [this] { askWhereFilm(false, false); });
-  video_ = add("saveVideo", QStringLiteral("Save as &video…"), "movie", {},
-               Film::canMakeVideos()
-                   ? QStringLiteral("Saves a video of the panels: one picture per move, 60 pictures per second")
-                   : QStringLiteral("Not available: install ffmpeg to save videos"),
-               [this] { askWhereFilm(true, false); });
-  makePassActions();
-}
-
-void ReplayDock::makePassActions() {
-  menu_->addSeparator();
-  passPictures_ = add("savePassPictures", QStringLiteral("Save pass as pic&tures…"), "picture", {},
-                      QStringLiteral("Saves a numbered picture of the panels after each candidate of the pass that the "
-                                     "Propagation dock shows"),
-                      [this] { askWhereFilm(false, true); });
-  passVideo_ = add("savePassVideo", QStringLiteral("Save pass as vi&deo…"), "movie", {},
-                   Film::canMakeVideos()
-                       ? QStringLiteral("Saves a video of the pass, candidate by candidate, at the speed of the slow "
-                                        "motion")
-                       : QStringLiteral("Not available: install ffmpeg to save videos"),
-                   [this] { askWhereFilm(true, true); });
-  filmSize_ = add("filmSize", QString(), "screenshot", {},
-                  QStringLiteral("Asks for the width of the pictures and videos"), [this] { askFilmSize(); });
-  setFilmSize(PictureSize::remembered(filmSizeKey()));
+  exportFilm_ =
+      add("exportFilm", QStringLiteral("Export &film…"), "movie", {},
+          Film::canMakeVideos()
+              ? QStringLiteral("Saves a video of all moves: one picture of the panels per move, 60 per second")
+              : QStringLiteral("Not available: install ffmpeg to save videos"),
+          [this] { askWhereFilm(); });
+  menu_->removeAction(exportFilm_);  // it is in the File menu
 }
 
 // The slider and the state.
@@ -168,15 +145,11 @@ void ReplayDock::showMoves() {
   for (QAction* action : {forward_, last_}) {
     action->setEnabled(ahead && !filming);
   }
-  for (QAction* action : {play_, save_, pictures_}) {
+  for (QAction* action : {play_, save_}) {
     action->setEnabled(some && !filming);
   }
-  filmSize_->setEnabled(!filming);
-  passPictures_->setEnabled(!filming);
-  passVideo_->setEnabled(!filming && Film::canMakeVideos());
-  video_->setEnabled(some && !filming && Film::canMakeVideos());
+  exportFilm_->setEnabled(some && !filming && Film::canMakeVideos());
   slider_->setEnabled(some && !filming);
-  filmBar_->setVisible(filming);
 }
 
 std::size_t ReplayDock::nextMove() const {
@@ -283,42 +256,14 @@ void ReplayDock::arrange() {
   line->addWidget(speed_);
   auto* more = new QToolButton;
   more->setObjectName(QStringLiteral("replayMore"));
-  more->setText(QStringLiteral("Moves and videos"));
-  more->setToolTip(QStringLiteral("Opens and saves moves, saves them as pictures or video"));
+  more->setText(QStringLiteral("Moves"));
+  more->setToolTip(QStringLiteral("Opens and saves moves"));
   more->setMenu(menu_);
   more->setPopupMode(QToolButton::InstantPopup);
   line->addWidget(more);
   column->addLayout(line);
-  column->addWidget(filmBar_);
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setWidget(new DockScroll(content));
-}
-
-QWidget* ReplayDock::makeFilmBar() {
-  auto* bar = new QWidget;
-  auto* line = new QHBoxLayout(bar);
-  line->setContentsMargins(0, 0, 0, 0);
-  filmed_ = new QProgressBar;
-  filmed_->setObjectName(QStringLiteral("filmProgress"));
-  filmed_->setFormat(QStringLiteral("Saving video: picture %v of %m"));
-  auto* cancel = new QToolButton;
-  cancel->setObjectName(QStringLiteral("cancelFilm"));
-  cancel->setText(QStringLiteral("Cancel"));
-  cancel->setToolTip(QStringLiteral("Cancels the video and deletes its unfinished files"));
-  connect(cancel, &QToolButton::clicked, this, [this] { film_.cancel(); });
-  line->addWidget(filmed_, 1);
-  line->addWidget(cancel);
-  return bar;
-}
-
-void ReplayDock::listenToFilm() {
-  connect(&film_, &Film::progressed, this, [this](int done, int pictures) {
-    filmed_->setRange(0, pictures);
-    filmed_->setValue(done);
-  });
-  connect(&film_, &Film::failed, this, &ReplayDock::failed);
-  connect(&film_, &Film::saved, this, &ReplayDock::saved);
-  connect(&film_, &Film::changed, this, &ReplayDock::showMoves);
 }
 
 // Files.
@@ -338,32 +283,12 @@ void ReplayDock::askWhereMoves() {
   }
 }
 
-void ReplayDock::askWhereFilm(bool video, bool ofPass) {
-  const QString name = asFileName(document_.name()) + (ofPass ? QStringLiteral("-pass") : QStringLiteral("-moves"));
-  const QString path =
-      video ? askWhere(*window(), QStringLiteral("Save as video"), {QStringLiteral("Video (*.mp4 *.webm)")}, name)
-            : askFolder(*window(), QStringLiteral("Save pictures into a folder"));
-  if (path.isEmpty()) {
-    return;
+void ReplayDock::askWhereFilm() {
+  const QString path = askWhere(*window(), QStringLiteral("Export film"), {QStringLiteral("Video (*.mp4 *.webm)")},
+                                asFileName(document_.name()) + QStringLiteral("-moves"));
+  if (!path.isEmpty()) {
+    saveFilm(path);
   }
-  const std::size_t earlier = video ? 0 : Film::picturesIn(path);
-  if (earlier == 0 || askBeforeReplacingFilm(*window(), path, earlier)) {
-    ofPass ? savePass(path) : saveFilm(path);
-  }
-}
-
-void ReplayDock::askFilmSize() {
-  PictureSizeDialog dialog(window(), QStringLiteral("Size of films"), size_, scene_.size());
-  if (dialog.exec() == QDialog::Accepted) {
-    setFilmSize(dialog.chosen());
-    size_.remember(filmSizeKey());
-  }
-}
-
-void ReplayDock::setFilmSize(const PictureSize& size) {
-  size_ = size;
-  film_.setWidth(size.pixels());
-  filmSize_->setText(QStringLiteral("Si&ze of films: %1…").arg(size.inWords()));
 }
 
 void ReplayDock::openMoves(const QString& path) {
@@ -375,7 +300,6 @@ void ReplayDock::openMoves(const QString& path) {
         const auto moves = std::make_shared<const std::vector<Command>>(read_moves(asPath(path), mesh, progress));
         return [this, moves, name, mesh] {
           setPlaying(false);
-          film_.cancel();
           if (mesh == document_.unsplitMesh()) {
             document_.moves().load(moves, QStringLiteral("open %1").arg(name));
           } else {
@@ -399,11 +323,6 @@ void ReplayDock::saveMoves(const QString& path) {
 void ReplayDock::saveFilm(const QString& path) {
   setPlaying(false);
   film_.begin(path);
-}
-
-void ReplayDock::savePass(const QString& path) {
-  setPlaying(false);
-  film_.beginPass(path);
 }
 
 }  // namespace chainmail

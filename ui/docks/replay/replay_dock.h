@@ -10,35 +10,30 @@
 #include "common/jobs.h"
 #include "document/document.h"
 #include "io/film.h"
-#include "io/picture_size.h"
 
 class QAction;
-class QProgressBar;
 class QToolButton;
 
 namespace chainmail {
 
 /// Shows all commands since the object was opened on a slider. Steps back and forth, plays them move by move, and saves
-/// them as JSON, pictures or video.
+/// them as JSON or video.
 class ReplayDock : public QDockWidget {
   Q_OBJECT
 
  public:
   /// Films show `scene`; `jobs` reads and writes recorded moves.
-  ReplayDock(Document& document, Propagation& propagation, QWidget& scene, Jobs& jobs);
+  ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
 
   /// Returns the actions of the dock, for the menu bar.
   QMenu& menu() { return *menu_; }
+  QAction& exportFilm() { return *exportFilm_; }
 
   /// Open and save recorded moves in the background.
   void openMoves(const QString& path);
   void saveMoves(const QString& path);
-  /// Films all moves: as pictures if the path is a folder, else as a video.
+  /// Films all moves as a video.
   void saveFilm(const QString& path);
-  /// Films the candidates of the pass that the propagation shows.
-  void savePass(const QString& path);
-  /// Sets the size of the pictures in films.
-  void setFilmSize(const PictureSize& size);
 
  signals:
   void failed(const QString& sentence);
@@ -46,13 +41,10 @@ class ReplayDock : public QDockWidget {
 
  private:
   void makeActions();
-  void makePassActions();
   QAction* add(const char* name, const QString& text, const char* icon, const QKeySequence& key, const QString& help,
                std::function<void()> act);
   void arrange();
   QWidget* makeTransport();
-  QWidget* makeFilmBar();
-  void listenToFilm();
   void scheduleShow();
   void showMoves();
   QString describe() const;
@@ -65,22 +57,16 @@ class ReplayDock : public QDockWidget {
   void playOn();
   void askForMoves();
   void askWhereMoves();
-  void askWhereFilm(bool video, bool ofPass);
-  void askFilmSize();
+  void askWhereFilm();
 
   Document& document_;
-  QWidget& scene_;
   Jobs& jobs_;
   Film film_;
   QMenu* menu_;
-  QAction *first_, *back_, *play_, *forward_, *last_, *save_, *pictures_, *video_, *passPictures_, *passVideo_,
-      *filmSize_;
-  PictureSize size_;  // of films; a width of 0: as on the screen
+  QAction *first_, *back_, *play_, *forward_, *last_, *save_, *exportFilm_;
   QSlider* slider_;
   QLabel* position_;
   QComboBox* speed_;
-  QWidget* filmBar_;
-  QProgressBar* filmed_;
   QTimer playing_;
   MeshPointer played_;                 // Document::unsplitMesh() of the moves
   QTimer refresh_;                     // limits the rate of updates while commands are recorded
