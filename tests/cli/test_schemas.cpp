@@ -277,20 +277,25 @@ void SchemasTest::add_moves() {
   commands::Drag turn{{1, 2, 0}};
   turn.relative = true;
   turn.rotation = {Point(0, 0, 1), 20};
-  const std::vector<Command> moves{commands::Pin{{0}},
-                                   commands::SetSoftness{softness},
-                                   commands::Cut{{0}},
-                                   commands::Uncut{{0}},
-                                   commands::Grab{{2, 3}},
-                                   turn,
-                                   commands::Release{},
-                                   commands::Unpin{{0}},
-                                   commands::Grab{1},
-                                   commands::Drag{{1, 2, 0}},
-                                   commands::Reset{},
-                                   commands::Relax{3, 0.5, RelaxationScheme::link},
-                                   commands::Relax{200, 1, RelaxationScheme::equilibrium, 0.001},
-                                   commands::Split{split}};
+  const auto counts = std::make_shared<commands::SliceCounts>(2);
+  counts->note(0, Algorithm::exact, 7);
+  counts->note(1, Algorithm::generalized, 0);
+  const std::vector<Command> moves{
+      commands::Pin{{0}},
+      commands::SetSoftness{softness},
+      commands::Cut{{0}},
+      commands::Uncut{{0}},
+      commands::Grab{{2, 3}},
+      turn,
+      commands::Release{},
+      commands::Unpin{{0}},
+      commands::Grab{1},
+      commands::Drag{{1, 2, 0}},
+      commands::Reset{},
+      commands::Relax{3, 0.5, RelaxationScheme::link},
+      commands::Relax{200, 1, RelaxationScheme::equilibrium, 0.001},
+      commands::Relaxed{RelaxationScheme::mean, 1, commands::Relaxed::Start::awake, counts},
+      commands::Split{split}};
   std::ostringstream out;
   write_moves(out, moves, *split->after);
   add("all moves", "moves", out.str());

@@ -32,7 +32,6 @@ enum class Kind {
   drag_many,
   drag_and_keep,
   cancel_drag,
-  move_control_point,
   cut,
   split,
   pin,
@@ -392,14 +391,6 @@ Life::Step Life::handle_step(const Action& action) const {
       return drag_of({element}, action);
     case Kind::drag_many:
       return drag_of({element, (element + 1 + action.how % 3) % count}, action);
-    case Kind::move_control_point:
-      return [=](Document& d, std::size_t) {
-        if (d.algorithm(0) == Algorithm::free_form) {
-          d.handle().grabControlPoint(action.which % 8);
-          d.handle().dragControlPoint(Point(action.x / 8.0, action.y / 8.0, 0));
-          d.handle().release();
-        }
-      };
     case Kind::select:
       return [=](Document& d, std::size_t) { d.selection().set({element}); };
     default:

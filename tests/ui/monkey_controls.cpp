@@ -32,15 +32,9 @@ constexpr std::array left{Monkey::Left{"openFile", asks},
                           Monkey::Left{"savePicture", asks},
                           Monkey::Left{"saveRateTable", asks},
                           Monkey::Left{"saveRatePicture", asks},
-                          Monkey::Left{"importPresets", asks},
-                          Monkey::Left{"exportPresets", asks},
                           Monkey::Left{"openMoves", asks},
                           Monkey::Left{"saveMoves", asks},
-                          Monkey::Left{"savePictures", asks},
-                          Monkey::Left{"saveVideo", "asks where, and runs another program"},
-                          Monkey::Left{"savePassPictures", asks},
-                          Monkey::Left{"savePassVideo", "asks where, and runs another program"},
-                          Monkey::Left{"filmSize", "asks for a size, in a dialog that waits for an answer"},
+                          Monkey::Left{"exportFilm", "asks where, and runs another program"},
                           Monkey::Left{"pictureOwnSize", "asks for a size, in a dialog that waits for an answer"},
                           Monkey::Left{"quit", "closes the window"}};
 
@@ -227,9 +221,7 @@ void Monkey::startReport() {
 void Monkey::rest() {
   say(QStringLiteral("rest"));
   QTest::keyClick(&bench_.window, Qt::Key_Escape);
-  for (const char* cancel : {"reportCancel", "cancelFilm"}) {
-    click(cancel);
-  }
+  click("reportCancel");
   auto* play = bench_.window.findChild<QAction*>(QStringLiteral("replayPlay"));
   if (play->text().contains(QLatin1String("Pause"))) {
     play->trigger();

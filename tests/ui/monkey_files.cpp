@@ -64,7 +64,7 @@ void Monkey::saveSomething() {
   auto& files = *bench_.window.findChild<FileActions*>();
   auto& replay = *bench_.window.findChild<ReplayDock*>();
   const QString drawing = once(2) ? QStringLiteral("png") : once(2) ? QStringLiteral("svg") : QStringLiteral("pdf");
-  const std::size_t what = below(7);
+  const std::size_t what = below(6);
   say(QStringLiteral("save %1: %2").arg(what).arg(path));
   switch (what) {
     case 0:
@@ -75,8 +75,6 @@ void Monkey::saveSomething() {
       return bench_.window.findChild<PictureActions*>()->savePath(folder_ + QStringLiteral("/picture.") + drawing);
     case 3:
       return replay.saveMoves(folder_ + QStringLiteral("/moves.json"));
-    case 4:
-      return replay.saveFilm(folder_);
     default:
       return bench_.window.sessions().savePath(path);
   }

@@ -419,7 +419,7 @@ class WindowDocks : public QObject {
     bench.stroke(0, {from, from + QPoint(150, -150)}, false);
     QTRY_VERIFY(bench.document().solvers().frame(1)->statistics.sweeps > 0);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from + QPoint(150, -150));
-    // Relaxation stops by itself, at most 10 s after the last pass.
+    // Relaxation stops by itself.
     QTRY_VERIFY_WITH_TIMEOUT(!bench.document().solvers().frame(0)->statistics.relaxing &&
                                  !bench.document().solvers().frame(1)->statistics.relaxing,
                              12'000);
@@ -470,6 +470,63 @@ class WindowDocks : public QObject {
     bench.trigger("undo");
     QVERIFY(!residual->isHidden() && !step->isEnabled());
     QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
+  }
+
+  /// The two links of a chain contradict each other, so sweeps over links never end there.
+  void relaxationThatComesNoCloserSaysSo() {
+    Workbench bench(generate({MeshKind::line, {3, 1, 1}, 1, {}}));
+    Document& document = bench.document();
+    edits::setPinned(document, {0}, true);
+    document.handle().grab(2);
+    document.handle().drag(Point(2.2, 0, 0));
+    document.handle().release();
+    edits::setPinned(document, {2}, true);
+    bench.settle();
+    auto* words = bench.find<QLabel>("unsettled0");
+    QVERIFY(!words->isVisible());
+    edits::setRelaxation(document, {true, 1, RelaxationScheme::link});
+    QTRY_VERIFY(words->isVisible());
+    QVERIFY2(words->text().startsWith(QStringLiteral("not settled: step 0.")), qPrintable(words->text()));
+    QVERIFY(!document.solvers().frame(0)->statistics.relaxing);
+    QTest::mouseClick(bench.find<QPushButton>("continueRelaxation0"), Qt::LeftButton);
+    bench.settle();
+    document.moves().noteRelaxation();
+    const MoveHistory& history = document.moves().history();
+    const auto& again = std::get<commands::Relaxed>(history.at(history.length() - 1));
+    QVERIFY(again.start == commands::Relaxed::Start::awake && again.counts->slices(0) > 1000);
+    edits::setRelaxation(document, {false, 1, RelaxationScheme::link});
+    QTRY_VERIFY(!words->isVisible());
+  }
+
+  void relaxationToTheMaterialIsOneChoice() {
+    Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
+    auto* scheme = bench.find<QComboBox>("relaxationScheme");
+    const int steps = bench.document().undoStack().count();
+    scheme->setCurrentText(QStringLiteral("material"));
+    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    QVERIFY(bench.document().relaxation().on && bench.document().relaxation().scheme == RelaxationScheme::equilibrium);
+    QVERIFY(bench.document().wholeSoftness()->energy == EnergyKind::material);
+    QCOMPARE(bench.document().softness(), (LinkSoftness{0, 3, 2}));
+    QCOMPARE(bench.find<QComboBox>("preset")->currentText(), QStringLiteral("Open regions (material)"));
+    QCOMPARE(scheme->currentText(), QStringLiteral("material"));
+    edits::setSoftness(bench.document(), {0.5, 3, 2}, QStringLiteral("compression"));
+    QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
+    bench.trigger("undo");
+    bench.trigger("undo");
+    QVERIFY(!bench.document().relaxation().on);
+    QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
+  }
+
+  void theTimeOfRelaxationIsBesideThatOfThePass() {
+    Workbench bench;
+    bench.window.panel(0).showFigures(true);
+    auto* figures = bench.find<QLabel>("statistics0");
+    QVERIFY(!figures->text().contains(QStringLiteral("relaxation")));
+    edits::setRelaxation(bench.document(), {true, 0.01, RelaxationScheme::mean});
+    bench.document().handle().grab(31);
+    bench.document().handle().drag(Point(9, 9, 0));
+    QTRY_VERIFY2(figures->text().contains(QStringLiteral("relaxation")), qPrintable(figures->text()));
+    bench.document().handle().release();
   }
 
   void frameRatesAreShownAndRest() {

@@ -192,7 +192,7 @@ class WindowKnife : public QObject {
     const Mesh& split = *bench.document().mesh();
     QVERIFY(split.element_count() > 6);
     QCOMPARE(bench.document().cuts().links(), std::vector{*find_link(split, 4, 5)});
-    const auto states = bench.document().solvers().snapshot(0).get();
+    const auto states = bench.document().solvers().snapshots()[0].get();
     QVERIFY(states.is_at_rest());
     bench.trigger("undo");
     bench.settle();

@@ -46,7 +46,7 @@ State stateOf(Workbench& bench) {
   Document& document = bench.document();
   State state{{}, {}, document.cuts().links(), document.pins(), document.moves().history().position()};
   for (int panel = 0; panel < document.panels(); ++panel) {
-    state.panels.push_back(document.solvers().snapshot(panel).get());
+    state.panels.push_back(document.solvers().snapshots()[std::size_t(panel)].get());
     state.algorithms.push_back(document.algorithm(panel));
   }
   return state;
@@ -727,14 +727,14 @@ void WindowLessons::theWaitingListIsShownStepByStep() {
   for (int step = 0; step < 3; ++step) {
     next(bench);
     moved.push_back({shownAwayFromRest(bench, 0), shownAwayFromRest(bench, 1)});
-    whole = bench.document().solvers().snapshot(0).get();
+    whole = bench.document().solvers().snapshots()[0].get();
   }
   // Only the handle; it and the first candidate; all six candidates moved.
   QCOMPARE(moved, (std::vector<std::vector<std::size_t>>{{1, 1}, {2, 2}, {7, 7}}));
   next(bench);
   QVERIFY(player(bench).isLast());
   QVERIFY(shownAwayFromRest(bench, 0) > 7);
-  QVERIFY(bench.document().solvers().snapshot(0).get() == whole);  // the solvers have finished the pass in all steps
+  QVERIFY(bench.document().solvers().snapshots()[0].get() == whole);  // the solvers have finished the pass in all steps
   back(bench);
   QCOMPARE(shownAwayFromRest(bench, 0), std::size_t{7});
 }

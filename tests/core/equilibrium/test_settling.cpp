@@ -17,6 +17,7 @@ class SettlingTest : public QObject {
   void after_a_drag_it_settles_and_sleeps_data();
   void after_a_drag_it_settles_and_sleeps();
   void a_drag_while_it_settles_is_followed();
+  void what_comes_no_closer_is_not_settled();
   void another_material_wakes_it();
   void pins_that_contradict_each_other_leave_a_remark();
   void iterations_at_once_end_at_the_residual();
@@ -108,6 +109,32 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
   const auto asleep = positions_of(simulation);
   QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().relaxing);
   QVERIFY(same_bits(positions_of(simulation), asleep));
+}
+
+/// The two links of a chain contradict each other, so sweeps over links never end. It tries once more, then it stops
+/// and says so.
+void SettlingTest::what_comes_no_closer_is_not_settled() {
+  Simulation chain(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  carry_out(chain, commands::Pin{{0}});
+  drag_by(chain, 2, Point(0.2, 0, 0));
+  carry_out(chain, commands::Release{});
+  carry_out(chain, commands::Pin{{2}});
+  carry_out(chain, commands::SetRelaxation{true, 1, RelaxationScheme::link});
+  const auto slices_to_stop = [&] {
+    const std::uint32_t before = chain.slices();
+    while (chain.continue_relaxation()) {
+    }
+    return chain.slices() - before;
+  };
+  const std::uint32_t slices = slices_to_stop();
+  QVERIFY(slices > 2000);
+  QVERIFY(chain.statistics().unsettled.value_or(0) > 0.01 && !chain.statistics().relaxing);
+  carry_out(chain, commands::SetRelaxation{true, 1, RelaxationScheme::link, true});
+  QVERIFY(!chain.statistics().unsettled && chain.statistics().relaxing);
+  QCOMPARE(slices_to_stop(), slices);
+  carry_out(chain, commands::SetRelaxation{true, 1, RelaxationScheme::mean});  // this scheme has an end there
+  slices_to_stop();
+  QVERIFY(!chain.statistics().unsettled);
 }
 
 void SettlingTest::another_material_wakes_it() {
