@@ -487,6 +487,7 @@ void Simulation::carry_out(const commands::Relaxed& command) {
 
 void Simulation::carry_out(const commands::SetRelaxation& command) {
   check(parameters::relax_step, command.step);
+  relaxation_ = {command.on, command.step, command.scheme};
   repeats_slices_ = false;
   const bool was_on = std::exchange(relaxation_on_, command.on);
   const bool is_other = std::exchange(relaxation_scheme_, command.scheme) != command.scheme;

@@ -83,9 +83,8 @@ class Simulation {
   const Body& body() const { return solver_->body(); }
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }
-  commands::SetRelaxation relaxation() const {
-    return {relaxation_on_ && !repeats_slices_, relaxation_step_, relaxation_scheme_};
-  }
+  /// Returns the relaxation that was set last.
+  const commands::SetRelaxation& relaxation() const { return relaxation_; }
   /// The elements of the handle, ascending; empty while nothing is grabbed.
   std::span<const ElementId> grabbed() const { return elements_of(grabbed_); }
   /// Returns the handle of the last pass; null before the first one.
@@ -181,6 +180,8 @@ class Simulation {
   std::shared_ptr<Handle> grabbed_;      // null: nothing is grabbed
   std::shared_ptr<Handle> last_handle_;  // of the last pass, if any
   bool valid_ = true;
+  commands::SetRelaxation relaxation_;  // as it was set
+  // What runs: a repetition may have other values.
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
   RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
