@@ -488,7 +488,7 @@ class WindowDocks : public QObject {
     QTRY_VERIFY(words->isVisible());
     QVERIFY2(words->text().startsWith(QStringLiteral("not settled: step 0.")), qPrintable(words->text()));
     QVERIFY(!document.solvers().frame(0)->statistics.relaxing);
-    QTest::mouseClick(bench.find<QPushButton>("continueRelaxation0"), Qt::LeftButton);
+    QTest::mouseClick(bench.find<QToolButton>("continueRelaxation0"), Qt::LeftButton);
     bench.settle();
     document.moves().noteRelaxation();
     const MoveHistory& history = document.moves().history();

@@ -3,8 +3,8 @@
 #include "panels/panel.h"
 
 #include <QPainter>
-#include <QPushButton>
 #include <QTextDocument>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -66,8 +66,10 @@ Panel::Panel(Document& document, Colouring& colouring, PanelLinks& links, int pa
 void Panel::arrange() {
   auto* foot = new QVBoxLayout;
   foot->setContentsMargins(8, 5, 8, 6);
-  foot->addWidget(violation_);
-  foot->addWidget(unsettled_);
+  auto* line = new QHBoxLayout;
+  line->addWidget(violation_, 1);
+  line->addWidget(unsettled_);
+  foot->addLayout(line);
   makeUnsettled();
   foot->addWidget(statistics_);
   statistics_->hide();
@@ -87,16 +89,16 @@ void Panel::makeUnsettled() {
   distance_->setToolTip(
       QStringLiteral("Relaxation came no closer to the equilibrium, so it has stopped. At an equilibrium this figure "
                      "is below 0.0001"));
-  auto* goOn = new QPushButton(QStringLiteral("Continue"));
+  auto* goOn = new QToolButton;
+  goOn->setText(QStringLiteral("Continue"));
   goOn->setObjectName(QStringLiteral("continueRelaxation%1").arg(panel_));
   goOn->setToolTip(QStringLiteral("Begins relaxation again from the present shape, in all panels"));
   auto* row = new QHBoxLayout(unsettled_);
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(distance_);
   row->addWidget(goOn);
-  row->addStretch();
   unsettled_->hide();
-  connect(goOn, &QPushButton::clicked, &document_, &Document::continueRelaxation);
+  connect(goOn, &QToolButton::clicked, &document_, &Document::continueRelaxation);
   followTheme(*distance_, [this] {
     QPalette amber = palette();
     amber.setColor(QPalette::WindowText, QColor(colours::warningSign));
@@ -260,7 +262,7 @@ void Panel::update(const Statistics& statistics) {
       QStringLiteral(
           "It is of all links, also during a drag; 'so far' if there was no time for some of those that\n"
           "moved. While the Propagation dock shows a candidate, it is the violation after the whole pass.");
-  unsettled_->setVisible(statistics.unsettled.has_value());
+  unsettled_->setVisible(statistics.unsettled && document_.relaxation().on);
   distance_->setText(QStringLiteral("not settled: %1 %2")
                          .arg(statistics.residual ? QStringLiteral("residual") : QStringLiteral("step"),
                               shownNumber(statistics.unsettled.value_or(0), 'g', 2)));
