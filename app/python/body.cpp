@@ -6,6 +6,7 @@
 #include "chainmail/measure.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/pickling.h"
 #include "python/words.h"
 
 namespace chainmail::python {
@@ -178,7 +179,7 @@ void add_frame(BodyClass& body) {
 }  // namespace
 
 void add_body(py::module_& module) {
-  SnapshotClass snapshot(module, "Snapshot", "The positions of an object at one time.");
+  py::class_<api::Snapshot> snapshot(module, "Snapshot", "The positions of an object at one time.");
   snapshot.def(py::self == py::self)
       .def("__repr__", [](const api::Snapshot&) { return "<Snapshot>"; })
       .attr("__hash__") = py::none();
@@ -195,7 +196,8 @@ void add_body(py::module_& module) {
   add_energy(body);
   add_frame(body);
   add_position_view(body);
-  add_body_state(body, snapshot);
+  refuse_pickling(snapshot, "it belongs to a body of this process", "pickle the mesh and positions()");
+  refuse_pickling(body, "it belongs to this process", "pickle its mesh and what you changed, and make a Body there");
 }
 
 }  // namespace chainmail::python

@@ -18,6 +18,8 @@
 namespace chainmail::python {
 namespace {
 
+using MoverClass = py::class_<Mover>;
+
 constexpr std::uint64_t quick_visits = 200'000;  // visits of elements that take a few ms
 
 /// Runs work on a deformer without the lock of Python. Work that may take long looks for Ctrl-C meanwhile.
@@ -301,7 +303,8 @@ void add_deformer(py::module_& module) {
   add_relaxation(deformer);
   add_control_points(deformer);
   add_settings(deformer);
-  add_deformer_state(deformer);
+  refuse_pickling(deformer, "it belongs to this process",
+                  "make a Deformer there; for a copy here, use Deformer(body.copy(), method)");
   module.def(
       "deform", &deform, py::arg("mesh"), py::arg("elements"), py::arg("by"), py::kw_only(),
       py::arg("method") = "natural-queue",

@@ -3,6 +3,7 @@
 #include "python/arrays.h"
 #include "python/held_handle.h"
 #include "python/module.h"
+#include "python/pickling.h"
 
 namespace chainmail::python {
 namespace {
@@ -26,7 +27,7 @@ std::string handle_in_words(const HeldHandle& held) {
 }  // namespace
 
 void add_handle(py::module_& module) {
-  HandleClass handle(
+  py::class_<HeldHandle, std::shared_ptr<HeldHandle>> handle(
       module, "Handle",
       "What is grabbed: one element, or many that move together as one rigid body.\n\n"
       "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of "
@@ -57,7 +58,7 @@ void add_handle(py::module_& module) {
           "units)\n"
           "and a rotation about the pivot.")
       .def("__repr__", &handle_in_words);
-  add_handle_state(handle);
+  refuse_pickling(handle, "it is of a mesh of this process", "grab its elements there");
 }
 
 }  // namespace chainmail::python

@@ -8,6 +8,7 @@
 #include "chainmail/error.h"
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/pickling.h"
 #include "python/unlocked.h"
 
 namespace chainmail::python {
@@ -211,7 +212,7 @@ void add_mesh(py::module_& module) {
   add_content(mesh);
   add_connectivity(mesh);
   add_facts(mesh);
-  add_mesh_state(mesh);
+  add_mesh_pickling(mesh);
   add_generators(module);
   module.def(
       "make_mesh", &mesh_from, py::arg("positions"), py::arg("links") = py::none(), py::kw_only(),

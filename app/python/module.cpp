@@ -8,7 +8,6 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of the package chainmail.";
   module.attr("__version__") = CHAINMAIL_VERSION;
   translate_errors();
-  add_pickled_meshes(module);
   add_types(module);  // first: others use them as defaults
   add_mesh(module);
   add_method(module);

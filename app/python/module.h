@@ -2,8 +2,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include "python/held_handle.h"
-#include "python/mover.h"
 #include "python/object.h"
 
 namespace chainmail::python {
@@ -12,24 +10,17 @@ namespace py = pybind11;
 
 /// The Python class of Object.
 using BodyClass = py::class_<Object, ObjectPointer>;
-using SnapshotClass = py::class_<api::Snapshot>;
-using HandleClass = py::class_<HeldHandle, std::shared_ptr<HeldHandle>>;
-using MoverClass = py::class_<Mover>;
 
 // Each of these functions adds the classes and functions of its source to the module.
 void add_types(py::module_& module);
 void add_mesh(py::module_& module);
-void add_mesh_state(py::class_<api::Mesh>& mesh);
 void add_body(py::module_& module);
-void add_body_state(BodyClass& body, SnapshotClass& snapshot);
 void add_softness(BodyClass& body);
 void add_position_view(BodyClass& body);
 void add_mesh_file(py::module_& module);
 void add_handle(py::module_& module);
 void add_method(py::module_& module);
-void add_handle_state(HandleClass& handle);
 void add_deformer(py::module_& module);
-void add_deformer_state(MoverClass& deformer);
 void add_measure(py::module_& module);
 void add_compare(py::module_& module);
 void add_calibrate(py::module_& module);

@@ -13,17 +13,10 @@ namespace chainmail::python {
 namespace {
 
 constexpr const char* module_name = "chainmail._core";
-constexpr const char* meshes_name = "_meshes";  // in the module
 
 [[noreturn]] void* refuse_memory(std::size_t /*size*/) {
   throw py::type_error("the object is not initialised: call its class, not __new__");
 }
-
-/// Returns the objects that stand for meshes in pickles, by the address of the mesh. They are forgotten when nobody
-/// else has them.
-py::object meshes() { return py::module_::import(module_name).attr(meshes_name); }
-
-py::object key_of(const api::Mesh& mesh) { return py::int_(reinterpret_cast<std::uintptr_t>(mesh.identity())); }
 
 // An array is bytes: one that says what its numbers are, then theirs.
 constexpr char ids_mark = 'I', reals_mark = 'd';
@@ -65,9 +58,6 @@ std::optional<std::string> text_of(py::handle text) {
 /// Returns a part of a dictionary as a value of a state; nothing if no state has such a value.
 std::optional<api::StateValue> value_of(py::handle part) {
   PyObject* const object = part.ptr();
-  if (PyBool_Check(object) != 0) {
-    return part.cast<bool>();
-  }
   if (PyLong_Check(object) != 0) {
     const auto whole = whole_of(part);
     return whole ? std::optional<api::StateValue>(*whole) : std::nullopt;
@@ -85,6 +75,43 @@ std::optional<api::StateValue> value_of(py::handle part) {
                                            : std::nullopt;
   }
   return std::nullopt;
+}
+
+constexpr const char* state_of_mesh = "state of a mesh";
+
+py::dict parts_of(const api::Mesh& mesh) {
+  const auto in_python = [](const auto& value) -> py::object {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) {
+      return bytes_of(ids_mark, value);
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      return bytes_of(reals_mark, value);
+    } else {
+      return py::cast(value);
+    }
+  };
+  py::dict parts;
+  for (const auto& [name, value] : api::save(mesh)) {
+    parts[py::str(name)] = std::visit(in_python, value);
+  }
+  return parts;
+}
+
+/// Makes a mesh of a dictionary that may come from outside.
+api::Mesh mesh_from(const py::object& parts) {
+  if (!py::isinstance<py::dict>(parts)) {
+    throw api::Error(state_of_mesh, "it is not a dictionary", "pickle the mesh again");
+  }
+  api::State state;
+  for (const auto& [key, part] : parts.cast<py::dict>()) {
+    const auto name = py::isinstance<py::str>(key) ? text_of(key) : std::nullopt;
+    auto value = name ? value_of(part) : std::nullopt;
+    if (!value) {
+      throw api::Error(state_of_mesh, "one of its parts is damaged", "pickle the mesh again");
+    }
+    state[*name] = std::move(*value);
+  }
+  return api::load_mesh(std::move(state));
 }
 
 }  // namespace
@@ -135,70 +162,11 @@ void add_pickled_functions(const py::module_& module) {
   registry.attr("pickle")(type, py::cpp_function(reduce));
 }
 
-py::object shared_mesh(const api::Mesh& mesh) {
-  const py::object found = meshes().attr("get")(key_of(mesh));
-  return found.is_none() ? shared_mesh(py::cast(mesh)) : found;
-}
-
-py::object shared_mesh(const py::object& mesh) {
-  return meshes().attr("setdefault")(key_of(mesh.cast<const api::Mesh&>()), mesh);
-}
-
-void add_pickled_meshes(py::module_& module) {
-  module.attr(meshes_name) = py::module_::import("weakref").attr("WeakValueDictionary")();
-}
-
-py::dict dict_of(const api::State& state) {
-  const auto in_python = [](const auto& value) -> py::object {
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) {
-      return bytes_of(ids_mark, value);
-    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
-      return bytes_of(reals_mark, value);
-    } else {
-      return py::cast(value);
-    }
-  };
-  py::dict parts;
-  for (const auto& [name, value] : state) {
-    parts[py::str(name)] = std::visit(in_python, value);
-  }
-  return parts;
-}
-
-PickledParts::PickledParts(const char* class_name, const py::object& parts)
-    : where_(std::string("state of a ") + class_name) {
-  if (!py::isinstance<py::dict>(parts)) {
-    throw api::Error(where_, "it is not a dictionary", "pickle the object again");
-  }
-  parts_ = parts;
-}
-
-api::State PickledParts::without(const char* name) const {
-  api::State state;
-  for (const auto& [key, part] : parts_) {
-    const auto of = py::isinstance<py::str>(key) ? text_of(key) : std::nullopt;
-    if (!of) {
-      throw api::Error(where_, "the name of a part is not a text", "pickle the object again");
-    }
-    if (*of == name) {
-      continue;
-    }
-    auto value = value_of(part);
-    if (!value) {
-      refuse(*of);
-    }
-    state[*of] = std::move(*value);
-  }
-  return state;
-}
-
-void PickledParts::refuse(const std::string& name) const {
-  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
-  const bool shown =
-      name.size() <= 40 && std::ranges::all_of(name, is_plain);  // others may have any text as their name
-  throw api::Error(where_, (shown ? "its part '" + name + "'" : "one of its parts") + " is missing or damaged",
-                   "pickle the object again");
+void add_mesh_pickling(py::class_<api::Mesh>& mesh) {
+  add_pickling(mesh, &parts_of, &mesh_from);
+  mesh.def("__copy__", [](const py::object& self) { return self; });  // it does not change
+  mesh.def(
+      "__deepcopy__", [](const py::object& self, const py::object& /*memo*/) { return self; }, py::arg("memo"));
 }
 
 }  // namespace chainmail::python

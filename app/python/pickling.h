@@ -43,45 +43,8 @@ void refuse_uninitialised(const py::module_& module);
 /// pool can call them. pybind11 keeps a capsule in each, at which pickle would stop.
 void add_pickled_functions(const py::module_& module);
 
-/// Adds to the module what shared_mesh() needs.
-void add_pickled_meshes(py::module_& module);
-
-/// Returns a mesh as the one object of Python that stands for it in pickles: the mesh of a body, of its handles and of
-/// its snapshots is still the same after they were pickled together.
-py::object shared_mesh(const api::Mesh& mesh);
-/// The same for an object that stands for its mesh if no other one does.
-py::object shared_mesh(const py::object& mesh);
-
-/// Returns a state as a dictionary, with bytes for its arrays. An array of NumPy would not do: NumPy trusts what is
-/// pickled of it, and a damaged one ends the process.
-py::dict dict_of(const api::State& state);
-
-/// A dictionary that may come from outside. `class_name` is the name of the object in errors.
-class PickledParts {
- public:
-  /// Throws Error if the object is no dictionary.
-  PickledParts(const char* class_name, const py::object& parts);
-
-  /// Returns the part that is an object of Python. Throws Error if it is missing or of another class.
-  template <class Value>
-  Value get(const char* name) const {
-    try {
-      if (parts_.contains(name)) {
-        return parts_[name].cast<Value>();
-      }
-    } catch (const py::cast_error&) {            // refused below
-    } catch (const py::reference_cast_error&) {  // from None
-    }
-    refuse(name);
-  }
-  /// Returns all parts but this one. Throws Error for one that is no value of a state.
-  api::State without(const char* name) const;
-
-  [[noreturn]] void refuse(const std::string& name) const;
-
- private:
-  std::string where_;
-  py::dict parts_;
-};
+/// Makes meshes known to pickle, with bytes for their arrays: NumPy trusts what is pickled of its arrays, and a damaged
+/// one ends the process.
+void add_mesh_pickling(py::class_<api::Mesh>& mesh);
 
 }  // namespace chainmail::python

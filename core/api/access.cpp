@@ -70,6 +70,12 @@ void check_coordinates(const inner::Mesh& mesh, const std::string& where, const 
   }
 }
 
+ElementBlocks every_block(const inner::Mesh& mesh) {
+  ElementBlocks all(mesh.element_count());
+  all.insert_all();
+  return all;
+}
+
 OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries) {
   const auto numbers_of = [](const OwnSoftness::Entry& entry) {
     return std::bit_cast<std::array<double, inner::softness_numbers.size()>>(entry.second);

@@ -79,7 +79,8 @@ struct ReferenceSolution::Impl {
   inner::ReferenceSolution reference;
 };
 
-struct DeformerState;
+/// Returns all blocks of elements: what a snapshot of the whole object has.
+ElementBlocks every_block(const inner::Mesh& mesh);
 
 /// Leads from the types of the interface to what is behind them.
 struct Access {
@@ -99,9 +100,6 @@ struct Access {
   static Handle handle(inner::Handle handle, Mesh mesh) {
     return Handle(std::make_unique<Handle::Impl>(Handle::Impl{std::move(handle), std::move(mesh)}));
   }
-  // Defined with Deformer, see api/body_state.h.
-  static DeformerState hand_over(Deformer& deformer);
-  static void take_over(Deformer& deformer, const DeformerState& state);
   static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
   static const Snapshot::Impl& impl(const Snapshot& one) { return *one.impl_; }
   static const RecordedMoves::Impl& impl(const RecordedMoves& moves) { return *moves.impl_; }

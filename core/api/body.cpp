@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "api/access.h"
-#include "api/body_state.h"
 #include "body/body_view.h"
 #include "mesh/parameters.h"
 #include "mesh/surface.h"
@@ -45,6 +44,10 @@ void check_precision(const inner::Mesh& mesh, inner::Precision precision) {
       throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
     }
   }
+}
+
+inner::Snapshot snapshot_of(const inner::Body& body) {
+  return body.snapshot(body.is_at_rest() ? ElementBlocks(body.mesh().element_count()) : every_block(body.mesh()));
 }
 
 constexpr std::array link_softness_values{&LinkSoftness::compression, &LinkSoftness::stretch,
@@ -114,7 +117,22 @@ Body::Body(const Mesh& mesh, Precision precision) {
   impl_->body().set_softness(softness);
 }
 
-Body::Body(const Body& other) : Body(body_of(other.mesh(), state_of(other))) {}
+Body::Body(const Body& other) : Body(other.mesh(), other.precision()) {
+  inner::Body& from = other.impl_->body();
+  inner::Body& body = impl_->body();
+  body.work_in_axes(from.works_in_axes());
+  body.store_displacements(from.stores_displacements());
+  body.set_softness(from.shared_softness());
+  body.set_elastic(from.elastic());
+  body.cut(from.cuts().links());
+  body.pin({from.pins().begin(), from.pins().end()});
+  if (!from.is_at_rest()) {
+    body.restore(snapshot_of(from), every_block(body.mesh()));
+  }
+  body.reach() = from.reach();
+  impl_->handle = other.impl_->handle;
+  impl_->is_held = other.impl_->is_held;
+}
 Body::Body(Body&& other) noexcept = default;
 Body& Body::operator=(const Body& other) {
   Body copy(other);

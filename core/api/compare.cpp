@@ -5,7 +5,6 @@
 #include <variant>
 
 #include "api/access.h"
-#include "api/body_state.h"
 #include "api/recorded_moves.h"
 #include "api/report_files.h"
 #include "chainmail/text.h"

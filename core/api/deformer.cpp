@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "api/access.h"
-#include "api/body_state.h"
 #include "mesh/parameters.h"
 
 namespace chainmail::api {
@@ -168,25 +167,6 @@ EquilibriumCertificate Deformer::certificate() {
     const auto found = impl_->solver().certificate().value_or(inner::EquilibriumCertificate{});
     return EquilibriumCertificate{found.violation, found.residual, found.gap, found.binds, found.iterations};
   });
-}
-
-DeformerState Access::hand_over(Deformer& deformer) {
-  const auto& impl = *deformer.impl_;
-  const AlgorithmInfo& entry = info(impl.algorithm);
-  if (entry.is_added()) {
-    throw Error("method '" + std::string(entry.name) + "'",
-                "a program has registered it, so its state cannot be copied",
-                "set another method first, or keep what it needs yourself");
-  }
-  return guarded([&]() -> DeformerState {
-    return {deformer.method(), impl.is_tracing, impl.trace, deformer.impl_->solver().hand_over()};
-  });
-}
-
-void Access::take_over(Deformer& deformer, const DeformerState& state) {
-  guarded([&] { deformer.impl_->solver().take_over(state.memory); });
-  deformer.impl_->is_tracing = state.is_tracing;
-  deformer.impl_->trace = state.trace;
 }
 
 void Deformer::set_job(const Job& job) { impl_->job = job; }

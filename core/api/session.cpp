@@ -1,7 +1,6 @@
 #include "chainmail/session.h"
 
 #include "api/access.h"
-#include "api/body_state.h"
 #ifdef CHAINMAIL_HAS_JSON
 #include "files/session/session.h"
 #endif

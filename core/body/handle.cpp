@@ -35,15 +35,6 @@ void check_elements(const Mesh& mesh, std::span<const ElementId> ascending) {
   }
 }
 
-void check_state(const HandleState& state) {
-  const auto is_within = [](const Point& point) { return (point.array().abs() <= coordinate_limit).all(); };
-  if (!std::ranges::is_sorted(state.elements) || state.positions.size() != state.elements.size() ||
-      !std::ranges::all_of(state.positions, is_within) || !is_within(state.pose.pivot) ||
-      !is_within(state.pose.rotation)) {
-    throw Error("handle", "its state is damaged", "grab its elements again");
-  }
-}
-
 }  // namespace
 
 Eigen::Matrix3d turn_of(const Point& rotation) {
@@ -127,13 +118,6 @@ Handle::Handle(const Body& body, std::vector<ElementId> elements) : elements_(st
   }
   begin();
   pose_ = grabbed();
-}
-
-Handle::Handle(const Mesh& mesh, HandleState state)
-    : elements_(std::move(state.elements)), positions_(std::move(state.positions)), pose_(state.pose) {
-  check_state({elements_, positions_, pose_});
-  check_elements(mesh, elements_);
-  begin();
 }
 
 void Handle::begin() {

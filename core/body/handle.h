@@ -60,15 +60,6 @@ void check(const Rotation& rotation, const Mesh& mesh);
 /// Throws Error if one of these elements is pinned.
 void check_free(const Body& body, std::span<const ElementId> elements);
 
-/// A handle as values.
-struct HandleState {
-  std::vector<ElementId> elements;  // ascending
-  std::vector<Point> positions;     // of each, when grabbed (mesh units)
-  Pose pose;
-
-  bool operator==(const HandleState&) const = default;
-};
-
 /// What a user has grabbed: one element, or many that move together as one rigid body. Its pivot is the mean of the
 /// positions at which they were grabbed.
 class Handle {
@@ -76,10 +67,6 @@ class Handle {
   /// Grabs elements at their current positions. Throws Error if there is none, or if one does not exist, is given twice
   /// or is pinned.
   Handle(const Body& body, std::vector<ElementId> elements);
-  /// Restores a handle. Its grab is a new one. Throws Error if the state is none of a handle of the mesh.
-  Handle(const Mesh& mesh, HandleState state);
-
-  HandleState state() const { return {elements_, positions_, pose_}; }
   /// The grabbed elements, ascending.
   std::span<const ElementId> elements() const { return elements_; }
   bool has_one() const { return elements_.size() == 1; }

@@ -40,12 +40,6 @@ class Method {
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   virtual std::string remark() const { return {}; }
 
-  /// Returns what a new method of this kind needs in order to continue from a copy of the body as this one does, bit
-  /// for bit. This one forgets everything else that its coming answers may depend on, in their last bits.
-  virtual std::vector<double> hand_over(const Body& /*body*/) { return {}; }
-  /// Continues as the method that handed this over. Throws Error, at the next move, if it does not fit.
-  virtual void take_over(const Body& /*body*/, const std::vector<double>& /*memory*/) {}
-
   /// Returns the current positions of control points that a user may drag, space_dimension coordinates each (mesh
   /// units), and prepares them; empty for most methods.
   virtual std::span<const double> control_points(Body& /*body*/, const Progress& /*progress*/) { return {}; }

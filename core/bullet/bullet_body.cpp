@@ -137,14 +137,6 @@ class BulletMethod final : public Method {
 
   std::string remark() const override { return remark_; }
 
-  std::vector<double> hand_over(const Body& body) override {
-    return keeps_velocities_ && left_ == positions_of(body) ? velocities_ : std::vector<double>();
-  }
-  void take_over(const Body& body, const std::vector<double>& memory) override {
-    velocities_ = memory;
-    left_ = memory.empty() ? std::vector<double>() : positions_of(body);
-  }
-
  private:
   void prepare(const Body& body, const Progress& progress) {
     if (!nodes_ || mesh_ != body.stored_mesh() || cuts_ != body.revisions().cuts ||

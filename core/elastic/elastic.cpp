@@ -113,14 +113,6 @@ SmallVector displacement_of(const ElasticHandle& handle, std::size_t i, const El
   return of(handle.displacements) + turned + motion.translation;
 }
 
-void check_memory(std::span<const double> memory, std::size_t size) {
-  if (memory.size() != size) {
-    throw Error("memory of the method",
-                "it has " + std::to_string(memory.size()) + " numbers, but this object needs " + std::to_string(size),
-                "use that of a copy of this object, with the same cuts and pins");
-  }
-}
-
 void check_boundary_size(std::uint64_t triangles, std::uint64_t elements_of_cells) {
   if (triangles > boundary_limit) {
     refuse_size("BEM", triangles, boundary_limit, "triangles on the surface");

@@ -81,11 +81,6 @@ class ElasticSolver {
   virtual void reset() = 0;
   /// Call this after others moved the object. Methods that depend on the path continue from these displacements.
   virtual void start_from(std::span<const double> /*displacements*/) {}
-  /// Returns what a new solver of the same problem needs in order to answer the next move of a newly grabbed handle as
-  /// this one does, bit for bit; nothing if it needs nothing.
-  virtual std::vector<double> memory() const { return {}; }
-  /// Continues from the memory of a solver of the same problem. Throws Error if it has another size.
-  virtual void recall(std::span<const double> /*memory*/) {}
   /// Returns the last answer. Before the first one, this is the answer to the pins, or rest.
   virtual const std::vector<double>& displacements() const = 0;
   /// Reason why the last answer is not the requested one, and which one it is. Usually empty.
@@ -108,9 +103,6 @@ bool fits(ElasticMethod method, const Mesh& mesh);
 void check(ElasticMethod method, const Mesh& mesh);
 /// Returns the largest number of elements of a solid in space that a method works on; none if there is no limit.
 std::optional<std::uint64_t> max_solid_elements(ElasticMethod method);
-
-/// Throws Error if the memory of a solver has another size than one of the same problem.
-void check_memory(std::span<const double> memory, std::size_t size);
 
 /// Makes a solver. Throws Error if the problem has no answer with this method: flat or inverted cells, parts without
 /// enough pins, an open surface, options out of range. Throws Cancelled.

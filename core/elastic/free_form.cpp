@@ -76,20 +76,6 @@ class FreeForm final : public ElasticSolver {
     begin();
   }
 
-  /// The displacements of the elements and of the control points.
-  std::vector<double> memory() const override {
-    std::vector<double> memory = displacements_;
-    memory.insert(memory.end(), controls_.data(), controls_.data() + controls_.size());
-    return memory;
-  }
-  void recall(std::span<const double> memory) override {
-    check_memory(memory, displacements_.size() + std::size_t(controls_.size()));
-    std::copy_n(memory.begin(), displacements_.size(), displacements_.begin());
-    std::ranges::copy(memory.subspan(displacements_.size()), controls_.data());
-    place_controls();
-    begin();
-  }
-
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return none_; }
   std::span<const double> control_points() const override { return control_places_; }

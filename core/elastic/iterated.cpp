@@ -64,20 +64,6 @@ void IteratedSolver::start_from(std::span<const double> displacements) {
   }
 }
 
-std::vector<double> IteratedSolver::memory() const {
-  std::vector<double> memory = displacements_;
-  const std::vector<double> own = kept(displacements_);
-  memory.insert(memory.end(), own.begin(), own.end());
-  return memory;
-}
-
-void IteratedSolver::recall(std::span<const double> memory) {
-  check_memory(memory, displacements_.size() + kept(displacements_).size());
-  displacements_.assign(memory.begin(), memory.begin() + std::ptrdiff_t(displacements_.size()));
-  remark_.clear();
-  keep(memory.subspan(displacements_.size()), displacements_);
-}
-
 std::string not_converged(std::uint32_t iterations, double step) {
   std::array<char, 32> size{};
   std::snprintf(size.data(), size.size(), "%.2g", step);

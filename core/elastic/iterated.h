@@ -16,8 +16,6 @@ class IteratedSolver : public ElasticSolver {
   void move(const ElasticMotion& motion, const Progress& progress) final;
   void reset() final;
   void start_from(std::span<const double> displacements) final;
-  std::vector<double> memory() const final;
-  void recall(std::span<const double> memory) final;
   const std::vector<double>& displacements() const final { return displacements_; }
   const std::string& remark() const final { return remark_; }
   bool reached() const final { return true; }
@@ -32,10 +30,6 @@ class IteratedSolver : public ElasticSolver {
   virtual void prescribe(const std::vector<ElementId>& prescribed, const Progress& progress) = 0;
   /// Improves the displacements of the other elements. Returns an empty text if they converged, else the reason.
   virtual std::string relax(std::vector<double>& displacements, const Progress& progress) = 0;
-  /// Returns what relax() keeps for its next call besides the displacements, which it has left.
-  virtual std::vector<double> kept(const std::vector<double>& displacements) const = 0;
-  /// Keeps this for the next call of relax(), which starts from these displacements. It has the size of kept().
-  virtual void keep(std::span<const double> kept, const std::vector<double>& displacements) = 0;
 
  private:
   ElasticProblem problem_;

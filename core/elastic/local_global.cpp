@@ -185,20 +185,6 @@ class LocalGlobal final : public IteratedSolver {
     return not_converged(iterations_, step.lpNorm<Eigen::Infinity>() / length_);
   }
 
-  /// The rotations from which the next ones are found.
-  std::vector<double> kept(const std::vector<double>& /*displacements*/) const override {
-    std::vector<double> kept;
-    for (const Square& rotation : rotations_) {
-      kept.insert(kept.end(), rotation.data(), rotation.data() + rotation.size());
-    }
-    return kept;
-  }
-  void keep(std::span<const double> kept, const std::vector<double>& /*displacements*/) override {
-    for (std::size_t g = 0; g < rotations_.size(); ++g) {
-      rotations_[g] = Eigen::Map<const Square>(kept.data() + g * std::size_t(N * N));
-    }
-  }
-
   const char* name_;
   ElementId elements_;
   std::uint32_t iterations_;

@@ -95,13 +95,6 @@ class NonlinearFem final : public ElasticSolver {
     remark_.clear();
     reached_ = true;
   }
-  std::vector<double> memory() const override { return displacements_; }
-  void recall(std::span<const double> memory) override {
-    check_memory(memory, displacements_.size());
-    displacements_.assign(memory.begin(), memory.end());
-    remark_.clear();
-    reached_ = true;
-  }
   const std::vector<double>& displacements() const override { return displacements_; }
   const std::string& remark() const override { return remark_; }
   bool reached() const override { return reached_; }

@@ -243,16 +243,6 @@ class QuasiNewton final : public IteratedSolver {
     }
   }
 
-  std::vector<double> kept(const std::vector<double>& displacements) const override {
-    std::vector<double> kept = is_where_it_was(displacements) ? kept_ : std::vector<double>();
-    kept.resize(2 * most_pairs * displacements.size());  // pairs of zeros are left out
-    return kept;
-  }
-  void keep(std::span<const double> kept, const std::vector<double>& displacements) override {
-    kept_.assign(kept.begin(), kept.end());
-    last_ = displacements;
-  }
-
   /// True if the pairs are those of the move to these displacements. Those of prescribed elements may differ.
   bool is_where_it_was(const std::vector<double>& displacements) const {
     for (std::size_t i = 0; i < last_.size(); ++i) {

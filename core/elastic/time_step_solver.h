@@ -137,21 +137,6 @@ class TimeStepSolver : public IteratedSolver {
     }
   }
 
-  std::vector<double> kept(const std::vector<double>& displacements) const override {
-    const bool knows = is_where_it_was(displacements);
-    std::vector<double> velocities(displacements.size(), 0.0);
-    for (std::size_t e = 0; e < motions_.size() && knows; ++e) {
-      Eigen::Map<Vector>(velocities.data() + e * N) = motions_[e].velocity;
-    }
-    return velocities;
-  }
-  void keep(std::span<const double> kept, const std::vector<double>& displacements) override {
-    for (std::size_t e = 0; e < motions_.size(); ++e) {
-      motions_[e].velocity = of(kept, e);
-    }
-    last_ = displacements;
-  }
-
   /// True if the velocities are those at these displacements. Those of prescribed elements may differ.
   bool is_where_it_was(const std::vector<double>& displacements) const {
     for (std::size_t i = 0; i < last_.size(); ++i) {

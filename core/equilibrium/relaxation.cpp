@@ -455,23 +455,6 @@ void Relaxation::forget() {
   rotations_.clear();
 }
 
-Relaxation::Pending Relaxation::hand_over(const Body& body) {
-  follow(body);
-  rotations_.clear();
-  return {current_.elements(), next_.elements(), in_sweep_, largest_step_};
-}
-
-void Relaxation::take_over(const Body& body, const Pending& pending) {
-  follow(body);
-  sleep();
-  current_.make_room(body.mesh().element_count());
-  next_.make_room(body.mesh().element_count());
-  std::ranges::for_each(pending.now, [this](ElementId element) { current_.insert(element); });
-  std::ranges::for_each(pending.next, [this](ElementId element) { next_.insert(element); });
-  in_sweep_ = pending.in_sweep;
-  largest_step_ = pending.largest_step;
-}
-
 RelaxationResult Relaxation::sweep(Body& body, double step, std::uint64_t budget, std::span<const ElementId> held) {
   follow(body);
   if (!in_sweep_) {

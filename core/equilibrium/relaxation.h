@@ -127,19 +127,6 @@ class Relaxation {
   /// The same, and drops the rotations that were found.
   void forget();
 
-  /// What a relaxation has still to visit.
-  struct Pending {
-    std::vector<ElementId> now;   // in this sweep
-    std::vector<ElementId> next;  // in the next one
-    bool in_sweep = false;
-    double largest_step = 0;  // of this sweep (mesh units)
-  };
-  /// Returns what a relaxation of a copy of the body needs in order to continue as this one does, bit for bit. Forgets
-  /// the rotations, from which the next ones would be found in other last bits.
-  Pending hand_over(const Body& body);
-  /// Continues as the relaxation that handed this over. All elements exist in the body.
-  void take_over(const Body& body, const Pending& pending);
-
   /// Continues the current sweep, or begins one, with a step in (0, 1], until it ends or `budget` elements were
   /// visited. Elements of `held` (ascending) and pinned elements stay. If nothing is active, `visited` is 0 and the
   /// sweep has ended.

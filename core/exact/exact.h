@@ -62,13 +62,6 @@ class ExactPropagation {
     prepared_for_ = wanted;
   }
 
-  /// Forgets the regions, and where a handle of many was when its first pass began.
-  void forget() {
-    made_for_ = {};
-    prepared_for_ = {};
-    idle_passes_ = 0;
-  }
-
   /// Reason why the last pass did not reach its rotation. Usually empty.
   const std::string& remark() const { return remark_; }
 

@@ -50,13 +50,6 @@ class ExactMethod final : public Method {
 
   std::string remark() const override { return propagation_.remark(); }
 
-  /// The next pass finds everything in the body, and checks the links.
-  std::vector<double> hand_over(const Body& /*body*/) override {
-    propagation_.forget();
-    links_hold_ = false;
-    return {};
-  }
-
  private:
   /// Returns the largest stored coordinate of the handle, before and after the move. Throws Error if one is out of
   /// range.

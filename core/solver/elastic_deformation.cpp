@@ -134,25 +134,6 @@ std::uint64_t ElasticDeformation::positions_of(const Body& body) {
   return body.revisions().positions + body.revisions().relaxed;
 }
 
-/// A solver that would begin anew at the next move is dropped: the one of the copy is new, too.
-std::vector<double> ElasticDeformation::hand_over(const Body& body) {
-  held_ = {};
-  if (!solver_ || revisions_of(body) != made_for_ || positions_of(body) != positions_) {
-    const bool waits = !solver_ && revisions_of(body) == made_for_ && positions_of(body) == positions_;
-    solver_.reset();
-    return waits ? memory_ : std::vector<double>();
-  }
-  std::vector<double> memory = solver_->memory();
-  solver_->recall(memory);
-  return memory;
-}
-
-void ElasticDeformation::take_over(const Body& body, const std::vector<double>& memory) {
-  memory_ = memory;
-  made_for_ = revisions_of(body);
-  positions_ = positions_of(body);
-}
-
 void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   const Revisions revisions = revisions_of(body);
   const std::uint64_t positions = positions_of(body);
@@ -183,11 +164,9 @@ void ElasticDeformation::prepare(const Body& body, const Progress& progress) {
   solver_ = make_elastic(
       method_, {body.mesh_pointer(), body.cuts(), {body.pins().begin(), body.pins().end()}, pinned_, body.elastic()},
       progress);
-  const bool remembers = !memory_.empty() && made_for_ == revisions && positions_ == positions;
   made_for_ = revisions;
   positions_ = positions;
-  const std::vector<double> memory = std::exchange(memory_, {});
-  remembers ? solver_->recall(memory) : take_positions(body);
+  take_positions(body);
 }
 
 void ElasticDeformation::take_positions(const Body& body) {

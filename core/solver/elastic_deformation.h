@@ -18,8 +18,6 @@ class ElasticDeformation final : public Method {
   std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
   std::span<const double> control_points(Body& body, const Progress& progress) override;
   PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
-  std::vector<double> hand_over(const Body& body) override;
-  void take_over(const Body& body, const std::vector<double>& memory) override;
 
  private:
   static Revisions revisions_of(const Body& body);
@@ -36,7 +34,6 @@ class ElasticDeformation final : public Method {
   Revisions made_for_;
   std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
   std::vector<double> pinned_;   // displacements of the pins that it was made for
-  std::vector<double> memory_;   // that the solver needs when it is made, if the body is then as it was
 
   /// What the solver holds.
   struct Grab {

@@ -63,26 +63,6 @@ PassCount Solver::run(Pass pass) {
   }
 }
 
-SolverMemory Solver::hand_over() {
-  equilibrium_is_handed_over_ = true;
-  return {scheme_,
-          threads_,
-          moved_,
-          relaxation_.hand_over(body_),
-          awake_at_ == body_.revisions().positions,
-          method_ ? method_->hand_over(body_) : std::vector<double>()};
-}
-
-void Solver::take_over(const SolverMemory& memory) {
-  check(memory, body_);
-  method().take_over(body_, memory.method);  // first: it may throw
-  set_relaxation(memory.relaxation);
-  threads_ = memory.threads;
-  moved_ = memory.moved;
-  relaxation_.take_over(body_, memory.pending);
-  awake_at_ = memory.is_awake ? std::optional(body_.revisions().positions) : std::nullopt;
-}
-
 PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
   check_free(body_, handle.elements());
   if (body_.region_axes().is_turned()) {
@@ -197,9 +177,6 @@ RelaxationResult Solver::solve(double tolerance, int max_iterations, std::span<c
 template <class Solve>
 RelaxationResult Solver::equilibrate(Solve solve) {
   try {
-    if (std::exchange(equilibrium_is_handed_over_, false)) {
-      equilibrium_.reset();
-    }
     if (!equilibrium_) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
     }
@@ -227,17 +204,6 @@ std::span<const ElementId> Solver::relaxed() const {
 
 std::optional<EquilibriumCertificate> Solver::certificate() {
   return equilibrium_ ? equilibrium_->certificate(body_) : std::nullopt;
-}
-
-void check(const SolverMemory& memory, const Body& body) {
-  for (const auto* elements : {&memory.moved, &memory.pending.now, &memory.pending.next}) {
-    std::ranges::for_each(*elements, [&](ElementId element) { check_element(body.mesh(), element); });
-  }
-  const double limit = position_limit(body.precision());
-  const auto fits = [limit](double one) { return std::abs(one) <= limit; };
-  if (memory.threads < 1 || !fits(memory.pending.largest_step) || !std::ranges::all_of(memory.method, fits)) {
-    throw Error("memory of the solver", "a number is out of its range", "use one that a solver handed over");
-  }
 }
 
 std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {

@@ -17,20 +17,6 @@
 
 namespace chainmail {
 
-/// What another solver needs, besides a copy of the body, in order to continue as the one that handed it over. What the
-/// scheme `equilibrium` keeps is not part of it: both find it again.
-struct SolverMemory {
-  RelaxationScheme relaxation = RelaxationScheme::mean;
-  int threads = 1;
-  std::vector<ElementId> moved;  // by the last pass
-  Relaxation::Pending pending;
-  bool is_awake = false;       // the scheme `equilibrium` relaxes
-  std::vector<double> method;  // see Method::hand_over
-};
-
-/// Throws Error if an element does not exist or a number is out of its range.
-void check(const SolverMemory& memory, const Body& body);
-
 /// True if a body stores displacements from rest for an algorithm: for some always, and for all in single precision if
 /// the object lies far from the origin, where positions are too coarse.
 bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
@@ -53,12 +39,6 @@ class Solver {
   /// Sets the number of threads that a pass or an iteration may use, at least 1, which is the default. A pass gets
   /// fewer while other passes run. No result depends on it.
   void set_threads(int threads) { threads_ = threads; }
-
-  /// Returns what a solver with the same algorithm and a copy of the body needs in order to continue as this one does,
-  /// bit for bit. Moves nothing. This one drops what only it would have.
-  SolverMemory hand_over();
-  /// Continues as the solver that handed this over. Throws Error if it does not fit the body.
-  void take_over(const SolverMemory& memory);
 
   /// Moves a handle to a target and propagates: one pass. The handle gets the pose that was reached. `trace`, if given,
   /// receives every processed candidate. Throws Error if an element of the handle is pinned, if the target is not a
@@ -122,7 +102,6 @@ class Solver {
   RelaxationScheme scheme_ = RelaxationScheme::mean;
   Relaxation relaxation_;                           // the schemes that sweep
   std::unique_ptr<EquilibriumSolver> equilibrium_;  // made by the first iteration
-  bool equilibrium_is_handed_over_ = false;         // so the next iteration makes it anew
   /// Revision of the positions when the object was last woken; none: the scheme `equilibrium` sleeps.
   std::optional<std::uint64_t> awake_at_;
   Progress progress_;

@@ -1,7 +1,5 @@
 """Arrays that Python passes: shapes, types of numbers, values."""
 
-import pickle
-
 import chainmail
 import numpy as np
 import pytest
@@ -38,14 +36,6 @@ def test_lists_are_arrays():
     mesh = chainmail.make_mesh(SQUARE.tolist(), RING.tolist(), triangles=[(0, 1, 2)])
     assert mesh.triangles.tolist() == [[0, 1, 2]]
     assert mesh.link_count == 5  # the diagonal is an edge of the triangle
-
-
-def test_cells():
-    cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
-    tetra = chainmail.make_mesh(cube[[0, 1, 2, 4]], tetrahedra=[[0, 1, 2, 3]])
-    assert (tetra.link_count, tetra.object_dimension, tetra.tetrahedra.shape) == (6, 3, (1, 4))
-    hexa = chainmail.make_mesh(cube, hexahedra=[[0, 1, 3, 2, 4, 5, 7, 6]])
-    assert (hexa.link_count, hexa.hexahedra.shape) == (12, (1, 8))
 
 
 BAD_MESHES = {
@@ -267,38 +257,3 @@ def test_targets_are_any_vectors(target):
     deformer = chainmail.Deformer(chainmail.make_grid(3, 2))
     deformer.move(np.int32(0), target)
     assert deformer.body.position(0) == (1, 2, 0)
-
-
-@pytest.mark.parametrize("make", [chainmail.make_tetra, chainmail.make_block])
-def test_a_pickled_mesh_is_the_same(make):
-    mesh = make(4, 3, 3, spacing=0.3)
-    again = pickle.loads(pickle.dumps(mesh))
-    assert again != mesh and mesh == mesh
-    assert np.array_equal(again.rest_positions(), mesh.rest_positions())
-    assert np.array_equal(again.links, mesh.links)
-    assert np.array_equal(again.tetrahedra, mesh.tetrahedra)
-    assert (again.lattice, again.is_grid, again.axes) == (mesh.lattice, mesh.is_grid, mesh.axes)
-    one, other = (chainmail.deform(each, 0, (-2, -1, -3)) for each in (mesh, again))
-    assert np.array_equal(one, other)
-
-
-def test_a_pickled_mesh_keeps_the_order_of_neighbours(tmp_path):
-    file = tmp_path / "3x1.dat"
-    file.write_text("0 1 1\n1 2 2 0\n2 1 1\n")
-    mesh = chainmail.read_mesh(file)
-    assert mesh.neighbours(1).tolist() == [2, 0]
-    assert pickle.loads(pickle.dumps(mesh)).neighbours(1).tolist() == [2, 0]
-
-
-def test_values_are_pickled():
-    for value in (
-        chainmail.LinkSoftness(stretch=1.5),
-        chainmail.Rotation((0, 0, 1), 30),
-    ):
-        assert pickle.loads(pickle.dumps(value)) == value
-    drag = chainmail.Drag("d", [1, 2], [(1, 2, 3), ((1, 0, 0), chainmail.Rotation((1, 0, 0), 9))])
-    drag = pickle.loads(pickle.dumps(drag))
-    assert (drag.name, drag.elements.tolist(), drag.path[0]) == ("d", [1, 2], (1, 2, 3))
-    assert drag.path[1] == ((1, 0, 0), chainmail.Rotation((1, 0, 0), 9))
-    error = pickle.loads(pickle.dumps(chainmail.Error("a", "b", "c")))
-    assert (str(error), error.where, error.problem, error.remedy) == ("a: b; c", "a", "b", "c")

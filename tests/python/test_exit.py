@@ -9,10 +9,12 @@ PROGRAM = """
 import sys, threading
 import chainmail
 
+
 def motions():
     while True:
         begun.set()
         yield (1, 0)
+
 
 def moves():
     deformer = chainmail.Deformer(chainmail.make_cloth(150, 150))
@@ -20,11 +22,13 @@ def moves():
         begun.set()
         deformer.move(0, (-5, -3))
 
+
 def positions():
     body = chainmail.Body(chainmail.make_cloth(150, 150))
     while True:
         begun.set()
         body.set_positions(body.positions())
+
 
 def prepares():
     deformer = chainmail.Deformer(chainmail.make_tetra(16, 16, 16), "neo-hookean")
@@ -32,8 +36,10 @@ def prepares():
     begun.set()
     deformer.move(4095, (16, 15, 15))
 
+
 def compares():
     chainmail.compare(chainmail.Body(chainmail.make_cloth(20, 20)), repetitions=10**6, progress=lambda _: begun.set())
+
 
 def drags():
     while True:

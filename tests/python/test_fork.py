@@ -10,11 +10,13 @@ import os, sys
 import chainmail
 import numpy as np
 
+
 def drag(x):
     deformer = chainmail.Deformer(mesh, "exact")
     deformer.set_threads(4)
     deformer.move(0, (x, -200))
     return deformer.body.positions()
+
 
 def threads():
     return len(os.listdir("/proc/self/task"))
@@ -24,8 +26,10 @@ alone = threads()
 expected = drag(-300)
 started = threads() > alone
 
+
 def same():
     return np.array_equal(drag(-300), expected)
+
 
 def fork_and(work):
     child = os.fork()

@@ -97,7 +97,7 @@ def test_a_damaged_mesh_is_refused(bad):
 
 @pytest.mark.parametrize("name", [5, "\udc80", b"rest", None])
 def test_a_part_without_a_name_is_refused(name):
-    with pytest.raises(chainmail.Error, match="state of a Mesh: the name of a part is not a text"):
+    with pytest.raises(chainmail.Error, match="state of a mesh: one of its parts is damaged"):
         made(MESH, {**MESH.__getstate__(), name: 3})
 
 
@@ -105,127 +105,6 @@ def test_an_untouched_state_is_taken():
     again = chainmail.Mesh.__new__(chainmail.Mesh)
     again.__setstate__(MESH.__getstate__())
     assert np.array_equal(again.links, MESH.links)
-
-
-@pytest.mark.parametrize("state", [None, 5, (), [], {}, {"rest": []}, "rest"])
-def test_states_that_are_none(state):
-    deformer = chainmail.Deformer(MESH)
-    for one in (MESH, deformer, deformer.body, deformer.grab(0), deformer.body.snapshot()):
-        with pytest.raises(chainmail.Error, match="state of a"):
-            made(one, state)
-    for one in (chainmail.LinkSoftness(), chainmail.Rotation((0, 0, 1), 3), chainmail.Elasticity()):
-        with pytest.raises((TypeError, ValueError, IndexError, RuntimeError)):
-            made(one, state)
-
-
-BAD_BODIES = {
-    "a cut that does not exist": dict(cuts=[10**6]),
-    "a pin that does not exist": dict(pins=[27]),
-    "a negative pin": dict(pins=[-1]),
-    "no such precision": dict(precision="half"),
-    "no such energy": dict(energy="thermal"),
-    "no such axes": dict(axes="crooked"),
-    "axes that are no number": dict(axes="given", turned_by=(np.nan, 0, 0)),
-    "softness out of range": dict(softness=[0.8, 0.5, 0.1, 1, 1, -1]),
-    "softness of an older kind": dict(softness=[0.8, 1.2, 0.1]),
-    "softness of no link": dict(own_links=[10**6], own_softness=[0.8, 1.2, 0.1, 1, 1, -1]),
-    "half a softness": dict(own_links=[0], own_softness=[0.8, 1.2]),
-    "own softness out of range": dict(own_links=[0], own_softness=[0.8, 0.2, 0.1, 1, 1, -1]),
-    "elasticity out of range": dict(poisson=7),
-    "control points along two axes": dict(control_points=[4, 4]),
-    "iterations without end": dict(iterations=2**32),
-    "positions of nothing": dict(runs=[0, 28], held=np.zeros(84)),
-    "runs that descend": dict(runs=[5, 3], held=[]),
-    "half a run": dict(runs=[5], held=[]),
-    "a position that is no number": dict(runs=[0, 1], held=[np.nan, 0, 0]),
-    "too few positions": dict(runs=[0, 2], held=[0, 0, 0]),
-    "a reach that is no number": dict(reach=(np.nan, 0)),
-    "a handle that does not exist": dict(handle=[27]),
-    "a handle in disorder": dict(handle=[2, 1]),
-    "no mesh": dict(mesh=None),
-    "another mesh": dict(mesh=7, precision="double"),
-}
-
-
-@pytest.mark.parametrize("bad", BAD_BODIES)
-def test_a_damaged_body_is_refused(bad):
-    body = chainmail.Body(MESH)
-    with pytest.raises(chainmail.Error):
-        made(body, state_of(body, **BAD_BODIES[bad]))
-
-
-BAD_DEFORMERS = {
-    "no body": dict(body=None),
-    "another body": dict(body=3),
-    "no such method": dict(method="magic"),
-    "a method that does not work on the mesh": dict(method="3d"),
-    "no such scheme": dict(scheme="wild"),
-    "no thread": dict(threads=0),
-    "threads without end": dict(threads=2**70),
-    "an element that does not exist": dict(moved=[27]),
-    "a visit of none": dict(relaxes_next=[27], in_sweep=True),
-    "a visit of none in this sweep": dict(relaxes_now=[2**31]),
-    "a step that is no number": dict(largest_step=np.nan),
-    "half a trace": dict(trace=[0, 1]),
-    "a trace of nobody": dict(trace=[-5, 2, 1]),
-    "a trace of an element that does not exist": dict(trace=[27, 0, 1]),
-    "a sponsor that does not exist": dict(trace=[0, 27, 1]),
-    "a memory of no number": dict(memory=[np.nan]),
-}
-
-
-@pytest.mark.parametrize("bad", BAD_DEFORMERS)
-def test_a_damaged_deformer_is_refused(bad):
-    deformer = chainmail.Deformer(MESH)
-    changes = {"body": chainmail.Body(MESH), **BAD_DEFORMERS[bad]}
-    with pytest.raises(chainmail.Error):
-        made(deformer, state_of(deformer, **changes))
-
-
-def test_a_damaged_deformer_leaves_the_body_as_it_was():
-    body = chainmail.Body(MESH)
-    shown = body.view()
-    again = chainmail.Deformer.__new__(chainmail.Deformer)
-    state = {**chainmail.Deformer(MESH, "generalized").__getstate__(), "body": body, "trace": [0, 1]}
-    with pytest.raises(chainmail.Error, match="trace"):
-        again.__setstate__(state)
-    assert np.array_equal(shown, body.positions())
-    chainmail.Deformer(body, "natural-queue")  # it has no deformer
-
-
-@pytest.mark.parametrize("method", [row["name"] for row in chainmail.methods() if row["family"] == "elastic"])
-def test_a_memory_of_another_size_is_refused(method):
-    deformer = chainmail.Deformer(MESH, method)
-    deformer.body.pin(MESH.side("right"))
-    deformer.move(0, (-0.1, 0, 0))
-    state = state_of(deformer, body=deformer.body.copy())
-    if len(state["memory"]) == 1:
-        return  # a linear method
-    again = chainmail.Deformer.__new__(chainmail.Deformer)
-    again.__setstate__({**state, "memory": b"d" + state["memory"][9:]})
-    with pytest.raises(chainmail.Error, match="memory of the method"):
-        again.move(0, (-0.2, 0, 0))
-
-
-@pytest.mark.parametrize(
-    "bad",
-    [
-        dict(elements=[]),
-        dict(elements=[27], positions=[0, 0, 0]),
-        dict(elements=[1, 0]),
-        dict(elements=[0, 0]),
-        dict(positions=[0, 0]),
-        dict(positions=[0, 0, np.nan, 1, 0, 0]),
-        dict(positions=[0, 0, 0]),
-        dict(pivot=(np.inf, 0, 0)),
-        dict(rotation=(0, np.nan, 0)),
-        dict(mesh=5),
-    ],
-)
-def test_a_damaged_handle_is_refused(bad):
-    handle = chainmail.Handle(chainmail.Body(MESH), [0, 1])
-    with pytest.raises(chainmail.Error):
-        made(handle, state_of(handle, **bad))
 
 
 def test_objects_that_no_constructor_has_seen():

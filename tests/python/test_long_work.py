@@ -91,6 +91,7 @@ deformer.body.pin(deformer.body.mesh.side("left"))
 job = chainmail.Job()
 deformer.set_job(job)
 
+
 def interrupt():
     while job.share == 0:  # until the preparation has begun
         pass
@@ -121,6 +122,7 @@ deformer = chainmail.Deformer(chainmail.make_tetra(20, 20, 20))
 deformer.move(0, (-5, -5, -5))
 job = chainmail.Job()
 deformer.set_job(job)
+
 
 def interrupt():
     while job.share == 0:  # until the first sweep has ended

@@ -6,9 +6,10 @@ import sys
 import pytest
 
 PROGRAM = """
-import copy, pickle, resource, sys
+import pickle, resource, sys
 import chainmail
 import numpy as np
+
 
 def attempt(work):
     try:
@@ -33,8 +34,8 @@ for make in (lambda: chainmail.make_cloth(80, 80), lambda: chainmail.make_tetra(
         attempt(lambda: deformer.relax(1, scheme="equilibrium"))
         attempt(lambda: chainmail.violation(deformer.body))
         attempt(lambda: deformer.body.set_link_softness(stretch=np.linspace(1, 2, mesh.link_count)))
-        attempt(lambda: pickle.loads(pickle.dumps(deformer)))
-        attempt(lambda: copy.deepcopy(deformer).body.positions())
+        attempt(lambda: pickle.loads(pickle.dumps(mesh)))
+        attempt(lambda: deformer.body.copy().positions())
 print("alive")
 """
 

@@ -190,11 +190,8 @@ void ApiLifeTest::it_goes_on_as_a_new_one() {
     if (step % 8 == 0) {
       lived.relax(2);  // alone, because the elements that wait for relaxation are not part of a body
     }
-    cm::Deformer fresh(step % 2 == 0 ? lived.body() : cm::load_body(mesh, cm::save(lived.body())), lived.method());
+    cm::Deformer fresh(lived.body(), lived.method());
     std::optional<cm::Handle> again = handle;
-    if (handle && step % 3 == 0) {
-      again = cm::load_handle(mesh, cm::save(*handle));
-    }
     const double tolerance = tolerance_of(lived.method());
     const Action action = actions.draw();
     const std::string said = outcome_of(action, lived, handle), repeated = outcome_of(action, fresh, again);

@@ -1,7 +1,6 @@
 #include <QtTest>
 #include <algorithm>
 
-#include "api/body_state.h"
 #include "core/api/api_support.h"
 #include "program.h"
 
@@ -92,7 +91,6 @@ class ApiMethodsTest : public QObject {
   void an_own_method_that_throws_moves_nothing();
   void an_own_method_cannot_move_what_is_fixed();
   void bad_registrations_are_refused();
-  void an_own_method_is_not_handed_over();
 };
 
 void ApiMethodsTest::an_own_method_is_listed_and_moves() {
@@ -218,23 +216,6 @@ void ApiMethodsTest::an_own_method_cannot_move_what_is_fixed() {
     QCOMPARE(body.mesh().element_count(), 9u);
   };
   deformer.move(0, {-1, 0, 0});
-}
-
-/// Its state is not known, so nothing may pretend to continue as it would.
-void ApiMethodsTest::an_own_method_is_not_handed_over() {
-  register_own_methods();
-  cm::Deformer deformer(cm::make_cloth(7, 7), "own-queue");
-  deformer.move(1, {-2, -1, 0});
-  const std::string text = refusal_of([&] { cm::hand_over(deformer); });
-  QVERIFY2(has(text, "method 'own-queue': a program has registered it"), text.c_str());
-  deformer.set_method("natural-queue");
-  cm::Deformer other(deformer.body(), "natural-queue");
-  cm::take_over(other, cm::hand_over(deformer));
-  for (cm::Deformer* each : {&deformer, &other}) {
-    each->move(1, {-3, -2, 0});
-    QCOMPARE(each->relax(3), 3);
-  }
-  QVERIFY(same_numbers(other.body().positions(), deformer.body().positions()));
 }
 
 void ApiMethodsTest::bad_registrations_are_refused() {

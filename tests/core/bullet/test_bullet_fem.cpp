@@ -20,7 +20,6 @@ class BulletFemTest : public QObject {
   void small_strains_are_those_of_linear_fem();
   void at_rest_the_forces_of_the_published_energy_balance();
   void the_last_frames_velocity_goes_on();
-  void a_copy_goes_on_as_the_first();
   void a_cancelled_move_moves_nothing();
   void cells_with_cut_links_are_left_out();
   void a_mirrored_object_is_the_mirror_of_the_first();
@@ -133,21 +132,6 @@ void BulletFemTest::the_last_frames_velocity_goes_on() {
   move_by(twice, *mesh, mesh->element_count() - 1, {0, 0.5, 0});
   move_by(fresh, *mesh, mesh->element_count() - 1, {0, 0.5, 0});
   QVERIFY(same_bits(positions_of(twice, *mesh), positions_of(fresh, *mesh)));
-}
-
-void BulletFemTest::a_copy_goes_on_as_the_first() {
-  const MeshPointer mesh = bar();
-  const ElementId last = mesh->element_count() - 1;
-  Solver solver = solver_of(mesh, bullet_fem_number(), 1);
-  move_by(solver, *mesh, last, {0.2, 1, 0});
-  const SolverMemory memory = solver.hand_over();
-  Solver copy = solver_of(mesh, bullet_fem_number(), 1);
-  copy.body().set_positions(positions_of(solver, *mesh));
-  copy.take_over(memory);
-  for (Solver* one : {&solver, &copy}) {
-    one->move(last, mesh->rest_position(last) + Point(0.4, 1, 0));
-  }
-  QVERIFY(same_bits(positions_of(solver, *mesh), positions_of(copy, *mesh)));
 }
 
 void BulletFemTest::a_cancelled_move_moves_nothing() {
