@@ -19,14 +19,9 @@ class CompareCommandTest : public QObject {
   }
   void writes_the_report();
   void options_are_taken();
-  void the_equilibrium_is_compared();
-  void methods_of_elasticity_take_part();
-  void recorded_moves_are_carried_out();
   void the_page_names_the_command();
-  void prints_the_main_table();
   void replaces_an_older_report();
   void plots_of_an_older_report_are_named();
-  void the_default_set_is_compared();
   void wrong_usage_data();
   void wrong_usage();
   void folders_that_cannot_be_are_refused();
@@ -90,69 +85,12 @@ void CompareCommandTest::options_are_taken() {
   QVERIFY(soft < stiff);
 }
 
-/// Only Exact and Natural Queue also take part with relaxation to the equilibrium.
-void CompareCommandTest::the_equilibrium_is_compared() {
-  const auto outcome = program_->run(
-      "compare cloth.obj --algorithms exact,spiral,natural-queue --relax 5,equilibrium --repetitions 1 -o out");
-  QVERIFY2(outcome.code == 0, outcome.error);
-  const auto entries = report()["objects"][0]["drags"][0]["contestants"].toArray();
-  QCOMPARE(entries.size(), 5);
-  for (int i = 0; i < 5; ++i) {
-    QCOMPARE(entries[i]["equilibrium"].toBool(), i == 1 || i == 4);
-    QCOMPARE(entries[i]["sweeps"].toInt(), i == 1 || i == 4 ? 0 : 5);
-  }
-  QVERIFY(entries[1]["violation"]["fraction"].toDouble(1) == 0);
-  QVERIFY(entries[4]["violation"]["fraction"].toDouble(1) == 0);  // unlike Natural Queue alone
-  QVERIFY(outcome.out.contains("\n  Exact + equilibrium ") && outcome.out.contains("\n  Natural Queue + equilibrium "));
-  const auto csv = program_->read("out/report.csv");
-  const auto column = csv.left(csv.indexOf('\n')).split(',').indexOf("equilibrium");
-  QVERIFY(column > 0 && rows_of(csv)[0][column] == "0" && rows_of(csv)[1][column] == "1");
-  QVERIFY(program_->read("out/report.html").contains("eq.: relaxed to the equilibrium"));
-}
-
-void CompareCommandTest::methods_of_elasticity_take_part() {
-  const auto outcome =
-      program_->run("compare cloth.obj --pins left --algorithms exact,fem,xpbd,bem --relax 0,3 --repetitions 1 -o out");
-  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  const auto entries = report()["objects"][0]["drags"][0]["contestants"].toArray();
-  QCOMPARE(entries.size(), 5);  // sweeps follow Exact only
-  QVERIFY(entries[2]["algorithm"].toString() == "fem" && entries[2]["distance_to_exact"]["rms"].toDouble() > 0.01);
-  QVERIFY(entries[3]["algorithm"].toString() == "xpbd" && entries[3]["refusal"].isUndefined());
-  QVERIFY(entries[4]["refusal"].toString().contains("closed surfaces"));
-  // Without pins they have no answer, which the report says; XPBD that does not converge has no figures either.
-  QCOMPARE(program_->run("compare cloth.obj --algorithms fem --repetitions 1 -o out").code, 0);
-  QVERIFY(report()["objects"][0]["drags"][0]["contestants"][0]["refusal"].toString().contains("pin"));
-  QCOMPARE(program_->run("compare cloth.obj --pins left --algorithms xpbd --iterations 1 --repetitions 1 -o out").code,
-           0);
-  QVERIFY(
-      report()["objects"][0]["drags"][0]["contestants"][0]["refusal"].toString().contains("it did not converge in 1"));
-}
-
-void CompareCommandTest::recorded_moves_are_carried_out() {
-  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "pin", "elements": [0]},
-    {"do": "grab", "element": 29}, {"do": "drag", "target": [6, 5, 0]}, {"do": "drag", "target": [4, 3, 0]}]})");
-  const auto outcome = program_->run("compare grid.dat --moves moves.json --relax 0,200" + QByteArray(short_run));
-  QVERIFY2(outcome.code == 0, outcome.error);
-  const auto drags = report()["objects"][0]["drags"].toArray();
-  QCOMPARE(drags.size(), 1);
-  QCOMPARE(drags[0]["name"].toString(), QString("recorded"));
-  QCOMPARE(drags[0]["moves"].toInt(), 2);
-}
-
 void CompareCommandTest::the_page_names_the_command() {
   const auto outcome =
       program_->run(QStringList{"compare", "grid.dat", "--repetitions", "1", "--algorithms", "exact", "-o", "it's"});
   QVERIFY2(outcome.code == 0, outcome.error);
   QCOMPARE(report("it's")["origin"]["command_line"].toString(),
            QString("chainmail compare grid.dat --repetitions 1 --algorithms exact -o 'it'\\''s'"));
-}
-
-void CompareCommandTest::prints_the_main_table() {
-  const auto outcome = program_->run("compare cloth.obj" + QByteArray(short_run));
-  QCOMPARE(outcome.code, 0);
-  QVERIFY(outcome.out.contains("\ncloth.obj: mesh from a file; 30 elements, 69 links\n"));
-  QVERIFY(outcome.out.contains("\n  Natural Queue ChainMail, 10 sweeps  "));
-  QVERIFY(outcome.out.contains("  local  whole body  back and forth  violation"));
 }
 
 void CompareCommandTest::replaces_an_older_report() {
@@ -176,17 +114,6 @@ void CompareCommandTest::plots_of_an_older_report_are_named() {
   QCOMPARE(QString::fromUtf8(outcome.error),
            "chainmail: note: out also has plots of an earlier report: " + plots.join(", ") + "\n");
   QCOMPARE(report_files().size(), 3 + plots.size() + 2);
-}
-
-void CompareCommandTest::the_default_set_is_compared() {
-  const auto outcome = program_->run("compare --algorithms natural-queue --relax 0 --repetitions 1 -o deep/out");
-  QVERIFY2(outcome.code == 0, outcome.error);
-  const auto objects = report("deep/out")["objects"].toArray();
-  QCOMPARE(objects.size(), 6);
-  // Natural Queue ChainMail violates no link of the uncut grid, but it violates links of the sphere.
-  QCOMPARE(objects[0]["drags"][1]["contestants"][0]["violation"]["fraction"].toDouble(-1), 0.0);
-  QCOMPARE(objects[3]["name"].toString(), QString("sphere"));
-  QVERIFY(objects[3]["drags"][1]["contestants"][0]["violation"]["max"].toDouble() > 0.1);
 }
 
 void CompareCommandTest::wrong_usage_data() {

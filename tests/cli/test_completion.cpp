@@ -66,7 +66,6 @@ class CompletionCommandTest : public QObject {
  private slots:
   void completes_data();
   void completes();
-  void zsh_has_plain_descriptions();
   void refused();
 };
 
@@ -106,15 +105,6 @@ void CompletionCommandTest::completes() {
   QVERIFY(process.waitForFinished(60'000));
   const QString answer = QString::fromUtf8(process.readAllStandardOutput());
   QVERIFY2(answer.contains(completed), qPrintable(answer + QString::fromUtf8(process.readAllStandardError())));
-}
-
-/// Only brackets and colons have a meaning in a description, so only they have a backslash.
-void CompletionCommandTest::zsh_has_plain_descriptions() {
-  const Program program;
-  const QString script = QString::fromUtf8(program.run("completion zsh").out);
-  QVERIFY(script.contains("--algorithm"));
-  const auto escaped = QRegularExpression(R"(\\[A-Za-z0-9])").match(script);
-  QVERIFY2(!escaped.hasMatch(), qPrintable(escaped.captured()));
 }
 
 void CompletionCommandTest::refused() {

@@ -18,12 +18,9 @@ class ConvertCommandTest : public QObject {
   void a_mesh_goes_to_another_format();
   void what_was_left_out_is_noted();
   void a_volume_is_taken_as_asked();
-  void a_closed_surface_is_filled();
   void a_surface_is_simplified();
   void a_mesh_is_repaired();
-  void points_within_a_tolerance_are_one();
   void what_a_format_does_not_hold_is_said();
-  void only_the_repairs_asked_for_are_made();
   void cells_have_no_holes();
   void the_file_that_was_read_is_not_replaced_data();
   void the_file_that_was_read_is_not_replaced();
@@ -81,14 +78,6 @@ void ConvertCommandTest::a_volume_is_taken_as_asked() {
   }
 }
 
-void ConvertCommandTest::a_closed_surface_is_filled() {
-  const Program program;
-  program.write("a.off", tetrahedron);
-  const auto outcome = program.run("fill a.off --edge 1 -o a.msh");
-  QVERIFY2(outcome.code == 0, outcome.error);
-  QVERIFY(read_mesh(program.path("a.msh").toStdString())->tetrahedra.size() > 1);
-}
-
 /// 41 elements are left of 81, all 32 at the border among them.
 void ConvertCommandTest::a_surface_is_simplified() {
   const Program program;
@@ -126,15 +115,6 @@ void ConvertCommandTest::a_mesh_is_repaired() {
   QCOMPARE(program.json("a.json")["after"].toObject()["elements"].toInt(), 9);
 }
 
-void ConvertCommandTest::points_within_a_tolerance_are_one() {
-  const Program program;
-  program.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.01 0 0\nv 0 1.01 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n");
-  QVERIFY(program.run("info a.obj").out.startsWith("elements          6\n"));
-  QVERIFY(program.run("info a.obj --weld 0.02").out.startsWith("elements          4\n"));
-  QVERIFY(program.run("repair a.obj --weld 0.02 -o b.obj").out.startsWith("repaired  2 duplicate vertices welded\n"));
-  QVERIFY(program.run("repair a.obj --weld -o b.obj").out.startsWith("repaired  nothing\n"));
-}
-
 void ConvertCommandTest::what_a_format_does_not_hold_is_said() {
   const Program program;
   program.write(
@@ -144,22 +124,6 @@ void ConvertCommandTest::what_a_format_does_not_hold_is_said() {
            QByteArray("chainmail: note: Wavefront OBJ has no cells: it gets their outer faces, and the links inside as "
                       "lines\n"));
   QCOMPARE(program.run("convert a.mesh -o a.vtu").error, QByteArray());
-}
-
-void ConvertCommandTest::only_the_repairs_asked_for_are_made() {
-  const Program program;
-  program.write("a.off", broken);
-  QCOMPARE(program.run("repair a.off --loose -o a.obj").out,
-           QByteArray("repaired  1 loose point removed\n"
-                      "left      1 duplicate vertex, 1 hole (4 edges), 1 non-manifold edge\n"));
-  QCOMPARE(program.run("repair a.off --weld --holes -o a.obj").out,
-           QByteArray("repaired  1 duplicate vertex welded, 1 hole closed with 2 triangles\n"
-                      "left      1 loose point, 1 non-manifold edge\n"));
-  QVERIFY(program.run("repair a.off -o a.obj --json -").out.startsWith('{'));
-  QCOMPARE(program.run("generate cloth 20x20 -o cloth.obj").code, 0);
-  QCOMPARE(program.run("repair cloth.obj -o whole.obj").out,
-           QByteArray("repaired  nothing\nopen      1 border: the outline of an open surface\n"));
-  QCOMPARE(read_mesh(program.path("whole.obj").toStdString())->triangles.size(), std::size_t{722});
 }
 
 void ConvertCommandTest::cells_have_no_holes() {

@@ -22,21 +22,15 @@ class DeformCommandTest : public QObject {
     QCOMPARE(program_->run("generate grid 5x4 -o grid.dat").code, 0);
   }
   void a_chain_follows();
-  void every_algorithm_runs_data();
-  void every_algorithm_runs();
   void acts_are_carried_out_in_their_order();
   void a_handle_of_many_moves_and_rotates();
   void coordinates_left_out_stay();
   void coordinates_that_do_not_exist_must_be_0();
   void steps_are_equal_and_end_at_the_target();
-  void relaxation_goes_to_the_equilibrium();
-  void the_equilibrium_is_certified();
   void the_energy_is_that_of_the_material();
   void a_script_is_carried_out_before_the_acts();
   void sweeps_are_interrupted_at_once_data();
   void sweeps_are_interrupted_at_once();
-  void softness_is_taken();
-  void float_rounds_to_float();
   void more_space_may_be_given();
   void acts_that_do_not_fit_are_refused_data();
   void acts_that_do_not_fit_are_refused();
@@ -85,23 +79,6 @@ void DeformCommandTest::a_chain_follows() {
   QVERIFY(std::abs(energy("--energy isotropic --stiffness 3") - isotropic) < 1e-12);
   QVERIFY(std::abs(energy("--energy axial --stiffness 3 --lateral 0.5") - 3 * 1.5 * isotropic) < 1e-12);
   QVERIFY(std::abs(energy("--energy corotated --lateral 0") - isotropic) < 1e-12);
-}
-
-void DeformCommandTest::every_algorithm_runs_data() {
-  QTest::addColumn<QString>("name");
-  for (const chainmail::AlgorithmInfo& one : chainmail::algorithms()) {
-    QTest::addRow("%s", one.name.data()) << QString::fromUtf8(one.name.data(), qsizetype(one.name.size()));
-  }
-}
-
-void DeformCommandTest::every_algorithm_runs() {
-  QFETCH(QString, name);
-  const auto positions = deform("--by 12:7,5 --algorithm " + name.toUtf8(), "grid.dat");
-  QCOMPARE(positions[12], (QList<double>{9, 7, 0}));
-  const auto json = program_->json("out.json");
-  QCOMPARE(json["algorithm"].toString(), name);
-  QCOMPARE(json["passes"][0]["checked"].toInt(), 19);  // far enough that all elements follow
-  QCOMPARE(json["passes"][0]["moved"].toInt(), 19);
 }
 
 void DeformCommandTest::acts_are_carried_out_in_their_order() {
@@ -179,53 +156,6 @@ void DeformCommandTest::steps_are_equal_and_end_at_the_target() {
   QVERIFY(xs("--steps 3 --move 0:0.1")[0] == 0.1);
 }
 
-void DeformCommandTest::relaxation_goes_to_the_equilibrium() {
-  // One sweep visits 1, 2, 3. Each moves to the mean, over its neighbours, of their position minus the rest vector to
-  // them: 1 between 0 at -0.3 and 2 at 2 moves to ((-0.3 + 1) + (2 - 1)) / 2, and so on.
-  const double first = (-0.3 + 1 + 1) / 2;
-  const auto once = xs("--move 0:-0.3 --relax 1");
-  QVERIFY(std::abs(once[1] - first) < 1e-12);
-  QVERIFY(std::abs(once[2] - (first + 1 + 2) / 2) < 1e-12);
-  QVERIFY(std::abs(once[3] - (once[2] + 1)) < 1e-12);
-  // With a step of 0.5, they move half of the way.
-  QVERIFY(std::abs(xs("--move 0:-0.3 --relax 1 --relax-step 0.5")[1] - (0.9 + first) / 2) < 1e-12);
-  // Finally the whole chain has moved by -0.3.
-  const auto at_rest = xs("--move 0:-0.3 --relax 1000 --relaxation mean");
-  QCOMPARE(at_rest[0], -0.3);
-  QVERIFY(std::abs(at_rest[3] - 2.7) < 1e-3);
-}
-
-void DeformCommandTest::the_equilibrium_is_certified() {
-  const QByteArray drag = "--algorithm exact --pin left --by 19:0.08,0.05 ";
-  const auto certificate = [&](const QByteArray& options) {
-    deform(drag + options, "grid.dat");
-    return program_->json("out.json")["equilibrium"].toObject();
-  };
-  QVERIFY(certificate("--relax 50").isEmpty());  // sweeps
-  const auto standard = certificate("--relaxation equilibrium");
-  QCOMPARE(standard.keys(), (QStringList{"energy_gap", "iterations", "regions_bind", "residual", "violation"}));
-  QVERIFY(standard["residual"].toDouble(1) <= 1e-3 && standard["iterations"].toInt() >= 1);
-  QVERIFY(standard["violation"].toDouble(1) < 1e-9);
-  const auto once = certificate("--relaxation equilibrium --relax 1 --relax-until 0");
-  QCOMPARE(once["iterations"].toInt(), 1);
-  const auto exactly = certificate("--relaxation equilibrium --relax-until 1e-8");
-  QVERIFY(exactly["residual"].toDouble(1) <= 1e-8 && exactly["iterations"].toInt() > standard["iterations"].toInt());
-  const auto printed = program_->run("deform " + drag + "--relaxation equilibrium grid.dat");
-  QVERIFY(printed.code == 0 && printed.out.contains("\nequilibrium: residual "));
-  // A script carries it too.
-  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "element": 3},
-    {"do": "drag", "target": [4, 0, 0]},
-    {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 1e-9}]})");
-  // 1 and 2 share the stretch of the drag: no region binds.
-  const auto settled = xs("--script moves.json");
-  QVERIFY(std::abs(settled[0] - 1) < 1e-6 && std::abs(settled[1] - 2) < 1e-6 && settled[3] == 4);
-  program_->write("bad.json",
-                  R"({"version": 1, "commands": [{"do": "relax", "sweeps": 1, "scheme": "link", "until": 0.1}]})");
-  const auto outcome = program_->run("deform --algorithm exact --script bad.json line.dat");
-  QCOMPARE(outcome.code, 2);
-  QVERIFY(is_one_sentence(outcome) && outcome.error.contains("bad.json: command 0: 'until' works only with "));
-}
-
 /// The energy is that of the material, unless something else says that links are meant.
 void DeformCommandTest::the_energy_is_that_of_the_material() {
   QCOMPARE(program_->run("generate tetra 3x3x3 -o block.msh").code, 0);
@@ -279,18 +209,6 @@ void DeformCommandTest::sweeps_are_interrupted_at_once() {
   QVERIFY(process.waitForFinished(2000));
   QCOMPARE(process.exitStatus(), QProcess::CrashExit);  // by the signal, as shells expect
   QCOMPARE(program_->files(), before);
-}
-
-void DeformCommandTest::softness_is_taken() {
-  QCOMPARE(xs("--move 0:-1 --stretch 1 --compression 1"), (QList<double>{-1, 0, 1, 2}));
-  QCOMPARE(xs("--move 0:2 --compression 0"), (QList<double>{2, 2, 2, 3}));
-  const auto positions = deform("--algorithm spiral --space 2 --shear 0 --move 0:0,1");
-  QCOMPARE(positions[3], (QList<double>{3, 1, 0}));
-}
-
-void DeformCommandTest::float_rounds_to_float() {
-  QVERIFY(xs("--move 0:-0.1 --precision float")[0] == double(-0.1F));
-  QVERIFY(xs("--move 0:-0.1 --precision double")[0] == -0.1);
 }
 
 void DeformCommandTest::more_space_may_be_given() {

@@ -16,16 +16,8 @@ class DeformModelTest : public QObject {
     program_ = std::make_unique<Program>();
     QCOMPARE(program_->run("generate line 4 -o line.dat").code, 0);
   }
-  void every_algorithm_runs_data();
-  void every_algorithm_runs();
   void an_alias_writes_the_same();
-  void original_takes_grids_alone();
-  void the_trace_of_exact_names_who_binds();
-  void pinned_elements_stay();
-  void pins_act_in_their_order();
   void a_hand_that_pins_stop();
-  void links_have_softness_of_their_own();
-  void relaxation_by_links();
   void regions_lie_along_a_frame();
   void what_does_not_fit_is_refused_data();
   void what_does_not_fit_is_refused();
@@ -52,55 +44,9 @@ class DeformModelTest : public QObject {
   std::unique_ptr<Program> program_;
 };
 
-void DeformModelTest::every_algorithm_runs_data() {
-  QTest::addColumn<QString>("name");
-  for (const chainmail::AlgorithmInfo& one : chainmail::algorithms()) {
-    QTest::addRow("%s", one.name.data()) << QString::fromUtf8(one.name.data(), qsizetype(one.name.size()));
-  }
-}
-
-void DeformModelTest::every_algorithm_runs() {
-  QFETCH(QString, name);
-  // On a chain all orders give the same result.
-  QVERIFY(close(xs("--move 0:-1 --algorithm " + name.toUtf8()), {-1, 0.2, 1.4, 2.6}));
-  const auto json = program_->json("out.json");
-  QCOMPARE(json["algorithm"].toString(), name);
-  QCOMPARE(json["passes"][0]["checked"].toInt(), 3);
-  QCOMPARE(json["passes"][0]["moved"].toInt(), 3);
-}
-
 void DeformModelTest::an_alias_writes_the_same() {
   QVERIFY(close(xs("--move 0:-1 --algorithm 3d"), {-1, 0.2, 1.4, 2.6}));
   QCOMPARE(program_->json("out.json")["algorithm"].toString(), QString("original"));  // the name that scripts expect
-}
-
-void DeformModelTest::original_takes_grids_alone() {
-  QCOMPARE(program_->run("generate cloth 3x3 -o cloth.obj").code, 0);
-  const auto outcome = program_->run("deform cloth.obj --algorithm original --by 0:1 --json a.json");
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(
-      is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --algorithm original: it works only on grids"),
-      outcome.error);
-  QVERIFY(!program_->files().contains("a.json"));
-}
-
-void DeformModelTest::the_trace_of_exact_names_who_binds() {
-  QCOMPARE(program_->run("deform line.dat --algorithm exact --move 0:-1 --trace a.csv").code, 0);
-  QCOMPARE(program_->read("a.csv"), QByteArray("pass,order,element,sponsor,moved\n0,0,1,0,1\n0,1,2,1,1\n0,2,3,2,1\n"));
-}
-
-void DeformModelTest::pinned_elements_stay() {
-  // 1 stays, so the pass ends at 1.
-  QCOMPARE(xs("--algorithm natural-queue --pin 1 --move 0:-5"), (QList<double>{-5, 1, 2, 3}));
-  const auto json = program_->json("out.json");
-  QCOMPARE(json["passes"][0]["moved"].toInt(), 0);
-  // Relaxation moves the element between both to their middle.
-  QVERIFY(close(xs("--algorithm natural-queue --pin 2 --move 0:-0.3 --relax 100 --pin 3"), {-0.3, 0.85, 2, 3}));
-}
-
-void DeformModelTest::pins_act_in_their_order() {
-  QVERIFY(close(xs("--algorithm spiral --move 0:-1 --pin 1 --move 0:0.9"), {0.9, 0.2, 1.4, 2.6}));
-  QVERIFY(close(xs("--algorithm spiral --pin 1 --move 0:-1 --move 0:0.9"), {0.9, 1, 2, 3}));
 }
 
 void DeformModelTest::a_hand_that_pins_stop() {
@@ -113,21 +59,6 @@ void DeformModelTest::a_hand_that_pins_stop() {
   QVERIFY2(outcome.error.startsWith("chainmail: note: 1 of 2 passes stopped before the target; the last at ("),
            outcome.error);
   QVERIFY(close(xs("--algorithm exact --pin 3 --move 0:-1"), {-0.6, 0.6, 1.8, 3}));
-}
-
-void DeformModelTest::links_have_softness_of_their_own() {
-  program_->write("a.csv", "a,b,compression,stretch,shear\n2,1,1,1,0\n");
-  QVERIFY(close(xs("--algorithm natural-queue --softness a.csv --move 0:-1"), {-1, 0.2, 1.2, 2.4}));
-  const auto json = program_->json("out.json");
-  QVERIFY(json["violation"]["max"].toDouble() < 1e-14);
-  QVERIFY(close(xs("--algorithm exact --softness a.csv --stretch 1.5 --move 0:-1"), {-1, 0.5, 1.5, 3}));
-}
-
-void DeformModelTest::relaxation_by_links() {
-  // 0 is held at -0.1. Of its link, 1.1 long, 1 takes its half of the 0.1: 0.95. The next link, then 1.05
-  // long, shares 0.05 between its ends: 0.975 and 1.975; the last, 1.025 long, 0.025.
-  QVERIFY(
-      close(xs("--algorithm natural-queue --move 0:-0.1 --relax 1 --relaxation link"), {-0.1, 0.975, 1.9875, 2.9875}));
 }
 
 void DeformModelTest::regions_lie_along_a_frame() {

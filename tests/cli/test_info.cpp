@@ -15,7 +15,6 @@ class InfoCommandTest : public QObject {
   void size_and_spacing_come_first();
   void an_option_that_cannot_be_is_named_itself_data();
   void an_option_that_cannot_be_is_named_itself();
-  void text_names_the_figures();
   void bad_files_are_refused_data();
   void bad_files_are_refused();
 };
@@ -94,14 +93,6 @@ void InfoCommandTest::an_option_that_cannot_be_is_named_itself() {
                 "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
                 "LOCAL\n\x0a\x14\x1e\x28");
   check_refused(program, qPrintable("info " + arguments), where);
-}
-
-void InfoCommandTest::text_names_the_figures() {
-  const Program program;
-  program.write("2x1.dat", "0 1 1\n1 1 0\n");
-  const auto outcome = program.run("info 2x1.dat");
-  QCOMPARE(outcome.code, 0);
-  QVERIFY(QRegularExpression("elements +2\n.*links +1\n").match(outcome.out).hasMatch());
 }
 
 void InfoCommandTest::bad_files_are_refused_data() {

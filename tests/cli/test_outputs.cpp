@@ -23,7 +23,6 @@ class OutputsCommandTest : public QObject {
   void positions_read_back_bit_for_bit();
   void deformed_obj_holds_links_and_cuts();
   void a_dash_is_standard_output();
-  void without_outputs_there_is_a_summary();
   void one_failing_output_leaves_all();
   void what_was_read_is_not_replaced();
   void the_place_where_pins_stop_the_hand_is_told();
@@ -154,14 +153,6 @@ void OutputsCommandTest::a_dash_is_standard_output() {
   const auto twice = program_->run("deform cloth.obj --algorithm spiral --json - --trace -");
   QCOMPARE(twice.code, 2);
   QVERIFY2(is_one_sentence(twice), twice.error);
-}
-
-void OutputsCommandTest::without_outputs_there_is_a_summary() {
-  const auto outcome = program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --steps 2");
-  QCOMPARE(outcome.code, 0);
-  QVERIFY(outcome.error.isEmpty());
-  QVERIFY(outcome.out.startsWith("spiral on 30 elements, 69 links\npass 0: element 14 to (3, 2.5, 0), "));
-  QVERIFY(outcome.out.contains("\npass 1: element 14 to (4, 3, 0), ") && outcome.out.contains("\nviolation: max "));
 }
 
 void OutputsCommandTest::one_failing_output_leaves_all() {

@@ -19,11 +19,8 @@ class PhysicsCommandTest : public QObject {
     QCOMPARE(program_->run("generate cloth 5x5 -o cloth.obj").code, 0);
   }
   void the_report_is_written();
-  void every_material_has_its_own_objects();
-  void a_refined_reference_tells_its_levels();
   void nothing_pins_it();
   void calibrates_and_saves_a_preset();
-  void a_preset_is_compared();
   void wrong_usage_data();
   void wrong_usage();
 
@@ -96,56 +93,6 @@ void PhysicsCommandTest::the_report_is_written() {
   QVERIFY(!plain.out.contains("calibrated"));
 }
 
-void PhysicsCommandTest::every_material_has_its_own_objects() {
-  const auto outcome = program_->run(
-      "compare cloth.obj --pins top --calibrated off --material neo-hookean,gent,fung "
-      "--gent-limit 3 --fung-exponent 0.25" +
-      QByteArray(short_run));
-  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  const auto objects = report()["objects"].toArray();
-  QCOMPARE(objects.size(), 3);
-  QCOMPARE(objects[0]["name"].toString(), QString("cloth.obj, neo-Hookean"));
-  QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj, Gent (limit 3)"));
-  QCOMPARE(objects[1]["material"]["law"].toString(), QString("gent"));
-  QCOMPARE(objects[1]["material"]["gent_limit"].toDouble(), 3.0);
-  QCOMPARE(objects[2]["material"]["fung_exponent"].toDouble(), 0.25);
-  // Neo-Hookean FEM meets its own material, and misses the others by the pull.
-  const auto error_of_pull = [&](int object) {
-    const auto contestants = objects[object]["drags"][1]["contestants"].toArray();
-    const auto found = std::ranges::find_if(
-        contestants, [](const QJsonValue& one) { return one["algorithm"].toString() == "neo-hookean"; });
-    return QJsonValue(*found)["error"]["relative"].toDouble(-1);
-  };
-  QVERIFY(error_of_pull(0) < 1e-5);
-  QVERIFY(error_of_pull(1) > 0.01 && error_of_pull(2) > 0.01);
-  QVERIFY(outcome.out.contains("; reference: Gent (limit 3)"));
-}
-
-void PhysicsCommandTest::a_refined_reference_tells_its_levels() {
-  // In a coarser sheet, the handles would be points, for which there is no limit.
-  QCOMPARE(program_->run("generate cloth 13x13 -o sheet.obj").code, 0);
-  const auto outcome =
-      program_->run("compare sheet.obj --pins top --calibrated off --reference refined" + QByteArray(short_run));
-  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  const auto drags = report()["objects"][0]["drags"].toArray();
-  QCOMPARE(drags.size(), 13);
-  for (const QJsonValue drag : drags) {
-    const auto reference = drag["refined_reference"];
-    const auto levels = reference["levels"].toArray();
-    QVERIFY(levels.size() >= 2 && levels[0]["change"].isNull());
-    QVERIFY(reference["converged"].toBool() && levels.last()["change"].toDouble(1) < 0.02);
-    QVERIFY(levels.size() < 3 || reference["order"].toDouble() > 0.3);
-    QVERIFY(std::abs(drag["contestants"][0]["error"]["relative"].toDouble() - 1) < 1e-12);  // nothing moves
-    const auto contestants = drag["contestants"].toArray();
-    const auto fem = std::ranges::find_if(
-        contestants, [](const QJsonValue& one) { return one["algorithm"].toString() == "neo-hookean"; });
-    QVERIFY(QJsonValue(*fem)["error"]["relative"].toDouble() > 1e-3);  // the object's own cells are coarser
-  }
-  QVERIFY(outcome.out.contains("In this report, the reference is on refined cells"));
-  QVERIFY(outcome.out.contains(
-      "; elements of the reference on refined cells (largest change from the level before): 169,"));
-}
-
 void PhysicsCommandTest::nothing_pins_it() {
   for (const char* line : {"compare cloth.obj --against physics -o out", "calibrate cloth.obj"}) {
     const auto outcome = program_->run(line);
@@ -188,25 +135,6 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
   QCOMPARE(program_->read("out.json"), first);
   QCOMPARE(program_->run("calibrate cloth.obj --pins top --seed 9 --drags 2 --evaluations 30 --json out.json").code, 0);
   QVERIFY(program_->read("out.json") != first);
-}
-
-void PhysicsCommandTest::a_preset_is_compared() {
-  program_->write("stiff.json",
-                  R"({"version": 1, "presets": [{"name": "stiff", "compression": 1, "stretch": 1, "shear": 0}]})");
-  const auto moved = [&](const char* softness) {
-    const QByteArray line =
-        "compare cloth.obj --algorithms exact --relax 0 --repetitions 1 -o out " + QByteArray(softness);
-    const auto outcome = program_->run(line);
-    if (outcome.code != 0) {
-      qWarning("%s", outcome.error.constData());
-    }
-    return report()["objects"][0]["drags"][0]["contestants"][0]["moved"].toInt(-1);
-  };
-  QCOMPARE(moved("--preset stiff.json"), 24 * 24);
-  const int soft = moved("--preset Rubber");
-  QVERIFY(soft > 0 && soft < 24 * 24);
-  QCOMPARE(moved("--preset Rubber --compression 1 --stretch 1 --shear 0"),
-           24 * 24);  // single options override the preset
 }
 
 void PhysicsCommandTest::wrong_usage_data() {

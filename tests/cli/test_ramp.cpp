@@ -14,8 +14,6 @@ class RampCommandTest : public QObject {
   void init() { program_ = std::make_unique<Program>(); }
   void a_table_for_people();
   void json_csv_and_a_plot();
-  void the_same_seed_makes_the_same_moves();
-  void a_budget_that_nobody_keeps();
   void wrong_arguments_data();
   void wrong_arguments();
 
@@ -68,27 +66,6 @@ void RampCommandTest::json_csv_and_a_plot() {
 
   QVERIFY(ramp("--algorithms spiral --csv -").out.startsWith("width,elements,"));
   QVERIFY(QJsonDocument::fromJson(ramp("--algorithms spiral --json -").out).isObject());
-}
-
-void RampCommandTest::the_same_seed_makes_the_same_moves() {
-  const auto moved = [&](const char* options) {
-    QList<QByteArray> result;
-    for (const auto& row : rows_of(ramp(options).out)) {
-      result.append(row[7]);
-    }
-    return result;
-  };
-  const auto once = moved("--algorithms exact --csv - --seed 3");
-  QCOMPARE(once.size(), 3);
-  QCOMPARE(moved("--algorithms exact --csv - --seed 3"), once);
-  QVERIFY(moved("--algorithms exact --csv - --seed 4") != once);
-}
-
-void RampCommandTest::a_budget_that_nobody_keeps() {
-  const auto outcome = program_->run("ramp --algorithms spiral,original --budget 1e-12");
-  QCOMPARE(outcome.code, 0);
-  QCOMPARE(outcome.out.count("never"), 2);
-  QVERIFY(!outcome.out.contains("5x5"));
 }
 
 void RampCommandTest::wrong_arguments_data() {

@@ -1,10 +1,8 @@
-#include <QRegularExpression>
 #include <QXmlStreamReader>
 #include <algorithm>
 
 #include "cli/chainmail_program.h"
 #include "cli/json_schemas.h"
-#include "folders.h"
 #include "program.h"
 
 namespace chainmail::test_suite {
@@ -19,7 +17,6 @@ class SuiteCommandTest : public QObject {
   void init() { program_ = std::make_unique<Program>(); }
   void writes_a_report_of_the_schema();
   void the_whole_is_the_sum_of_its_parts();
-  void the_example_of_the_manual_runs();
   void damaged_parts_are_refused_data();
   void damaged_parts_are_refused();
   void wrong_usage_data();
@@ -30,24 +27,9 @@ class SuiteCommandTest : public QObject {
       " --experiments refinement,cantilever --algorithms exact,fem --calibrated off --repetitions 1";
 
   Outcome run(const char* line) const { return program_->run("compare" + QByteArray(line)); }
-  /// Runs a shell in the folder of the program, where `chainmail` is this program.
-  QByteArray shell(const QString& script) const;
 
   std::unique_ptr<Program> program_;
 };
-
-QByteArray SuiteCommandTest::shell(const QString& script) const {
-  QProcess process;
-  process.setWorkingDirectory(program_->path(""));
-  auto environment = QProcessEnvironment::systemEnvironment();
-  const QString folder = QFileInfo(builtFile("bin/chainmail")).path();
-  environment.insert("PATH", folder + ":/usr/bin:/bin");
-  process.setProcessEnvironment(environment);
-  process.setProcessChannelMode(QProcess::MergedChannels);
-  process.start("bash", {"-euc", script});
-  process.waitForFinished(120'000);
-  return process.exitCode() == 0 ? QByteArray() : "failed: " + process.readAll();
-}
 
 void SuiteCommandTest::writes_a_report_of_the_schema() {
   const auto outcome = run((" --suite -o out" + QByteArray(short_run)).constData());
@@ -100,22 +82,6 @@ void SuiteCommandTest::the_whole_is_the_sum_of_its_parts() {
   QCOMPARE(figures("merged"), figures("whole"));
   QCOMPARE(program_->json("merged/report.json")["runs"].toArray().size(), 2);
   QCOMPARE(check_schemas({{"suite", program_->path("merged/report.json")}}).front().fault, QString());
-}
-
-/// The lines for GNU parallel, with two short experiments in two parts.
-void SuiteCommandTest::the_example_of_the_manual_runs() {
-  QFile manual(source_file("resources/manual/suite.md"));
-  QVERIFY(manual.open(QIODevice::ReadOnly));
-  const QString page = QString::fromUtf8(manual.readAll());
-  const auto match =
-      QRegularExpression("\n    (parallel [^\n]+)\n    (chainmail compare --merge [^\n]+)\n").match(page);
-  QVERIFY(match.hasMatch());
-  QString lines = match.captured(1) + "\n" + match.captured(2);
-  lines.replace("parallel ", "parallel --will-cite ").replace("--suite", "--suite" + QString(short_run));
-  lines.replace("/4", "/2").replace("::: 1 2 3 4", "::: 1 2");
-  const QByteArray fault = shell("export HOME=$PWD\n" + lines);
-  QVERIFY2(fault.isEmpty(), fault);
-  QCOMPARE(program_->json("suite/report.json")["experiments"].toArray().size(), 2);
 }
 
 void SuiteCommandTest::damaged_parts_are_refused_data() {

@@ -46,6 +46,8 @@ constexpr std::array modeInfos{
                    "displacement of the handle"},
 };
 
+bool isOfElements(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::physicsError; }
+
 bool isOfSoftness(ColourMode mode) {
   return mode == ColourMode::compression || mode == ColourMode::stretch || mode == ColourMode::shear;
 }
@@ -64,8 +66,6 @@ std::span<const ColourModeInfo> colourModes() { return modeInfos; }
 const ColourModeInfo& info(ColourMode mode) {
   return *std::find_if(modeInfos.begin(), modeInfos.end(), [mode](auto& one) { return one.mode == mode; });
 }
-
-bool isOfElements(ColourMode mode) { return mode == ColourMode::distance || mode == ColourMode::physicsError; }
 
 bool isDiverging(ColourMode mode) { return mode == ColourMode::length || mode == ColourMode::violationDifference; }
 

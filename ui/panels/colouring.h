@@ -39,8 +39,6 @@ std::span<const ColourModeInfo> colourModes();
 const ColourModeInfo& info(ColourMode mode);
 /// True if the values of a panel also depend on another panel's object.
 bool comparesPanels(ColourMode mode);
-/// True if a mode has a value for each element, and not for each link.
-bool isOfElements(ColourMode mode);
 /// True if the middle of a mode's scale is a neutral value, and not its beginning.
 bool isDiverging(ColourMode mode);
 

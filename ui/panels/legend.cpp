@@ -95,10 +95,8 @@ void Legend::follow(const Colouring& colouring, int panel) {
   if (colouring.scale(panel).threshold >= 0) {
     help += QStringLiteral("\nLinks outside the grey range are thicker, and over the others.");
   }
-  if (!isOfElements(colouring.mode())) {
-    help += QStringLiteral(
-        "\nIn space, each corner of a face has the value of the one of its links that is furthest from rest.");
-  }
+  help += QStringLiteral(
+      "\nIn space, each corner of a face has the value of the one of its links that is furthest from rest.");
   setToolTip(help);
   set(colouring.title(panel), colouring.scale(panel));
   fit();

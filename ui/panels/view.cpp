@@ -668,8 +668,8 @@ ObjectDrawing::Paint View::colouredPaint() {
     }
   }
   const ColourValues* values = colouring_.follow(panel_);
-  const bool known = colouring_.mode() == ColourMode::plain || values != nullptr;  // grey until the values are
-  return {known ? QColor(panelColour(document_, panel_)) : QColor(colour_map::neutral), values,
+  const bool plain = colouring_.mode() == ColourMode::plain || values != nullptr;  // else grey until values are known
+  return {plain ? QColor(panelColour(document_, panel_)) : QColor(colour_map::neutral), values,
           colouring_.scale(panel_)};
 }
 

@@ -15,14 +15,8 @@ class PhysicsTableTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void figures_of_a_page_stand_under_their_names();
-  void figures_of_a_terminal_stand_under_their_names();
-  void what_was_not_measured_is_empty();
   void a_refusal_is_one_drag_s();
-  void the_law_of_the_reference_is_named();
-  void growth_stands_under_its_names();
   void who_cannot_take_part_has_one_row();
-  void plots_of_growth_are_named_after_what_they_show();
   void the_file_has_each_number_under_its_name_data();
   void the_file_has_each_number_under_its_name();
 };
@@ -88,57 +82,6 @@ QString field(const std::string& csv, int row, const QString& name) {
 
 }  // namespace
 
-void PhysicsTableTest::figures_of_a_page_stand_under_their_names() {
-  const FigureTable table = physics_table(object(), false);
-  const std::string time = "time: median (quartiles, repetitions), ms";
-  QCOMPARE(cell(table, time, "first"), QString("4 (3.75–4.5, 5)"));
-  QCOMPARE(cell(table, time, "later"), QString("2 (1.75–2.5, 3)"));
-  QCOMPARE(cell(table, time, "after cut"), QString("32 (31.8–32.5, 8)"));
-  const std::string prepare = "prepare: median (quartiles, repetitions), ms";
-  QCOMPARE(cell(table, prepare, "factorize"), QString("8 (7.75–8.5, 6)"));
-  QCOMPARE(cell(table, prepare, "grab"), QString("16 (15.8–16.5, 7)"));
-  QCOMPARE(cell(table, "relative error (ratio)", "pull"), QString("0.11"));
-  QCOMPARE(cell(table, "relative error (ratio)", "cut"), QString("0.31"));
-  QCOMPARE(cell(table, "RMS error (%)", "pull"), QString("12%"));
-  QCOMPARE(cell(table, "largest error (%)", "pull"), QString("13%"));
-  QCOMPARE(cell(table, "RMS, what moves (%)", "pull"), QString("14%"));
-  QCOMPARE(cell(table, "largest, what moves (%)", "pull"), QString("15%"));
-  const std::string shape = "shape: worst of the drags";
-  QCOMPARE(cell(table, shape, "Hausdorff (rest lengths)"), QString("0.21"));
-  QCOMPARE(cell(table, shape, "volume change (%)"), QString("+22"));
-  QCOMPARE(cell(table, shape, "inverted cells"), QString("23"));
-  QCOMPARE(cell(table, shape, "stretch (ratio)"), QString("0.24"));
-  QCOMPARE(cell(table, shape, "violation (rest lengths)"), QString("0.25"));
-  const std::string equilibrium = "equilibrium: worst of the drags";
-  QCOMPARE(cell(table, equilibrium, "residual (ratio)"), QString("0.0625"));
-  QCOMPARE(cell(table, equilibrium, "regions bind"), QString("yes"));
-  QCOMPARE(table.rows[0].cells.size(), table.columns.size());
-}
-
-void PhysicsTableTest::figures_of_a_terminal_stand_under_their_names() {
-  const FigureTable table = physics_table(object(), true);
-  QCOMPARE(cell(table, "relative error (ratio)", "pull"), QString("0.11"));
-  QCOMPARE(cell(table, "relative error (ratio)", "cut"), QString("0.31"));
-  QCOMPARE(cell(table, "time (ms)", "first"), QString("4"));
-  QCOMPARE(cell(table, "time (ms)", "later"), QString("2"));
-  QCOMPARE(cell(table, "time (ms)", "after cut"), QString("32"));
-  QCOMPARE(cell(table, "prepare (ms)", "factorize"), QString("8"));
-  QCOMPARE(cell(table, "prepare (ms)", "grab"), QString("16"));
-  QCOMPARE(table.rows[0].cells.size(), table.columns.size());
-}
-
-void PhysicsTableTest::what_was_not_measured_is_empty() {
-  PhysicsObject whole = object();
-  whole.drags.pop_back();  // no drag has a cut
-  const FigureTable text = physics_table(whole, true);
-  QCOMPARE(cell(text, "time (ms)", "first"), QString("4"));
-  QCOMPARE(cell(text, "time (ms)", "after cut"), QString("-"));
-  whole.drags[0].entries[0].measurement->prepare.grab = {};
-  const FigureTable page = physics_table(whole, false);
-  QCOMPARE(cell(page, "prepare: median (quartiles, repetitions), ms", "factorize"), QString("8 (7.75–8.5, 6)"));
-  QCOMPARE(cell(page, "prepare: median (quartiles, repetitions), ms", "grab"), QString());
-}
-
 /// A contestant that one drag refuses keeps its figures of the others. Its mean is not in the plot, where it would
 /// stand for drags that it leaves out.
 void PhysicsTableTest::a_refusal_is_one_drag_s() {
@@ -159,33 +102,6 @@ void PhysicsTableTest::a_refusal_is_one_drag_s() {
   QCOMPARE(physics_table(whole, true).rows.at(0).refusal, std::string("it did not converge"));
 }
 
-void PhysicsTableTest::the_law_of_the_reference_is_named() {
-  PhysicsObject bar = object();
-  bar.law = {StrainLaw::Kind::gent, 3};
-  const std::string about = physics_table(bar).about;
-  QVERIFY2(about.find("reference: Gent (limit 3)") != std::string::npos, about.c_str());
-}
-
-void PhysicsTableTest::growth_stands_under_its_names() {
-  const auto with = [](double relative) {
-    PhysicalError error;
-    error.relative = relative;
-    return error;
-  };
-  const GrowthSeries series{PhysicsContestant{.algorithm = Algorithm::exact},
-                            {{10, 1, 2, with(0.5)}, {20, 3, 4, with(0.25)}, {40, 5, 6, {}}},
-                            "it takes too long",
-                            Growth{1.5, 10, 40, 3}};
-  const FigureTable table = growth_table({"bar", "a bar", {series}});
-  QCOMPARE(cell(table, "the largest object", "elements"), QString("40"));
-  QCOMPARE(cell(table, "the largest object", "ms per move"), QString("5"));
-  QCOMPARE(cell(table, "the largest object", "prepare (ms)"), QString("6"));
-  QCOMPARE(cell(table, "growth of time", "exponent"), QString("1.5"));
-  QCOMPARE(cell(table, "relative error (ratio)", "first size"), QString("0.5"));
-  QCOMPARE(cell(table, "relative error (ratio)", "last known"), QString("0.25"));
-  QCOMPARE(cell(table, "why not larger", ""), QString("it takes too long"));
-}
-
 /// An algorithm that cannot take part has one row for all numbers of sweeps.
 void PhysicsTableTest::who_cannot_take_part_has_one_row() {
   const GrowthSeries grown{PhysicsContestant{.algorithm = Algorithm::exact}, {{10, 1, 2, {}}}, "it takes too long", {}};
@@ -193,13 +109,6 @@ void PhysicsTableTest::who_cannot_take_part_has_one_row() {
   GrowthSeries swept = refused;
   swept.contestant.sweeps = 1;
   QCOMPARE(growth_table({"bar", "a bar", {grown, refused, swept}}).rows.size(), std::size_t{2});
-}
-
-void PhysicsTableTest::plots_of_growth_are_named_after_what_they_show() {
-  for (const Plot& plot : {growth_time_plot({}), growth_prepare_plot({}), growth_error_plot({})}) {
-    QVERIFY(!plot.y.title.empty());
-    QVERIFY2(plot.title.ends_with(plot.y.title), plot.title.c_str());
-  }
 }
 
 void PhysicsTableTest::the_file_has_each_number_under_its_name_data() {

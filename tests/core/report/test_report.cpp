@@ -25,18 +25,11 @@ class ReportTest : public QObject {
   void text_is_escaped();
   void an_axis_spans_whole_decades();
   void zero_has_a_place_of_its_own();
-  void ticks_do_not_crowd();
-  void figures_stand_below_each_other();
   void an_axis_of_nothing_stands();
   void a_linear_axis_ends_at_a_round_number();
   void a_plot_has_every_contestant_on_it();
   void a_plot_is_well_formed();
-  void lines_and_texts_have_the_ink();
-  void marks_stand_where_their_values_are();
-  void notes_do_not_cover_each_other();
-  void a_long_legend_fits();
   void a_page_is_well_formed_and_needs_nothing_else();
-  void a_page_says_where_it_comes_from();
   void the_main_table_takes_the_worst();
   void a_refusal_is_listed();
   void csv_has_a_row_for_each();
@@ -118,16 +111,6 @@ void ReportTest::figures_have_three_digits() {
   QCOMPARE(all_digits(std::optional<double>()), std::string());
 }
 
-void ReportTest::figures_stand_below_each_other() {
-  QCOMPARE(figure(234567.0), std::string("234,567"));
-  QCOMPARE(figure(-1234.4), std::string("-1,234"));
-  QCOMPARE(figure(999.4), std::string("999"));
-  QCOMPARE(thousands(12), std::string("12"));
-  QCOMPARE(thousands(1234567), std::string("1,234,567"));
-  QCOMPARE(aligned({"1.25", "30", "n/a", figure(1234.0)}),
-           (std::vector<std::string>{"1.25", "30\u2007\u2007\u2008", "n/a", "1,234\u2007\u2007\u2008"}));
-}
-
 void ReportTest::text_is_escaped() {
   QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
   // A truncated character, a surrogate, an overlong form, and one beyond the last; then valid ones of each length.
@@ -160,20 +143,6 @@ void ReportTest::zero_has_a_place_of_its_own() {
   QCOMPARE(axis.position(10), 1.0);
   QCOMPARE(axis.ticks().front().label, std::string("0"));
   QCOMPARE(axis.ticks().front().position, axis.position(0));
-}
-
-void ReportTest::ticks_do_not_crowd() {
-  const Axis axis = Axis::logarithmic({1e-8, 50}, 1e-12);
-  const auto ticks = axis.ticks();
-  QVERIFY(ticks.size() >= 4 && ticks.size() <= 7);
-  for (const Tick& tick : ticks) {
-    QVERIFY2(tick.label.starts_with("10"), tick.label.c_str());  // all in one style
-  }
-  QCOMPARE(ticks.front().label, std::string("10⁻⁸"));
-  QCOMPARE(ticks.back().position, 1.0);
-  for (std::size_t i = 1; i < ticks.size(); ++i) {
-    QVERIFY(ticks[i].position - ticks[i - 1].position > 0.1);
-  }
 }
 
 void ReportTest::an_axis_of_nothing_stands() {
@@ -227,88 +196,6 @@ void ReportTest::a_plot_is_well_formed() {
   }
 }
 
-void ReportTest::lines_and_texts_have_the_ink() {
-  std::ostringstream out;
-  write_svg(out, violation_plot(comparison().cases[0]), "#123 \"");
-  QXmlStreamReader reader(QByteArray::fromStdString(out.str()));
-  int lines = 0, texts = 0;
-  while (!reader.atEnd()) {
-    if (reader.readNext() == QXmlStreamReader::StartElement) {
-      const bool is_line = reader.name() == QLatin1String("line"), is_text = reader.name() == QLatin1String("text");
-      lines += is_line ? 1 : 0;
-      texts += is_text ? 1 : 0;
-      if (is_line || is_text) {
-        QCOMPARE(reader.attributes().value(is_line ? "stroke" : "fill").toString(), QString("#123 \""));
-      }
-    }
-  }
-  QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
-  QVERIFY(lines > 0 && texts > 0);
-}
-
-void ReportTest::marks_stand_where_their_values_are() {
-  Plot plot;
-  plot.series = {{"one", 0}};
-  plot.panels = {{"", {{0.1, 0.1, 0.1, 1, 0, false, "", ""}, {10, 10, 10, 100, 0, false, "", ""}}}};
-  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
-  QList<QPointF> positions;
-  while (!reader.atEnd()) {
-    if (reader.readNext() == QXmlStreamReader::StartElement && reader.name() == QString("path")) {
-      const auto numbers =
-          reader.attributes().value("transform").toString().section('(', 1).section(')', 0, 0).split(' ');
-      positions << QPointF(numbers[0].toDouble(), numbers[1].toDouble());
-    }
-  }
-  QCOMPARE(positions.size(), 3);
-  // The first mark is at the origin, the second at the far ends of both axes.
-  QCOMPARE(positions[0], QPointF(0, 210));
-  QCOMPARE(positions[1], QPointF(250, 0));
-}
-
-/// A note stands above its mark, or below it if there is one above already. A third one is left out.
-void ReportTest::notes_do_not_cover_each_other() {
-  Plot plot;
-  plot.series = {{"one", 0}};
-  PlotPanel& panel = plot.panels.emplace_back();
-  for (const char* note : {"first", "second", "third"}) {
-    panel.marks.push_back({0.1, 0.1, 0.1, 1, 0, false, note, ""});
-  }
-  panel.marks.push_back({1, 1, 1, 10, 0, false, "", ""});
-  panel.marks.push_back({10, 10, 10, 100, 0, false, "far", ""});
-  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
-  QMap<QString, double> heights;  // y of each note
-  while (!reader.atEnd()) {
-    if (reader.readNext() == QXmlStreamReader::StartElement && reader.attributes().value("font-size") == u"9") {
-      const double y = reader.attributes().value("y").toDouble();
-      heights[reader.readElementText()] = y;
-    }
-  }
-  QCOMPARE(heights.keys(), (QStringList{"far", "first", "second"}));
-  QVERIFY(heights["first"] < 210 && heights["second"] > 210 && heights["far"] < 0);  // the marks are at 210 and 0
-}
-
-void ReportTest::a_long_legend_fits() {
-  Plot plot;
-  plot.panels.resize(1);
-  plot.legend_notes.resize(3, "a note");
-  for (int i = 0; i < 20; ++i) {
-    plot.series.push_back({"series " + std::to_string(i)});
-  }
-  QXmlStreamReader reader(QByteArray::fromStdString(drawn(plot)));
-  double height = 0;
-  int below = 0;
-  for (; !reader.atEnd(); reader.readNext()) {
-    if (reader.isStartElement() && reader.name() == QLatin1String("svg")) {
-      height = reader.attributes().value("height").toDouble();
-    } else if (reader.isStartElement() && reader.name() == QLatin1String("text")) {
-      const double y = reader.attributes().value("y").toDouble();
-      QVERIFY2(y < height, qPrintable(QString::number(y)));
-      below += y > 300 ? 1 : 0;
-    }
-  }
-  QVERIFY(below > 3);  // the legend is longer than a panel is high
-}
-
 void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
   const std::string text = page();
   QString words;
@@ -323,16 +210,6 @@ void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
   QVERIFY(!without_namespace.contains("http") && !without_namespace.contains("url(") &&
           !without_namespace.contains("@import"));
   QVERIFY(words.contains("How to read it"));
-}
-
-void ReportTest::a_page_says_where_it_comes_from() {
-  QString words;
-  QVERIFY(!elements_of(page(), &words).isEmpty());
-  const QString shown = "a<b & \"c\" 'd' ]]> ?? é";
-  for (const QString& what : {"chainmail compare '" + shown + "'", shown + ", 2 cores", QString("a compiler"),
-                              QString("Release"), QString("today"), QString("float")}) {
-    QVERIFY2(words.contains(what), qPrintable(what));
-  }
 }
 
 void ReportTest::the_main_table_takes_the_worst() {
