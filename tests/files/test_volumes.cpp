@@ -66,8 +66,8 @@ class VolumesTest : public QObject {
   void heads_that_do_not_are_refused();
   void data_that_end_too_soon_are_refused();
   void packed_data_are_unpacked_in_pieces();
-  void an_nrrd_header_names_one_file_data();
-  void an_nrrd_header_names_one_file();
+  void an_nrrd_header_names_data_data();
+  void an_nrrd_header_names_data();
   void voxels_above_a_threshold_are_elements();
   void several_voxels_make_one_element();
   void what_is_left_at_the_border_makes_an_element_too();
@@ -141,7 +141,15 @@ void VolumesTest::heads_that_do_not_are_refused_data() {
   QTest::newRow("huge") << QByteArray("NDims = 3\nDimSize = 2 1e300 1\n") << "a.mha:2: ";
   QTest::newRow("channels") << QByteArray("NDims = 3\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n")
                             << "the image has 3 numbers per voxel; ";
-  QTest::newRow("list") << QByteArray::fromStdString(head + "ElementDataFile = LIST\n") << "are in several files; ";
+  QTest::newRow("list") << QByteArray::fromStdString(head + "ElementDataFile = LIST\n") << "a.mha:8: it names ";
+  QTest::newRow("pattern") << QByteArray::fromStdString(head + "ElementDataFile = %s.raw 1 2\n")
+                           << "a.mha:8: it names 0 data files";
+  QTest::newRow("many files") << QByteArray("NDims = 3\nDimSize = 1 1 100000\nElementDataFile = %d.raw 1 100000 1\n")
+                              << "a.mha:3: it names 0 data files for 100000 parts of its volume, of at most 10000; ";
+  QTest::newRow("compressed list") << QByteArray(
+                                          "NDims = 3\nCompressedData = True\nDimSize = 1 1 2\n"
+                                          "ElementDataFile = LIST\na.raw\nb.raw\n")
+                                   << "a.mha:4: its data are text, or compressed in several files";
 }
 
 void VolumesTest::heads_that_do_not_are_refused() {
@@ -190,7 +198,7 @@ void VolumesTest::packed_data_are_unpacked_in_pieces() {
   QVERIFY2(more > voxels && more < voxels * 5 / 2, qPrintable(QString::number(more)));
 }
 
-void VolumesTest::an_nrrd_header_names_one_file_data() {
+void VolumesTest::an_nrrd_header_names_data_data() {
   QTest::addColumn<QByteArray>("field");
   QTest::addColumn<QString>("name");
   QTest::addColumn<QString>("sentence");
@@ -204,12 +212,22 @@ void VolumesTest::an_nrrd_header_names_one_file_data() {
                                 << "";
   QTest::newRow("comment") << QByteArray("# data file: a.raw") << ""
                            << "";
-  QTest::newRow("list") << QByteArray("data file: LIST\na.raw\nb.raw") << ""
-                        << "a.nhdr:2: its data are in several files";
-  QTest::newRow("pattern") << QByteArray("data file: %03d.raw 1 9 1") << ""
-                           << "a.nhdr:2: its data are in several files";
+  QTest::newRow("list") << QByteArray("data file: LIST\na.raw\nb.raw") << "a.raw|b.raw"
+                        << "";
+  QTest::newRow("list of planes") << QByteArray("data file: LIST 2\na.raw\nb.raw") << "a.raw|b.raw"
+                                  << "";
+  QTest::newRow("pattern") << QByteArray("data file: a%03d.raw 7 9 2") << "a007.raw|a009.raw"
+                           << "";
+  QTest::newRow("pattern of planes") << QByteArray("data file: %3d.raw 1 1 1 2") << "  1.raw"
+                                     << "";
+  QTest::newRow("many files") << QByteArray("data file: %d.raw 1 4000000000 1") << ""
+                              << "a.nhdr:2: it does not name 1 to 256 data files; ";
+  QTest::newRow("odd pattern") << QByteArray("data file: %s%n.raw 1 9 1") << ""
+                               << "a.nhdr:2: it does not name 1 to 256 data files; ";
   QTest::newRow("nothing") << QByteArray("data file: ") << ""
-                           << "a.nhdr:2: its data are in several files, or in none; ";
+                           << "a.nhdr:2: it does not name 1 to 256 data files; ";
+  QTest::newRow("many lines") << QByteArray(20'010, '#').replace("##", "#\n") << ""
+                              << "a.nhdr: its header has more than 10000 lines; ";
   QTest::newRow("twice") << QByteArray("data file: a\ndatafile: b") << ""
                          << "a.nhdr:3: its header names its data twice; ";
   QTest::newRow("odd") << QByteArray(" data file: a") << ""
@@ -218,8 +236,8 @@ void VolumesTest::an_nrrd_header_names_one_file_data() {
                                     << "a.nhdr:2: a line of its header contains a carriage return; ";
 }
 
-/// Teem reads the header, but our code decides which file it opens.
-void VolumesTest::an_nrrd_header_names_one_file() {
+/// Teem reads the header, but our code decides which files it opens.
+void VolumesTest::an_nrrd_header_names_data() {
   QFETCH(QByteArray, field);
   QFETCH(QString, name);
   QFETCH(QString, sentence);
@@ -227,9 +245,18 @@ void VolumesTest::an_nrrd_header_names_one_file() {
   NrrdHead read;
   const QString error = error_of([&] { read = read_nrrd_head(text, "a.nhdr"); });
   QVERIFY2(sentence.isEmpty() ? error.isEmpty() : error.startsWith(sentence), qPrintable(error));
-  QCOMPARE(QString::fromStdString(read.data_file), name);
-  if (!name.isEmpty()) {
-    QCOMPARE(read.text, std::string("NRRD0001\ndata file: data\n"));
+  QStringList names;
+  std::string list;
+  for (const std::string& one : read.data_files) {
+    list += "\n" + nrrd_data_name(names.size());
+    names << QString::fromStdString(one);
+  }
+  QCOMPARE(names.join('|'), name);
+  if (const bool is_list = field.contains("LIST") || field.contains('%'); !name.isEmpty()) {
+    QCOMPARE(read.text,
+             std::string("NRRD0001\ndata file: ") +
+                 (is_list ? std::string("LIST") + (field.contains("2\n") || field.endsWith(" 2") ? " 2" : "") : "") +
+                 (is_list ? list : list.substr(1)) + "\n");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,28 @@ constexpr std::array<std::array<std::size_t, 8>, 8> hexahedra_of_hexahedron27{{{
                                                                                {26, 23, 14, 24, 25, 18, 6, 19},
                                                                                {22, 26, 24, 15, 17, 25, 19, 7}}};
 
+constexpr std::array<std::array<std::size_t, 4>, 2> parts_of_quadrangle6{{{0, 4, 5, 3}, {4, 1, 2, 5}}};
+constexpr std::array<std::array<std::size_t, 3>, 6> triangles_of_triangle7{
+    {{0, 3, 6}, {3, 1, 6}, {1, 4, 6}, {4, 2, 6}, {2, 5, 6}, {5, 0, 6}}};
+constexpr std::array<std::array<std::size_t, 6>, 4> prisms_of_prism12{
+    {{0, 6, 8, 3, 9, 11}, {6, 1, 7, 9, 4, 10}, {8, 7, 2, 11, 10, 5}, {6, 7, 8, 9, 10, 11}}};
+constexpr std::array<std::array<std::size_t, 4>, 4> quadrangles_of_pyramid19{
+    {{0, 5, 13, 8}, {5, 1, 6, 13}, {13, 6, 2, 7}, {8, 13, 7, 3}}};
+/// What surrounds the triangles, and their middles.
+constexpr std::array<std::array<std::size_t, 7>, 4> faces_of_pyramid19{
+    {{0, 5, 1, 10, 4, 9, 14}, {1, 6, 2, 11, 4, 10, 15}, {2, 7, 3, 12, 4, 11, 16}, {3, 8, 0, 9, 4, 12, 17}}};
+/// Two layers, each with a prism at each upright edge, and what is between these.
+constexpr std::array<std::array<std::size_t, 6>, 8> prisms_of_hexahedron24{{{0, 8, 11, 16, 22, 20},
+                                                                            {1, 9, 8, 17, 21, 22},
+                                                                            {2, 10, 9, 18, 23, 21},
+                                                                            {3, 11, 10, 19, 20, 23},
+                                                                            {16, 22, 20, 4, 12, 15},
+                                                                            {17, 21, 22, 5, 13, 12},
+                                                                            {18, 23, 21, 6, 14, 13},
+                                                                            {19, 20, 23, 7, 15, 14}}};
+constexpr std::array<std::array<std::size_t, 8>, 2> middles_of_hexahedron24{
+    {{8, 9, 10, 11, 22, 21, 23, 20}, {22, 21, 23, 20, 12, 13, 14, 15}}};
+
 /// A solid of second order without middles of faces. What remains without its corners is bounded by middles.
 template <std::size_t Edges, std::size_t Faces>
 struct Middles {
@@ -118,19 +141,45 @@ constexpr Middles<8, 5> pyramid13{5,
                                   {{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}},
                                   {{{5, 8, 10, 6}, {5, 9, 7, 7}, {8, 11, 9, 9}, {10, 12, 11, 11}, {6, 7, 12, 12}}}};
 
-/// Divides what these sides bound into tetrahedra with the corner of the lowest id, which lies on the surface. Each
-/// side is divided at its own lowest, so that neighbours agree.
-void add_convex(MeshParts& parts, std::vector<std::vector<ElementId>> sides) {
-  ElementId apex = sides[0][0];
+/// Divides what these sides bound into tetrahedra with one corner: the middle, or else that of the lowest id, which
+/// lies on the surface. Each side is divided at its own lowest, so that neighbours agree.
+void add_convex(MeshParts& parts, std::vector<std::vector<ElementId>> sides, std::optional<ElementId> middle = {}) {
+  ElementId apex = middle.value_or(sides[0][0]);
   for (auto& side : sides) {
     std::rotate(side.begin(), std::min_element(side.begin(), side.end()), side.end());
-    apex = std::min(apex, side[0]);
+    apex = middle ? *middle : std::min(apex, side[0]);
   }
   for (const auto& side : sides) {
     for (std::size_t i = 2; i < side.size() && side[0] != apex; ++i) {
       add_tetrahedron(parts, {apex, side[0], side[i - 1], side[i]});
     }
   }
+}
+
+/// A prism on a face of any number of corners, which are given first; those of the opposite face follow.
+void add_prism_on(MeshParts& parts, std::span<const ElementId> v) {
+  const std::size_t count = v.size() / 2;
+  std::vector<std::vector<ElementId>> sides{{v.begin(), v.begin() + std::ptrdiff_t(count)},
+                                            {v.begin() + std::ptrdiff_t(count), v.end()}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    sides.push_back({v[i], v[next], v[count + next], v[count + i]});
+  }
+  add_convex(parts, std::move(sides));
+}
+
+/// Divides each face around its middle, and the solid around its own.
+void add_pyramid19(MeshParts& parts, std::span<const ElementId> v) {
+  std::vector<std::vector<ElementId>> sides;
+  for (const auto& [a, b, c, d] : quadrangles_of_pyramid19) {
+    sides.push_back({v[a], v[b], v[c], v[d]});
+  }
+  for (const auto& around : faces_of_pyramid19) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      sides.push_back({v[around[i]], v[around[(i + 1) % 6]], v[around[6]]});
+    }
+  }
+  add_convex(parts, std::move(sides), v[18]);
 }
 
 /// Cuts the corners off, and divides the rest.
@@ -192,7 +241,30 @@ void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId
       return add_middles(parts, hexahedron20, corners);
     case DividedKind::hexahedron27:
       return add_each(corners, hexahedra_of_hexahedron27, [&](const auto& cell) { parts.hexahedra.push_back(cell); });
+    case DividedKind::pentagonal_prism:
+    case DividedKind::hexagonal_prism:
+      return add_prism_on(parts, corners);
+    case DividedKind::quadrangle6:
+      return add_each(corners, parts_of_quadrangle6, [&](const auto& face) { add_quadrangle(parts, face); });
+    case DividedKind::triangle7:
+      return add_each(corners, triangles_of_triangle7, [&](const auto& face) { parts.triangles.push_back(face); });
+    case DividedKind::prism12:
+      return add_each(corners, prisms_of_prism12, [&](const auto& cell) { add_prism(parts, cell); });
+    case DividedKind::pyramid19:
+      return add_pyramid19(parts, corners);
+    case DividedKind::hexahedron24:
+      add_each(corners, prisms_of_hexahedron24, [&](const auto& cell) { add_prism(parts, cell); });
+      return add_each(corners, middles_of_hexahedron24, [&](const auto& cell) { add_prism_on(parts, cell); });
   }
+}
+
+std::vector<ElementId> in_order(const std::vector<ElementId>& corners, std::span<const int> order) {
+  if (order.empty()) {
+    return corners;
+  }
+  std::vector<ElementId> result(corners.size());
+  std::ranges::transform(order, result.begin(), [&](int place) { return corners[std::size_t(place)]; });
+  return result;
 }
 
 }  // namespace chainmail

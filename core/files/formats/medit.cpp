@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "files/formats/divided_cells.h"
 #include "files/text/text.h"
@@ -18,16 +20,33 @@ namespace {
 struct MeditList {
   std::string_view keyword;
   std::size_t corners;
+  std::optional<DividedKind> divided = {};
+  std::span<const int> order = {};  // the corner of Medit for each of Gmsh's, where they differ
 };
 
-constexpr std::array<MeditList, 8> read_lists{{{"Prisms", 6},
-                                               {"Pyramids", 5},
-                                               {"Edges", 2},
-                                               {"Triangles", 3},
-                                               {"Quadrilaterals", 4},
-                                               {"Tetrahedra", 4},
-                                               {"Hexahedra", 8},
-                                               {"Hexaedra", 8}}};  // the spelling of older programs
+constexpr std::array<int, 10> tetrahedron_order{0, 1, 2, 3, 4,
+                                                5, 6, 7, 9, 8};  // the corner of Medit for each of Gmsh's
+
+constexpr std::array<MeditList, 12> read_lists{{{"Edges", 2},
+                                                {"Triangles", 3},
+                                                {"Quadrilaterals", 4},
+                                                {"Tetrahedra", 4},
+                                                {"Hexahedra", 8},
+                                                {"Hexaedra", 8},  // the spelling of older programs
+                                                {"Prisms", 6, DividedKind::prism},
+                                                {"Pyramids", 5, DividedKind::pyramid},
+                                                {"EdgesP2", 3, DividedKind::line3},
+                                                {"TrianglesP2", 6, DividedKind::triangle6},
+                                                {"QuadrilateralsQ2", 9, DividedKind::quadrangle9},
+                                                {"TetrahedraP2", 10, DividedKind::tetrahedron10, tetrahedron_order}}};
+
+/// True if a keyword is that of cells of second or higher order, such as HexahedraQ2 or TetrahedraP3.
+bool is_of_higher_order(std::string_view keyword) {
+  return std::ranges::any_of(read_lists, [keyword](const MeditList& list) {
+    const std::string_view behind = keyword.substr(std::min(list.keyword.size(), keyword.size()));
+    return keyword.starts_with(list.keyword) && behind.size() == 2 && (behind[0] == 'P' || behind[0] == 'Q');
+  });
+}
 
 class MeditReader {
  public:
@@ -48,7 +67,7 @@ class MeditReader {
       words_.fail("it does not begin as a Medit mesh, with MeshVersionFormatted", "export it again as a mesh");
     }
     const std::uint32_t version = words_.count("the version of the format");
-    if (version < 1 || version > 4) {
+    if (version > 4) {  // bamg and FreeFem write 0
       words_.fail("version " + std::to_string(version) + " of Medit's format is not known", "save it as version 2");
     }
   }
@@ -64,6 +83,9 @@ class MeditReader {
       read_pieces(*found);
     } else if (parse_number(keyword)) {
       words_.fail(in_quotes(keyword) + " stands where a keyword is expected", "correct the count before it");
+    } else if (is_of_higher_order(keyword)) {
+      words_.fail("it contains " + std::string(keyword) + ", whose corners have no agreed order",
+                  "save it as .vtu or .msh, or with cells of first order");
     } else {
       words_.skip_numbers();
     }
@@ -104,11 +126,9 @@ class MeditReader {
 
   void read_pieces(const MeditList& list) {
     const std::uint32_t count = read_count(list.corners);
-    std::array<ElementId, 8> corners{};
+    std::vector<ElementId> corners(list.corners);
     for (std::uint32_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < list.corners; ++k) {
-        corners[k] = read_corner();
-      }
+      std::ranges::generate(corners, [this] { return read_corner(); });
       skip_reference();
       add_piece(list, corners);
     }
@@ -133,17 +153,16 @@ class MeditReader {
     }
   }
 
-  void add_piece(const MeditList& list, const std::array<ElementId, 8>& corners) {
+  void add_piece(const MeditList& list, const std::vector<ElementId>& corners) {
     MeshParts& parts = mesh_.parts;
-    if (list.keyword == "Tetrahedra") {
+    if (list.divided) {
+      add_divided(mesh_, *list.divided, in_order(corners, list.order));
+    } else if (list.keyword == "Tetrahedra") {
       parts.tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
-    } else if (list.keyword == "Prisms" || list.keyword == "Pyramids") {
-      add_divided(mesh_, list.corners == 6 ? DividedKind::prism : DividedKind::pyramid,
-                  std::span(corners).first(list.corners));
     } else if (list.corners == 8) {
-      parts.hexahedra.push_back(corners);
+      std::ranges::copy(corners, parts.hexahedra.emplace_back().begin());
     } else {
-      add_face(parts, std::span(corners).first(list.corners));
+      add_face(parts, corners);
     }
   }
 

@@ -6,8 +6,10 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/formats/data_file.h"
@@ -50,6 +52,7 @@ class MetaImageHeadReader {
   void take_dimension(std::string_view value);
   void take_size(std::string_view value);
   void take_axes(std::string_view value);
+  void take_files(std::string_view value);
   bool flag(std::string_view value) const;
   void check() const;
 
@@ -57,7 +60,7 @@ class MetaImageHeadReader {
   const std::filesystem::path& path_;
   std::size_t line_ = 0;
   std::uint32_t dimension_ = 0, channels_ = 1;
-  bool binary_ = true, head_size_known_ = true;
+  bool binary_ = true;
   MetaImageHead head_;
 };
 
@@ -141,10 +144,32 @@ void MetaImageHeadReader::take(std::string_view key, std::string_view value) {
     head_.compressed = flag(value);
   } else if (key == "HeaderSize") {
     head_.at_end = value == "-1";
-    head_size_known_ = value == "0" || head_.at_end;
+    const auto skipped = head_.at_end ? std::optional(0U) : parse_count(value);
+    if (!skipped) {
+      fail(in_quotes(value) + " is not a number of bytes", "write HeaderSize = 0");
+    }
+    head_.skipped = *skipped;
   } else if (key == "ElementDataFile") {
-    head_.data_file = value;
+    take_files(value);
   }  // other keys, such as Comment and Modality, do not affect the object
+}
+
+/// The number behind LIST is that of the dimensions of each file; those of a pattern have a layer each.
+void MetaImageHeadReader::take_files(std::string_view value) {
+  DataNames data = data_names(value, text_.substr(head_.length), head_.size[2], limits::metaimage_files);
+  const std::uint32_t dimension = value.starts_with("LIST") ? parse_count(data.dimension).value_or(dimension_ - 1) : 2;
+  std::uint64_t files = 1;
+  for (std::size_t k = dimension; data.are_parts && k < 3 && files <= limits::metaimage_files; ++k) {
+    files *= head_.size[k];
+  }
+  if (data.names.size() != files || files > limits::metaimage_files) {
+    fail("it names " + std::to_string(data.names.size()) + " data files for " + std::to_string(files) +
+             " parts of its volume, of at most " + std::to_string(limits::metaimage_files),
+         "export it as one file");
+  }
+  if (value != "LOCAL") {
+    head_.data_files = std::move(data.names);
+  }
 }
 
 /// Takes three numbers off a value.
@@ -177,14 +202,12 @@ void MetaImageHeadReader::check() const {
     fail("the image has " + std::to_string(channels_) + " numbers per voxel",
          "use a volume with one density per voxel");
   }
-  if (!binary_ || !head_size_known_ || (head_.at_end && head_.compressed)) {
-    fail("its data are text or have a header", "export it with binary data and HeaderSize 0");
+  if (!binary_ || (head_.compressed && (head_.at_end || head_.data_files.size() > 1))) {
+    fail("its data are text, or compressed in several files or behind a header",
+         "export it with binary data, as one file");
   }
   if (!(head_.spacing.minCoeff() > 0)) {
     fail("the spacing of voxels is 0 along an axis", "use spacings above 0");
-  }
-  if (head_.data_file == "LIST" || head_.data_file.find('%') != std::string::npos) {
-    fail("its data are in several files", "export it as one file");
   }
 }
 
@@ -358,6 +381,51 @@ std::uint64_t data_size(const MetaImageHead& head, const std::filesystem::path& 
   return std::uint64_t{size[0]} * size[1] * size[2] * metaimage_type(head, path).bytes;
 }
 
+/// The data of a volume in files of their own, with the same number of bytes each. One of them is open at a time.
+class DataFiles {
+ public:
+  DataFiles(const MetaImageHead& head, const std::filesystem::path& path, bool outside) : head_(head) {
+    for (const std::string& name : head.data_files) {
+      paths_.push_back(data_file(path, name, outside));
+    }
+    open(0);
+    const std::uint64_t present = file_->size() - std::min(head.skipped, file_->size());
+    bytes_ = head.compressed ? present : data_size(head, path) / paths_.size();
+    size_ = paths_.size() == 1 ? std::min(bytes_, present) : paths_.size() * bytes_;
+  }
+
+  VoxelData data() {
+    return {size_, [this](std::uint64_t place, std::span<char> to) { return read(place, to); }, paths_.front()};
+  }
+
+ private:
+  void open(std::size_t part) {
+    if (!file_ || part != open_) {
+      file_.emplace(paths_[open_ = part]);
+    }
+  }
+  std::size_t read(std::uint64_t place, std::span<char> to) {
+    std::size_t done = 0;
+    while (done < to.size() && place + done < size_) {
+      const std::uint64_t in_part = (place + done) % bytes_, next = std::min(to.size() - done, bytes_ - in_part);
+      open((place + done) / bytes_);
+      const std::uint64_t begin = head_.at_end ? file_->size() - std::min(bytes_, file_->size()) : head_.skipped;
+      if (file_->read_at(begin + in_part, to.subspan(done, next)) < next) {
+        throw Error(shown(file_->path()), "it ends before the " + std::to_string(bytes_) + " bytes of its part",
+                    "export the volume again");
+      }
+      done += next;
+    }
+    return done;
+  }
+
+  const MetaImageHead& head_;
+  std::vector<std::filesystem::path> paths_;
+  std::optional<RegularFile> file_;
+  std::size_t open_ = 0;
+  std::uint64_t bytes_ = 0, size_ = 0;  // of each, and of all
+};
+
 VoxelData data_in(const RegularFile& file, std::uint64_t from, const std::filesystem::path& path) {
   return {file.size() - from, [&file, from](std::uint64_t at, auto to) { return file.read_at(from + at, to); }, path};
 }
@@ -384,12 +452,12 @@ Volume read_metaimage(const std::filesystem::path& path, bool outside, const Pro
   std::string beginning(std::min<std::uint64_t>(limits::metaimage_header_bytes, file.size()), '\0');
   beginning.resize(file.read(beginning));
   const MetaImageHead head = read_metaimage_head(beginning, path);
-  if (head.data_file == "LOCAL") {
-    return volume_of(head, data_in(file, head.length, path), progress);
+  if (head.data_files.empty()) {
+    const std::uint64_t begin = head.skipped > 0 ? std::min(head.skipped, file.size()) : head.length;
+    return volume_of(head, data_in(file, begin, path), progress);
   }
-  const RegularFile other(data_file(path, head.data_file, outside));
-  const std::uint64_t needed = head.at_end ? data_size(head, path) : other.size();
-  return volume_of(head, data_in(other, other.size() - std::min(needed, other.size()), other.path()), progress);
+  DataFiles files(head, path, outside);
+  return volume_of(head, files.data(), progress);
 }
 
 }  // namespace chainmail

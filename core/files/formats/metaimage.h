@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "files/formats/volume.h"
 #include "mesh/progress.h"
@@ -19,10 +20,11 @@ struct MetaImageHead {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // see Volume
   std::string type;                                    // type of the numbers: MET_UCHAR, MET_SHORT, …
   bool big_endian = false;
-  bool compressed = false;  // true: compressed by zlib
-  std::string data_file;    // LOCAL: the data follow the header
-  bool at_end = false;      // true: the data are at the end of their file, whatever is before them
-  std::size_t length = 0;   // length of the header (bytes)
+  bool compressed = false;              // true: compressed by zlib
+  std::vector<std::string> data_files;  // each with the same number of voxels; none: the data follow the header
+  std::uint64_t skipped = 0;            // bytes before the data in each of their files
+  bool at_end = false;                  // true: the data are at the end of their file, whatever is before them
+  std::size_t length = 0;               // length of the header (bytes)
 };
 
 /// Reads the header at the beginning of a file. Throws Error with the line.
@@ -33,7 +35,7 @@ MetaImageHead read_metaimage_head(std::string_view text, const std::filesystem::
 Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, const std::filesystem::path& path,
                         const Progress& progress = {});
 
-/// Reads a .mha, or a .mhd and its data file, which must be in its folder unless `outside` is true.
+/// Reads a .mha, or a .mhd and its data files, which must be in its folder unless `outside` is true.
 Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress = {});
 
 }  // namespace chainmail

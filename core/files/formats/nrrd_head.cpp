@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "files/formats/data_file.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -35,6 +36,10 @@ std::vector<std::string_view> header_lines(std::string_view text, const std::fil
       return lines;
     }
     lines.push_back(line);
+    if (lines.size() > limits::nrrd_header_lines) {
+      throw Error(shown(path), "its header has more than " + std::to_string(limits::nrrd_header_lines) + " lines",
+                  "leave out comments and keys");
+    }
     if (line.find('\r') != std::string_view::npos) {
       refuse_header(path, lines.size(), "a line of its header contains a carriage return");
     }
@@ -46,34 +51,47 @@ std::vector<std::string_view> header_lines(std::string_view text, const std::fil
   return lines;
 }
 
-/// Returns the file name in a field.
-std::string named_in(std::string_view line, const std::filesystem::path& path, std::size_t number) {
-  const auto name = trimmed(line.substr(line.find(':') + 1));
-  if (name.empty() || name.starts_with("LIST") || name.find('%') != std::string_view::npos) {
-    refuse_header(path, number, "its data are in several files, or in none");
+/// Takes the file names of a line, and of those behind it if it has a list. Returns the field with our names.
+std::string take_names(const std::vector<std::string_view>& lines, std::size_t at, const std::filesystem::path& path,
+                       NrrdHead& head) {
+  const std::string_view line = lines[at];
+  const std::string_view behind(line.end(), lines.back().end());
+  const DataNames data = data_names(trimmed(line.substr(line.find(':') + 1)), behind, 0, limits::nrrd_files);
+  if (data.names.empty() || data.names.size() > limits::nrrd_files) {
+    refuse_header(path, at + 1, "it does not name 1 to " + std::to_string(limits::nrrd_files) + " data files");
   }
-  return std::string(name);
+  head.data_files = data.names;
+  std::string field = "data file: ";
+  if (data.are_parts) {
+    field.append("LIST").append(data.dimension.empty() ? "" : " ").append(data.dimension).append("\n");
+  }
+  for (std::size_t i = 0; i < data.names.size(); ++i) {
+    field += nrrd_data_name(i) + "\n";
+  }
+  return field;
 }
 
 }  // namespace
 
 NrrdHead read_nrrd_head(std::string_view beginning, const std::filesystem::path& path) {
   NrrdHead head;
-  std::size_t number = 0;
-  for (std::string_view line : header_lines(beginning, path)) {
-    ++number;
-    const std::string field = field_of(line);
+  std::string data;  // the field of the data files, which is the last one
+  const auto lines = header_lines(beginning, path);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string field = field_of(lines[i]);
     if (field == "data file" || field == "datafile") {
-      if (!head.data_file.empty()) {
-        refuse_header(path, number, "its header names its data twice");
+      if (!data.empty()) {
+        refuse_header(path, i + 1, "its header names its data twice");
       }
-      head.data_file = named_in(line, path, number);
-      line = "data file: data";
+      data = take_names(lines, i, path, head);
+      i = data.starts_with("data file: LIST") ? lines.size() : i;
     } else if (field.find("file") != std::string::npos) {  // teem may read it as a data file
-      refuse_header(path, number, in_quotes(line) + " is not a field of a header");
+      refuse_header(path, i + 1, in_quotes(lines[i]) + " is not a field of a header");
+    } else {
+      head.text.append(lines[i]).append("\n");
     }
-    head.text.append(line).append("\n");
   }
+  head.text += data;
   return head;
 }
 

@@ -21,24 +21,28 @@ class OffHead {
       return has;
     };
     behind_ += take("ST") ? 2 : 0;
+    behind_ += take("NC") ? 7 : 0;  // as MeshLab writes it
     behind_ += take("C") ? 4 : 0;
     behind_ += take("N") ? 3 : 0;
+    states_dimension_ = take("n");
     is_known_ = word.starts_with("OFF");
     const std::string_view behind = is_known_ ? word.substr(3) : std::string_view();
     is_known_ = is_known_ && (behind.empty() || parse_count(behind));
     counts_in_word_ = behind.size();
-    is_in_more_dimensions_ = word == "4OFF" || word == "nOFF" || word == "4nOFF";
+    is_in_more_dimensions_ = word == "4OFF" || word == "4nOFF";
   }
 
   bool is_known() const { return is_known_; }
   bool is_in_more_dimensions() const { return is_in_more_dimensions_; }
+  /// True if the next number is that of the dimensions.
+  bool states_dimension() const { return states_dimension_; }
   /// Number of letters of a count that follows without a blank.
   std::size_t counts_in_word() const { return counts_in_word_; }
   /// Number of numbers behind the coordinates of a vertex.
   std::size_t behind() const { return behind_; }
 
  private:
-  bool is_known_ = false, is_in_more_dimensions_ = false;
+  bool is_known_ = false, is_in_more_dimensions_ = false, states_dimension_ = false;
   std::size_t behind_ = 0, counts_in_word_ = 0;
 };
 
@@ -86,6 +90,10 @@ void OffReader::read_head() {
   words_.split(word.size() - head.counts_in_word());
   if (words_.peek() == "BINARY") {
     words_.fail("it is a binary OFF file", "save it as text");
+  }
+  if (const std::uint32_t dimension = head.states_dimension() ? words_.count("the number of dimensions") : 3;
+      dimension != 3) {
+    words_.fail("its points have " + std::to_string(dimension) + " coordinates", "save it in space, with 3");
   }
 }
 

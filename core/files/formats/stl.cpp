@@ -26,6 +26,13 @@ std::uint64_t stated_facets(std::string_view bytes) {
   return bytes.size() < header_bytes ? 0 : std::uint64_t(whole.read(bytes.data() + header_bytes - 4, false));
 }
 
+/// True if a file is binary, also if its header begins with 'solid' or bytes follow its facets. In a text, the bytes of
+/// the count are letters, which are a count that no file can have.
+bool is_binary(std::string_view bytes) {
+  const std::uint64_t facets = stated_facets(bytes);
+  return facets > 0 && facets <= (bytes.size() - header_bytes) / facet_bytes;
+}
+
 bool begins_with_solid(std::string_view bytes) {
   Lines lines(bytes.substr(0, std::min<std::size_t>(bytes.size(), 4096)));
   while (lines.next()) {
@@ -56,9 +63,11 @@ class Facets {
   PointIds ids_{mesh_.parts.rest};
 };
 
+/// Reads as many facets as are stated, or all if there are none: some programs leave the count at 0.
 ImportedMesh read_binary(std::string_view bytes, const std::filesystem::path& path, const Progress& progress) {
   Facets facets;
-  const std::uint64_t stated = stated_facets(bytes), present = (bytes.size() - header_bytes) / facet_bytes;
+  const std::uint64_t present = (bytes.size() - header_bytes) / facet_bytes, counted = stated_facets(bytes),
+                      stated = counted > 0 ? counted : present;
   if (stated > present) {
     throw Error(shown(path), "it ends after " + std::to_string(present) + " of " + std::to_string(stated) + " facets",
                 "export it again");
@@ -201,10 +210,11 @@ void write_facets(TextBlocks& text, const MeshState& state, MeshPieces::Corners 
 }  // namespace
 
 ImportedMesh read_stl(std::string_view bytes, const std::filesystem::path& path, const Progress& progress) {
-  const std::uint64_t facets = stated_facets(bytes);
-  const bool fits = bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * facets;
-  if (!fits && begins_with_solid(bytes)) {
-    return TextStl(path).read(bytes.substr(0, bytes.find('\0')), progress);
+  if (!is_binary(bytes) && begins_with_solid(bytes)) {
+    auto mesh = TextStl(path).read(bytes.substr(0, bytes.find('\0')), progress);
+    if (!mesh.parts.rest.empty() || bytes.size() < header_bytes || bytes.find('\0') > header_bytes) {
+      return mesh;
+    }
   }
   if (bytes.size() < header_bytes) {
     throw Error(shown(path), "it is neither text that begins with 'solid', nor long enough for binary STL",

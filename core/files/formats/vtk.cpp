@@ -240,7 +240,7 @@ void VtkReader::read_field() {
     }
     const std::uint64_t components = cursor_.count("the number of components of a field");
     const std::uint64_t tuples = cursor_.count("the number of rows of a field");
-    cursor_.skip_numbers(components * tuples, cursor_.word());
+    cursor_.skip_field(components * tuples, cursor_.word());
   }
 }
 

@@ -1,6 +1,7 @@
 #include "files/formats/vtk_cells.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,8 @@ struct DividedType {
 };
 constexpr std::array divided_types{DividedType{13, DividedKind::prism},
                                    DividedType{14, DividedKind::pyramid},
+                                   DividedType{15, DividedKind::pentagonal_prism},
+                                   DividedType{16, DividedKind::hexagonal_prism},
                                    DividedType{21, DividedKind::line3},
                                    DividedType{22, DividedKind::triangle6},
                                    DividedType{23, DividedKind::quadrangle8},
@@ -42,7 +45,12 @@ constexpr std::array divided_types{DividedType{13, DividedKind::prism},
                                    DividedType{27, DividedKind::pyramid13, pyramid13_order},
                                    DividedType{28, DividedKind::quadrangle9},
                                    DividedType{29, DividedKind::hexahedron27, hexahedron27_order},
-                                   DividedType{32, DividedKind::prism18, prism18_order}};
+                                   DividedType{30, DividedKind::quadrangle6},
+                                   DividedType{31, DividedKind::prism12},
+                                   DividedType{32, DividedKind::prism18, prism18_order},
+                                   DividedType{33, DividedKind::hexahedron24},
+                                   DividedType{34, DividedKind::triangle7},
+                                   DividedType{37, DividedKind::pyramid19}};
 
 }  // namespace
 
@@ -86,14 +94,13 @@ void VtkCells::add_divided_cell(Corners corners, int type) {
   const auto* const found = std::find_if(divided_types.begin(), divided_types.end(),
                                          [type](const DividedType& one) { return one.number == type; });
   if (found == divided_types.end()) {
-    fail("it contains cells of VTK's type " + std::to_string(type), "save them as cells of first or second order");
+    fail("it contains cells of VTK's type " + std::to_string(type) + (type == 42 ? ", polyhedra" : ""),
+         "divide them into tetrahedra first, for example with the filter Tetrahedralize of ParaView");
   }
   check_size(corners, corner_count(found->kind));
   std::vector<ElementId> ids;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    ids.push_back(id(corners[found->order.empty() ? i : std::size_t(found->order[i])]));
-  }
-  add_divided(mesh_, found->kind, ids);
+  std::ranges::transform(corners, std::back_inserter(ids), [this](std::uint64_t corner) { return id(corner); });
+  add_divided(mesh_, found->kind, in_order(ids, found->order));
 }
 
 void VtkCells::add(Corners corners, int type) {

@@ -123,11 +123,44 @@ std::vector<std::uint64_t> VtkCursor::wholes(std::uint64_t count, std::string_vi
   return numbers;
 }
 
-void VtkCursor::skip_numbers(std::uint64_t count, std::string_view type) {
-  if (type == "string" || type == "bit") {
-    fail("it has a field of type " + in_quotes(type) + " before its cells", "save it without that field");
+void VtkCursor::skip_field(std::uint64_t count, std::string_view type) {
+  if (type == "string") {
+    line();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      skip_string();
+    }
+  } else if (type == "bit" && binary_) {
+    line();
+    skip_bytes(count / 8 + (count % 8 > 0 ? 1 : 0));
+  } else {
+    visit_numbers(count, type, [](double) {});
   }
-  visit_numbers(count, type, [](double) {});
+}
+
+void VtkCursor::skip_bytes(std::uint64_t count) {
+  if (count > bytes_.size() - at_) {
+    fail("it ends within a field", "export it again");
+  }
+  at_ += count;
+}
+
+/// In a binary file, the two highest bits of the first byte say how many bytes the length has, big end first.
+void VtkCursor::skip_string() {
+  if (at_ == bytes_.size()) {
+    fail("it ends within a field", "export it again");
+  }
+  if (!binary_) {
+    line();
+    return;
+  }
+  const auto first = static_cast<unsigned char>(bytes_[at_]);
+  const std::size_t bytes = std::size_t{1} << (3U - (first >> 6U));
+  std::uint64_t length = first & 63U;
+  for (std::size_t i = 1; i < std::min(bytes, bytes_.size() - at_); ++i) {
+    length = length << 8U | static_cast<unsigned char>(bytes_[at_ + i]);
+  }
+  skip_bytes(bytes);
+  skip_bytes(length);
 }
 
 void VtkCursor::skip_block() {

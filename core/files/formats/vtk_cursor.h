@@ -35,7 +35,8 @@ class VtkCursor {
   std::vector<double> reals(std::uint64_t count, std::string_view type);
   /// Returns `count` whole numbers from 0.
   std::vector<std::uint64_t> wholes(std::uint64_t count, std::string_view type);
-  void skip_numbers(std::uint64_t count, std::string_view type);
+  /// Moves past a field, which may also have strings or bits.
+  void skip_field(std::uint64_t count, std::string_view type);
   /// Moves to the line after the next blank line.
   void skip_block();
 
@@ -44,6 +45,8 @@ class VtkCursor {
   void visit_numbers(std::uint64_t count, std::string_view type, Visit visit);
   template <class Visit>
   void visit_binary(std::uint64_t count, std::string_view type, Visit visit);
+  void skip_bytes(std::uint64_t count);
+  void skip_string();
 
   std::string_view bytes_;
   const std::filesystem::path& path_;

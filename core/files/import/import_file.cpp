@@ -56,7 +56,7 @@ ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& p
   }
 }
 
-/// If the data are in a file of their own, teem gets a header that names a link to it.
+/// If the data are in files of their own, teem gets a header that names links to them.
 Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress,
                    const std::filesystem::path& program) {
   RegularFile file(path);
@@ -64,11 +64,13 @@ Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progre
   beginning.resize(file.read(beginning));
   const NrrdHead head = read_nrrd_head(beginning, path);
   ImportInput input(path);
-  if (head.data_file.empty()) {
+  if (head.data_files.empty()) {
     input.link("volume.nrrd", std::move(file));
   } else {
     input.write("volume.nhdr", head.text);
-    input.link("data", RegularFile(data_file(path, head.data_file, outside)));
+    for (std::size_t i = 0; i < head.data_files.size(); ++i) {
+      input.link(nrrd_data_name(i), RegularFile(data_file(path, head.data_files[i], outside)));
+    }
   }
   return run_import_of<Volume>("nrrd", input, {}, limits_for(input.linked_size()), progress, program);
 }

@@ -89,7 +89,7 @@ constexpr std::array formats{
     MeshFormat{.name = "OFF",
                .endings = ".off",
                .help = "surfaces",
-               .signs = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"},
+               .signs = {"OFF", "COFF", "NOFF", "CNOFF", "NCOFF", "STOFF", "nOFF"},
                .read_mesh = read_text_file<read_off>},
     MeshFormat{.name = "STL",
                .endings = ".stl",

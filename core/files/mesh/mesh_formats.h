@@ -26,7 +26,7 @@ struct MeshFormat {
   std::string_view help;     // content of such files, for help texts
   /// Texts at the beginning of a file that identify the format, after or within blank lines and comments. Unused
   /// entries are empty.
-  std::array<std::string_view, 5> signs{};
+  std::array<std::string_view, 7> signs{};
   /// The reader of a mesh or of a volume. A format has one of the two, or none if it is only written. They throw Error,
   /// with the line if the file is text, and Cancelled.
   ImportedMesh (*read_mesh)(const std::filesystem::path&, const ReadOptions&, const Progress&) = nullptr;

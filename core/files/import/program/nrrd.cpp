@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
+#include "files/formats/nrrd_head.h"
 #include "files/import/program/tasks.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
@@ -48,14 +50,36 @@ double spacing_of(const NrrdAxisInfo& axis, unsigned dimension) {
   return 1;
 }
 
+using AxisPointers = std::vector<const NrrdAxisInfo*>;
+
+/// Returns the axes of the voxels. More than three are a volume if the others have one channel, or one time: of those,
+/// the first without a direction in space is left out.
+AxisPointers voxel_axes(const Nrrd& file) {
+  AxisPointers axes;
+  for (unsigned k = 0; k < file.dim; ++k) {
+    axes.push_back(&file.axis[k]);
+  }
+  while (axes.size() > 3) {
+    auto found = std::ranges::find_if(
+        axes, [](const NrrdAxisInfo* axis) { return axis->size == 1 && std::isnan(axis->spaceDirection[0]); });
+    found = found != axes.end() ? found : std::ranges::find(axes, std::size_t{1}, &NrrdAxisInfo::size);
+    if (found == axes.end()) {
+      break;
+    }
+    axes.erase(found);
+  }
+  return axes;
+}
+
 /// Returns the directions of the axes in space; those of space for a file that states none.
-Eigen::Matrix3d axes_of(const Nrrd& file) {
+Eigen::Matrix3d directions_of(const Nrrd& file) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  for (Eigen::Index k = 0; file.spaceDim == 3 && k < 3; ++k) {
-    const Point direction(file.axis[k].spaceDirection[0], file.axis[k].spaceDirection[1],
-                          file.axis[k].spaceDirection[2]);
+  const AxisPointers of_voxels = voxel_axes(file);
+  for (std::size_t k = 0; file.spaceDim == 3 && k < 3; ++k) {
+    const double* const along = of_voxels[k]->spaceDirection;
+    const Point direction(along[0], along[1], along[2]);
     if (direction.allFinite() && !direction.isZero()) {
-      axes.col(k) = direction.stableNormalized();
+      axes.col(Eigen::Index(k)) = direction.stableNormalized();
     }
   }
   if (!are_axes(axes)) {
@@ -83,11 +107,12 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 
 /// Returns the number of voxels along each axis. Refuses more than the data of this size can give.
 std::array<std::uint32_t, 3> checked_size(const Nrrd& file, std::uint64_t data_bytes) {
-  if (file.dim != 3 || file.type == nrrdTypeBlock) {
-    refuse("it has " + std::to_string(file.dim) + " axes, but a volume of densities has 3",
+  const AxisPointers axes = voxel_axes(file);
+  if (axes.size() != 3 || file.type == nrrdTypeBlock) {
+    refuse("it has " + std::to_string(axes.size()) + " axes, but a volume of densities has 3",
            "save a single channel at a single time");
   }
-  const auto size = checked_volume_size("", {file.axis[0].size, file.axis[1].size, file.axis[2].size});
+  const auto size = checked_volume_size("", {axes[0]->size, axes[1]->size, axes[2]->size});
   const std::uint64_t voxels = std::uint64_t{size[0]} * size[1] * size[2];
   if (voxels * nrrdTypeSize[file.type] / limits::compression_ratio > data_bytes) {
     refuse("its data are too few for its voxels, or compressed too much", "export it again, as raw data");
@@ -98,17 +123,21 @@ std::array<std::uint32_t, 3> checked_size(const Nrrd& file, std::uint64_t data_b
 }  // namespace
 
 Volume read_nrrd(const std::filesystem::path& path) {
-  const std::uint64_t data_bytes = size_of(path) + size_of(path.parent_path() / "data");
+  std::uint64_t data_bytes = size_of(path);
+  for (std::size_t i = 0; i < limits::nrrd_files; ++i) {
+    data_bytes += size_of(path.parent_path() / nrrd_data_name(i));
+  }
   checked_size(*load(path, true), data_bytes);
   const auto file = load(path, false);
   Volume volume;
   volume.size = checked_size(*file, data_bytes);
-  for (int k = 0; k < 3; ++k) {
-    volume.spacing[k] = spacing_of(file->axis[k], file->spaceDim);
-    const double origin = file->spaceDim == 3 ? file->spaceOrigin[k] : file->axis[k].min;
-    volume.origin[k] = std::isfinite(origin) ? origin : 0;
+  const AxisPointers axes = voxel_axes(*file);
+  for (std::size_t k = 0; k < 3; ++k) {
+    volume.spacing[Eigen::Index(k)] = spacing_of(*axes[k], file->spaceDim);
+    const double origin = file->spaceDim == 3 ? file->spaceOrigin[k] : axes[k]->min;
+    volume.origin[Eigen::Index(k)] = std::isfinite(origin) ? origin : 0;
   }
-  volume.axes = axes_of(*file);
+  volume.axes = directions_of(*file);
   const auto number = nrrdDLookup[file->type];
   take_densities(volume, "", [&](std::size_t i) { return number(file->data, i); });
   return volume;

@@ -250,15 +250,16 @@ std::string VtkXml::plain_bytes(std::string_view bytes) const {
 /// one packed.
 std::string VtkXml::unpacked(std::string_view bytes, const NumberType& size) const {
   const std::uint64_t blocks = size_at(bytes, 0), full = blocks > 0 ? size_at(bytes, 1) : 0,
-                      last = blocks > 0 ? size_at(bytes, 2) : 0;
-  if (blocks > bytes.size() || std::max(full, last) > limits::compression_ratio * bytes.size()) {
+                      partial = blocks > 0 ? size_at(bytes, 2) : 0, last = partial > 0 ? partial : full;
+  const std::uint64_t most = limits::compression_ratio * bytes.size();  // of all blocks together
+  if (blocks > 0 && (blocks > bytes.size() || last > most || (blocks > 1 && full > (most - last) / (blocks - 1)))) {
     refuse_damaged("its data are compressed too much, or damaged");
   }
   std::string result;
   std::size_t at = size.bytes * (blocks > 0 ? 3 + blocks : 1);
   for (std::uint64_t block = 0; block < blocks; ++block) {
     const std::uint64_t packed = size_at(bytes, 3 + block);
-    const std::uint64_t wanted = block + 1 == blocks && last > 0 ? last : full;
+    const std::uint64_t wanted = block + 1 == blocks ? last : full;
     if (at > bytes.size() || packed > bytes.size() - at) {
       refuse_damaged("its data end too early");
     }
