@@ -10,11 +10,11 @@ namespace {
 
 struct RepairArguments {
   MeshOptions mesh;
-  CLI::Option *weld = nullptr, *loose = nullptr, *holes = nullptr;
+  CLI::Option *weld = nullptr, *loose = nullptr, *holes = nullptr, *cells = nullptr;
 
   /// True if this repair was asked for, or none was: then all are made.
   bool asks(const CLI::Option* repair) const {
-    return repair->count() > 0 || weld->count() + loose->count() + holes->count() == 0;
+    return repair->count() > 0 || weld->count() + loose->count() + holes->count() + cells->count() == 0;
   }
 };
 
@@ -28,7 +28,8 @@ api::RepairOptions options_of(const RepairArguments& options) {
   return {.weld = options.asks(options.weld),
           .tolerance = tolerance && !tolerance->empty() ? tolerance_of(*tolerance) : 0,
           .loose = options.asks(options.loose),
-          .holes = options.asks(options.holes)};
+          .holes = options.asks(options.holes),
+          .cells = options.asks(options.cells)};
 }
 
 /// Refuses to close the holes of an object with cells, if that was asked for.
@@ -62,7 +63,8 @@ void repair_file(const RepairArguments& options, const std::string& target, cons
 }  // namespace
 
 Command add_repair(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("repair", "Repair a mesh: weld duplicates, remove loose points, close holes");
+  CLI::App* app =
+      root.add_subcommand("repair", "Repair a mesh: weld duplicates, remove loose points, close holes, turn cells");
   RepairArguments options;
   options.mesh = add_mesh_options(*app, Welding::by_repair);
   options.weld =
@@ -72,10 +74,11 @@ Command add_repair(CLI::App& root) {
           ->expected(0, 1);
   options.loose = add_switch(*app, "--loose", "only remove loose points: elements without links");
   options.holes = add_switch(*app, "--holes", "only close holes of a surface; the outline of an open surface stays");
+  options.cells = add_switch(*app, "--cells", "only turn cells that are inside out while others are not");
   CLI::Option* json = add_value(*app, "--json", "FILE", "write the counts before and after as JSON");
   const CLI::Option* target = add_mesh_target(*app);
   app->footer(
-      "Without --weld, --loose and --holes, all three repairs are made. Several may be given.\n"
+      "Without --weld, --loose, --holes and --cells, all four repairs are made. Several may be given.\n"
       "Non-manifold edges are reported but not changed.\n\nExample:\n  chainmail repair scan.ply -o whole.ply");
   return {app, [options, json, target] { repair_file(options, *value_of(target), value_of(json)); }};
 }

@@ -57,6 +57,12 @@ class Repairing {
                       number_of(mesh_->triangles.size() - triangles, "triangle", "triangles"));
     }
   }
+  void turn_cells(const Progress& progress) {
+    if (const auto count = defects_.inverted.size(); count > 0) {
+      take(inner::turn_cells(*mesh_, defects_.inverted, progress));
+      done_.push_back(number_of(count, "cell turned", "cells turned"));
+    }
+  }
 
   const Defects& defects() const { return defects_; }
   Repair finished(const Mesh& before, Defects defects_before) {
@@ -154,6 +160,9 @@ Repair repair(const Mesh& mesh, const RepairOptions& options, const Job& job) {
     }
     if (options.holes) {
       repairing.close_holes(progress.part(0.4, 1));
+    }
+    if (options.cells) {
+      repairing.turn_cells(progress.part(0.9, 1));
     }
     return repairing.finished(mesh, std::move(before));
   });

@@ -208,7 +208,7 @@ class Builder {
     const bool has_way_round = simplices_.dimension == 3 && cells_ == nullptr;  // a sheet is the same from behind
     if (has_way_round && orientation_ != 0 && (volume > 0) != (orientation_ > 0)) {
       throw Error(where, "it is inverted: its corners are in the opposite order to those of the cells before it",
-                  "list its corners in the order of the others, or mesh the object again");
+                  "turn such cells with 'chainmail repair', or with Object > Repair in the workbench");
     }
     orientation_ = volume > 0 ? 1 : -1;
   }

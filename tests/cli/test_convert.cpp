@@ -103,14 +103,18 @@ void ConvertCommandTest::a_mesh_is_repaired() {
   QCOMPARE(mesh->element_count(), 9U);
   QCOMPARE(mesh->triangles.size(), std::size_t{13});
   const auto defects = [&](const char* when) { return program.json("a.json")[when].toObject()["defects"].toObject(); };
-  QCOMPARE(
-      defects("before"),
-      (QJsonObject{
-          {"duplicate_vertices", 1}, {"loose_points", 1}, {"holes", 1}, {"hole_edges", 4}, {"non_manifold_edges", 1}}));
-  QCOMPARE(
-      defects("after"),
-      (QJsonObject{
-          {"duplicate_vertices", 0}, {"loose_points", 0}, {"holes", 0}, {"hole_edges", 0}, {"non_manifold_edges", 1}}));
+  QCOMPARE(defects("before"), (QJsonObject{{"duplicate_vertices", 1},
+                                           {"loose_points", 1},
+                                           {"holes", 1},
+                                           {"hole_edges", 4},
+                                           {"non_manifold_edges", 1},
+                                           {"inverted_cells", 0}}));
+  QCOMPARE(defects("after"), (QJsonObject{{"duplicate_vertices", 0},
+                                          {"loose_points", 0},
+                                          {"holes", 0},
+                                          {"hole_edges", 0},
+                                          {"non_manifold_edges", 1},
+                                          {"inverted_cells", 0}}));
   QCOMPARE(program.json("a.json")["before"].toObject()["elements"].toInt(), 11);
   QCOMPARE(program.json("a.json")["after"].toObject()["elements"].toInt(), 9);
 }

@@ -51,10 +51,12 @@ void InfoCommandTest::json_has_the_keys_of_the_contract() {
   QCOMPARE(info["components"].toInt(), 2);
   QCOMPARE(info["bounds"].toArray(), (QJsonArray{QJsonArray{0, 0, 3}, QJsonArray{4, 6, 3}}));
   QCOMPARE(info["mean_link_length"].toDouble(), 3.5);
-  QCOMPARE(
-      info["defects"].toObject(),
-      (QJsonObject{
-          {"duplicate_vertices", 0}, {"loose_points", 1}, {"holes", 0}, {"hole_edges", 0}, {"non_manifold_edges", 0}}));
+  QCOMPARE(info["defects"].toObject(), (QJsonObject{{"duplicate_vertices", 0},
+                                                    {"loose_points", 1},
+                                                    {"holes", 0},
+                                                    {"hole_edges", 0},
+                                                    {"non_manifold_edges", 0},
+                                                    {"inverted_cells", 0}}));
   QVERIFY(program.run("info a.obj").out.contains("\ndefects           1 loose point\n"));
 }
 

@@ -4,9 +4,12 @@
 #include <numeric>
 #include <random>
 
+#include "elastic/simplices.h"
 #include "files/mesh/fill.h"
 #include "files/repair/repair.h"
 #include "files/support.h"
+#include "files/volume_of.h"
+#include "folders.h"
 #include "mesh/cells.h"
 #include "mesh/sheet.h"
 #include "program.h"
@@ -95,6 +98,8 @@ class MeshRepairTest : public QObject {
   void a_hole_at_a_non_manifold_edge_is_closed();
   void a_border_is_judged_by_its_own_piece_data();
   void a_border_is_judged_by_its_own_piece();
+  void cells_that_are_inside_out_are_turned_data();
+  void cells_that_are_inside_out_are_turned();
   void a_picture_stays_on_its_sheet();
   void the_softness_of_links_stays();
   void what_cannot_be_closed_is_one_sentence();
@@ -358,6 +363,52 @@ void MeshRepairTest::a_border_is_judged_by_its_own_piece() {
   }
   add_links_along_edges(parts);
   QCOMPARE(found(*build_mesh(parts)), words);
+}
+
+void MeshRepairTest::cells_that_are_inside_out_are_turned_data() {
+  QTest::addColumn<bool>("of_tetrahedra");
+  QTest::newRow("tetrahedra") << true;
+  QTest::newRow("hexahedra") << false;
+}
+
+/// Methods for cells refuse some that are turned the other way, and name the repair. If all are, nothing is wrong.
+void MeshRepairTest::cells_that_are_inside_out_are_turned() {
+  QFETCH(bool, of_tetrahedra);
+  const auto whole = of_tetrahedra ? made(MeshKind::tetra, {3, 3, 3})
+                                   : read_mesh(source_file("tests/files/foreign/gmsh_hexahedra.vtk"));
+  const auto with_turned = [&](std::size_t count) {
+    MeshParts parts;
+    for (ElementId e = 0; e < whole->element_count(); ++e) {
+      parts.rest.push_back(whole->rest_position(e));
+    }
+    parts.links = whole->links;
+    parts.tetrahedra = whole->tetrahedra;
+    parts.hexahedra = whole->hexahedra;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (of_tetrahedra) {
+        std::swap(parts.tetrahedra[i][0], parts.tetrahedra[i][1]);
+      } else {
+        std::swap(parts.hexahedra[i][1], parts.hexahedra[i][3]);
+        std::swap(parts.hexahedra[i][5], parts.hexahedra[i][7]);
+      }
+    }
+    return build_mesh(parts);
+  };
+  const auto refusal = [](const Mesh& mesh) { return error_of([&] { build_simplices(mesh, {}, {}); }); };
+  const auto mixed = with_turned(2);
+  QVERIFY2(
+      refusal(*mixed).endsWith("; turn such cells with 'chainmail repair', or with Object > Repair in the workbench"),
+      qPrintable(refusal(*mixed)));
+  const auto defects = find_defects(*mixed);
+  QCOMPARE(defects.inverted, (std::vector<std::uint32_t>{0, 1}));
+  QCOMPARE(found(*mixed), QString("2 cells inside out"));
+  const auto repaired = turn_cells(*mixed, defects.inverted);
+  QVERIFY(find_defects(*repaired.mesh).empty());
+  QCOMPARE(refusal(*repaired.mesh), QString());
+  QCOMPARE(volume_of(*repaired.mesh), volume_of(*whole));
+  QCOMPARE(repaired.mesh->links, whole->links);
+  QCOMPARE(repaired.new_ids.back(), whole->element_count() - 1);
+  QVERIFY(find_defects(*with_turned(whole->tetrahedra.size() + whole->hexahedra.size())).empty());
 }
 
 void MeshRepairTest::a_picture_stays_on_its_sheet() {

@@ -1,6 +1,7 @@
 #include "io/mesh_repair.h"
 
 #include <algorithm>
+#include <span>
 
 #include "common/text.h"
 #include "document/edits.h"
@@ -22,8 +23,9 @@ std::vector<ElementId> ascending(std::vector<ElementId> elements) {
   return elements;
 }
 
-/// Returns what Show selects, one after another: all duplicates, all loose points, each hole, all other edges.
-std::vector<DefectGroup> groupsOf(const Defects& defects) {
+/// Returns what Show selects, one after another: all duplicates, all loose points, each hole, all other edges, all
+/// cells.
+std::vector<DefectGroup> groupsOf(const Mesh& mesh, const Defects& defects) {
   std::vector<DefectGroup> all;
   const auto add = [&all](const QString& name, const std::vector<ElementId>& elements) {
     if (!elements.empty()) {
@@ -41,6 +43,15 @@ std::vector<DefectGroup> groupsOf(const Defects& defects) {
     ends.insert(ends.end(), edge.begin(), edge.end());
   }
   add(QStringLiteral("non-manifold edges"), ends);
+  std::vector<ElementId> corners;
+  for (const std::uint32_t cell : defects.inverted) {
+    const bool isTetrahedron = cell < mesh.tetrahedra.size();
+    const std::span<const ElementId> of =
+        isTetrahedron ? std::span<const ElementId>(mesh.tetrahedra[cell])
+                      : std::span<const ElementId>(mesh.hexahedra[cell - mesh.tetrahedra.size()]);
+    corners.insert(corners.end(), of.begin(), of.end());
+  }
+  add(QStringLiteral("cells inside out"), corners);
   return all;
 }
 
@@ -62,6 +73,7 @@ MeshRepair::MeshRepair(Document& document, Jobs& jobs, QObject* parent)
   connect(bar_, &RepairBar::weldRequested, this, &MeshRepair::weld);
   connect(bar_, &RepairBar::removeLooseRequested, this, &MeshRepair::removeLoose);
   connect(bar_, &RepairBar::closeHolesRequested, this, &MeshRepair::closeHoles);
+  connect(bar_, &RepairBar::turnCellsRequested, this, &MeshRepair::turnCells);
   connect(bar_, &RepairBar::dismissed, this, &MeshRepair::dismiss);
 }
 
@@ -69,7 +81,8 @@ void MeshRepair::fill(QMenu& menu) {
   auto* action = menu.addAction(QStringLiteral("&Repair…"), this, &MeshRepair::check);
   action->setObjectName(QStringLiteral("repairMesh"));
   action->setStatusTip(QStringLiteral(
-      "Looks for duplicate vertices, loose points, holes and non-manifold edges, and offers to repair them"));
+      "Looks for duplicate vertices, loose points, holes, non-manifold edges and cells that are inside out, and offers "
+      "to repair them"));
 }
 
 void MeshRepair::remember(const MeshPointer& mesh, Defects defects) {
@@ -117,7 +130,7 @@ void MeshRepair::dismiss() {
 
 void MeshRepair::showNext() {
   if (const Checked* known = ofTheObject()) {
-    const std::vector<DefectGroup> all = groupsOf(*known->defects);
+    const std::vector<DefectGroup> all = groupsOf(*document_.mesh(), *known->defects);
     const DefectGroup& one = all[next_++ % all.size()];
     document_.selection().set(one.elements);
     bar_->showShown(QStringLiteral("Selected: %1").arg(one.name));
@@ -188,6 +201,19 @@ void MeshRepair::closeHoles() {
         },
         [defects = known->defects](const Mesh& mesh, const Progress& progress) {
           return close_holes(mesh, defects->holes, progress);
+        });
+  }
+}
+
+void MeshRepair::turnCells() {
+  if (const Checked* known = ofTheObject()) {
+    start(
+        QStringLiteral("Turning cells"),
+        [count = known->defects->inverted.size()](const Repaired&) {
+          return counted(QStringLiteral("turn"), count, QStringLiteral("cell"));
+        },
+        [defects = known->defects](const Mesh& mesh, const Progress& progress) {
+          return turn_cells(mesh, defects->inverted, progress);
         });
   }
 }

@@ -48,6 +48,7 @@ class MeshRepair : public QObject {
   void weld();
   void removeLoose();
   void closeHoles();
+  void turnCells();
 
   Document& document_;
   Jobs& jobs_;

@@ -62,6 +62,11 @@ RepairBar::RepairBar() : row_(new QHBoxLayout(this)), text_(makeText("repairText
                      QStringLiteral("Closes the holes with triangles, as one undo step; all ids stay. The object is "
                                     "then at rest, without cuts and pins"),
                      &RepairBar::closeHolesRequested);
+  cells_ =
+      addButton(QStringLiteral("&Turn cells"), "repairCells",
+                QStringLiteral("Turns cells that are inside out, as one undo step; all ids stay. Methods for cells "
+                               "need this. The object is then at rest, without cuts and pins"),
+                &RepairBar::turnCellsRequested);
   addClose();
   hide();
   followTheme(*this, [this] {
@@ -118,6 +123,7 @@ void RepairBar::offer(const Defects& defects, const QString& ifNone) {
   show_->setVisible(!isSound);
   loose_->setVisible(!defects.loose.empty());
   holes_->setVisible(!defects.holes.empty());
+  cells_->setVisible(!defects.inverted.empty());
   showShown({});
   show();
   QAccessibleEvent alert(this, QAccessible::Alert);

@@ -4,6 +4,7 @@
 #include <QLabel>
 
 class QHBoxLayout;
+class QLineEdit;
 class QPushButton;
 
 namespace chainmail {
@@ -29,6 +30,7 @@ class RepairBar : public QFrame {
   void weldRequested();
   void removeLooseRequested();
   void closeHolesRequested();
+  void turnCellsRequested();
   void dismissed();
 
  private:
@@ -39,7 +41,7 @@ class RepairBar : public QFrame {
   QHBoxLayout* row_;
   QLabel* text_;
   QLabel* shown_;
-  QPushButton *show_, *weld_, *loose_, *holes_;
+  QPushButton *show_, *weld_, *loose_, *holes_, *cells_;
   QLineEdit* distance_;
 };
 

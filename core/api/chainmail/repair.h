@@ -22,6 +22,7 @@ struct RepairOptions {
   double tolerance = 0;  ///< Elements this close to another one are duplicates (mesh units).
   bool loose = true;     ///< Removes elements without links.
   bool holes = true;     ///< Closes holes of a surface. The outline of an open surface stays.
+  bool cells = true;     ///< Turns cells that are inside out while others are not.
 };
 
 /// A mesh after repair().
@@ -42,10 +43,10 @@ class Repair {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Repairs a mesh: welds duplicates, removes loose elements, then closes holes with triangles. Elements are numbered
-/// again where some are gone; links keep their own softness. Edges of more than two faces are counted but not changed.
-/// Closing holes needs chainmail-import (see ReadOptions). Throws Error about the `surface` if no hole can be closed;
-/// and Cancelled.
+/// Repairs a mesh: welds duplicates, removes loose elements, closes holes with triangles, and turns cells. Elements are
+/// numbered again where some are gone; links keep their own softness. Edges of more than two faces are counted but not
+/// changed. Closing holes needs chainmail-import (see ReadOptions). Throws Error about the `surface` if no hole can be
+/// closed; and Cancelled.
 Repair repair(const Mesh& mesh, const RepairOptions& options = {}, const Job& job = {});
 
 /// Smallest number of elements for simplify(): a tetrahedron has 4 corners.

@@ -93,11 +93,34 @@ double longest(std::initializer_list<Point> edges) {
   return length;
 }
 
-void count_volume(double volume, double length, MeshFlaws& flaws) {
-  if (!(std::abs(volume) > flat_share * length * length * length)) {
-    ++flaws.flat;
-  } else if (volume < 0) {
-    ++flaws.inverted;
+enum class CellShape { sound, flat, inside_out };
+
+/// Returns the shape of a cell of these edges.
+CellShape shape_of(const Point& u, const Point& v, const Point& w) {
+  const double volume = u.cross(v).dot(w), length = longest({u, v, w});
+  const bool is_flat = !(std::abs(volume) > flat_share * length * length * length);
+  return is_flat ? CellShape::flat : volume < 0 ? CellShape::inside_out : CellShape::sound;
+}
+
+/// Calls visit(cell, shape) for each tetrahedron, then for each hexahedron.
+template <class Visit>
+void for_each_cell(const Mesh& mesh, Visit visit) {
+  std::uint32_t cell = 0;
+  const auto at = [&](ElementId e) { return mesh.rest_position(e); };
+  for (const auto& t : mesh.tetrahedra) {
+    visit(cell++, shape_of(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]), at(t[3]) - at(t[0])));
+  }
+  for (const auto& h : mesh.hexahedra) {
+    // The determinant of the mean edges along the three axes is about the volume of the hexahedron, with its sign.
+    const auto mean = [&](std::array<int, 8> way) {
+      Point sum = Point::Zero();
+      for (int i = 0; i < 8; i += 2) {
+        sum += at(h[way[i + 1]]) - at(h[way[i]]);
+      }
+      return Point(sum / 4);
+    };
+    visit(cell++,
+          shape_of(mean({0, 1, 3, 2, 4, 5, 7, 6}), mean({0, 3, 1, 2, 4, 7, 5, 6}), mean({0, 4, 1, 5, 2, 6, 3, 7})));
   }
 }
 
@@ -136,6 +159,16 @@ std::vector<ElementId> first_at_position(const Mesh& mesh) {
   return first;
 }
 
+std::vector<std::uint32_t> cells_inside_out(const Mesh& mesh) {
+  std::vector<std::uint32_t> found;
+  for_each_cell(mesh, [&found](std::uint32_t cell, CellShape shape) {
+    if (shape == CellShape::inside_out) {
+      found.push_back(cell);
+    }
+  });
+  return found;
+}
+
 void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
   const auto at = [&](ElementId e) { return mesh.rest_position(e); };
   for (std::size_t i = 0; i < mesh.own_triangles; ++i) {
@@ -144,23 +177,10 @@ void count_flaws(const Mesh& mesh, MeshFlaws& flaws) {
     const double length = longest({u, v, v - u});
     flaws.flat += u.cross(v).norm() > flat_share * length * length ? 0 : 1;
   }
-  for (const auto& t : mesh.tetrahedra) {
-    const Point u = at(t[1]) - at(t[0]), v = at(t[2]) - at(t[0]), w = at(t[3]) - at(t[0]);
-    count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
-  }
-  for (const auto& h : mesh.hexahedra) {
-    // The determinant of the mean edges along the three axes is about the volume of the hexahedron, with its sign.
-    const auto mean = [&](std::array<int, 8> way) {
-      Point sum = Point::Zero();
-      for (int i = 0; i < 8; i += 2) {
-        sum += at(h[way[i + 1]]) - at(h[way[i]]);
-      }
-      return Point(sum / 4);
-    };
-    const Point u = mean({0, 1, 3, 2, 4, 5, 7, 6}), v = mean({0, 3, 1, 2, 4, 7, 5, 6}),
-                w = mean({0, 4, 1, 5, 2, 6, 3, 7});
-    count_volume(u.cross(v).dot(w), longest({u, v, w}), flaws);
-  }
+  for_each_cell(mesh, [&flaws](std::uint32_t /*cell*/, CellShape shape) {
+    flaws.flat += shape == CellShape::flat ? 1 : 0;
+    flaws.inverted += shape == CellShape::inside_out ? 1 : 0;
+  });
   const auto first = first_at_position(mesh);
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     flaws.coincident += first[e] != e ? 1 : 0;

@@ -32,6 +32,9 @@ void leave_out_flawed(MeshParts& parts, MeshFlaws& flaws);
 /// Returns, for each element, the lowest id at exactly its rest position: its own id, unless it is a duplicate.
 std::vector<ElementId> first_at_position(const Mesh& mesh);
 
+/// Returns the cells that are inside out: tetrahedra by their index, then hexahedra.
+std::vector<std::uint32_t> cells_inside_out(const Mesh& mesh);
+
 /// Counts the flaws that a mesh keeps.
 void count_flaws(const Mesh& mesh, MeshFlaws& flaws);
 

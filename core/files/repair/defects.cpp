@@ -248,6 +248,10 @@ Defects find_defects(const Mesh& mesh, const Progress& progress) {
     }
   }
   if (mesh.has_cells()) {
+    defects.inverted = cells_inside_out(mesh);
+    if (defects.inverted.size() == mesh.tetrahedra.size() + mesh.hexahedra.size()) {
+      defects.inverted.clear();
+    }
     return defects;
   }
   const Triangles triangles = joined_triangles(mesh, first);
@@ -271,6 +275,9 @@ std::vector<std::string> in_words(const Defects& defects) {
   }
   if (const auto count = defects.non_manifold.size(); count > 0) {
     words.push_back(counted(count, "non-manifold edge", "non-manifold edges"));
+  }
+  if (const auto count = defects.inverted.size(); count > 0) {
+    words.push_back(counted(count, "cell inside out", "cells inside out"));
   }
   return words;
 }

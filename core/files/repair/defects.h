@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,14 @@ struct Defects {
   std::vector<std::vector<ElementId>> holes;
   /// Edges of more than two faces.
   std::vector<std::array<ElementId, 2>> non_manifold;
+  /// Cells that are inside out while others are not: tetrahedra by their index, then hexahedra.
+  std::vector<std::uint32_t> inverted;
   /// Number of closed borders that are not holes but the outline of an open surface, like that of a cloth.
   std::size_t outlines = 0;
 
-  bool empty() const { return duplicates.empty() && loose.empty() && holes.empty() && non_manifold.empty(); }
+  bool empty() const {
+    return duplicates.empty() && loose.empty() && holes.empty() && non_manifold.empty() && inverted.empty();
+  }
   /// Number of edges around all holes.
   std::size_t hole_edges() const;
 };
@@ -39,7 +44,7 @@ struct Defects {
 Defects find_defects(const Mesh& mesh, const Progress& progress = {});
 
 /// Describes each kind of defect that occurs: '3 duplicate vertices', '12 loose points', '2 holes (14 edges)',
-/// '1 non-manifold edge'.
+/// '1 non-manifold edge', '5 cells inside out'.
 std::vector<std::string> in_words(const Defects& defects);
 
 /// Joins such descriptions.

@@ -121,6 +121,14 @@ void append(const Mesh& mesh, const MeshParts& patches, MeshParts& parts) {
   parts.triangles.insert(parts.triangles.end(), patches.triangles.begin(), patches.triangles.end());
 }
 
+/// Returns a mesh that has all elements of the one before, with their ids.
+Repaired with_all_elements(MeshPointer after, const Mesh& before) {
+  Repaired repaired{std::move(after), {}};
+  repaired.new_ids.resize(before.element_count());
+  std::iota(repaired.new_ids.begin(), repaired.new_ids.end(), ElementId{0});
+  return repaired;
+}
+
 }  // namespace
 
 Repaired weld(const Mesh& mesh, double tolerance, const Progress& progress) {
@@ -164,10 +172,22 @@ Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>
   MeshParts parts = parts_of(mesh);
   parts.links = mesh.links;
   append(mesh, patches.parts, parts);
-  Repaired repaired{build_mesh(std::move(parts), progress.part(0.8, 1)), {}};
-  repaired.new_ids.resize(mesh.element_count());
-  std::iota(repaired.new_ids.begin(), repaired.new_ids.end(), ElementId{0});
-  return repaired;
+  return with_all_elements(build_mesh(std::move(parts), progress.part(0.8, 1)), mesh);
+}
+
+Repaired turn_cells(const Mesh& mesh, const std::vector<std::uint32_t>& cells, const Progress& progress) {
+  MeshParts parts = parts_of(mesh);
+  for (const std::uint32_t cell : cells) {
+    if (cell < parts.tetrahedra.size()) {
+      std::swap(parts.tetrahedra[cell][2], parts.tetrahedra[cell][3]);
+    } else {
+      auto& corners = parts.hexahedra[cell - parts.tetrahedra.size()];
+      std::rotate(corners.begin(), corners.begin() + 4, corners.end());  // exchanges the lower and the upper side
+    }
+  }
+  parts.first_entry = mesh.first_entry;
+  parts.neighbours = mesh.neighbours;
+  return with_all_elements(build_mesh(std::move(parts), progress), mesh);
 }
 
 OwnSoftness softness_after(const OwnSoftness& own, const Mesh& before, const Repaired& after) {

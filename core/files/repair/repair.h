@@ -36,6 +36,10 @@ Repaired remove_loose(const Mesh& mesh, const Progress& progress = {});
 /// cannot be closed stays open.
 Repaired close_holes(const Mesh& mesh, const std::vector<std::vector<ElementId>>& holes, const Progress& progress = {});
 
+/// Turns cells that are inside out (see Defects::inverted): they list their corners in the opposite order. Throws
+/// Cancelled.
+Repaired turn_cells(const Mesh& mesh, const std::vector<std::uint32_t>& cells, const Progress& progress = {});
+
 /// Returns the softness of single links of `before` for the same links after a repair.
 OwnSoftness softness_after(const OwnSoftness& own, const Mesh& before, const Repaired& after);
 

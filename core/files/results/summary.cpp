@@ -16,7 +16,8 @@ Json to_json(const Defects& defects) {
           {"loose_points", defects.loose.size()},
           {"holes", defects.holes.size()},
           {"hole_edges", defects.hole_edges()},
-          {"non_manifold_edges", defects.non_manifold.size()}};
+          {"non_manifold_edges", defects.non_manifold.size()},
+          {"inverted_cells", defects.inverted.size()}};
 }
 
 Json counts_of(const MeshSummary& summary) {
