@@ -156,7 +156,7 @@ void deform(const DeformArguments& options) {
     const Watch watch("reading " + api::printable(*file));
     recorded = api::read_moves(*file, mesh, watch.job());
   }
-  check_actions(actions, recorded ? recorded->last_mesh() : mesh);
+  check_actions(actions, recorded ? recorded->last_mesh() : mesh, schedule.steps);
 
   api::Simulation simulation(body, method);
   simulation.set_relaxation(schedule.relax, schedule.how);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -49,22 +50,25 @@ void refuse_extras(const CLI::App& root) {
   const CLI::App& app = chosen(root);
   for (const CLI::App* with_extras : {&root, &app}) {
     const auto extras = with_extras->remaining();
-    if (extras.empty()) {
+    const auto found = std::ranges::find_if(extras, [](const std::string& one) { return one != "--"; });
+    if (found == extras.end()) {
       continue;
     }
-    const std::string& word = extras.front();
-    if (word.size() > 1 && word.front() == '-') {
+    const std::string& word = *found;
+    const bool is_name = found != extras.begin();  // behind `--`
+    if (word.size() > 1 && word.front() == '-' && !is_name) {
       throw api::Error(word, "there is no such option", help_hint(app));
     }
     throw api::Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
   }
 }
 
-/// Throws Error if the value of an option is itself an option, because then the value is missing.
+/// Throws Error if the value of an option is itself an option, because then the value is missing. What has a position
+/// may be any name behind `--`.
 void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
-      if (value.starts_with("--")) {
+      if (!option->get_positional() && value.starts_with("--")) {
         throw api::Error(option->get_name(), "its value is missing", help_hint(app));
       }
     }

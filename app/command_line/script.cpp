@@ -133,7 +133,7 @@ bool is_move(const Action& action) {
 /// Checks actions one after another, with what the actions before have pinned and grabbed.
 class ActionChecker {
  public:
-  explicit ActionChecker(const api::Mesh& mesh) : mesh_(mesh) {}
+  ActionChecker(const api::Mesh& mesh, std::uint32_t steps) : mesh_(mesh), steps_(steps) {}
 
   void check(const std::vector<Action>& actions) {
     for (const Action& action : actions) {
@@ -146,10 +146,27 @@ class ActionChecker {
       }
       is_grabbed_ = action.kind == Action::Kind::grab || action.of_handle;
       check_one(action);
+      count_passes(action);
     }
   }
 
  private:
+  /// A pass has a row in the results, which names the elements of the handle.
+  void count_passes(const Action& action) {
+    if (action.kind == Action::Kind::grab) {
+      handle_ = elements_of(action, mesh_).size();
+    } else if (is_move(action)) {
+      passes_ += steps_;
+      named_ += steps_ * (action.of_handle ? handle_ : 1);
+    }
+    if (passes_ > most_passes || named_ > most_named) {
+      throw api::Error("--steps",
+                       "the moves have more than " + std::to_string(most_passes) +
+                           " passes in all, or name more than " + std::to_string(most_named) + " elements in them",
+                       "use fewer steps");
+    }
+  }
+
   void check_one(const Action& action) {
     switch (action.kind) {
       case Action::Kind::cut:
@@ -197,7 +214,11 @@ class ActionChecker {
     }
   }
 
+  static constexpr std::uint64_t most_passes = 100'000, most_named = 10'000'000;
+
   const api::Mesh& mesh_;
+  std::uint32_t steps_;  // passes of each move
+  std::uint64_t handle_ = 1, passes_ = 0, named_ = 0;
   std::set<api::ElementId> pinned_;
   bool is_grabbed_ = false;
 };
@@ -298,7 +319,9 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
   return action;
 }
 
-void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh) { ActionChecker(mesh).check(actions); }
+void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh, std::uint32_t steps) {
+  ActionChecker(mesh, steps).check(actions);
+}
 
 void carry_out(api::Simulation& simulation, const std::optional<api::RecordedMoves>& recorded,
                const std::vector<Action>& actions, std::uint32_t steps) {

@@ -36,8 +36,9 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
 api::Rotation parse_rotation(const std::string& where, std::string_view text);
 
 /// Throws Error if an action does not fit the mesh or the actions before it: if the element, link or axis does not
-/// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed.
-void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh);
+/// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed. Also if
+/// moves of this number of passes have too many in all: the results have a row for each.
+void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh, std::uint32_t steps);
 
 /// Runs the recorded moves, then the actions, with this number of passes per move. Shows progress on a terminal.
 void carry_out(api::Simulation& simulation, const std::optional<api::RecordedMoves>& recorded,

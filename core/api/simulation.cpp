@@ -40,6 +40,8 @@ struct Simulation::Impl {
   commands::Drag handle = {};  // where the handle of many is, since it was grabbed
   std::vector<DeformSummary::Pass> passes = {};
   std::vector<Trace> traces = {};
+  std::uint64_t traced = 0;  // rows of all traces
+  static constexpr std::uint64_t most_traced = 50'000'000;
 
   void carry_out(const Command& command) {
     if (const auto* drag = std::get_if<commands::Drag>(&command)) {
@@ -76,6 +78,11 @@ void Simulation::Impl::pass(const commands::Drag& drag) {
   }
   passes.back().remark = statistics.remark;
   if (is_tracing) {
+    traced += trace.size();
+    if (traced > most_traced) {
+      throw inner::Error("trace", "it has more than " + std::to_string(most_traced) + " rows",
+                         "use fewer steps, or a smaller object");
+    }
     traces.push_back(std::move(trace));
   }
   simulation.relax(most_relaxation, relaxation.step, relaxation.until);

@@ -73,6 +73,9 @@ void UsageTest::wrong_arguments_data() {
   row("generate grid 3x3 4 -o a.dat", "4: unexpected argument; ");
   row("generate grid 3x3 --foo -o a.dat", "--foo: there is no such option; ");
   row("info", "MESH: it is missing; ");
+  row("info --", "MESH: it is missing; ");
+  row("info -- --none.obj", "--none.obj: there is no such file; ");
+  row("info -- grid.dat --json", "--json: unexpected argument; ");
   row("info grid.dat grid.dat", "grid.dat: unexpected argument; ");
   row("info grid.dat --json", "--json: its value is missing; ");
   row("deform", "MESH: it is missing; ");
@@ -87,6 +90,9 @@ void UsageTest::wrong_arguments_data() {
     const QByteArray text = option;
     row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": ");
   }
+  row("deform grid.dat --algorithm spiral --steps 1000000000 --by 0:1",
+      "--steps: the moves have more than 100000 passes in all");
+  row("deform grid.dat --algorithm spiral --steps 50001 --by 0:1 --by 0:-1", "--steps: the moves have more than ");
   row("deform grid.dat --algorithm spiral --relax-until 1e-3",
       "--relax-until: it works only with --relaxation equilibrium; add --relaxation equilibrium\n");
   row("deform grid.dat --algorithm spiral --relaxation link --relax-until 0.1", "--relax-until: it works only with ");

@@ -25,6 +25,7 @@ class MovesTest : public QObject {
   void splits_that_do_not_fit_are_refused_data();
   void splits_that_do_not_fit_are_refused();
   void a_drag_after_a_split_needs_a_grab();
+  void many_splits_are_refused_before_they_take_memory();
   void what_is_not_the_objects_is_left_out();
   void a_change_of_mesh_is_not_written();
   void other_files_are_refused_data();
@@ -200,6 +201,26 @@ void MovesTest::splits_that_do_not_fit_are_refused() {
 }
 
 /// A simulation would refuse it, too: the handle was of the object before.
+/// Each split keeps a mesh: what counts are the elements, links and triangles of all of them.
+void MovesTest::many_splits_are_refused_before_they_take_memory() {
+  const auto mesh = made(MeshKind::cloth, {300, 300, 1});
+  std::string commands;
+  for (int i = 0; i < 200; ++i) {  // of 540,000 each
+    const std::string copy = std::to_string(90'000 + i);
+    commands += (i == 0 ? "" : ", ") + (R"({"do": "split", "elements": [[0, 0, 0, 0, 0]], "triangles": [[)" + copy +
+                                        R"(, 1, 2]], "removed": [0]})");
+  }
+  const auto refused = [](const std::string& text, const MeshPointer& of) {
+    return error_of([&] { read_moves(text, std::filesystem::path("m.json"), of); });
+  };
+  const std::size_t before = bytes_held;
+  max_bytes_held = before;
+  QVERIFY(refused(with_commands(commands), mesh)
+              .startsWith("m.json: the meshes after all splits have more than 100000000 elements, links and triangles; "
+                          "use fewer splits"));
+  QVERIFY(max_bytes_held - before < 1'000'000);
+}
+
 void MovesTest::a_drag_after_a_split_needs_a_grab() {
   const std::string split =
       R"({"do": "split", "elements": [[0, 0, 0, 0, 0], [2, 2, 2, 0, 0]], "removed": [1], "triangles": [[4, 5, 3]]})";

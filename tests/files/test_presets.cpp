@@ -97,6 +97,13 @@ void PresetsTest::their_number_is_limited() {
   }
   QCOMPARE(error_of([&] { read(values + "]}"); }),
            QString("p.json: it contains too many values; use a file with presets of softness"));
+  // An object with a key takes the memory of ten.
+  std::string objects = R"({"version": 1, "presets": [{"":0})";
+  for (std::size_t i = 0; i < limits::json_values / 10; ++i) {
+    objects += R"(,{"":0})";
+  }
+  QCOMPARE(error_of([&] { read(objects + "]}"); }),
+           QString("p.json: it contains too many values; use a file with presets of softness"));
 }
 
 void PresetsTest::other_files_are_refused_data() {

@@ -193,8 +193,6 @@ SplitEdit MoveFields::split(const MoveMembers& command) const {
 constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = 3;
 constexpr std::array<std::string_view, 3> starts{"goes on", "awake", "asleep"};  // see commands::Relaxed::Start
 constexpr std::uint64_t max_sweeps = 1'000'000;
-// Every split has its own mesh, so a short file could ask for much memory.
-constexpr std::uint64_t max_split_elements = 10 * element_limit;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 
@@ -226,6 +224,7 @@ class MovesReader {
   Command relax(const Members& of);
   Command relaxed(const Members& of);
   Command split(const Members& of);
+  void check_split_parts(std::uint64_t parts) const;
 
   std::string where_;
   MoveFields fields_;         // of the file, then of each command
@@ -235,7 +234,7 @@ class MovesReader {
   // The state that the simulation would be in.
   std::set<ElementId> grabbed_;
   std::set<ElementId> pinned_;
-  std::uint64_t split_elements_ = 0;  // in the meshes after all splits
+  std::uint64_t split_parts_ = 0;  // of the meshes after all splits
 };
 
 Command MovesReader::grab(const Members& of) {
@@ -391,11 +390,8 @@ Command MovesReader::relax(const Members& of) {
 Command MovesReader::split(const Members& of) {
   try {
     SplitEdit edit = fields_.split(of);
-    split_elements_ += fields_.mesh()->element_count() + edit.elements.size();
-    if (split_elements_ > max_split_elements) {
-      fields_.fail("the meshes after all splits have more than " + std::to_string(max_split_elements) + " elements",
-                   "use fewer splits, or a smaller object");
-    }
+    split_parts_ += split_parts_of(*fields_.mesh()) + edit.elements.size();
+    check_split_parts(split_parts_);
     SplitPointer split = make_split(fields_.mesh(), std::move(edit));
     const auto pins = pins_after(*split, std::vector(pinned_.begin(), pinned_.end()));
     pinned_ = {pins.begin(), pins.end()};
@@ -405,6 +401,14 @@ Command MovesReader::split(const Members& of) {
   } catch (const Error& error) {
     const bool ours = error.where() == fields_.where();
     throw ours ? error : error.at(fields_.where() + ": " + error.where());
+  }
+}
+
+void MovesReader::check_split_parts(std::uint64_t parts) const {
+  if (parts > limits::split_parts) {
+    fields_.fail("the meshes after all splits have more than " + std::to_string(limits::split_parts) +
+                     " elements, links and triangles",
+                 "use fewer splits, or a smaller object");
   }
 }
 
@@ -432,6 +436,9 @@ void MovesReader::take(const Json& value, const Members& of) {
     if (!value.is_object()) {
       fields_.fail("it is not an object", "write {\"do\": …}");
     }
+    if (commands_.size() == limits::moves) {
+      fields_.fail("there are more than " + std::to_string(limits::moves) + " commands", "use fewer moves");
+    }
     commands_.push_back(command(of));
   } catch (const Error& error) {
     fault_ = error;
@@ -454,6 +461,13 @@ void MovesReader::check_head(const Json& head) const {
 
 std::vector<Command> MovesReader::read(std::string_view text, const std::filesystem::path& path,
                                        const Progress& progress) {
+  // A split costs at least as much as the mesh before all of them.
+  static constexpr std::string_view name = "\"split\"";
+  std::uint64_t splits = 0;
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + name.size())) {
+    ++splits;
+  }
+  check_split_parts(splits * split_parts_of(*fields_.mesh()));
   MovesScan scan(text, path, where_, [this](const Json& value, const Members& of) { take(value, of); });
   scan.scan(progress);
   fields_.say_at(where_);
@@ -571,6 +585,10 @@ class MoveWriter {
 };
 
 }  // namespace
+
+std::uint64_t split_parts_of(const Mesh& mesh) {
+  return std::uint64_t{mesh.element_count()} + mesh.link_count() + mesh.triangles.size();
+}
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
                                 const MeshPointer& mesh, const Progress& progress, EnergyKind absent_energy) {

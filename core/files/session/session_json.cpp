@@ -118,7 +118,9 @@ bool SessionScanner::number(Value value, double real, std::optional<std::uint64_
 
 /// Adds a value to the tree.
 Json& SessionScanner::add(Json value) {
-  if (++values_ > limits::json_values) {
+  values_ += value.is_structured() ? limits::values_of_container : 1;
+  values_ += !open_.empty() && open_.back()->is_object() ? limits::values_of_key : 0;
+  if (values_ > limits::json_values) {
     fail("it contains too many values", "use a session that the workbench saved");
   }
   if (open_.empty()) {

@@ -77,10 +77,13 @@ std::size_t weight(const Command& command) {
 /// True if a session has moves and not too many to save.
 bool moves_fit(const std::vector<Command>& moves) {
   std::size_t all = 0;
+  std::uint64_t parts = 0;
   for (const Command& command : moves) {
     all += weight(command);
+    const auto* split = std::get_if<commands::Split>(&command);
+    parts += split == nullptr ? 0 : split_parts_of(*split->split->before) + split->split->edit.elements.size();
   }
-  return all > 0 && all <= limits::session_moves;
+  return all > 0 && all <= limits::session_moves && parts <= limits::split_parts;
 }
 
 class SessionWriter {

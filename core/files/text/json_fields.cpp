@@ -20,13 +20,13 @@ class JsonCheck : public JsonScan {
         too_many_(shown(path), "it contains too many values", "use a file with " + content) {}
 
  private:
-  void take_value(Json /*value*/) override { count(); }
-  void open(Json /*empty*/) override { count(); }
+  void take_value(Json /*value*/) override { count(1); }
+  void open(Json /*empty*/) override { count(limits::values_of_container); }
   void close() override {}
-  void take_key(const std::string& /*key*/) override {}
+  void take_key(const std::string& /*key*/) override { count(limits::values_of_key); }
 
-  void count() {
-    if (++values_ > limits::json_values) {
+  void count(std::size_t values) {
+    if ((values_ += values) > limits::json_values) {
       throw Error(too_many_);
     }
   }
