@@ -14,10 +14,9 @@ namespace {
 
 constexpr int max_shards = 1000;
 
-/// Adds Bullet's methods. Its FEM needs minutes for an experiment, so that it takes part only where it is named.
-void add_bullet([[maybe_unused]] bool with_fem) {
+void add_bullet() {
 #ifdef CHAINMAIL_HAS_BULLET
-  register_bullet(with_fem);
+  register_bullet();
 #endif
 }
 
@@ -89,7 +88,7 @@ void run_suite(const CLI::App& app, const CompareArguments& arguments, const std
   refuse_others(app, "--suite",
                 {arguments.suite, arguments.shard, arguments.experiments, arguments.algorithms, arguments.repetitions,
                  arguments.calibrated, arguments.output});
-  add_bullet(value_of(arguments.algorithms).value_or("").find("bullet-fem") != std::string::npos);
+  add_bullet();
   api::SuiteOptions options;
   options.methods = methods_of(arguments.algorithms, api::methods());
   if (arguments.repetitions->count() > 0) {
@@ -116,7 +115,7 @@ void merge_suites(const CLI::App& app, const CompareArguments& arguments) {
   if (arguments.meshes->count() == 0) {
     throw api::Error("--merge", "the files are missing", "name the report.json of each part");
   }
-  add_bullet(true);
+  add_bullet();
   OutputFolder folder(*value_of(arguments.output));
   const auto& names = arguments.meshes->results();
   const std::vector<std::filesystem::path> reports(names.begin(), names.end());
