@@ -6,7 +6,6 @@ find_package(ZLIB QUIET)
 find_package(NLopt 2.7 QUIET)
 find_package(Bullet QUIET)
 find_package(CLI11 2.1 QUIET)
-find_package(PNG QUIET)
 find_package(pugixml QUIET)
 find_package(CGAL QUIET)
 find_package(Qt6 6.4 QUIET COMPONENTS Widgets OpenGL OpenGLWidgets Svg)
@@ -67,7 +66,7 @@ chainmail_part(SANDBOX "the sandbox of chainmail-import" NEEDS libseccomp CHAINM
 chainmail_part(IMPORT "chainmail-import: .msh, .vtu, .nrrd, filling, repair"
   NEEDS CGAL CGAL_FOUND Gmsh CHAINMAIL_GMSH_LIBRARY teem CHAINMAIL_TEEM_LIBRARY pugixml pugixml_FOUND zlib ZLIB_FOUND)
 chainmail_part(COMMAND_LINE "the program chainmail"
-  NEEDS CLI11 CLI11_FOUND libpng PNG_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
+  NEEDS CLI11 CLI11_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
 chainmail_part(WINDOW "the workbench"
   NEEDS "Qt 6 (Widgets, OpenGL, Svg)" Qt6_FOUND JSON CHAINMAIL_JSON)
 chainmail_part(DBUS "the theme of the desktop, in the workbench" NEEDS "Qt 6 (DBus)" Qt6DBus_FOUND)

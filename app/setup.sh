@@ -7,7 +7,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev nlohmann-json3-dev libcli11-dev
-  libcgal-dev libgmsh-dev libteem-dev libpugixml-dev zlib1g-dev libpng-dev libnlopt-dev libbullet-dev libseccomp-dev
+  libcgal-dev libgmsh-dev libteem-dev libpugixml-dev zlib1g-dev libnlopt-dev libbullet-dev libseccomp-dev
   qt6-base-dev libqt6opengl6-dev qt6-svg-dev
 )
 # The version of clang-format that the sources follow: that of Debian 12.

@@ -37,7 +37,6 @@ Command add_deform(CLI::App& root);
 Command add_compare(CLI::App& root, const std::string& command_line);
 Command add_calibrate(CLI::App& root);
 Command add_ramp(CLI::App& root);
-Command add_thumbnail(CLI::App& root);
 
 /// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
 /// and writes all messages.

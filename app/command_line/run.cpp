@@ -17,9 +17,8 @@ constexpr const char* run_footer =
     "  chainmail deform grid.dat --algorithm natural-queue --by 31:3,2 --positions moved.csv";
 
 constexpr const char* licence =
-    "\nMIT licence. Linked libraries: Bullet (zlib), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), libpng, zlib, "
-    "libseccomp\n"
-    "(LGPL-2.1), CLI11 (BSD) and nlohmann/json (MIT). It starts chainmail-import, which is under the GPL, as a "
+    "\nMIT licence. Linked libraries: Bullet (zlib), Eigen (MPL-2.0), NLopt (LGPL-2.1 or later), zlib, CLI11\n"
+    "(BSD) and nlohmann/json (MIT). It starts chainmail-import, which is under the GPL, as a "
     "separate program.";
 
 std::string help_hint(const CLI::App& app) {
@@ -104,7 +103,7 @@ void run(int argc, char** argv) {
   const std::vector<Command> commands{
       add_generate(root),  add_convert(root), add_fill(root),      add_repair(root),
       add_simplify(root),  add_info(root),    add_deform(root),    add_compare(root, as_typed(argc, argv)),
-      add_calibrate(root), add_ramp(root),    add_thumbnail(root), add_completion(root)};
+      add_calibrate(root), add_ramp(root),    add_completion(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
@@ -128,8 +127,8 @@ void run(int argc, char** argv) {
   }
   throw api::Error(
       "command", "no command was given",
-      "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate, ramp or thumbnail; see "
-      "chainmail --help");
+      "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate or ramp; see chainmail "
+      "--help");
 }
 
 }  // namespace chainmail::command_line

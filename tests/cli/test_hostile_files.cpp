@@ -185,8 +185,7 @@ void HostileFilesTest::known_attacks_end_soon() {
   const QString name = QTest::currentDataTag();
   program_->write(name, text);
   program_->write("grid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n");
-  for (const QStringList& arguments : {QStringList{"info", name}, QStringList{"convert", name, "-o", "out.obj"},
-                                       QStringList{"thumbnail", name, "-o", "out.png"}}) {
+  for (const QStringList& arguments : {QStringList{"info", name}, QStringList{"convert", name, "-o", "out.obj"}}) {
     const auto outcome = program_->run(arguments, [] { limit_resources(5, 1U << 30); });
     QVERIFY2(outcome.code == 0 || (outcome.code == 2 && is_one_sentence(outcome)), outcome.error);
   }

@@ -99,7 +99,6 @@ void ManualTablesTest::the_desktop_opens_each_format() {
     }
   }
   QCOMPARE(types_in("resources/org.chainmail.workbench.desktop"), opened);
-  QCOMPARE(types_in("resources/chainmail.thumbnailer"), opened);
 }
 
 void ManualTablesTest::the_manual_lists_each_number_of_softness() {

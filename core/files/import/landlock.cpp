@@ -69,9 +69,7 @@ int landlock_version() { return std::max(0, int(syscall(create_ruleset, nullptr,
 
 bool give_up_files(const std::filesystem::path& folder, std::span<const int> files) {
   Rules rules(landlock_version());
-  if (!folder.empty()) {
-    rules.allow_folder(folder);
-  }
+  rules.allow_folder(folder);
   std::for_each(files.begin(), files.end(), [&](int file) { rules.allow(read_file, file); });
   return rules.apply();
 }

@@ -86,8 +86,9 @@ void allow_own_affairs(Filter& filter) {
   filter.allow("prlimit64", {equal(0, 0), equal(2, 0)});  // reads its own limits
 }
 
-bool limit_written_files(std::uint64_t size) {
-  const rlimit both{size, size};
+/// Files that are open for writing cannot grow.
+bool forbid_writing_files() {
+  const rlimit both{0, 0};
   return setrlimit(RLIMIT_FSIZE, &both) == 0;
 }
 
@@ -96,11 +97,9 @@ bool limit_written_files(std::uint64_t size) {
 bool enter_sandbox(const SandboxFiles& files) {
   Filter filter;
   std::for_each(harmless.begin(), harmless.end(), [&](const char* call) { filter.allow(call); });
-  if (!files.folder.empty() || !files.inputs.empty()) {
-    allow_opening(filter);
-  }
+  allow_opening(filter);
   allow_own_affairs(filter);
-  return limit_written_files(files.written_size) && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+  return forbid_writing_files() && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          (!sandbox_hides_files() || give_up_files(files.folder, files.inputs)) && filter.load();
 }
 
