@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/application.h"
+#include "common/as_path.h"
 #include "common/last_words.h"
 #include "docks/mesh_dock.h"
 #include "files/text/temporary_folder.h"
@@ -54,9 +55,6 @@ int run(int argc, char** argv) {
         QStringLiteral("there is no display; start it in a desktop session, or use the command line program "
                        "chainmail"));
   }
-  if (const QString why = chainmail::whyNoMemory(); !why.isEmpty()) {
-    return fail(why);
-  }
   chainmail::prepareApplication();
   chainmail::Application application(argc, argv);
   QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));
@@ -81,9 +79,13 @@ int run(int argc, char** argv) {
   chainmail::MainWindow window(chainmail::generate(sample), chainmail::recipeName(sample));
   window.show();
   window.sessions().protect();
+  chainmail::keepWorkAtTheEnd(window);
   if (!parser.positionalArguments().isEmpty()) {
     const bool first = true;
-    window.openFile(parser.positionalArguments().constFirst(), first);
+    // Qt does not keep the bytes of a name that is not UTF-8.
+    const QString name = parser.positionalArguments().constFirst();
+    const auto isName = [&](const char* one) { return QString::fromLocal8Bit(one) == name; };
+    window.openFile(chainmail::pathOf(*std::find_if(argv + 1, argv + argc, isName)), first);
   } else {
     window.welcome();
   }

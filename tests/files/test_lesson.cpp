@@ -23,7 +23,7 @@ MeshPointer open_sample(const std::string& name, std::uint32_t /*across*/, const
 Session lesson_session() {
   Session session = session_on(generate({MeshKind::grid, {3, 3, 1}, 1, {}}));
   session.lesson = {"a \"title\" ∆",
-                    {{"first", "text\nof it", 0, {}, {}, {}, {}, {}, {}},
+                    {{"first", "text of it", 0, {}, {}, {}, {}, {}, {}},
                      {"second",
                       "b",
                       3,
@@ -57,6 +57,7 @@ class LessonTest : public QObject {
   void the_example_in_the_manual_is_a_lesson();
   void damaged_steps_are_refused_data();
   void damaged_steps_are_refused();
+  void texts_are_one_line();
   void long_texts_are_refused();
   void a_lesson_has_steps();
   void a_mesh_may_be_named();
@@ -127,6 +128,21 @@ void LessonTest::damaged_steps_are_refused() {
   const QString error = error_of([&] { parse_session(text, "a.chainmail"); });
   QVERIFY2(error.startsWith(said), qPrintable(error));
   QVERIFY2(error.contains("; "), qPrintable(error));  // says what to do
+}
+
+/// Line ends would fill the window.
+void LessonTest::texts_are_one_line() {
+  Session session = lesson_session();
+  session.name = "two\nlines";
+  session.lesson.title = "a\r\nb";
+  session.lesson.steps[0].text = "c\u2028d";
+  const Session again = parse_session(session_text(session), "a.chainmail");
+  QCOMPARE(again.name, std::string("two lines"));
+  QCOMPARE(again.lesson.title, std::string("a  b"));
+  QCOMPARE(again.lesson.steps[0].text, std::string("c d"));
+  session.lesson.title = std::string(127, '\n');
+  QCOMPARE(error_of([&] { parse_session(session_text(session), "a.chainmail"); }),
+           QString("a.chainmail: lesson: 'title' is empty; write what the reader shall see"));
 }
 
 /// The window lays them out, and shortens a title that is too wide.

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <QDir>
+#include <QFile>
 #include <QMessageBox>
 #include <QPushButton>
 
 #include "io/autosave.h"
 #include "io/sessions.h"
+#include "io/unsaved_work.h"
 #include "session_bench.h"
 
 namespace chainmail {
@@ -25,6 +28,27 @@ struct SafeBench : Workbench {
   }
 
   QTimer* timer = nullptr;
+};
+
+/// Makes a folder where nothing can be written, also by root: a file has its name.
+class FullDisk {
+ public:
+  FullDisk() : path_(unsaved_work::folder()), aside_(path_ + QStringLiteral("-aside")) {
+    QVERIFY(QDir().rename(path_, aside_));
+    QFile file(path_);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+  }
+  ~FullDisk() { end(); }
+  void end() {
+    if (!aside_.isEmpty()) {
+      QFile::remove(path_);
+      QDir().rename(aside_, path_);
+      aside_.clear();
+    }
+  }
+
+ private:
+  QString path_, aside_;
 };
 
 /// Clicks a button of the next question, and counts the questions.

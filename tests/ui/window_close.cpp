@@ -208,7 +208,7 @@ class WindowClose : public QObject {
     const QStringList files = kept.entryList({QStringLiteral("*.chainmail")}, QDir::Files);
     QCOMPARE(files.size(), 1);
     QVERIFY(unsaved_work::isClosed(files.first()));
-    const Session session = read_session(kept.filePath(files.first()).toStdString());
+    const Session session = unsaved_work::read(kept.filePath(files.first()));
     QCOMPARE(session.mesh->element_count(), 22'500U);
     QVERIFY(!session.panels.front().positions.is_at_rest());  // the drag is stored
     QVERIFY(QFile::remove(kept.filePath(files.first())));
@@ -228,7 +228,7 @@ class WindowClose : public QObject {
     const QDir kept(unsaved_work::folder());
     const QStringList files = kept.entryList({QStringLiteral("*.chainmail")}, QDir::Files);
     QCOMPARE(files.size(), 1);
-    const Session session = read_session(kept.filePath(files.first()).toStdString());
+    const Session session = unsaved_work::read(kept.filePath(files.first()));
     QCOMPARE(session.panels.size(), std::size_t{2});
     QCOMPARE(session.pins, (std::vector<ElementId>{0, 5, 777}));
     QVERIFY(QFile::remove(kept.filePath(files.first())));

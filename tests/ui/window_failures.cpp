@@ -1,7 +1,6 @@
 // Tests that no exception ends the window: one sentence appears, the work stays, and the window goes on. Exceptions
 // come from jobs, slots, listeners, painting and solvers; memory and threads run out.
 
-#include <QDir>
 #include <QFile>
 
 #include "core/allocations.h"
@@ -9,7 +8,6 @@
 #include "core/no_threads.h"
 #include "document/edits.h"
 #include "io/sessions.h"
-#include "io/unsaved_work.h"
 #include "session_bench.h"
 #include "window/message_bar.h"
 
@@ -20,8 +18,6 @@ using test::LittleMemory;
 using test::NoThreads;
 
 namespace {
-
-constexpr int never = 3'600'000;  // milliseconds: an automatic save after this time is none
 
 QString sentenceOf(Failure failure) {
   switch (failure) {
@@ -62,30 +58,13 @@ struct FailingOverlay : Overlay {
   int draws = 0;
 };
 
-QStringList autosaved() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
-
-/// Returns the pins of the work on the disk; none without work.
-std::vector<ElementId> pinsOnDisk() {
-  const QStringList files = autosaved();
-  return files.size() == 1 ? unsaved_work::read(QDir(unsaved_work::folder()).filePath(files.first())).pins
-                           : std::vector<ElementId>();
-}
-
-bool hasPositionsOnDisk() {
-  const Session session = unsaved_work::read(QDir(unsaved_work::folder()).filePath(autosaved().first()));
-  return !session.panels.front().positions.is_at_rest();
-}
-
 }  // namespace
 
 class WindowFailures : public QObject {
   Q_OBJECT
 
  private slots:
-  void init() {
-    failOnWarnings();
-    QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
-  }
+  void init() { failOnWarnings(); }
 
   void aJobThatFailsGetsASentence_data() { addFailures(); }
   void aJobThatFailsGetsASentence() {
@@ -121,18 +100,13 @@ class WindowFailures : public QObject {
     QVERIFY(finished);
   }
 
-  void aSlotThatFailsGetsASentenceAndTheWorkIsWritten_data() { addFailures(); }
-  void aSlotThatFailsGetsASentenceAndTheWorkIsWritten() {
+  void aSlotThatFailsGetsASentence_data() { addFailures(); }
+  void aSlotThatFailsGetsASentence() {
     QFETCH(Failure, failure);
     Workbench bench;
-    bench.window.sessions().protect();
-    bench.find<QTimer>("autosaveTimer")->setInterval(never);
-    edits::setPinned(bench.document(), {3}, true);
-    QVERIFY(autosaved().isEmpty());
     QTimer::singleShot(0, &bench.window, [failure] { test::fail(failure); });
-    QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
+    QTRY_VERIFY(bench.window.messages().sentence().contains(sentenceOf(failure)));
     QVERIFY(bench.window.isVisible());
-    QVERIFY(bench.window.messages().sentence().contains(sentenceOf(failure)));
   }
 
   /// A view that cannot be painted is painted again, and the sentence does not come with every paint.
@@ -225,62 +199,6 @@ class WindowFailures : public QObject {
     bench.document().addPanel();
     bench.settle();
     QCOMPARE(bench.document().panels(), before + 1);
-  }
-
-  void automaticSavingWorksWithoutItsThread() {
-    Workbench bench;
-    const NoThreads none;
-    bench.window.sessions().protect();
-    edits::setPinned(bench.document(), {3}, true);
-    bench.find<QTimer>("autosaveTimer")->start(0);
-    QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
-    edits::setPinned(bench.document(), {4}, true);
-    bench.window.close();
-    QTRY_COMPARE(pinsOnDisk(), (std::vector<ElementId>{3, 4}));
-  }
-
-  /// It needs no thread later.
-  void automaticSavingHasItsThreadFromTheStart() {
-    Workbench bench;
-    bench.window.sessions().protect();
-    const NoThreads none;
-    edits::setPinned(bench.document(), {3}, true);
-    bench.find<QTimer>("autosaveTimer")->start(0);
-    QTRY_COMPARE(pinsOnDisk(), std::vector<ElementId>{3});
-    QVERIFY(!bench.window.messages().isVisible());
-  }
-
-  void automaticSavingTriesAgainWhenMemoryIsBack() {
-    Workbench bench(generate({MeshKind::grid, {120, 120, 1}, 1, {}}));
-    bench.window.sessions().protect();
-    auto* timer = bench.find<QTimer>("autosaveTimer");
-    edits::setPinned(bench.document(), {3}, true);
-    drag(bench.document(), 7000, {40, 30, 0});
-    bench.settle();
-    {
-      const LittleMemory little(50'000);
-      timer->start(0);
-      QTRY_VERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("Automatic saving ")));
-    }
-    QCOMPARE(pinsOnDisk(), std::vector<ElementId>{3});
-    QVERIFY(!hasPositionsOnDisk());
-    QVERIFY(timer->isActive());
-    QCOMPARE(timer->interval(), 10'000);  // of the next attempt, for which no change is needed
-    timer->start(0);
-    QTRY_VERIFY(hasPositionsOnDisk());
-  }
-
-  /// Below a limit of address space, the window lacks what the check before it would keep.
-  void theCheckOfMemoryGivesBackWhatItTakes() {
-    const auto kilobytes = [] {
-      QFile status(QStringLiteral("/proc/self/status"));
-      const QByteArray text = status.open(QIODevice::ReadOnly) ? status.readAll() : QByteArray();
-      return text.mid(text.indexOf("VmSize:") + 7).trimmed().split(' ').first().toLongLong();
-    };
-    const qint64 before = kilobytes();
-    QVERIFY(before > 0);
-    QCOMPARE(whyNoMemory(), QString());
-    QVERIFY(kilobytes() - before < 500'000);  // the window needs 1 GB
   }
 
   /// Opening, cutting and dragging fail, the object and the window stay.

@@ -31,27 +31,6 @@ namespace {
 
 QStringList kept() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
 
-/// Makes a folder where nothing can be written, also by root: a file has its name.
-class FullDisk {
- public:
-  FullDisk() : path_(unsaved_work::folder()), aside_(path_ + QStringLiteral("-aside")) {
-    QVERIFY(QDir().rename(path_, aside_));
-    QFile file(path_);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-  }
-  ~FullDisk() { end(); }
-  void end() {
-    if (!aside_.isEmpty()) {
-      QFile::remove(path_);
-      QDir().rename(aside_, path_);
-      aside_.clear();
-    }
-  }
-
- private:
-  QString path_, aside_;
-};
-
 void put(const QString& name, const QDateTime& changed) {
   QFile file(QDir(unsaved_work::folder()).filePath(name));
   QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write("{") == 1 && file.flush());
@@ -198,13 +177,13 @@ class WindowLost : public QObject {
       put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), QDateTime::currentDateTime());
     }
     const QString oldest = QDir(unsaved_work::folder()).filePath(QStringLiteral("1-a.closed-1.chainmail"));
-    QLockFile offered(unsaved_work::lockOf(oldest));
-    QVERIFY(offered.tryLock());
+    auto offered = unsaved_work::lock(oldest);
+    QVERIFY(offered);
     unsaved_work::discardOldest();
-    put(QStringLiteral("9-a.closed-9.chainmail"), QDateTime::currentDateTime());
+    put(QStringLiteral("99-a.closed-99.chainmail"), QDateTime::currentDateTime());
     unsaved_work::discardOldest();
     QVERIFY(QFile::exists(oldest));
-    offered.unlock();
+    offered.reset();
     unsaved_work::discardOldest();
     QVERIFY(!QFile::exists(oldest));
     QCOMPARE(kept().size(), unsaved_work::maxClosed);

@@ -12,6 +12,7 @@
 
 #include "document/edits.h"
 #include "report_bench.h"
+#include "safe_bench.h"
 
 namespace chainmail::window_report {
 
@@ -212,6 +213,25 @@ class WindowReport : public QObject {
       QCOMPARE(row.count(','), rows.first().count(','));
     }
     QVERIFY(read(folder, "report.html").contains("</html>"));
+  }
+
+  void savingAsksBeforeItReplacesAReport() {
+    ReportBench bench;
+    bench.run();
+    const QTemporaryDir folder;
+    bench.results().askAndSaveTo(folder.path());  // without a question
+    QFile old(folder.filePath(QStringLiteral("report.csv")));
+    QVERIFY(old.open(QIODevice::WriteOnly) && old.write("mine") == 4 && old.flush());
+    {
+      const Answer cancel(QStringLiteral("Cancel"));
+      bench.results().askAndSaveTo(folder.path());
+      QCOMPARE(cancel.questions, 1);
+      QVERIFY2(cancel.said.contains(QStringLiteral("report.html, report.json, report.csv")), qPrintable(cancel.said));
+      QCOMPARE(read(folder, "report.csv"), QByteArray("mine"));
+    }
+    const Answer replace(QStringLiteral("Replace"));
+    bench.results().askAndSaveTo(folder.path());
+    QVERIFY(read(folder, "report.csv").size() > 100);
   }
 
   void thePlotIsSavedAsADrawing() {

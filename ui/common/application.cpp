@@ -1,52 +1,16 @@
 #include "common/application.h"
 
 #include <QEvent>
-#include <mutex>
-#include <new>
 #include <utility>
 
-#include "common/held_memory.h"
 #include "mesh/failure.h"
 
 namespace chainmail {
 namespace {
 
-constexpr std::size_t reserveBytes = 16 * 1024 * 1024;
 constexpr qint64 quietMilliseconds = 10'000;  // a failure in every paint must not be reported in every paint
 
-/// The reserve of the process. C++ calls the handler of failed allocations without arguments, so it must find it here.
-struct Reserve {
-  std::mutex mutex;
-  HeldMemory memory;
-};
-
-Reserve& reserve() {
-  static Reserve one;
-  return one;
-}
-
-/// Called by operator new when it finds no memory. Gives the reserve away once; then allocations fail.
-void giveReserve() {
-  const std::lock_guard lock(reserve().mutex);
-  if (reserve().memory.bytes() == 0) {
-    throw std::bad_alloc();
-  }
-  reserve().memory.release();
-}
-
-void fillReserve() {
-  const std::lock_guard lock(reserve().mutex);
-  reserve().memory.hold(reserveBytes);
-}
-
 }  // namespace
-
-Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
-  fillReserve();
-  std::set_new_handler(&giveReserve);
-}
-
-Application::~Application() { std::set_new_handler(nullptr); }
 
 Application* Application::get() { return qobject_cast<Application*>(QCoreApplication::instance()); }
 
@@ -103,7 +67,6 @@ void Application::reportFailure() noexcept {
       lastOfPaint_ = std::move(sentence);
       since_.start();
     }
-    fillReserve();
   } catch (...) {
     failure_ = std::move(sentence);  // after the next event
   }

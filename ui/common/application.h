@@ -7,8 +7,7 @@
 namespace chainmail {
 
 /// The application. An exception that leaves a slot, a timer or the handler of an event does not end the program: it
-/// becomes one sentence, and the event loop goes on. Also keeps a reserve of memory for this: the first allocation that
-/// fails gets it, and it is filled again when the failure is reported.
+/// becomes one sentence, and the event loop goes on.
 ///
 /// Code that Qt calls in the middle of its own work, such as painting with OpenGL, must not let an exception through
 /// Qt: it runs in guarded(). So do listeners in the middle of a change of the document.
@@ -16,8 +15,7 @@ class Application : public QApplication {
   Q_OBJECT
 
  public:
-  Application(int& argc, char** argv);
-  ~Application() override;
+  using QApplication::QApplication;
 
   /// Returns the application; null if it is of another class.
   static Application* get();

@@ -87,6 +87,8 @@ void Jobs::receive() {
   if (job->finish) {
     try {
       job->finish();
+    } catch (const Cancelled&) {
+      // The user has answered a question.
     } catch (...) {
       job->error = failure_sentence(job->text);
     }

@@ -19,7 +19,8 @@ class Jobs : public QObject {
  public:
   /// A job that opens something; one whose result took long to compute; one that writes a file.
   enum class Kind { load, compute, save };
-  /// Runs in the GUI thread when the work is done. If it throws, the job has failed.
+  /// Runs in the GUI thread when the work is done. If it throws, the job has failed, or was
+  /// cancelled.
   using Finish = std::function<void()>;
   /// Runs on the thread of the jobs and must not access the window. Its exceptions become the sentence of
   /// failed(); Error brings its own.

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "common/application.h"
-#include "common/held_memory.h"
 #include "common/panel_names.h"
 #include "common/text.h"
 #include "document/edit.h"
@@ -248,6 +247,11 @@ void Document::showPins(const std::vector<ElementId>& elements, bool pinned) {
   auto& pins = contents_.object->pins;
   pins = combined(pins, elements, pinned ? SelectionMode::add : SelectionMode::remove);
   Application::guarded([this] { emit pinsChanged(); });
+}
+
+bool Document::keepsWork() {
+  handle_.end();
+  return !isModified() || !keeper_ || keeper_();
 }
 
 void Document::undo() {

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QUndoStack>
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -76,6 +77,11 @@ class Document : public QObject {
   /// The algorithm of a panel. For a removed panel, its last one.
   Algorithm algorithm(int panel) const { return contents_.algorithms[std::size_t(panel)]; }
 
+  /// Sets what keeps unsaved work before another object replaces it; it returns false if the work must stay.
+  void setKeeper(std::function<bool()> keeper) { keeper_ = std::move(keeper); }
+  /// Ends a drag, and keeps unsaved work. Returns false if the object must stay.
+  bool keepsWork();
+
   // Undo steps: see also edits.h.
 
   QUndoStack& undoStack() { return undoStack_; }
@@ -147,6 +153,7 @@ class Document : public QObject {
   commands::StateId newState() { return nextState_++; }
 
   Contents contents_;
+  std::function<bool()> keeper_;
   commands::StateId nextState_ = 1;
   std::array<QString, maxPanels> lastRefusal_;  // one per panel, during the current drag or edit
   DocumentFiles files_;

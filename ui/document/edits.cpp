@@ -1,32 +1,22 @@
 #include "document/edits.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "body/positions.h"
 #include "body/split_state.h"
-#include "common/held_memory.h"
 #include "common/text.h"
 #include "document/document.h"
 #include "document/lesson_steps.h"
 #include "files/session/session.h"
 #include "files/session/softness_presets.h"
 #include "mesh/error.h"
+#include "mesh/progress.h"
 
 namespace chainmail::edits {
 namespace {
-
-/// Throws Error if there is too little memory to work with a mesh, which exists already: to show it, to move it, to
-/// undo and to save it automatically. Without this check, the graphics driver would crash before the first work is
-/// saved. The figures are measured ones, with a margin: 220 bytes for an element of a grid with two panels.
-void requireMemoryFor(const Mesh& mesh) {
-  constexpr std::size_t forDrawing = 64 * 1024 * 1024, perElement = 200, perLink = 40;
-  HeldMemory trial;
-  if (!trial.hold(forDrawing + perElement * mesh.element_count() + perLink * mesh.links.size())) {
-    throw Error("memory", "there is not enough to work with this object", "close other programs or use a smaller mesh");
-  }
-}
 
 /// Throws Error if a coordinate is beyond what the window draws: it has positions in single precision.
 void requireDrawable(const Mesh& mesh) {
@@ -70,8 +60,6 @@ void takeOwnSettings(Contents& after) {
 
 Change meshChange(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                   OwnSoftness own) {
-  requireMemoryFor(*mesh);
-  requireDrawable(*mesh);
   Change edit = document.change(text);
   takeOwnSettings(edit.after);
   edit.after.object = std::make_shared<DocumentObject>(mesh, name);
@@ -82,6 +70,30 @@ Change meshChange(Document& document, const MeshPointer& mesh, const QString& na
     edit.after.softness = std::make_shared<const Softness>(std::move(kept));
   }
   return edit;
+}
+
+/// The only place where another object replaces the one of the document: whoever may keep unsaved work is asked first.
+void replace(Document& document, const std::function<Change()>& edit, Opening opening) {
+  if (!document.keepsWork()) {
+    throw Cancelled();
+  }
+  document.apply(edit());
+  QUndoStack& steps = document.undoStack();
+  if (opening == Opening::first) {
+    steps.clear();
+  }
+  opening == Opening::unsaved ? steps.resetClean() : steps.setClean();
+}
+
+/// Shows as many panels as the session has, within the limits of the window.
+void showPanels(Document& document, const Session& session) {
+  const int wanted = std::clamp(int(session.panels.size()), Document::minPanels, Document::maxPanels);
+  while (document.panels() < wanted) {
+    document.addPanel();
+  }
+  while (document.panels() > wanted) {
+    document.removePanel();
+  }
 }
 
 /// Loads the moves and the positions of a session. The solvers already have its object. Relaxation sleeps after the
@@ -98,6 +110,34 @@ void placeSession(Document& document, const std::shared_ptr<const Session>& sess
     relaxation.anew = true;
     document.solvers().log().replay(relaxation);
   }
+}
+
+Change sessionChange(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
+                     const QString& text) {
+  Change edit = document.change(text);
+  auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
+  object->parts.cut(object->cuts, session->cuts);
+  object->pins = session->pins;
+  edit.after.lesson = {};
+  if (!session->lesson.steps.empty()) {
+    edit.after.lesson = {session, std::shared_ptr<const Lesson>(session, &session->lesson),
+                         stepAt(session->lesson, session->moves_done)};
+    object->before = ownSettings(edit.after);
+  }
+  object->unsplit = first_mesh(*session);
+  edit.after.object = std::move(object);
+  edit.after.softness = session->softness;
+  edit.after.relaxation = session->relaxation;
+  edit.after.elastic = session->elastic;
+  for (std::size_t panel = 0; panel < std::size_t(document.panels()); ++panel) {
+    Algorithm& algorithm = edit.after.algorithms[panel];
+    algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
+                : fits(algorithm, *session->mesh) ? algorithm
+                                                  : Algorithm::natural_queue;
+  }
+  edit.sessionFile = file;
+  edit.carryOut = [&document, session] { placeSession(document, session); };
+  return edit;
 }
 
 }  // namespace
@@ -255,48 +295,37 @@ void setLesson(Document& document, const OpenLesson& lesson, const QString& text
   }
 }
 
-void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
+void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text, Opening opening,
                  OwnSoftness own) {
-  Change edit = meshChange(document, mesh, name, text, std::move(own));
-  edit.sessionFile = QString();
-  document.apply(std::move(edit));
+  requireDrawable(*mesh);
+  replace(
+      document,
+      [&] {
+        Change edit = meshChange(document, mesh, name, text, std::move(own));
+        edit.sessionFile = QString();
+        return edit;
+      },
+      opening);
 }
 
 void reworkMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                 OwnSoftness own) {
+  requireDrawable(*mesh);
   Change edit = meshChange(document, mesh, name, text, std::move(own));
   edit.after.object->file = document.files().mesh();
   document.apply(std::move(edit));
 }
 
 void restore(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
-             const QString& text) {
-  requireMemoryFor(*session->mesh);
+             const QString& text, Opening opening) {
   requireDrawable(*session);
-  Change edit = document.change(text);
-  auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
-  object->parts.cut(object->cuts, session->cuts);
-  object->pins = session->pins;
-  edit.after.lesson = {};
-  if (!session->lesson.steps.empty()) {
-    edit.after.lesson = {session, std::shared_ptr<const Lesson>(session, &session->lesson),
-                         stepAt(session->lesson, session->moves_done)};
-    object->before = ownSettings(edit.after);
-  }
-  object->unsplit = first_mesh(*session);
-  edit.after.object = std::move(object);
-  edit.after.softness = session->softness;
-  edit.after.relaxation = session->relaxation;
-  edit.after.elastic = session->elastic;
-  for (std::size_t panel = 0; panel < std::size_t(document.panels()); ++panel) {
-    Algorithm& algorithm = edit.after.algorithms[panel];
-    algorithm = panel < session->panels.size()    ? session->panels[panel].algorithm
-                : fits(algorithm, *session->mesh) ? algorithm
-                                                  : Algorithm::natural_queue;
-  }
-  edit.sessionFile = file;
-  edit.carryOut = [&document, session] { placeSession(document, session); };
-  document.apply(std::move(edit));
+  replace(
+      document,
+      [&] {
+        showPanels(document, *session);
+        return sessionChange(document, session, file, text);
+      },
+      opening);
 }
 
 }  // namespace chainmail::edits

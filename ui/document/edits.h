@@ -42,16 +42,20 @@ void resetObject(Document& document);
 /// Gives the object another lesson, other captions or another step of them; without a session, it has no lesson.
 void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture = 0);
 
+/// How another object replaces the one of the document: as one undo step; as the first object of a window, which is no
+/// undo step; as unsaved work, which is modified from the start.
+enum class Opening { next, first, unsaved };
 /// Opens another object: a new document, which has no file yet. `own` contains the softness of links that have their
-/// own. Throws Error if there is too little memory to work with it; nothing has changed then.
+/// own. Throws Error if the window cannot show it, and Cancelled if the user does not want to lose the present work,
+/// which could not be kept; nothing has changed then.
 void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
-                 OwnSoftness own = {});
+                 Opening opening = Opening::next, OwnSoftness own = {});
 /// Replaces the mesh of the same object, for example with a repaired one. Otherwise as replaceMesh().
 void reworkMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                 OwnSoftness own = {});
-/// Opens a session, unless there is too little memory as for replaceMesh(). A panel that the session does not have
-/// shows the object of the session's first panel and keeps its algorithm if possible.
+/// Opens a session, as replaceMesh() opens a mesh, in as many panels as it has. A panel that it does not have shows the
+/// object of its first panel and keeps its algorithm if possible.
 void restore(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
-             const QString& text);
+             const QString& text, Opening opening = Opening::next);
 
 }  // namespace chainmail::edits

@@ -18,9 +18,6 @@ class SessionDraft {
   const MeshPointer& mesh() const { return session_.mesh; }
   /// Returns the complete session. Waits for the solvers, so do not call it in the GUI thread. Throws Cancelled.
   Session finished(const Progress& progress) const;
-  /// Returns the session with all elements at rest, for which there is memory when there is none for the positions: the
-  /// recorded moves lead to them.
-  Session withoutPositions() const { return session_; }
 
  private:
   void takeLesson(const Document& document);

@@ -8,13 +8,14 @@
 #include <memory>
 #include <string>
 
-#include "common/held_memory.h"
 #include "common/task_thread.h"
 #include "document/document.h"
 
 namespace chainmail {
 
+class Progress;
 class SessionDraft;
+struct Session;
 
 /// Reads and sets how the window shows its object: cameras, colours, docks. A session keeps it as JSON that only the
 /// window interprets.
@@ -29,12 +30,8 @@ struct LayoutAccess {
 /// Saves unsaved work in the background, at most 4.5 s after a change. Writes only what changed: the object has a file
 /// of its own, which stays until another object is open. Each file is written completely or not at all, and only the
 /// user may read it. A lock shows whether the program still runs or has crashed. The files are removed once the user
-/// has saved the work. The window's layout is part of the work, but a change of the layout alone is not saved.
-///
-/// One thread writes, from the start to the end: when the system has no more threads, this one is there. The memory
-/// that a writing takes is held in between. If a writing fails nevertheless, earlier files stay, and it is tried again
-/// after 10 s, 20 s and so on, up to five minutes. After each failure that the application reports, the work is written
-/// at once.
+/// has saved the work. The window's layout is part of the work, but a change of the layout alone is not saved. If a
+/// writing fails, earlier files stay, and it is tried again after 10 s, 20 s and so on, up to five minutes.
 class Autosave : public QObject {
   Q_OBJECT
 
@@ -47,16 +44,15 @@ class Autosave : public QObject {
   /// changes are not saved. Returns why the work could not be written, as a sentence; otherwise an empty text. After a
   /// failure the window may stay open, and saving goes on.
   QString keep();
+  /// The same before another object replaces this one: the files of the work stay until the user has saved it after
+  /// Undo, and what follows has files of its own.
+  QString setAside();
 
   /// True while a file is being written in the background.
   bool isWriting() const { return writing_ != nullptr; }
 
-  /// Keeps unsaved work for the next start, because another object is about to replace it. Writing runs in the
-  /// background. Returns false if there is none.
-  bool setAside();
-
   /// Takes over the lock of work that this window has restored. Its files stay, whatever happens to this window, until
-  /// the user has saved an object that comes from `mesh`, or the window keeps one when it closes.
+  /// the user has saved an object that comes from `mesh`, or the window keeps one.
   void adopt(const QString& path, std::unique_ptr<QLockFile> lock, const MeshPointer& mesh);
   /// Removes restored work whose object comes from `mesh`, because the user has saved it.
   void discardAdopted(const MeshPointer& mesh);
@@ -88,47 +84,38 @@ class Autosave : public QObject {
     bool operator==(const Mark&) const = default;
   };
 
-  static Object withObject(const QString& path, const Session& session, Object object, const Progress& progress);
-  std::vector<Adopted> takeAdopted(const MeshPointer& mesh);
+  void begin();
   void listen();
   void noticeChange();
   void save();
-  void startWriting();
-  void takeUnannounced();
-  void saveSoon();
+  void startWriting(Mark now);
+  static void write(Writing& writing, const SessionDraft& draft);
+  static void writeFiles(Writing& writing, Session session, const Progress& progress);
   void receive();
-  void retryLater(const QString& sentence);
+  void retryLater(const QString& why);
   void reportSuccess();
   void remove();
   void cancelWriting();
-  void run(TaskThread::Task task);
-  void write(Writing& writing, const SessionDraft& draft);
-  Object writeFiles(Session session, const Object& object, const Progress& progress) const;
-  std::string writeMoves(Writing& writing, const SessionDraft& draft, const Progress& progress) const;
-  void holdMemory();
-  static std::string keepAs(const QString& path, const SessionDraft& draft);
-  void goOn();
+  QString handOver();
+  QString writeNow();
   Mark mark() const;
 
   Document& document_;
   const LayoutAccess layout_;
-  const QString path_;  // also read by the thread
-  QLockFile lock_;
+  QString path_;
+  std::unique_ptr<QLockFile> lock_;
   QTimer timer_;
   std::uint64_t steps_ = 0;
   Mark saved_;
   Object object_;
   std::vector<Adopted> adopted_;
-  bool hasPositions_ = false;  // true if the file has positions, not only moves
-  bool keeps_ = false;         // the files stay when this ends
-  bool changed_ = false;       // true if the work changed during writing
-  QString failure_;            // the last sentence of failed(); empty after a writing that did not fail
-  int failures_ = 0;           // in a row
-  bool closed_ = false;        // the window is closed: later changes are not saved
+  bool keeps_ = false;    // the files stay when this ends
+  bool changed_ = false;  // true if the work changed during writing
+  QString failure_;       // the last sentence of failed(); empty after a writing that did not fail
+  int failures_ = 0;      // in a row
+  bool closed_ = false;   // the window is closed: later changes are not saved
   std::chrono::steady_clock::time_point begun_;
   std::shared_ptr<Writing> writing_;  // null while nothing is being written; shared with the thread
-  HeldMemory memory_;                 // for the next writing
-  bool lacksMemory_ = false;          // true if so much could not be held
   TaskThread thread_;                 // last: ends before the members that its tasks use
 };
 

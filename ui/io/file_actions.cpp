@@ -21,6 +21,7 @@
 #include "io/mesh_repair.h"
 #include "io/picture_file.h"
 #include "io/questions.h"
+#include "io/recovery_bar.h"
 #include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
@@ -142,6 +143,7 @@ void FileActions::fill(QMenu& menu) {
   menu.addSeparator();
   addSaveActions(menu);
   addShapeActions(menu);
+  menu.addAction(&sessions_.recoveryBar().takeBack());
   sheets_->fill(menu);
   fillRecent();
 }
@@ -182,10 +184,9 @@ void FileActions::saveSession() {
 }
 
 bool FileActions::saveSessionAs() {
-  const QString path =
-      askWhere(window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
-               asFileName(document_.files().session().isEmpty() ? document_.name()
-                                                                : QFileInfo(document_.files().session()).fileName()));
+  const QString path = askWhere(
+      window_, QStringLiteral("Save session"), {QStringLiteral("Sessions (*.chainmail)")},
+      asFileName(document_.files().session().isEmpty() ? document_.name() : shownName(document_.files().session())));
   if (!path.isEmpty()) {
     sessions_.savePath(path);
   }
@@ -245,7 +246,7 @@ void FileActions::openSample(const QString& path) {
 
 /// Reads a mesh, or a volume; `ask`: asks for the options of a volume.
 void FileActions::read(const QString& path, bool first, bool ask) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
               [this, path, first, ask](const Progress& progress) -> Jobs::Finish {
                 if (is_volume(asPath(path))) {
                   return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
@@ -265,12 +266,10 @@ void FileActions::read(const QString& path, bool first, bool ask) {
 }
 
 void FileActions::show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first) {
-  const QString name = QFileInfo(path).fileName();
+  const QString name = shownName(path);
   repair_->remember(opened.mesh, defects);
-  edits::replaceMesh(document_, opened.mesh, name, QStringLiteral("open %1").arg(name));
-  if (first) {
-    document_.undoStack().clear();
-  }
+  edits::replaceMesh(document_, opened.mesh, name, QStringLiteral("open %1").arg(name),
+                     first ? edits::Opening::first : edits::Opening::next);
   remember(path);
   if (!isSample(path)) {
     emit noted(openingReport(name, opened, document_.parts()));
@@ -304,7 +303,7 @@ void FileActions::saveShapePath(int panel, const QString& path) {
 /// positions.
 void FileActions::write(const QString& path, const std::shared_ptr<const Frame>& shape) {
   jobs_.start(
-      Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+      Jobs::Kind::save, QStringLiteral("Saving %1").arg(shownName(path)),
       [this, path, mesh = document_.mesh(), cuts = document_.cuts(), softness = document_.wholeSoftness(),
        shape](const Progress& progress) -> Jobs::Finish {
         save_mesh(asPath(path), {*mesh, cuts, shape ? shape->view() : rest_positions(*mesh), *softness}, progress);
@@ -322,8 +321,9 @@ void FileActions::write(const QString& path, const std::shared_ptr<const Frame>&
 
 void FileActions::fillRecent() {
   recent_->clear();
-  for (const QString& path : QSettings().value(recentKey()).toStringList()) {
-    const QString shown = QDir::toNativeSeparators(path).replace(QLatin1Char('&'), QLatin1String("&&"));
+  for (const QString& kept : QSettings().value(recentKey()).toStringList()) {
+    const QString path = pathOfKept(kept);
+    const QString shown = shownPath(path).replace(QLatin1Char('&'), QLatin1String("&&"));
     recent_->addAction(QStringLiteral("&%1 %2").arg(recent_->actions().size() + 1).arg(shown), this,
                        [this, path] { openPath(path); });
   }
@@ -338,15 +338,15 @@ void FileActions::remember(const QString& path) {
   QSettings settings;
   const QString absolute = QFileInfo(path).absoluteFilePath();
   QStringList recent = settings.value(recentKey()).toStringList();
-  recent.removeAll(absolute);
-  recent.prepend(absolute);
+  recent.removeAll(keptPath(absolute));
+  recent.prepend(keptPath(absolute));
   settings.setValue(recentKey(), recent.mid(0, recentFiles));
   fillRecent();
 }
 
 QString FileActions::startFolder() const {
   const QStringList recent = QSettings().value(recentKey()).toStringList();
-  return recent.isEmpty() ? QDir::currentPath() : QFileInfo(recent.first()).absolutePath();
+  return recent.isEmpty() ? QDir::currentPath() : QFileInfo(pathOfKept(recent.first())).absolutePath();
 }
 
 }  // namespace chainmail

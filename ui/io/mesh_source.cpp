@@ -5,6 +5,7 @@
 
 #include "common/as_path.h"
 #include "files/mesh/open_mesh.h"
+#include "files/text/text.h"
 #include "io/picture_file.h"
 #include "io/samples.h"
 #include "io/sheet_bar.h"
@@ -17,11 +18,11 @@ namespace {
 QString found(const QString& session, const QString& name) {
   for (const QString& folder : {QFileInfo(session).path(), samplesFolder()}) {
     QString path = QDir(folder).filePath(name);
-    if (!folder.isEmpty() && QFileInfo::exists(path)) {
+    if (std::error_code none; !folder.isEmpty() && std::filesystem::exists(asPath(path), none)) {
       return path;
     }
   }
-  throw Error(session.toStdString(), "its mesh '" + name.toStdString() + "' was not found",
+  throw Error(shown(asPath(session)), "its mesh " + in_quotes(name.toStdString()) + " was not found",
               "put that file into the folder of the session");
 }
 

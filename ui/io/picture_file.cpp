@@ -12,6 +12,7 @@
 #include "files/formats/bare_picture.h"
 #include "files/mesh/warp.h"
 #include "files/text/regular_file.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -28,7 +29,7 @@ bool endsAsPicture(const QString& path) {
 }
 
 [[noreturn]] void failPicture(const QString& path, const QString& problem, const char* remedy) {
-  throw Error(path.toStdString(), problem.toStdString(), remedy);
+  throw Error(shown(asPath(path)), problem.toStdString(), remedy);
 }
 
 /// A picture in memory, with Qt's reader for its format. Qt tries no other format: some open other files.
@@ -110,7 +111,7 @@ bool isPicture(const QString& path) {
   if (endsAsPicture(path)) {
     return true;
   }
-  if (!QFileInfo(path).isFile()) {
+  if (std::error_code none; !std::filesystem::is_regular_file(asPath(path), none)) {
     return false;
   }
   try {

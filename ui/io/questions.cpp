@@ -1,9 +1,10 @@
 #include "io/questions.h"
 
-#include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
 #include <array>
+
+#include "common/as_path.h"
 
 namespace chainmail {
 namespace {
@@ -42,14 +43,25 @@ ClosingAnswer askBeforeClosing(QWidget& window, const QString& why) {
 
 OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path) {
   return overwriteAnswers[std::size_t(
-      ask(window, "overwriteQuestion", QStringLiteral("Another program has changed %1").arg(QFileInfo(path).fileName()),
+      ask(window, "overwriteQuestion", QStringLiteral("Another program has changed %1").arg(shownName(path)),
           QStringLiteral("Saving replaces what it wrote since this window opened or saved it."),
           QStringLiteral("&Overwrite")))];
 }
 
+bool askBeforeReplacing(QWidget& window, const QString& folder, const QStringList& files) {
+  QMessageBox box(&window);
+  setUp(box, "replaceQuestion",
+        QStringLiteral("%1 already has %2").arg(shownName(folder), files.join(QStringLiteral(", "))),
+        QStringLiteral("The new files replace them. To keep them, choose another folder."));
+  const auto* replace = box.addButton(QStringLiteral("&Replace"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QStringLiteral("&Cancel"), QMessageBox::RejectRole));
+  box.exec();
+  return box.clickedButton() == replace;
+}
+
 OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why) {
   return overwriteAnswers[std::size_t(
-      ask(window, "inPlaceQuestion", QStringLiteral("%1 can only be written in place").arg(QFileInfo(path).fileName()),
+      ask(window, "inPlaceQuestion", QStringLiteral("%1 can only be written in place").arg(shownName(path)),
           why + QStringLiteral("\nIf the disk fails while it is written in place, the old content is lost, too."),
           QStringLiteral("&Write in place")))];
 }

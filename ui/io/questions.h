@@ -1,6 +1,6 @@
 #pragma once
 
-#include <QString>
+#include <QStringList>
 #include <cstddef>
 
 class QWidget;
@@ -11,13 +11,17 @@ namespace chainmail {
 
 enum class ClosingAnswer { saveAs, discard, cancel };
 
-/// Asks what to do with unsaved work that cannot be kept when the window closes. `why` is the sentence that says so.
+/// Asks what to do with unsaved work that cannot be kept when the window closes or another object is opened. `why` is
+/// the sentence that says so.
 ClosingAnswer askBeforeClosing(QWidget& window, const QString& why);
 
 enum class OverwriteAnswer { overwrite, saveAs, cancel };
 
 /// Asks before a session overwrites a file that another program has changed.
 OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path);
+
+/// Asks before files replace those in a folder that have the same names. Returns true for yes.
+bool askBeforeReplacing(QWidget& window, const QString& folder, const QStringList& files);
 
 /// Asks whether a file that cannot be replaced as a whole is written in place. `why` is the sentence that says so.
 OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why);

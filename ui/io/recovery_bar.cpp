@@ -21,7 +21,8 @@ QPushButton* makeButton(const QString& text, const char* name, const QString& he
 
 }  // namespace
 
-RecoveryBar::RecoveryBar() : text_(new QLabel) {
+RecoveryBar::RecoveryBar()
+    : takeBack_(new QAction(QStringLiteral("&Take back discarded work"), this)), text_(new QLabel) {
   setObjectName(QStringLiteral("recoveryBar"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
@@ -30,14 +31,27 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
   auto* restore = makeButton(QStringLiteral("&Restore"), "restoreWork",
                              QStringLiteral("Restores object, cuts, pins, softness and positions as one undo step"));
   auto* discard = makeButton(QStringLiteral("Dis&card"), "discardWork",
-                             QStringLiteral("Deletes the unsaved work permanently; the open object stays"));
+                             QStringLiteral("Deletes the unsaved work when this window closes; the open object stays"));
+  takeBack_->setObjectName(QStringLiteral("takeBackWork"));
+  takeBack_->setStatusTip(QStringLiteral("Offers unsaved work again that was discarded since this window opened"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 6, 4);
   row->addWidget(text_, 1);
   row->addWidget(restore);
   row->addWidget(discard);
   connect(restore, &QPushButton::clicked, this, [this] { emit restoreRequested(found_.back().path); });
-  connect(discard, &QPushButton::clicked, this, &RecoveryBar::discard);
+  connect(discard, &QPushButton::clicked, this, [this] {
+    moveLast(found_, discarded_);
+    show();
+    emit discarded();
+  });
+  connect(takeBack_, &QAction::triggered, this, [this] {
+    while (!discarded_.empty()) {
+      moveLast(discarded_, found_);
+    }
+    show();
+  });
+  takeBack_->setEnabled(false);
   hide();
   followTheme(*this, [this] {
     QPalette own;
@@ -49,16 +63,20 @@ RecoveryBar::RecoveryBar() : text_(new QLabel) {
 void RecoveryBar::offer() {
   unsaved_work::discardLeftovers();
   for (const QString& path : unsaved_work::all()) {
-    auto lock = std::make_unique<QLockFile>(unsaved_work::lockOf(path));
-    lock->setStaleLockTime(0);  // locks of running programs never become stale
-    if (lock->tryLock()) {
+    if (auto lock = unsaved_work::lock(path)) {
       found_.push_back({path, std::move(lock)});
     }
   }
   show();
 }
 
+void RecoveryBar::moveLast(std::vector<Found>& from, std::vector<Found>& to) {
+  to.push_back(std::move(from.back()));
+  from.pop_back();
+}
+
 void RecoveryBar::show() {
+  takeBack_->setEnabled(!discarded_.empty());
   setVisible(!found_.empty());
   if (found_.empty()) {
     return;
@@ -71,12 +89,11 @@ void RecoveryBar::show() {
                      .arg(time, others));
 }
 
-void RecoveryBar::discard() {
-  unsaved_work::discard(found_.back().path);
-  take();
-}
-
 void RecoveryBar::release() {
+  for (const Found& work : discarded_) {
+    unsaved_work::discard(work.path);
+  }
+  discarded_.clear();
   found_.clear();
   show();
 }

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QPushButton>
 
+#include "common/as_path.h"
 #include "common/colours.h"
 
 namespace chainmail {
@@ -40,8 +41,8 @@ ReloadBar::ReloadBar() : text_(new QLabel) {
 
 void ReloadBar::offer(const QString& path) {
   path_ = path;
-  text_->setText(QStringLiteral("Another program has changed %1 since it was opened or saved here")
-                     .arg(QFileInfo(path).fileName()));
+  text_->setText(
+      QStringLiteral("Another program has changed %1 since it was opened or saved here").arg(shownName(path)));
   show();
 }
 

@@ -5,6 +5,8 @@
 #include <QFile>
 #include <QFileInfo>
 
+#include "common/as_path.h"
+
 namespace chainmail {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr int calmMilliseconds = 300;
 
 std::optional<FileState> stateOf(const QString& path) {
   struct stat status {};
-  if (stat(QFile::encodeName(path).constData(), &status) != 0) {
+  if (stat(asPath(path).c_str(), &status) != 0) {
     return std::nullopt;
   }
   return FileState{std::uint64_t(status.st_dev), std::uint64_t(status.st_ino), std::uint64_t(status.st_size),

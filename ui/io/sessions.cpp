@@ -3,7 +3,6 @@
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <algorithm>
 #include <sstream>
 
 #include "common/as_path.h"
@@ -22,7 +21,7 @@ namespace {
 /// Returns the file that an automatically saved session was opened from or saved to, if any.
 QString ownFile(const Session& session) {
   const auto layout = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
-  return layout[QStringLiteral("file")].toString();
+  return pathOfKept(layout[QStringLiteral("file")].toString());
 }
 
 void write(const QString& path, const Session& session, bool inPlace, const Progress& progress) {
@@ -33,17 +32,6 @@ void write(const QString& path, const Session& session, bool inPlace, const Prog
   std::ostringstream text;
   write_session(text, session, progress);
   write_in_place(asPath(path), text.str());
-}
-
-/// Shows as many panels as the session has, within the limits of the window.
-void showPanels(Document& document, const Session& session) {
-  const int wanted = std::clamp(int(session.panels.size()), Document::minPanels, Document::maxPanels);
-  while (document.panels() < wanted) {
-    document.addPanel();
-  }
-  while (document.panels() > wanted) {
-    document.removePanel();
-  }
 }
 
 }  // namespace
@@ -59,13 +47,18 @@ Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject*
   connect(watch_, &SessionWatch::changedOutside, reload_, &ReloadBar::offer);
   connect(watch_, &SessionWatch::followed, reload_, &QWidget::hide);
   connect(recovery_, &RecoveryBar::restoreRequested, this, &Sessions::restore);
+  connect(recovery_, &RecoveryBar::discarded, this, [this] {
+    emit noted(
+        QStringLiteral("The unsaved work is deleted when this window closes. Until then, File > Take back discarded "
+                       "work offers it again"));
+  });
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, [this] { ++steps_; });
 }
 
 Sessions::~Sessions() = default;
 
 void Sessions::openPath(const QString& path, bool first) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(QFileInfo(path).fileName()),
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
               [this, path, first](const Progress& progress) -> Jobs::Finish {
                 const auto state = stateOf(path);  // before it is read
                 const auto session = std::make_shared<const Session>(
@@ -80,22 +73,14 @@ void Sessions::openPath(const QString& path, bool first) {
 
 void Sessions::show(const std::shared_ptr<const Session>& session, const QString& path, bool first) {
   const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
-  const bool isAside = !session->lesson.steps.empty() && autosave_ && autosave_->setAside();
-  showPanels(document_, *session);
-  edits::restore(document_, session, file, QStringLiteral("open %1").arg(QFileInfo(path).fileName()));
-  if (first) {
-    document_.undoStack().clear();
-  }
-  document_.undoStack().setClean();
+  edits::restore(document_, session, file, QStringLiteral("open %1").arg(shownName(path)),
+                 first ? edits::Opening::first : edits::Opening::next);
   layout_.set(session->ui);
   emit opened(path);
-  if (isAside) {
-    emit noted(QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
-  }
 }
 
 void Sessions::savePath(const QString& path, bool inPlace) {
-  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(shownName(path)),
               [this, path, inPlace, steps = steps_, mesh = document_.unsplitMesh(),
                draft = SessionDraft(document_, layout_.read())](const Progress& progress) -> Jobs::Finish {
                 try {
@@ -141,7 +126,24 @@ QString Sessions::keep() {
   return why;
 }
 
-void Sessions::close() { autosave_.reset(); }
+QString Sessions::setAside() {
+  if (!autosave_ || !document_.isModified()) {
+    return {};
+  }
+  QString why = autosave_->setAside();
+  if (why.isEmpty()) {
+    const auto say = [this] {
+      emit noted(QStringLiteral("Your unsaved work is kept: Undo returns to it, and the next start offers it, too"));
+    };
+    QMetaObject::invokeMethod(this, say, Qt::QueuedConnection);  // another object removes older messages
+  }
+  return why;
+}
+
+void Sessions::close() {
+  recovery_->release();
+  autosave_.reset();
+}
 
 /// Restores unsaved work. From now on, this window saves it.
 void Sessions::restore(const QString& path) {
@@ -150,8 +152,8 @@ void Sessions::restore(const QString& path) {
                 const auto session = std::make_shared<const Session>(unsaved_work::read(path, progress.part(0, 0.9)));
                 prepareLevels(session->mesh, progress.part(0.9, 1));
                 return [this, session, path] {
-                  showPanels(document_, *session);
-                  edits::restore(document_, session, ownFile(*session), QStringLiteral("restore unsaved work"));
+                  edits::restore(document_, session, ownFile(*session), QStringLiteral("restore unsaved work"),
+                                 edits::Opening::unsaved);
                   layout_.set(session->ui);
                   auto lock = recovery_->take();
                   if (autosave_) {

@@ -40,14 +40,16 @@ class Sessions : public QObject {
   /// Keeps unsaved work for the next start. Call it when the user closes the window. Returns why the work could not be
   /// kept, as a sentence; otherwise an empty text.
   QString keep();
-  /// Stops automatic saving.
+  /// The same before another object replaces the present one.
+  QString setAside();
+  /// Stops automatic saving, and removes discarded work.
   void close();
 
  signals:
   void failed(const QString& sentence);
   /// Emitted when `sentence` of failed() is no longer true.
   void recovered(const QString& sentence);
-  /// Emitted with a sentence about the work that an opened session replaced.
+  /// Emitted with a sentence about unsaved work that was replaced or discarded.
   void noted(const QString& sentence);
   void saved(const QString& path);
   /// Emitted if a file could be written in place, but not replaced as a whole; `why` is the sentence that says so.

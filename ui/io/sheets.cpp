@@ -4,6 +4,7 @@
 #include <QFileInfo>
 #include <QSettings>
 
+#include "common/as_path.h"
 #include "common/ask_where.h"
 #include "common/panel_names.h"
 #include "document/edits.h"
@@ -58,7 +59,7 @@ void Sheets::adapt() {
 /// Even the header is read in the background: the file may be on a slow drive.
 void Sheets::openPath(const QString& path, bool first) {
   bar_->hide();
-  const QString name = QFileInfo(path).fileName();
+  const QString name = shownName(path);
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
               [this, path, name, first](const Progress&) -> Jobs::Finish {
                 return [this, path, name, first, size = pictureSize(path)] {
@@ -70,17 +71,15 @@ void Sheets::openPath(const QString& path, bool first) {
 }
 
 void Sheets::open(const QString& path, int across, bool first) {
-  const QString name = QFileInfo(path).fileName();
+  const QString name = shownName(path);
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
               [this, path, name, across, first](const Progress& progress) -> Jobs::Finish {
                 const MeshPointer sheet = make_sheet(readPictureFile(path, progress.part(0, 0.7)),
                                                      std::uint32_t(across), progress.part(0.7, 0.9));
                 prepareLevels(sheet, progress.part(0.9, 1));
                 return [this, path, name, first, sheet] {
-                  edits::replaceMesh(document_, sheet, name, QStringLiteral("open %1").arg(name));
-                  if (first) {
-                    document_.undoStack().clear();
-                  }
+                  edits::replaceMesh(document_, sheet, name, QStringLiteral("open %1").arg(name),
+                                     first ? edits::Opening::first : edits::Opening::next);
                   emit opened(path);
                 };
               });
@@ -102,7 +101,7 @@ void Sheets::saveWarpedPath(int panel, const QString& path) {
     emit failed(path + QStringLiteral(": the object has no picture; open a PNG or JPEG first"));
     return;
   }
-  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(QFileInfo(path).fileName()),
+  jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(shownName(path)),
               [this, path, shape = std::make_shared<const Frame>(*frame), cuts = document_.cuts(),
                own = ownFrame_->isChecked()](const Progress& progress) -> Jobs::Finish {
                 const Mesh& sheet = *shape->mesh;

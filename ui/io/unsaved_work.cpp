@@ -3,7 +3,6 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFile>
-#include <QLockFile>
 #include <QRegularExpression>
 #include <QStandardPaths>
 #include <QUuid>
@@ -65,9 +64,7 @@ void discardWithoutWork(const QString& path) {
   if (hasWork(path)) {
     return;
   }
-  QLockFile lock(lockOf(path));
-  lock.setStaleLockTime(0);
-  if (lock.tryLock()) {
+  if (const auto own = lock(path)) {
     discardObjects(path);
   }
 }
@@ -92,7 +89,11 @@ QString closedPath(const QString& path) {
 
 bool isClosed(const QString& path) { return QFileInfo(path).fileName().contains(closedMark); }
 
-QString lockOf(const QString& path) { return path + lockEnding; }
+std::unique_ptr<QLockFile> lock(const QString& path) {
+  auto lock = std::make_unique<QLockFile>(path + lockEnding);
+  lock->setStaleLockTime(0);
+  return lock->tryLock() ? std::move(lock) : nullptr;
+}
 
 QString objectName(const QString& path, int number) {
   return QFileInfo(stem(path)).fileName() + objectEnding + QString::number(number);
@@ -118,11 +119,15 @@ void discard(const QString& path) {
 }
 
 QStringList all() {
+  // The number of a crash is that of its start, which says nothing about when it happened.
+  const auto age = [](const QString& path) {
+    return std::pair(isClosed(path) ? 0 : QFileInfo(path).lastModified().toMSecsSinceEpoch(), orderOf(path));
+  };
   QStringList paths;
   for (const QFileInfo& file : filesLike(QLatin1Char('*') + ending())) {
     paths << file.filePath();
   }
-  std::ranges::stable_sort(paths, {}, orderOf);
+  std::ranges::sort(paths, {}, age);
   return paths;
 }
 
@@ -130,9 +135,7 @@ void discardOldest() {
   QStringList closed = all();
   closed.removeIf([](const QString& path) { return !isClosed(path); });
   for (const QString& path : closed.first(std::max<qsizetype>(0, closed.size() - maxClosed))) {
-    QLockFile lock(lockOf(path));
-    lock.setStaleLockTime(0);
-    if (lock.tryLock()) {
+    if (const auto own = lock(path)) {
       discard(path);
     }
   }
@@ -142,10 +145,8 @@ void discardLeftovers() {
   discardUnfinished();
   for (const QFileInfo& file : filesLike(QLatin1Char('*') + ending() + lockEnding)) {
     const QString path = file.filePath().chopped(lockEnding.size());
-    QLockFile lock(file.filePath());
-    lock.setStaleLockTime(0);
     if (!QFile::exists(path)) {
-      lock.tryLock();  // the destructor of the lock removes it, unless a running program holds it
+      lock(path);  // its destructor removes it, unless a running program holds it
     }
   }
   for (const QFileInfo& file : filesLike(QLatin1Char('*') + objectEnding + QLatin1Char('*'))) {

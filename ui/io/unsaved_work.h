@@ -1,6 +1,8 @@
 #pragma once
 
+#include <QLockFile>
 #include <QStringList>
+#include <memory>
 
 #include "files/session/session.h"
 #include "mesh/progress.h"
@@ -8,13 +10,14 @@
 namespace chainmail {
 
 /// Files of unsaved work, which all running programs of a user keep in one folder that only this user can read. Work is
-/// a session `N-ID.chainmail`, or `N-ID.closed-M.chainmail` from a closed window. N and M count up, so that the order
+/// a session `N-ID.chainmail`, or `N-ID.closed-M.chainmail` of a window that was closed or
+/// has got another object. N and M count up, so that the order
 /// of work does not depend on a clock. Its object may be in a file of its own, `N-ID.object-K`, so that saving again
 /// writes only what the user has changed. A lock beside the session shows whether a program still uses it.
 namespace unsaved_work {
 
 /// Closed work that is kept: the oldest is removed when there is more.
-inline constexpr int maxClosed = 5;
+inline constexpr int maxClosed = 50;
 
 /// Returns the folder, and creates it if it does not exist.
 QString folder();
@@ -24,8 +27,8 @@ QString newPath();
 QString closedPath(const QString& path);
 /// True for work from a window that was closed, false for work from a crash.
 bool isClosed(const QString& path);
-/// Returns the path of the lock of work.
-QString lockOf(const QString& path);
+/// Returns the lock of work, valid as long as this program runs; null if a running program has it.
+std::unique_ptr<QLockFile> lock(const QString& path);
 /// Returns the name of file `number` for the object of work.
 QString objectName(const QString& path, int number);
 
@@ -35,7 +38,7 @@ Session read(const QString& path, const Progress& progress = {});
 void discardObjects(const QString& path, const QString& kept = {});
 /// Removes work and its object.
 void discard(const QString& path);
-/// Returns all work, the newest last.
+/// Returns all work: first that of closed windows, then that of crashes, of each the newest last.
 QStringList all();
 /// Removes the oldest work of closed windows beyond maxClosed, but none that a window offers.
 void discardOldest();

@@ -21,12 +21,12 @@ Jobs::Finish Volumes::read(const QString& path, bool first, const Progress& prog
     path_ = path;
     first_ = first;
     volume_ = volume;
-    bar_->ask(QFileInfo(path).fileName(), volume);
+    bar_->ask(shownName(path), volume);
   };
 }
 
 void Volumes::build() {
-  const QString name = QFileInfo(path_).fileName();
+  const QString name = shownName(path_);
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
               [this, path = path_, first = first_, volume = std::move(volume_),
                options = bar_->options()](const Progress& progress) -> Jobs::Finish {
@@ -43,11 +43,9 @@ Jobs::Finish Volumes::readAsOffered(const QString& path, const Progress& progres
 }
 
 void Volumes::show(VoxelBlock& block, const QString& path, bool first) {
-  const QString name = QFileInfo(path).fileName();
-  edits::replaceMesh(document_, block.mesh, name, QStringLiteral("open %1").arg(name), std::move(block.softness));
-  if (first) {
-    document_.undoStack().clear();
-  }
+  const QString name = shownName(path);
+  edits::replaceMesh(document_, block.mesh, name, QStringLiteral("open %1").arg(name),
+                     first ? edits::Opening::first : edits::Opening::next, std::move(block.softness));
   emit opened(path);
 }
 

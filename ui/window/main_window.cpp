@@ -18,9 +18,12 @@
 #include <utility>
 
 #include "common/application.h"
+#include "common/as_path.h"
 #include "common/icons.h"
+#include "common/text.h"
 #include "docks/replay/replay_dock.h"
 #include "document/edits.h"
+#include "files/text/text.h"
 #include "io/file_actions.h"
 #include "io/mesh_repair.h"
 #include "io/picture_actions.h"
@@ -65,6 +68,7 @@ constexpr QSize usualSize(1600, 900);  // at the first start
 constexpr QSize roomOfFrame(40, 80);   // pixels, more than the frame of a window manager takes
 constexpr int layoutVersion = 5;  // raise it after changes to the docks: layouts of other versions are not restored
 constexpr int statusMilliseconds = 4000;
+constexpr std::size_t longestUrl = 200;                     // bytes, in a message
 constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
 
 /// Shows the name of an undo step in the text of the menu item and in its tool tip. The text of the tool bar button
@@ -207,6 +211,11 @@ void MainWindow::listen() {
 }
 
 void MainWindow::listenToFiles() {
+  document_.setKeeper([this] {
+    const bool mayGo = keepsWork(&Sessions::setAside);
+    document_.solvers().goOn();
+    return mayGo;
+  });
   connect(&jobs_, &Jobs::failed, messages_, &MessageBar::say);
   connect(&jobs_, &Jobs::replaced, messages_, &MessageBar::note);
   connect(files_, &FileActions::failed, messages_, &MessageBar::say);
@@ -511,15 +520,21 @@ void MainWindow::welcome() { help_->welcome(); }
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 
 void MainWindow::showTitle() {
-  const QString file = QFileInfo(document_.files().session()).fileName();
+  const QString file = shownName(document_.files().session());
   setWindowTitle(QStringLiteral("%1[*] – ChainMail workbench").arg(file.isEmpty() ? document_.name() : file));
 }
 
-/// Keeps unsaved work for the next start. Returns false if that fails and the user wants the window to stay open.
-bool MainWindow::keepsWork() {
+QString MainWindow::keepWork() { return keepWorkBy(&Sessions::keep); }
+
+QString MainWindow::keepWorkBy(QString (Sessions::*keep)()) {
   Application::guarded(
       [this] { document_.solvers().abandonMoves(lastMovePatience); });  // then the work is kept in any case
-  const QString why = sessions_->keep();
+  return (sessions_->*keep)();
+}
+
+/// Keeps unsaved work for the next start. Returns false if that fails and the user does not want to lose the work.
+bool MainWindow::keepsWork(QString (Sessions::*keep)()) {
+  const QString why = keepWorkBy(keep);
   if (why.isEmpty()) {
     return true;
   }
@@ -529,13 +544,13 @@ bool MainWindow::keepsWork() {
   }
   document_.solvers().goOn();
   if (answer == ClosingAnswer::saveAs) {
-    closesWhenSaved_ = files_->saveSessionAs();
+    closesWhenSaved_ = files_->saveSessionAs() && keep == &Sessions::keep;
   }
   return false;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!keepsWork()) {
+  if (!keepsWork(&Sessions::keep)) {
     event->ignore();
     return;
   }
@@ -554,9 +569,13 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (!urls.isEmpty()) {
-    openFile(urls.first().toLocalFile());
+  const QUrl url = event->mimeData()->urls().value(0);
+  const bool isHere = url.host().isEmpty() || url.host() == QStringLiteral("localhost");
+  if (url.isLocalFile() && isHere) {
+    openFile(pathOf(QByteArray::fromPercentEncoding(url.path(QUrl::FullyEncoded).toLatin1())));
+  } else if (!url.isEmpty()) {
+    messages_->say(QStringLiteral("%1: it is not a file of this computer; save it to a file first, then drop that file")
+                       .arg(text(shortened(url.toDisplayString().toStdString(), longestUrl))));
   }
 }
 

@@ -67,6 +67,8 @@ class MainWindow : public QMainWindow {
   /// Opens a session, mesh, volume or picture in the background: as one undo step, or as the first object of the
   /// window. If the file has an error, shows a message and changes nothing.
   void openFile(const QString& path, bool first = false);
+  /// Keeps unsaved work for the next start, without questions. Returns why not, or an empty text.
+  QString keepWork();
   /// Shows an example and hints on the first start. Called if the window starts without a file.
   void welcome();
 
@@ -98,7 +100,8 @@ class MainWindow : public QMainWindow {
   /// Shows a sentence in the status bar for 4 s.
   void showStatus(const QString& sentence);
   void showTitle();
-  bool keepsWork();
+  QString keepWorkBy(QString (Sessions::*keep)());
+  bool keepsWork(QString (Sessions::*keep)());
   QByteArray layoutForSettings() const;
   void restoreLayout();
   void resetLayout();

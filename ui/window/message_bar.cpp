@@ -63,8 +63,8 @@ MessageBar::MessageBar()
 }
 
 void MessageBar::add(Severity severity, const QString& sentence) {
-  const Message message{severity, sentence};
-  std::erase(messages_, message);  // a repeated message becomes the newest
+  const Message message{severity, sentence.simplified()};  // one line, whatever names it has
+  std::erase(messages_, message);                          // a repeated message becomes the newest
   messages_.push_back(message);
   if (messages_.size() > maxMessages) {
     messages_.erase(messages_.begin());

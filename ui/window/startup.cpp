@@ -1,17 +1,28 @@
 #include "window/startup.h"
 
-#include <sys/mman.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <QApplication>
 #include <QIcon>
 #include <QLocale>
 #include <QOpenGLContext>
+#include <QPointer>
 #include <QScreen>
 #include <QSettings>
+#include <QSocketNotifier>
 #include <QSurfaceFormat>
+#include <QThread>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
 
 #include "common/theme.h"
 #include "common/workbench_style.h"
+#include "window/main_window.h"
 
 // Resources of a static library must be initialised explicitly, outside any namespace.
 static void loadResources() { Q_INIT_RESOURCE(workbench); }
@@ -19,10 +30,24 @@ static void loadResources() { Q_INIT_RESOURCE(workbench); }
 namespace chainmail {
 namespace {
 
-// Address space that the window takes with a small object. OpenGL without a graphics card takes most of it.
-constexpr std::size_t windowBytes = std::size_t{1024} * 1024 * 1024;
-
 constexpr int leastDepth = 24;  // bits per pixel
+
+std::atomic<int> ending = -1;  // the pipe on which the handler of signals writes
+
+/// Calls only functions that a handler of signals may call.
+void receiveSignal(int signal) {
+  const char byte = char(signal);
+  static_cast<void>(::write(ending, &byte, 1) == 1);
+}
+
+/// Keeps the work and lets the signal do what it did before.
+void endBy(int signal, const struct sigaction& before, MainWindow& window) {
+  if (const QString why = window.keepWork(); !why.isEmpty()) {
+    std::fprintf(stderr, "workbench: %s\n", qPrintable(why));
+  }
+  ::sigaction(signal, &before, nullptr);
+  ::raise(signal);
+}
 
 /// True if the display is that of another computer, reached by ssh.
 bool isRemote() {
@@ -46,6 +71,39 @@ void prepareApplication() {
   QSettings::setDefaultFormat(QSettings::IniFormat);
 }
 
+void keepWorkAtTheEnd(MainWindow& window) {
+  static QPointer<MainWindow> open;  // a function at the exit has no arguments
+  open = &window;
+  // Qt and the graphics driver exit when the display is lost.
+  std::atexit([] {
+    if (open != nullptr && open->thread() == QThread::currentThread()) {
+      open->keepWork();
+    }
+  });
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
+    return;
+  }
+  ending = pipe[1];
+  std::map<int, struct sigaction> before;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present {};
+    if (::sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) {  // not for nohup
+      struct sigaction own {};
+      own.sa_handler = receiveSignal;
+      own.sa_flags = SA_RESTART;
+      ::sigaction(signal, &own, &before[signal]);
+    }
+  }
+  auto* notifier = new QSocketNotifier(pipe[0], QSocketNotifier::Read, &window);
+  QObject::connect(notifier, &QSocketNotifier::activated, &window, [&window, before, from = pipe[0]] {
+    char signal = 0;
+    if (::read(from, &signal, 1) == 1) {
+      endBy(signal, before.at(signal), window);
+    }
+  });
+}
+
 void styleApplication() {
   // The texts are English, and so are their numbers, on every system: plots and files have a decimal point, too.
   QLocale::setDefault(QLocale(QLocale::English, QLocale::UnitedStates));
@@ -53,18 +111,6 @@ void styleApplication() {
   QApplication::setWindowIcon(QIcon(QStringLiteral(":/org.chainmail.workbench.png")));
   QApplication::setStyle(new WorkbenchStyle);
   applyGround(rememberedGround());
-}
-
-QString whyNoMemory() {
-  // Takes no memory of the machine: such pages cannot be used.
-  void* space = ::mmap(nullptr, windowBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (space == MAP_FAILED) {
-    return QStringLiteral(
-        "memory: the window needs 1 GB of address space; raise the limit (ulimit -v), or use the command line program "
-        "chainmail");
-  }
-  ::munmap(space, windowBytes);
-  return {};
 }
 
 QString whyNoWindow() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/as_path.h"
 #include "common/text.h"
 #include "docks/section_dock.h"
 #include "panels/colour_range_menu.h"
@@ -113,7 +114,7 @@ std::string layoutOf(MainWindow& window) {
                            {QStringLiteral("show"), window.showMenu().chosen()},
                            {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
                            {QStringLiteral("docks"), window.dockPlaces()},
-                           {QStringLiteral("file"), window.document().files().session()}};
+                           {QStringLiteral("file"), keptPath(window.document().files().session())}};
   return QJsonDocument(layout).toJson(QJsonDocument::Compact).toStdString();
 }
 

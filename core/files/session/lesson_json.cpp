@@ -5,6 +5,7 @@
 
 #include "files/text/json_fields.h"
 #include "files/text/limits.h"
+#include "files/text/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -26,8 +27,8 @@ constexpr WindowName window_names[] = {{"colour", &LessonStep::colour},
 /// Returns a text that is not empty.
 std::string caption(const JsonFields& fields, const Json& object, const char* key,
                     std::size_t longest = limits::name_bytes) {
-  std::string text = fields.text(object, key, longest);
-  if (text.empty()) {
+  std::string text = one_line(fields.text(object, key, longest));
+  if (trimmed(text).empty()) {
     fields.fail(std::string("'") + key + "' is empty", "write what the reader shall see");
   }
   const bool is_title = longest == limits::name_bytes;

@@ -269,7 +269,7 @@ void SessionReader::take_lesson() {
 
 Session SessionReader::read(const Progress& progress) {
   check_kind();
-  result_.name = fields_.text(tree_, "name", limits::name_bytes);
+  result_.name = one_line(fields_.text(tree_, "name", limits::name_bytes));
   take_mesh(progress.part(0, 0.8));
   take_moves(progress.part(0.8, 0.9));
   // The file has the mesh with which the moves begin.

@@ -65,6 +65,18 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string one_line(std::string text) {
+  // U+0085, U+2028 and U+2029 end a line, too.
+  for (const std::string_view end : {"\u0085", "\u2028", "\u2029"}) {
+    for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at)) {
+      text.replace(at, end.size(), " ");
+    }
+  }
+  std::ranges::replace_if(
+      text, [](unsigned char one) { return one < ' ' || one == 0x7f; }, ' ');
+  return text;
+}
+
 std::string in_quotes(std::string_view word) {
   const bool is_long = word.size() > longest_quote;
   return "'" + printable(word.substr(0, longest_quote)) + (is_long ? "…'" : "'");

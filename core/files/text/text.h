@@ -16,6 +16,8 @@ namespace chainmail {
 /// Makes a text from outside safe for a message: control characters and invalid UTF-8 become \xNN. So a message has one
 /// line and cannot control a terminal.
 std::string printable(std::string_view text);
+/// Makes a text from outside one line: line ends and other control characters become blanks.
+std::string one_line(std::string text);
 /// Returns a word in quotes; long words are shortened.
 std::string in_quotes(std::string_view word);
 /// Returns a text with at most `most` bytes: of a longer one the beginning, which ends between two characters of UTF-8

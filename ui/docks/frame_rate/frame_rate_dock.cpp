@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "common/as_path.h"
 #include "common/ask_where.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
@@ -261,9 +262,7 @@ void FrameRateDock::saveTable() {
 }
 
 void FrameRateDock::saveTablePath(const QString& path) {
-  attempt(path, [&] {
-    write_file(std::filesystem::path(path.toStdU16String()), [this](std::ostream& out) { writeCsv(out, histories_); });
-  });
+  attempt(path, [&] { write_file(asPath(path), [this](std::ostream& out) { writeCsv(out, histories_); }); });
 }
 
 void FrameRateDock::savePicture() {

@@ -7,7 +7,9 @@
 #include <QResizeEvent>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <array>
 
+#include "common/as_path.h"
 #include "common/ask_where.h"
 #include "common/colours.h"
 #include "common/plot_widget.h"
@@ -16,6 +18,7 @@
 #include "docks/report/report_table.h"
 #include "files/results/report_json.h"
 #include "files/text/outputs.h"
+#include "io/questions.h"
 #include "mesh/error.h"
 #include "report/page/compared_figures.h"
 #include "report/page/html.h"
@@ -26,15 +29,17 @@ namespace {
 constexpr int narrowestPlot = 420;    // beside a table whose columns are not cut (pixels)
 constexpr double widestColumn = 2.4;  // ratio of width to height up to which the table is below the plot
 
+constexpr std::array files{"report.html", "report.json", "report.csv"};
+
 /// Writes the three files, or none of them.
 void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
   const QString date = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyy-MM-dd HH:mm 'UTC'"));
   const report::Origin origin{report::this_machine(), "the Report dock of the workbench, while its window was open",
                               date.toStdString(), "chainmail " + QCoreApplication::applicationVersion().toStdString()};
   Outputs outputs;
-  outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, comparison, origin); });
-  outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, comparison, origin); });
-  outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, comparison); });
+  outputs.add(folder / files[0], [&](std::ostream& out) { write_html(out, comparison, origin); });
+  outputs.add(folder / files[1], [&](std::ostream& out) { write_json(out, comparison, origin); });
+  outputs.add(folder / files[2], [&](std::ostream& out) { write_csv(out, comparison); });
   outputs.commit();
 }
 
@@ -219,13 +224,25 @@ void ReportResults::showPlot(const report::DragResult& drag) {
 void ReportResults::save() {
   const QString folder = askFolder(*this, QStringLiteral("Folder for report.html, report.json and report.csv"));
   if (!folder.isEmpty()) {
+    askAndSaveTo(folder);
+  }
+}
+
+void ReportResults::askAndSaveTo(const QString& folder) {
+  QStringList present;
+  for (const char* file : files) {
+    if (QFileInfo::exists(QDir(folder).filePath(QLatin1String(file)))) {
+      present << QLatin1String(file);
+    }
+  }
+  if (present.isEmpty() || askBeforeReplacing(*this, folder, present)) {
     saveTo(folder);
   }
 }
 
 void ReportResults::saveTo(const QString& folder) {
   try {
-    saveReport(std::filesystem::path(folder.toStdU16String()), *result_);
+    saveReport(asPath(folder), *result_);
     emit saved(folder + QStringLiteral("/report.html, .json and .csv"));
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));

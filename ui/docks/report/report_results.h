@@ -25,6 +25,8 @@ class ReportResults : public QWidget {
   int tableWidth() const;
   /// Writes the three files of the report into a folder.
   void saveTo(const QString& folder);
+  /// The same, but asks before it replaces files.
+  void askAndSaveTo(const QString& folder);
   /// Writes the plot shown as SVG, PDF or PNG, by the extension.
   void savePlotTo(const QString& path);
 
