@@ -56,8 +56,7 @@ Function* next(Function* /*type*/, const char* name) {
 }
 
 mode_t mode_of(int flags, va_list arguments) {
-  const bool makes_file = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
-  return makes_file ? va_arg(arguments, mode_t) : 0;
+  return (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
 }
 
 bool writes(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }
@@ -68,7 +67,6 @@ const std::vector<NamedCall>& file_calls() {
   static const std::vector<NamedCall> calls{{FileCall::open, "open"},
                                             {FileCall::write, "write"},
                                             {FileCall::sync, "fsync"},
-                                            {FileCall::link, "link"},
                                             {FileCall::rename, "rename"}};
   return calls;
 }
@@ -127,23 +125,8 @@ int fsync(int descriptor) {
   return fails(FileCall::sync, descriptor) ? -1 : original(descriptor);
 }
 
-int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
-  static const auto original = next<int(int, const char*, int, const char*, int)>(nullptr, "linkat");
-  return fails(FileCall::link, std::string_view(to)) ? -1 : original(from_folder, from, to_folder, to, flags);
-}
-
-int link(const char* from, const char* to) {
-  static const auto original = next<int(const char*, const char*)>(nullptr, "link");
-  return fails(FileCall::link, std::string_view(to)) ? -1 : original(from, to);
-}
-
 int rename(const char* from, const char* to) {
   static const auto original = next<int(const char*, const char*)>(nullptr, "rename");
   return fails(FileCall::rename, std::string_view(to)) ? -1 : original(from, to);
-}
-
-int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned int flags) {
-  static const auto original = next<int(int, const char*, int, const char*, unsigned int)>(nullptr, "renameat2");
-  return fails(FileCall::rename, std::string_view(to)) ? -1 : original(from_folder, from, to_folder, to, flags);
 }
 }

@@ -6,7 +6,7 @@
 namespace chainmail::test {
 
 /// A system call that a program makes to write a file.
-enum class FileCall { open, write, sync, link, rename };
+enum class FileCall { open, write, sync, rename };
 
 /// All of them, with their names.
 struct NamedCall {

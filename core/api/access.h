@@ -13,7 +13,7 @@
 #include "body/handle.h"
 #include "chainmail/chainmail.h"
 #include "files/mesh/flaws.h"
-#include "files/text/replacement.h"
+#include "files/text/outputs.h"
 #include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "mesh/progress.h"

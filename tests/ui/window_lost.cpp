@@ -282,33 +282,6 @@ class WindowLost : public QObject {
     QVERIFY(bar.findChild<QLabel*>()->text().contains(QStringLiteral("session.chainmail")));
   }
 
-  void aFileThatCannotBeReplacedIsWrittenInPlace() {
-    if (geteuid() != 0) {
-      QSKIP("only root can make a file of another user in a sticky folder");
-    }
-    const QString folder = path("sticky"), file = folder + QStringLiteral("/shared.chainmail");
-    QVERIFY(QDir().mkpath(folder));
-    Workbench bench(cloth());
-    bench.window.sessions().savePath(file);
-    bench.settle();
-    for (const QString& one : {folder_.path(), file}) {
-      QCOMPARE(chmod(qPrintable(one), one == file ? 0666 : 0755), 0);
-    }
-    QCOMPARE(chmod(qPrintable(folder), 01777), 0);
-    edits::setPinned(bench.document(), {3}, true);
-    QCOMPARE(seteuid(12345), 0);
-    {
-      const Answer inPlace(QStringLiteral("Write in place"));
-      bench.trigger("saveSession");
-      bench.settle();
-      bench.settle();  // the second job
-      QCOMPARE(inPlace.questions, 1);
-    }
-    QCOMPARE(seteuid(0), 0);
-    QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{3});
-    QVERIFY(!bench.window.isWindowModified());
-  }
-
   void aComputationThatEndsIsNamed() {
     Workbench bench(generate({MeshKind::tetra, {8, 8, 8}, 1, {}}));
     edits::setPinned(bench.document(), {0, 1, 2, 3, 4, 5, 6, 7}, true);

@@ -116,14 +116,6 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
   connect(&sessions_, &Sessions::recovered, this, &FileActions::recovered);
   connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
-  connect(&sessions_, &Sessions::notReplaceable, this, [this](const QString& path, const QString& why) {
-    const OverwriteAnswer answer = askToWriteInPlace(window_, path, why);
-    if (answer == OverwriteAnswer::overwrite) {
-      sessions_.savePath(path, true);
-    } else if (answer == OverwriteAnswer::saveAs) {
-      saveSessionAs();
-    }
-  });
   connect(&sessions_, &Sessions::opened, this, &FileActions::remember);
   connect(&sessions_, &Sessions::saved, this, [this](const QString& path) {
     remember(path);

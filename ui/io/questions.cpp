@@ -59,11 +59,4 @@ bool askBeforeReplacing(QWidget& window, const QString& folder, const QStringLis
   return box.clickedButton() == replace;
 }
 
-OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why) {
-  return overwriteAnswers[std::size_t(
-      ask(window, "inPlaceQuestion", QStringLiteral("%1 can only be written in place").arg(shownName(path)),
-          why + QStringLiteral("\nIf the disk fails while it is written in place, the old content is lost, too."),
-          QStringLiteral("&Write in place")))];
-}
-
 }  // namespace chainmail

@@ -23,7 +23,4 @@ OverwriteAnswer askBeforeOverwriting(QWidget& window, const QString& path);
 /// Asks before files replace those in a folder that have the same names. Returns true for yes.
 bool askBeforeReplacing(QWidget& window, const QString& folder, const QStringList& files);
 
-/// Asks whether a file that cannot be replaced as a whole is written in place. `why` is the sentence that says so.
-OverwriteAnswer askToWriteInPlace(QWidget& window, const QString& path, const QString& why);
-
 }  // namespace chainmail

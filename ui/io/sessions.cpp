@@ -3,7 +3,6 @@
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <sstream>
 
 #include "common/as_path.h"
 #include "document/edits.h"
@@ -22,16 +21,6 @@ namespace {
 QString ownFile(const Session& session) {
   const auto layout = QJsonDocument::fromJson(QByteArray::fromStdString(session.ui)).object();
   return pathOfKept(layout[QStringLiteral("file")].toString());
-}
-
-void write(const QString& path, const Session& session, bool inPlace, const Progress& progress) {
-  if (!inPlace) {
-    save_session(asPath(path), session, progress);
-    return;
-  }
-  std::ostringstream text;
-  write_session(text, session, progress);
-  write_in_place(asPath(path), text.str());
 }
 
 }  // namespace
@@ -79,15 +68,11 @@ void Sessions::show(const std::shared_ptr<const Session>& session, const QString
   emit opened(path);
 }
 
-void Sessions::savePath(const QString& path, bool inPlace) {
+void Sessions::savePath(const QString& path) {
   jobs_.start(Jobs::Kind::save, QStringLiteral("Saving %1").arg(shownName(path)),
-              [this, path, inPlace, steps = steps_, mesh = document_.unsplitMesh(),
+              [this, path, steps = steps_, mesh = document_.unsplitMesh(),
                draft = SessionDraft(document_, layout_.read())](const Progress& progress) -> Jobs::Finish {
-                try {
-                  write(path, draft.finished(progress), inPlace, progress);
-                } catch (const NotReplaceable& refused) {
-                  return [this, path, why = QString::fromUtf8(refused.what())] { emit notReplaceable(path, why); };
-                }
+                save_session(asPath(path), draft.finished(progress), progress);
                 return [this, path, steps, mesh, state = stateOf(path)] {
                   know(path, state);
                   reload_->hide();

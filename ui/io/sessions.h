@@ -24,8 +24,8 @@ class Sessions : public QObject {
 
   /// Opens a session in the background: as one undo step, or as the first object of the window.
   void openPath(const QString& path, bool first);
-  /// Saves the session in the background. `inPlace`: without replacing the file, see notReplaceable().
-  void savePath(const QString& path, bool inPlace = false);
+  /// Saves the session in the background.
+  void savePath(const QString& path);
   /// The window has read or written a file, which was in this state then.
   void know(const QString& path, const std::optional<FileState>& state);
   /// True if another program has changed this file since the window opened or saved it.
@@ -52,8 +52,6 @@ class Sessions : public QObject {
   /// Emitted with a sentence about unsaved work that was replaced or discarded.
   void noted(const QString& sentence);
   void saved(const QString& path);
-  /// Emitted if a file could be written in place, but not replaced as a whole; `why` is the sentence that says so.
-  void notReplaceable(const QString& path, const QString& why);
   void opened(const QString& path);
 
  private:

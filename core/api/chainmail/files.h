@@ -7,10 +7,10 @@
 
 namespace chainmail::api {
 
-/// Writes several files together: all of them or none.
+/// Writes several files, each of them completely or not at all.
 ///
-/// add() writes the content of each file beside its target. commit() then replaces all targets; if one cannot be
-/// replaced, the others get their old content back. The path `-` is standard output, which receives its text in
+/// add() writes the content of each file beside its target. commit() then replaces the targets one after another, so
+/// that none is replaced if one cannot be written. The path `-` is standard output, which receives its text in
 /// commit().
 class Outputs {
  public:
@@ -29,7 +29,7 @@ class Outputs {
   void keep(const std::filesystem::path& input);
   /// Adds a file. Throws Error if it cannot be written or is there twice, and WriteFailure if writing failed.
   void add(const std::filesystem::path& path, Writer writer);
-  /// Puts all files in place. Throws Error or WriteFailure; then all targets are as they were.
+  /// Puts all files in place. Throws Error or WriteFailure; then each target is old or new as a whole.
   void commit();
 
  private:

@@ -11,7 +11,7 @@
 #include "body/snapshot.h"
 #include "body/softness.h"
 #include "files/session/lesson.h"
-#include "files/text/replacement.h"
+#include "files/text/outputs.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"

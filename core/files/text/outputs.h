@@ -7,35 +7,48 @@
 #include <set>
 #include <vector>
 
-#include "files/text/replacement.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 
-/// Writes several files together: all of them or none.
+/// The error for a write that started and could not be finished, for example on a full disk.
+class WriteFailure : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Who may read a file that did not exist: as the user's umask says, or only the owner. An existing file keeps its
+/// permissions.
+enum class Readers { as_usual, owner };
+
+/// Writes one or more files, each of them completely or not at all, even if the program is killed or the machine loses
+/// power.
 ///
-/// add() writes the content of each file beside its target, and waits until the disk has it (see Replacement). commit()
-/// then replaces all targets; if one cannot be replaced, the others get their old content back. Only if the machine
-/// stops between two replacements, some files are new and others old, each of them whole. The path `-` means standard
-/// output. Standard output, devices and pipes receive their text in commit(), before the first replacement.
+/// add() writes the content into a file `.chainmail-N.tmp` beside its target, and waits until the disk has it; commit()
+/// renames all of them to their targets. If one cannot be written, none is replaced. A symbolic link stays, and the file
+/// that it points to is replaced; a hard link is replaced, so that its other names keep the old content. The path `-`
+/// means standard output. Standard output, devices and pipes receive their text in commit(), before the first file is
+/// replaced.
 class Outputs {
  public:
   using Writer = std::function<void(std::ostream&)>;
 
-  Outputs() = default;
+  Outputs();
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
+  ~Outputs();
 
   /// Protects an input file: no output may replace it, under this name or another. The path `-` means the file that is
   /// read as standard input, if it is one. Call this before add().
   void keep(const std::filesystem::path& input);
-  /// Writes the content of a file. Throws Error if the target cannot be written, NotReplaceable if it cannot be
-  /// replaced.
+  /// Writes the content of a file. Throws Error if the target cannot be written.
   void add(const std::filesystem::path& path, Writer writer, Readers readers = Readers::as_usual);
   /// Takes over a finished file of another writer, on the file system of its target `path`.
   void take(const std::filesystem::path& path, const std::filesystem::path& made);
   void commit();
 
  private:
+  class Replacement;
   struct Stream {
     std::filesystem::path path;
     Writer writer;
@@ -43,8 +56,6 @@ class Outputs {
 
   bool is_input(const std::filesystem::path& output) const;
   void write_streams();
-  void replace_all();
-  void sync_folders();
   void refuse_twice(const std::filesystem::path& path, const std::filesystem::path& target);
 
   std::vector<std::filesystem::path> inputs_;
