@@ -55,19 +55,15 @@ Function* next(Function* /*type*/, const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-mode_t mode_of(int flags, va_list arguments) {
-  return (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
-}
+mode_t mode_of(int flags, va_list arguments) { return (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0; }
 
 bool writes(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }
 
 }  // namespace
 
 const std::vector<NamedCall>& file_calls() {
-  static const std::vector<NamedCall> calls{{FileCall::open, "open"},
-                                            {FileCall::write, "write"},
-                                            {FileCall::sync, "fsync"},
-                                            {FileCall::rename, "rename"}};
+  static const std::vector<NamedCall> calls{
+      {FileCall::open, "open"}, {FileCall::write, "write"}, {FileCall::sync, "fsync"}, {FileCall::rename, "rename"}};
   return calls;
 }
 

@@ -180,10 +180,8 @@ class WindowDamaged : public QObject {
       bench.window.findChild<ReplayDock*>()->openMoves(path);
     } else {
       bench.open(path);
-      for (const char* agree : {"sheetAgree", "volumeAgree"}) {
-        if (auto* button = bench.find<QPushButton>(agree); button != nullptr && button->isVisible()) {
-          button->click();
-        }
+      if (auto* button = bench.find<QPushButton>("volumeAgree"); button->isVisible()) {
+        button->click();
       }
       for (int step = 0; step < 3; ++step) {
         bench.trigger("lessonNext");

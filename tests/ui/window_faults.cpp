@@ -68,17 +68,10 @@ class WrittenSession : public Written {
   QString folder() const override { return folder_.path(); }
   void change() override { pinOrUnpin(bench_.document()); }
   QString write() override {
-    QString asked;
-    QObject context;
-    QObject::connect(&bench_.window.sessions(), &Sessions::notReplaceable, &context,
-                     [&](const QString&, const QString& why) { asked = why; });
-    const Answer cancel(QStringLiteral("Cancel"));
-    return saidDuring(&bench_.window.jobs(), &Jobs::failed,
-                      [&] {
-                        bench_.window.sessions().savePath(path_);
-                        bench_.settle();
-                      }) +
-           asked;
+    return saidDuring(&bench_.window.jobs(), &Jobs::failed, [&] {
+      bench_.window.sessions().savePath(path_);
+      bench_.settle();
+    });
   }
   QString content() const override { return pinsIn(path_); }
 
@@ -142,9 +135,14 @@ class WrittenReport : public Written {
     QStringList files;
     for (const QString& name : QDir(folder_.path()).entryList(QDir::Files)) {
       QByteArray bytes = bytesOf(folder_.filePath(name));
-      files << name << QString::number(bytes.size()) << QString::number(qHash(bytes));
+      files << QStringLiteral("%1:%2:%3").arg(name).arg(bytes.size()).arg(qHash(bytes));
     }
     return files.join(QLatin1Char(' '));
+  }
+  /// Each file is old or new as a whole.
+  bool isNew(const QString& before, const QString& after, const QString& again) const override {
+    const QStringList whole = (before + QLatin1Char(' ') + again).split(QLatin1Char(' '));
+    return std::ranges::all_of(after.split(QLatin1Char(' ')), [&](const QString& one) { return whole.contains(one); });
   }
 
  private:
@@ -180,11 +178,11 @@ class WrittenFilm : public Written {
     }
     return files.join(QLatin1Char(' '));
   }
-  /// The pictures contain times, so that no two films are equal.
+  /// The pictures contain times, so that no two films are equal. Each picture is old or new as a whole.
   bool isNew(const QString& before, const QString& after, const QString& /*again*/) const override {
     const QStringList old = before.split(QLatin1Char(' ')), present = after.split(QLatin1Char(' '));
     return old.size() == present.size() &&
-           std::ranges::none_of(present, [&](const QString& one) { return old.contains(one); });
+           (old.size() > 1 || std::ranges::none_of(present, [&](const QString& one) { return old.contains(one); }));
   }
 
  private:
@@ -240,8 +238,7 @@ class WindowFaults : public QObject {
       for (const int error : errors) {
         seen += outcomes(*written, call, error, false, most);
       }
-      // Without any rename, several files that are replaced cannot be taken back.
-      if (everything && call.call != FileCall::rename) {
+      if (everything) {
         seen += outcomes(*written, call, ENOSPC, true, most);
       }
       faults += int(seen.size());

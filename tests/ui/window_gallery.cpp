@@ -8,7 +8,6 @@
 
 #include "docks/gallery.h"
 #include "io/samples.h"
-#include "io/sheet_bar.h"
 #include "window.h"
 #include "window/message_bar.h"
 

@@ -342,74 +342,17 @@ class WindowOpen : public QObject {
     QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
   }
 
-  void aSurfaceIsSimplified() {
-    Workbench bench;
-    const auto* simplify = bench.find<QAction>("simplifySurface");
-    QVERIFY(!simplify->isEnabled());  // a grid has no faces
-    bench.open(sourceFile("meshes/torus.obj"));
-    const MeshPointer torus = bench.document().mesh();
-    QVERIFY(simplify->isEnabled());
-    bench.trigger("simplifySurface");
-    auto* elements = bench.find<QSpinBox>("simplifyElements");
-    QCOMPARE(elements->value(), 96);
-    QCOMPARE(elements->maximum(), 383);
-    QCOMPARE(bench.find<QLabel>("simplifyAbout")->text(), QStringLiteral("Simplify torus.obj: 384 elements"));
-    const QString edges = bench.find<QLabel>("simplifyResult")->text();
-    elements->setValue(100);
-    QVERIFY(bench.find<QLabel>("simplifyResult")->text() != edges);
-    QTest::keyClick(elements, Qt::Key_Return);
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), 100U);
-    QCOMPARE(bench.document().name(), QStringLiteral("torus.obj"));
-    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("simplify to 100 elements"));
-    QVERIFY(!bench.find<QFrame>("simplifyBar")->isVisible());
-    QVERIFY(!bench.find<QFrame>("fillBar")->isVisible());
-    bench.trigger("undo");
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), torus);
-  }
-
-  void whatCannotBeSimplifiedIsASentence() {
-    Workbench bench;
-    const MeshPointer cloth = generate({MeshKind::cloth, {9, 9, 1}, 1, {}});
-    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
-    bench.trigger("simplifySurface");
-    bench.find<QSpinBox>("simplifyElements")->setValue(20);
-    bench.find<QPushButton>("simplifyAgree")->click();
-    bench.settle();
-    QCOMPARE(messages(bench).sentence(),
-             QStringLiteral("cloth: the 32 elements at its borders and non-manifold edges stay, so it cannot have 20; "
-                            "choose 33 or more"));
-    QCOMPARE(bench.document().mesh(), cloth);
-  }
-
-  void aSurfaceThatIsTooFineIsSimplifiedBeforeItIsFilled() {
+  void aSurfaceThatIsTooFineIsToldHowToGetCoarser() {
     Workbench bench;
     bench.open(sourceFile("meshes/sphere.obj"));
     bench.trigger("fillSurface");
-    QVERIFY(!bench.find<QPushButton>("fillSimplify")->isVisible());
+    QCOMPARE(bench.find<QLabel>("fillAbout")->text(), QStringLiteral("Fill sphere.obj with tetrahedra"));
     bench.open(fineSphere(140, 250));  // 34,750 elements, more than linear FEM takes without any inside
     bench.trigger("fillSurface");
-    QVERIFY(bench.find<QLabel>("fillAbout")
-                ->text()
-                .endsWith(QStringLiteral(
-                    "The surface is too fine for linear FEM (at most 30,000 elements): simplify it first")));
-    QCOMPARE(bench.window.focusWidget()->objectName(), QStringLiteral("fillSimplify"));
-    bench.find<QPushButton>("fillSimplify")->click();
-    QVERIFY(!bench.find<QFrame>("fillBar")->isVisible());
-    bench.find<QPushButton>("simplifyAgree")->click();
-    bench.settle();
-    QVERIFY(bench.document().mesh()->element_count() < 10'000);
-    QVERIFY(bench.find<QFrame>("fillBar")->isVisible());
-    QVERIFY2(bench.find<QLabel>("fillDetails")
-                 ->text()
-                 .startsWith(QStringLiteral("Few enough for Linear FEM, Quasi-Newton FEM (30,000)")),
-             qPrintable(bench.find<QLabel>("fillDetails")->text()));
-    bench.find<QPushButton>("fillAgree")->click();
-    bench.settle();
-    QVERIFY(bench.document().mesh()->has_cells());
-    const auto count = bench.document().mesh()->element_count();
-    QVERIFY2(count > 10'000 && count < 30'000, qPrintable(QString::number(count)));
+    const QString said = bench.find<QLabel>("fillAbout")->text();
+    QVERIFY2(said.contains(QStringLiteral("The surface is too fine for linear FEM (at most 30,000 elements): make it "
+                                          "coarser with 'chainmail simplify FILE --elements ")),
+             qPrintable(said));
   }
 
   void anOpenSurfaceSaysWhereItIsOpen() {

@@ -111,10 +111,7 @@ class WindowReplaced : public QObject {
       bench.open(sourceFile("meshes/phantom.nrrd"));
       press(bench, "volumeAgree");
     });
-    row("a sheet", [](Workbench& bench) {
-      bench.open(sourceFile("meshes/face.png"));
-      press(bench, "sheetAgree");
-    });
+    opens("a sheet", sourceFile("meshes/face.png"));
     row("a drop", [](Workbench& bench) { drop(bench, QUrl::fromLocalFile(sourceFile("meshes/sphere.obj"))); });
     row("a lesson", [](Workbench& bench) { bench.trigger("lesson1"); });
     row("a recent file", [](Workbench& bench) {

@@ -1,19 +1,12 @@
-// Tests pictures as sheets in a real window: opening, warping, saving.
+// Tests pictures as sheets in a real window.
 
 #include <QBuffer>
 #include <QDropEvent>
 #include <QFile>
 #include <QImage>
-#include <QLabel>
 #include <QMimeData>
-#include <QPushButton>
-#include <QSpinBox>
 
-#include "document/edits.h"
-#include "io/file_actions.h"
 #include "io/sessions.h"
-#include "io/sheet_bar.h"
-#include "io/sheets.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -25,25 +18,13 @@ class WindowSheet : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void aPictureOpensAsASheetOfTheSizeChosen() {
+  void aPictureOpensAsASheet() {
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
-    auto& bar = sheets(bench).bar();
-    sheets(bench).openPath(picture("a.png"));
-    QVERIFY(!bar.isVisible());  // the header is read in the background
-    bench.settle();
-    QVERIFY(bar.isVisible());
-    QCOMPARE(bench.document().mesh(), before);
-    QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("a.png as a sheet: 120 × 80 pixels")));
-    QCOMPARE(bench.find<QSpinBox>("sheetAcross")->value(), 32);
-    bench.find<QSpinBox>("sheetAcross")->setValue(13);
-    QCOMPARE(bench.find<QLabel>("sheetResult")->text(), QStringLiteral("13 × 9 elements, one every 10 pixels"));
-    bench.find<QPushButton>("sheetAgree")->click();
-    bench.settle();
-    QVERIFY(!bar.isVisible());
+    bench.open(picture("a.png"));
     const Mesh& mesh = *bench.document().mesh();
-    QCOMPARE(mesh.element_count(), 13U * 9U);
-    QCOMPARE(mesh.rest_position(13 * 9 - 1), Point(120, 80, 0));
+    QCOMPARE(mesh.element_count(), 32U * 22U);
+    QCOMPARE(mesh.rest_position(mesh.element_count() - 1), Point(120, 80, 0));
     QCOMPARE(mesh.texture->size, (std::array<std::uint32_t, 3>{120, 80, 1}));
     // The first texel is at the bottom left: the last row of the picture.
     const QImage image(picture("a.png"));
@@ -67,7 +48,7 @@ class WindowSheet : public QObject {
     const QString path = folder_.filePath(QStringLiteral("tiny.png"));
     QVERIFY(image.save(path));
     Workbench bench;
-    openSheet(bench, path, 9);
+    bench.open(path);
     bench.document().highlight().set({});
     const QImage seen = bench.view(0).grabFramebuffer();
     for (int y = 0; y < 3; ++y) {
@@ -83,7 +64,7 @@ class WindowSheet : public QObject {
     }
   }
 
-  void droppedWithAWrongNameItIsAPictureStillAndTheKeyboardAnswers() {
+  void droppedWithAWrongNameItIsAPictureStill() {
     Workbench bench;
     const QString path = folder_.filePath(QStringLiteral("picture.dat"));
     QFile::remove(path);
@@ -95,16 +76,7 @@ class WindowSheet : public QObject {
     QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(&bench.window, &drop);
     bench.settle();
-    auto& bar = sheets(bench).bar();
-    QVERIFY(bar.isVisible());
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
-    QVERIFY(!bar.isVisible());
-    QVERIFY(!bench.document().undoStack().canUndo());
-    bench.open(path);
-    QTest::keyClicks(QApplication::focusWidget(), QStringLiteral("7"));
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), 7U * 5U);
+    QVERIFY(bench.document().mesh()->texture != nullptr);
   }
 
   void damagedAndHugePicturesGetASentence_data() {
@@ -150,10 +122,6 @@ class WindowSheet : public QObject {
     const MeshPointer before = bench.document().mesh();
     write(name, bytes);
     bench.open(folder_.filePath(name));
-    if (sheets(bench).bar().isVisible()) {
-      bench.find<QPushButton>("sheetAgree")->click();  // its header was valid
-      bench.settle();
-    }
     QVERIFY2(bench.window.messages().sentence().contains(said), qPrintable(bench.window.messages().sentence()));
     QVERIFY(bench.window.messages().sentence().contains(name));
     QCOMPARE(bench.document().mesh(), before);
@@ -187,8 +155,6 @@ class WindowSheet : public QObject {
     turned.close();
     Workbench bench;
     bench.open(turned.fileName());
-    QVERIFY(bench.find<QLabel>("sheetAbout")->text().contains(QStringLiteral("80 × 120 pixels")));
-    openSheet(bench, turned.fileName(), 5);
     QCOMPARE(bench.document().mesh()->texture->size, (std::array<std::uint32_t, 3>{80, 120, 1}));
     // The lower left pixel is now at the upper left, in the last row of texels.
     const auto& texels = bench.document().mesh()->texture->texels;
@@ -196,95 +162,9 @@ class WindowSheet : public QObject {
     QVERIFY(std::abs(int(texels[std::size_t{4} * 80 * 119 + 1]) - was.green()) < 12);  // JPEG is not exact
   }
 
-  /// Without a drag, the saved picture is the original. After a drag, pinned parts stay and the rest moves.
-  void theWarpedPictureIsSaved() {
-    Workbench bench;
-    QVERIFY(!bench.find<QAction>("saveWarpedA")->isEnabled());
-    openSheet(bench, picture("a.png"), 13);
-    QVERIFY(bench.find<QAction>("saveWarpedA")->isEnabled());
-    const QImage image = QImage(picture("a.png")).convertToFormat(QImage::Format_RGBA8888);
-    QCOMPARE(warped(bench, 1, "rest.png"), image);
-
-    std::vector<ElementId> border;
-    for (ElementId e = 0; e < 13 * 9; ++e) {
-      if (e % 13 == 0 || e % 13 == 12 || e < 13 || e >= 13 * 8) {
-        border.push_back(e);
-      }
-    }
-    edits::setPinned(bench.document(), border, true);
-    const QPoint from = bench.place(0, 13 * 4 + 6);
-    bench.stroke(0, {from, from + QPoint(60, 30)});
-    QVERIFY(bench.position(1, 13 * 4 + 6) != bench.document().mesh()->rest_position(13 * 4 + 6));
-    const QImage dragged = warped(bench, 1, "dragged.png");
-    QCOMPARE(dragged.size(), image.size());  // the object stays inside the border
-    QVERIFY(dragged != image);
-    for (const QPoint corner : {QPoint(0, 0), QPoint(119, 0), QPoint(0, 79), QPoint(119, 79)}) {
-      QCOMPARE(dragged.pixelColor(corner), image.pixelColor(corner));
-    }
-    QVERIFY(warped(bench, 0, "dragged.jpg").size() == image.size());
-  }
-
-  void eachPanelsOwnPictureIsSaved() {
-    Workbench bench;
-    openSheet(bench, picture("a.png"), 13);
-    bench.choose(1, "Exact ChainMail");
-    edits::setPinned(bench.document(), {0, 12, 13 * 8, 13 * 9 - 1}, true);
-    const QPoint from = bench.place(0, 13 * 4 + 6);
-    bench.stroke(0, {from, from + QPoint(60, 30)});
-    QVERIFY(bench.document().solvers().frame(0)->positions != bench.document().solvers().frame(1)->positions);
-    bench.trigger("warpOwnFrame");
-    const QImage first = warped(bench, 0, "first.png"), second = warped(bench, 1, "second.png");
-    QVERIFY(first != second);
-    bench.choose(0, "Exact ChainMail");
-    bench.document().moves().goTo(0);
-    bench.settle();
-    bench.document().moves().goTo(bench.document().moves().history().length());
-    bench.settle();
-    QCOMPARE(warped(bench, 0, "again.png"), second);  // the same algorithm gives the same picture
-  }
-
-  void thePictureOfAPanelThatIsAddedCanBeSavedToo() {
-    Workbench bench;
-    const auto* save = bench.find<QAction>("saveWarpedC");
-    QVERIFY(!save->isVisible());
-    bench.trigger("addPanel");
-    QTRY_VERIFY(save->isVisible());
-    bench.trigger("removePanel");
-    QTRY_VERIFY(!save->isVisible());
-    bench.settle();
-  }
-
-  void aCutIsAHoleAndTheFrameIsChosen() {
-    Workbench bench;
-    openSheet(bench, picture("a.png"), 13);
-    const Mesh& mesh = *bench.document().mesh();
-    edits::cut(bench.document(), {*find_link(mesh, 0, 14)});  // the diagonal of the lowest square on the left
-    bench.document().handle().grab(13 * 9 - 1);
-    bench.document().handle().drag(Point(180, 80, 0));
-    bench.document().handle().release();
-    bench.settle();
-    QCOMPARE(warped(bench, 0, "all.png").width(), 180);
-    bench.trigger("warpOwnFrame");
-    const QImage own = warped(bench, 0, "own.png");
-    QCOMPARE(own.size(), QSize(120, 80));
-    QCOMPARE(own.pixelColor(2, 77).alpha(), 0);
-    QCOMPARE(own.pixelColor(2, 60).alpha(), 255);
-  }
-
-  void whereItCannotBeSavedNothingIsTouched() {
-    Workbench bench;
-    openSheet(bench, picture("a.png"), 13);
-    for (const char* name : {"no/such/folder.png", "no.tiff"}) {
-      sheets(bench).saveWarpedPath(0, folder_.filePath(QLatin1String(name)));
-      bench.settle();
-      QVERIFY(bench.window.messages().sentence().contains(QLatin1String(name)));
-      QVERIFY(!QFile::exists(folder_.filePath(QLatin1String(name))));
-    }
-  }
-
   void aSessionKeepsThePicture() {
     Workbench bench;
-    openSheet(bench, picture("a.png"), 13);
+    bench.open(picture("a.png"));
     const auto texture = bench.document().mesh()->texture;
     const QString path = folder_.filePath(QStringLiteral("sheet.chainmail"));
     bench.window.sessions().savePath(path);
@@ -293,7 +173,6 @@ class WindowSheet : public QObject {
     again.open(path);
     QVERIFY(again.document().mesh()->texture != nullptr);
     QVERIFY(again.document().mesh()->texture->texels == texture->texels);
-    QVERIFY(again.find<QAction>("saveWarpedA")->isEnabled());
   }
 
  private:
@@ -301,8 +180,6 @@ class WindowSheet : public QObject {
     QFile file(folder_.filePath(name));
     QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
   }
-
-  static Sheets& sheets(Workbench& bench) { return bench.window.findChild<FileActions*>()->sheets(); }
 
   /// Returns the bytes of a picture in a format that is not opened. As SVG, it names another picture, which its reader
   /// would open.
@@ -333,18 +210,6 @@ class WindowSheet : public QObject {
       }
     }
     return path;
-  }
-
-  static void openSheet(Workbench& bench, const QString& path, int across) {
-    sheets(bench).open(path, across);
-    bench.settle();
-  }
-
-  QImage warped(Workbench& bench, int panel, const char* name) const {
-    const QString path = folder_.filePath(QLatin1String(name));
-    sheets(bench).saveWarpedPath(panel, path);
-    bench.settle();
-    return QImage(path).convertToFormat(QImage::Format_RGBA8888);
   }
 
   QTemporaryDir folder_;

@@ -19,16 +19,16 @@
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"
 #include "io/mesh_repair.h"
+#include "io/mesh_source.h"
 #include "io/picture_file.h"
 #include "io/questions.h"
 #include "io/recovery_bar.h"
 #include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
-#include "io/sheet_bar.h"
-#include "io/sheets.h"
 #include "io/volumes.h"
 #include "mesh/error.h"
+#include "mesh/sheet.h"
 
 namespace chainmail {
 namespace {
@@ -105,13 +105,9 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
       document_(document),
       jobs_(jobs),
       sessions_(sessions),
-      sheets_(new Sheets(window, document, jobs)),
       volumes_(new Volumes(document, jobs)),
       repair_(new MeshRepair(document, jobs, this)) {
   connect(volumes_, &Volumes::opened, this, &FileActions::remember);
-  connect(sheets_, &Sheets::failed, this, &FileActions::failed);
-  connect(sheets_, &Sheets::opened, this, &FileActions::remember);
-  connect(sheets_, &Sheets::saved, this, &FileActions::saved);
   connect(&sessions_.reloadBar(), &ReloadBar::reloadRequested, this, [this](const QString& path) { openPath(path); });
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
   connect(&sessions_, &Sessions::recovered, this, &FileActions::recovered);
@@ -136,7 +132,6 @@ void FileActions::fill(QMenu& menu) {
   addSaveActions(menu);
   addShapeActions(menu);
   menu.addAction(&sessions_.recoveryBar().takeBack());
-  sheets_->fill(menu);
   fillRecent();
 }
 
@@ -220,7 +215,7 @@ void FileActions::openPath(const QString& path, bool first) {
     return;
   }
   if (isPicture(path)) {
-    sheets_->openPath(path, first);
+    readPicture(path, first);
     return;
   }
   read(path, first, true);
@@ -228,12 +223,28 @@ void FileActions::openPath(const QString& path, bool first) {
 
 void FileActions::openSample(const QString& path) {
   if (isPicture(path)) {
-    sheets_->open(path, SheetBar::standardAcross);
+    readPicture(path, false);
   } else if (is_session(asPath(path))) {
     sessions_.openPath(path, false);
   } else {
     read(path, false, false);
   }
+}
+
+/// Opens a picture as a sheet.
+void FileActions::readPicture(const QString& path, bool first) {
+  const QString name = shownName(path);
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
+              [this, path, name, first](const Progress& progress) -> Jobs::Finish {
+                const MeshPointer sheet =
+                    make_sheet(readPictureFile(path, progress.part(0, 0.7)), elementsAcross, progress.part(0.7, 0.9));
+                prepareLevels(sheet, progress.part(0.9, 1));
+                return [this, path, name, first, sheet] {
+                  edits::replaceMesh(document_, sheet, name, QStringLiteral("open %1").arg(name),
+                                     first ? edits::Opening::first : edits::Opening::next);
+                  remember(path);
+                };
+              });
 }
 
 /// Reads a mesh, or a volume; `ask`: asks for the options of a volume.

@@ -13,7 +13,6 @@ namespace chainmail {
 struct Defects;
 class MeshRepair;
 class Sessions;
-class Sheets;
 class Volumes;
 struct OpenedMesh;
 
@@ -28,7 +27,6 @@ class FileActions : public QObject {
   void fill(QMenu& menu);
   /// Adds Open and Save; call it after the menu is filled.
   void fill(QToolBar& bar) const;
-  Sheets& sheets() { return *sheets_; }
   Volumes& volumes() { return *volumes_; }
   MeshRepair& repair() { return *repair_; }
   void open();
@@ -60,6 +58,7 @@ class FileActions : public QObject {
   void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
   void read(const QString& path, bool first, bool ask);
+  void readPicture(const QString& path, bool first);
   void show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void fillRecent();
@@ -70,7 +69,6 @@ class FileActions : public QObject {
   Document& document_;
   Jobs& jobs_;
   Sessions& sessions_;
-  Sheets* sheets_;
   Volumes* volumes_;
   MeshRepair* repair_;
   QAction* open_ = nullptr;

@@ -8,7 +8,6 @@
 #include "files/text/text.h"
 #include "io/picture_file.h"
 #include "io/samples.h"
-#include "io/sheet_bar.h"
 #include "mesh/error.h"
 #include "mesh/sheet.h"
 
@@ -34,8 +33,8 @@ MeshOpener meshesNear(const QString& session) {
     if (!isPicture(path)) {
       return open_mesh(asPath(path), {}, progress).mesh;
     }
-    return make_sheet(readPictureFile(path, progress.part(0, 0.7)),
-                      across > 0 ? across : std::uint32_t{SheetBar::standardAcross}, progress.part(0.7, 1));
+    return make_sheet(readPictureFile(path, progress.part(0, 0.7)), across > 0 ? across : elementsAcross,
+                      progress.part(0.7, 1));
   };
 }
 

@@ -3,14 +3,10 @@
 #include <QBuffer>
 #include <QFileInfo>
 #include <QImageReader>
-#include <QImageWriter>
-#include <QPainter>
 #include <array>
 
 #include "common/as_path.h"
-#include "common/write_bytes.h"
 #include "files/formats/bare_picture.h"
-#include "files/mesh/warp.h"
 #include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -18,9 +14,11 @@
 namespace chainmail {
 namespace {
 
+// Larger pictures are refused before memory is taken: a pixel takes up to 12 bytes while the picture is decoded, even
+// if the file is small.
+constexpr double pictureLimit = 100e6;
 // Largest number of pixels of a JPEG times its scans. A usual progressive JPEG has about 10.
-constexpr double scannedPixelLimit = 12 * picture_limit;
-constexpr int jpegQuality = 95;
+constexpr double scannedPixelLimit = 12 * pictureLimit;
 constexpr int megabyte = 1 << 20;
 
 bool endsAsPicture(const QString& path) {
@@ -36,7 +34,7 @@ bool endsAsPicture(const QString& path) {
 class PictureReader {
  public:
   explicit PictureReader(const QString& path) : path_(path), picture_(read_bare_picture(asPath(path))) {
-    QImageReader::setAllocationLimit(int(4 * picture_limit / megabyte) +
+    QImageReader::setAllocationLimit(int(4 * pictureLimit / megabyte) +
                                      1);  // in MB, a limit for all readers; pictures here are smaller
     bytes_.setData(QByteArray::fromRawData(picture_.bytes.data(), qsizetype(picture_.bytes.size())));
     bytes_.open(QIODevice::ReadOnly);
@@ -69,7 +67,7 @@ class PictureReader {
   void checkSize() const {
     constexpr int usualBits = 32;  // of a pixel in memory
     const bool large = QImage::toPixelFormat(reader_.imageFormat()).bitsPerPixel() > usualBits;
-    const double pixels = double(size().width()) * size().height(), limit = large ? picture_limit / 2 : picture_limit;
+    const double pixels = double(size().width()) * size().height(), limit = large ? pictureLimit / 2 : pictureLimit;
     if (pixels > limit) {
       failPicture(path_,
                   QStringLiteral("it has %L1 × %L2 pixels%4, more than %L3 million")
@@ -91,20 +89,6 @@ class PictureReader {
   QImageReader reader_;
 };
 
-QImage asImage(const Texture& picture) {
-  const QImage upward(picture.texels.data(), int(picture.size[0]), int(picture.size[1]), qsizetype(4) * picture.size[0],
-                      QImage::Format_RGBA8888);
-  return upward.mirrored();
-}
-
-/// Returns the image on a white background, without transparency.
-QImage opaque(const QImage& image) {
-  QImage result(image.size(), QImage::Format_RGB888);
-  result.fill(Qt::white);
-  QPainter(&result).drawImage(0, 0, image);
-  return result;
-}
-
 }  // namespace
 
 bool isPicture(const QString& path) {
@@ -123,8 +107,6 @@ bool isPicture(const QString& path) {
   }
 }
 
-QSize pictureSize(const QString& path) { return PictureReader(path).size(); }
-
 Texture readPictureFile(const QString& path, const Progress& progress) {
   QImage image = PictureReader(path).read();
   progress.report(0.5);
@@ -139,26 +121,6 @@ Texture readPictureFile(const QString& path, const Progress& progress) {
   }
   progress.report(1);
   return picture;
-}
-
-void writePictureFile(const QString& path, const Texture& picture, const Progress& progress) {
-  const bool jpeg = !path.endsWith(QStringLiteral(".png"), Qt::CaseInsensitive);
-  if (jpeg && !endsAsPicture(path)) {
-    failPicture(path, QStringLiteral("its ending is unknown"), "use .png or .jpg");
-  }
-  const QImage image = asImage(picture);
-  QBuffer buffer;
-  buffer.open(QIODevice::WriteOnly);
-  QImageWriter writer(&buffer, jpeg ? "jpeg" : "png");
-  if (jpeg) {
-    writer.setQuality(jpegQuality);
-  }
-  progress.report(0.2);
-  if (!writer.write(jpeg ? opaque(image) : image)) {
-    failPicture(path, QStringLiteral("the picture could not be written (%1)").arg(writer.errorString()), "choose PNG");
-  }
-  progress.report(1);
-  writeBytes(path, buffer.data());
 }
 
 }  // namespace chainmail

@@ -72,8 +72,7 @@ Filling::Filling(Document& document, Jobs& jobs)
       document_(document),
       jobs_(jobs),
       size_(new NumberField(QStringLiteral("Edge length"))),
-      slider_(new QSlider(Qt::Horizontal)),
-      simplify_(new QPushButton(QStringLiteral("&Simplify first…"))) {
+      slider_(new QSlider(Qt::Horizontal)) {
   makeFields();
   connect(slider_, &QSlider::valueChanged, this, [this](int place) {
     size_->setValue(document_.mesh()->mean_link_length * std::pow(widest, double(place) / sliderSteps));
@@ -95,15 +94,6 @@ void Filling::makeFields() {
   slider_->setMinimumWidth(60);
   addField(QStringLiteral("&Edges of"), size_);
   addField({}, slider_);
-  simplify_->setObjectName(QStringLiteral("fillSimplify"));
-  simplify_->setToolTip(QStringLiteral(
-      "Asks for a number of elements and makes the surface coarser, as one undo step; then asks again for "
-      "the edge length"));
-  addAnswer(simplify_);
-  connect(simplify_, &QPushButton::clicked, this, [this] {
-    hide();
-    emit simplifyRequested(suitedElements());
-  });
 }
 
 void Filling::fill(QMenu& menu) {
@@ -133,24 +123,19 @@ void Filling::askSize() {
     size_->setValue(offered);
   }
   describe();
-  const bool isTooFine = elementsAt(mean) > aimedShare * femLimit();
-  simplify_->setVisible(isTooFine);
-  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) + (isTooFine ? adviceAt(offered) : QString()),
-      isHopeless() ? static_cast<QWidget*>(simplify_) : size_);
+  ask(QStringLiteral("Fill %1 with tetrahedra").arg(document_.name()) + advice(), size_);
 }
 
-/// Returns what to do about a surface that is too fine.
-QString Filling::adviceAt(double offered) const {
-  if (isHopeless()) {
-    return QStringLiteral(". The surface is too fine for linear FEM (at most %L1 elements): simplify it first")
-        .arg(qulonglong(femLimit()));
+/// Returns what to do about a surface that is too fine for linear FEM; an empty text if it is not.
+QString Filling::advice() const {
+  const QString limit = QStringLiteral("for linear FEM (at most %L1 elements)").arg(qulonglong(femLimit()));
+  const QString command = QStringLiteral("'chainmail simplify FILE --elements %1 -o FILE'").arg(suitedElements());
+  if (elementsAt(document_.mesh()->mean_link_length) <= aimedShare * femLimit()) {
+    return {};
   }
-  return offered > document_.mesh()->mean_link_length
-             ? QStringLiteral(
-                   ". The edges offered are coarser than the surface, for linear FEM (at most %L1 elements). "
-                   "If you simplify it first, they are as long as those of the surface")
-                   .arg(qulonglong(femLimit()))
-             : QString();
+  return isHopeless() ? QStringLiteral(". The surface is too fine %1: make it coarser with %2").arg(limit, command)
+                      : QStringLiteral(". The edges offered are coarser than the surface, %1; %2 makes it coarser, too")
+                            .arg(limit, command);
 }
 
 /// True if the longest edges are too short for linear FEM.
@@ -208,7 +193,8 @@ QString Filling::refusalAt(double size) const {
   const bool longerHelp = size < size_->maximum() && elementsAt(size_->maximum()) < maxElements;
   return QStringLiteral("More than %L1 elements would take minutes and could not be dragged: %2")
       .arg(qlonglong(maxElements))
-      .arg(longerHelp ? QStringLiteral("choose longer edges") : QStringLiteral("simplify the surface first"));
+      .arg(longerHelp ? QStringLiteral("choose longer edges")
+                      : QStringLiteral("make the surface coarser with chainmail simplify"));
 }
 
 void Filling::start() {

@@ -2,7 +2,6 @@
 
 #include <QDoubleSpinBox>
 #include <QMenu>
-#include <QPushButton>
 #include <QSlider>
 
 #include "common/ask_bar.h"
@@ -19,17 +18,12 @@ class Filling : public AskBar {
   Filling(Document& document, Jobs& jobs);
 
   void fill(QMenu& menu);
-  /// Asks for the edge length.
-  void askSize();
-
- signals:
-  /// The surface should get about so many elements before it is filled.
-  void simplifyRequested(int elements);
 
  private:
+  void askSize();
   void makeFields();
   void describe();
-  QString adviceAt(double offered) const;
+  QString advice() const;
   bool isHopeless() const;
   static QString limitsAt(double elements);
   QString refusalAt(double size) const;
@@ -43,7 +37,6 @@ class Filling : public AskBar {
   Jobs& jobs_;
   QDoubleSpinBox* size_;
   QSlider* slider_;
-  QPushButton* simplify_;
   QAction* action_ = nullptr;
   double volume_ = 0;  // enclosed by the surface (mesh units cubed)
 };

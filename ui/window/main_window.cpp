@@ -32,8 +32,6 @@
 #include "io/reload_bar.h"
 #include "io/repair_bar.h"
 #include "io/sessions.h"
-#include "io/sheet_bar.h"
-#include "io/sheets.h"
 #include "io/volume_bar.h"
 #include "io/volumes.h"
 #include "panels/colour_range_menu.h"
@@ -44,7 +42,6 @@
 #include "tools/filling.h"
 #include "tools/pin_bar.h"
 #include "tools/pin_layers.h"
-#include "tools/simplifying.h"
 #include "window/bars_over_views.h"
 #include "window/camera_actions.h"
 #include "window/dock_layout.h"
@@ -106,7 +103,6 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       pinLayers_(new PinLayers(document_, this)),
       pinBar_(new PinBar(document_, *pinLayers_)),
       filling_(new Filling(document_, jobs_)),
-      simplifying_(new Simplifying(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
@@ -153,11 +149,9 @@ void MainWindow::arrange() {
   column->setSpacing(0);
   column->addWidget(&sessions_->recoveryBar());
   column->addWidget(&sessions_->reloadBar());
-  column->addWidget(&files_->sheets().bar());
   column->addWidget(&files_->volumes().bar());
   column->addWidget(&files_->repair().bar());
   column->addWidget(filling_);
-  column->addWidget(simplifying_);
   column->addWidget(pinBar_);
   column->addWidget(area_, 1);
   column->addWidget(&lessons_->bar());
@@ -204,8 +198,6 @@ void MainWindow::listen() {
     elementMenu->follow(panel->view());
   }
   connect(area_, &PanelArea::added, elementMenu, [elementMenu](Panel* panel) { elementMenu->follow(panel->view()); });
-  connect(filling_, &Filling::simplifyRequested, simplifying_, &Simplifying::askBeforeFilling);
-  connect(simplifying_, &Simplifying::readyToFill, filling_, &Filling::askSize);
   connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
   connect(lessons_, &Lessons::openChanged, &help_->hints(), &Hints::setAside);
 }
@@ -368,7 +360,6 @@ void MainWindow::fillObjectMenu(QMenu& menu) {
   unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
   menu.addMenu(&pinLayers_->menu());
   files_->repair().fill(menu);
-  simplifying_->fill(menu);
   filling_->fill(menu);
   const auto adapt = [this] { unpinAll_->setEnabled(!document_.pins().empty()); };
   connect(&document_, &Document::pinsChanged, unpinAll_, adapt);

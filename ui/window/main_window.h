@@ -39,7 +39,6 @@ class PinBar;
 class PinLayers;
 class Sessions;
 class ShowMenu;
-class Simplifying;
 
 /// The workbench's window: panels, docks, tools, menus and bars, connected to one document.
 class MainWindow : public QMainWindow {
@@ -129,7 +128,6 @@ class MainWindow : public QMainWindow {
   PinLayers* pinLayers_;
   PinBar* pinBar_;
   Filling* filling_;
-  Simplifying* simplifying_;
   HelpMenu* help_;
   PanelActions* panelActions_;
   ShowMenu* showMenu_;

@@ -25,10 +25,10 @@ enum class Readers { as_usual, owner };
 /// power.
 ///
 /// add() writes the content into a file `.chainmail-N.tmp` beside its target, and waits until the disk has it; commit()
-/// renames all of them to their targets. If one cannot be written, none is replaced. A symbolic link stays, and the file
-/// that it points to is replaced; a hard link is replaced, so that its other names keep the old content. The path `-`
-/// means standard output. Standard output, devices and pipes receive their text in commit(), before the first file is
-/// replaced.
+/// renames all of them to their targets. If one cannot be written, none is replaced. A symbolic link stays, and the
+/// file that it points to is replaced; a hard link is replaced, so that its other names keep the old content. The path
+/// `-` means standard output. Standard output, devices and pipes receive their text in commit(), before the first file
+/// is replaced.
 class Outputs {
  public:
   using Writer = std::function<void(std::ostream&)>;
