@@ -158,4 +158,10 @@ using Command = std::variant<commands::Grab, commands::Drag, commands::Release, 
                              commands::ReplaceMesh, commands::SetPositions, commands::KeepState, commands::RestoreState,
                              commands::DropState, commands::SetElastic, commands::Split>;
 
+/// Returns true if a command is of one of these kinds.
+template <class... Kinds>
+bool is_one_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
 }  // namespace chainmail

@@ -8,11 +8,6 @@ namespace {
 
 using Start = commands::Relaxed::Start;
 
-template <class... Kinds>
-bool is_one_of(const Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 }  // namespace
 
 /// Records what relaxation did before a command, if that can matter to it. While it sleeps after undo, it does nothing,

@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::size_t max_unreachable = 10'000;
 
-template <class... Kinds>
-bool is_one_of(const Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 /// Returns the mesh that a command splits; null for other commands.
 MeshPointer mesh_before(const Command& command) {
   const auto* split = std::get_if<commands::Split>(&command);

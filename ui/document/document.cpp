@@ -67,10 +67,8 @@ std::vector<T> minus(const std::vector<T>& all, const std::vector<T>& some) {
 
 /// True for a change of the object. A handle must be released before it, or the change may be refused.
 bool changesObject(const Command& command) {
-  return std::holds_alternative<commands::Cut>(command) || std::holds_alternative<commands::Uncut>(command) ||
-         std::holds_alternative<commands::Pin>(command) || std::holds_alternative<commands::Unpin>(command) ||
-         std::holds_alternative<commands::Split>(command) || std::holds_alternative<commands::Reset>(command) ||
-         std::holds_alternative<commands::SetSoftness>(command);
+  using namespace commands;
+  return is_one_of<Cut, Uncut, Pin, Unpin, Split, Reset, SetSoftness>(command);
 }
 
 }  // namespace

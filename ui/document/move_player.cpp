@@ -64,8 +64,7 @@ void MovePlayer::open(const Session& session) {
 }
 
 void MovePlayer::noteSent(const Command& command) {
-  replayed_.isCurrent = replayed_.isCurrent && (std::holds_alternative<commands::KeepState>(command) ||
-                                                std::holds_alternative<commands::DropState>(command));
+  replayed_.isCurrent = replayed_.isCurrent && is_one_of<commands::KeepState, commands::DropState>(command);
   Application::guarded([this] { emit changed(); });
 }
 
