@@ -1,9 +1,12 @@
 // The workbench program: reads the arguments and opens the main window.
 
 #include <QCommandLineParser>
+#include <QOpenGLWidget>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <initializer_list>
 #include <string_view>
 
 #include "common/application.h"
@@ -13,9 +16,12 @@
 #include "files/text/temporary_folder.h"
 #include "io/sessions.h"
 #include "mesh/failure.h"
+#include "panels/panel.h"
 #include "version/version.h"
 #include "window/about_dialog.h"
 #include "window/main_window.h"
+#include "window/message_bar.h"
+#include "window/start_guard.h"
 #include "window/startup.h"
 
 namespace {
@@ -32,6 +38,26 @@ bool has_display(int argc, char** argv) {
          !qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") || std::any_of(argv, argv + argc, names_platform);
 }
 
+/// Receives what Qt says while it connects to the display. If it cannot, it would end the process as after a crash.
+void refuse_display(QtMsgType type, const QMessageLogContext& /*context*/, const QString& /*message*/) {
+  if (type == QtFatalMsg) {
+    const QString platform = qEnvironmentVariable("QT_QPA_PLATFORM");
+    const QString display = qEnvironmentVariable("DISPLAY", qEnvironmentVariable("WAYLAND_DISPLAY"));
+    std::_Exit(
+        fail(QStringLiteral("no window can be opened on the display '%1'%2; start it in a desktop session, or use "
+                            "the command line program chainmail")
+                 .arg(display,
+                      platform.isEmpty() ? QString() : QStringLiteral(" (QT_QPA_PLATFORM is '%1')").arg(platform))));
+  }
+}
+
+/// Returns true if one of these options is among the arguments.
+bool asks(int argc, char** argv, std::initializer_list<std::string_view> options) {
+  return std::any_of(argv + 1, std::find(argv + 1, argv + argc, std::string_view("--")), [&](std::string_view one) {
+    return std::find(options.begin(), options.end(), one) != options.end();
+  });
+}
+
 /// Sets the options and the help text.
 void describe(QCommandLineParser& parser) {
   parser.setApplicationDescription(
@@ -46,9 +72,15 @@ void describe(QCommandLineParser& parser) {
 
 /// Reads the arguments, opens the window and runs until it is closed. Returns the exit status.
 int run(int argc, char** argv) {
-  if (std::any_of(argv + 1, argv + argc, [](std::string_view one) { return one == "--version" || one == "-v"; })) {
+  QCommandLineParser parser;
+  describe(parser);
+  if (asks(argc, argv, {"--version", "-v"})) {
     std::printf("%s\n%s\n", chainmail::version_in_words("workbench").c_str(), qPrintable(chainmail::licenceInWords()));
     return 0;
+  }
+  if (asks(argc, argv, {"--help", "-h", "--help-all"})) {
+    const QCoreApplication application(argc, argv);
+    parser.process(application);
   }
   if (!has_display(argc, argv)) {
     return fail(
@@ -56,17 +88,13 @@ int run(int argc, char** argv) {
                        "chainmail"));
   }
   chainmail::prepareApplication();
+  qInstallMessageHandler(refuse_display);
   chainmail::Application application(argc, argv);
+  qInstallMessageHandler(nullptr);
   QCoreApplication::setApplicationVersion(QStringLiteral(CHAINMAIL_VERSION));
-  chainmail::styleApplication();
 
-  QCommandLineParser parser;
-  describe(parser);
   if (!parser.parse(QCoreApplication::arguments())) {
     return fail(parser.errorText().remove(QLatin1Char('.')) + QStringLiteral("; see workbench --help"));
-  }
-  if (parser.isSet(QStringLiteral("help")) || parser.isSet(QStringLiteral("help-all"))) {
-    parser.process(application);
   }
   if (parser.positionalArguments().size() > 1) {
     return fail(QStringLiteral("arguments: more than one file was given; use one file"));
@@ -74,13 +102,24 @@ int run(int argc, char** argv) {
   if (const QString why = chainmail::whyNoWindow(); !why.isEmpty()) {
     return fail(why);
   }
+  chainmail::StartGuard guard;
+  chainmail::styleApplication();
 
   const auto sample = chainmail::sampleRecipe();
   chainmail::MainWindow window(chainmail::generate(sample), chainmail::recipeName(sample));
+  QObject::connect(
+      &window.panel(0).view(), &QOpenGLWidget::frameSwapped, &window, [&guard] { guard.succeed(); },
+      Qt::SingleShotConnection);
   window.show();
   window.sessions().protect();
   chainmail::keepWorkAtTheEnd(window);
+  const auto tell = [&window, &guard] {
+    std::ranges::for_each(guard.notes(), [&window](const QString& note) { window.messages().note(note); });
+  };
+  tell();
   if (!parser.positionalArguments().isEmpty()) {
+    // The messages end with the object that they belonged to; these are about the window.
+    QObject::connect(&window.document(), &chainmail::Document::meshChanged, &window, tell, Qt::SingleShotConnection);
     const bool first = true;
     // Qt does not keep the bytes of a name that is not UTF-8.
     const QString name = parser.positionalArguments().constFirst();

@@ -58,6 +58,11 @@ bool isRemote() {
 
 void prepareApplication() {
   loadResources();
+  for (const char* name : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"}) {
+    if (!qgetenv(name).startsWith('/')) {  // the XDG specification ignores relative paths
+      qunsetenv(name);
+    }
+  }
   // Without shared contexts, a view loses its OpenGL objects when it is docked again.
   QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QSurfaceFormat format;
