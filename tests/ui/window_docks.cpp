@@ -29,42 +29,6 @@ class WindowDocks : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void aDockFoldsToItsTitleAndRemembersIt() {
-    {
-      Workbench bench;
-      auto* dock = bench.find<QDockWidget>("relaxationDock");
-      auto* arrow = bench.find<QToolButton>("relaxationDockFold");
-      QTRY_VERIFY(arrow->isVisible());
-      const int whole = dock->height(), width = dock->width();
-      const int neighbour = bench.find<QDockWidget>("stiffnessDock")->height();
-      arrow->click();
-      QTRY_VERIFY(dock->height() < whole / 2 && !bench.find<QCheckBox>("relaxationOn")->isVisible());
-      QTRY_VERIFY(bench.find<QDockWidget>("stiffnessDock")->height() > neighbour);  // it takes the room
-      QCOMPARE(dock->width(), width);                                               // there is room for the title
-    }
-    Workbench bench;
-    auto* field = bench.find<QCheckBox>("relaxationOn");
-    auto* arrow = bench.find<QToolButton>("relaxationDockFold");
-    QTRY_VERIFY(arrow->isVisible() && !field->isVisible());
-    arrow->click();
-    QTRY_VERIFY(field->isVisible() && bench.find<QDockWidget>("relaxationDock")->widget()->height() > 40);
-  }
-
-  void aDockAmongTabsCannotFoldAndResetUnfolds() {
-    Workbench bench;
-    auto* arrow = bench.find<QToolButton>("stiffnessDockFold");
-    QTRY_VERIFY(arrow->isVisible());
-    bench.trigger("showPhysics");
-    QTRY_VERIFY(!arrow->isVisible() && !bench.find<QToolButton>("physicsDockFold")->isVisible());
-    bench.trigger("showPhysics");
-    QTRY_VERIFY(arrow->isVisible());
-    arrow->click();
-    auto* dock = bench.find<QDockWidget>("stiffnessDock");
-    QTRY_VERIFY(dock->height() < 60);
-    bench.trigger("resetLayout");
-    QTRY_VERIFY(dock->widget()->isVisible() && dock->widget()->height() > 100);
-  }
-
   void everyDockOfTheTableIsNamedAndDescribed() {
     QSet<QString> names;
     for (const DockEntry& entry : dockEntries()) {
@@ -202,25 +166,6 @@ class WindowDocks : public QObject {
     QVERIFY(of(bench, name) != standard);
     reset->click();
     QCOMPARE(of(bench, name), standard);
-  }
-
-  void theRareNumbersAreFoldedAwayAndSaidWhenChanged() {
-    QSettings().remove(QStringLiteral("folds"));
-    {
-      Workbench bench;
-      auto* button = bench.find<QToolButton>("stiffnessAdvanced");
-      auto* lateral = bench.find<QDoubleSpinBox>("lateralSpin");
-      QVERIFY(bench.find<QDoubleSpinBox>("stretchSpin")->isVisible() && !lateral->isVisible());
-      lateral->setValue(0.5);
-      QVERIFY2(button->text().contains(QStringLiteral("changed")), qPrintable(button->text()));
-      bench.document().undoStack().undo();
-      QVERIFY(!button->text().contains(QStringLiteral("changed")));
-      button->click();
-      QVERIFY(lateral->isVisible());
-    }
-    Workbench again;
-    QVERIFY(again.find<QDoubleSpinBox>("lateralSpin")->isVisible());  // remembered
-    QSettings().remove(QStringLiteral("folds"));
   }
 
   void energy() {

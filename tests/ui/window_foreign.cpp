@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QHelpEvent>
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
@@ -40,15 +41,12 @@ void write(const QString& path, const QJsonObject& object) {
 }
 
 /// Returns the places of the docks without their sizes and positions, which depend on the window.
-QJsonArray order(const QJsonArray& places) {
-  QJsonArray result;
-  for (const QJsonValue& place : places) {
-    QJsonObject entry = place.toObject();
-    entry.remove(QStringLiteral("size"));
-    entry.remove(QStringLiteral("position"));
-    result << entry;
+std::vector<DockPlace> order(Layout layout) {
+  for (DockPlace& place : layout.docks) {
+    place.size = {};
+    place.position = {};
   }
-  return result;
+  return layout.docks;
 }
 
 /// Returns the label that shows the tool tip of a widget.
@@ -83,14 +81,14 @@ class WindowForeign : public QObject {
     session[QStringLiteral("ui")] =
         QJsonObject{{QStringLiteral("layout"), QStringLiteral("AAAA/wAAAAX9AAAAAQAPQkAAAABkAAAAZPwBAAAAAAAAAAEAAAAB")}};
     write(path, session);
-    const QJsonArray before = bench.window.dockPlaces();
+    const Layout before = bench.window.arrangement();
     bench.open(path);
     QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
-    QCOMPARE(bench.window.dockPlaces(), before);
+    QCOMPARE(bench.window.arrangement(), before);
   }
 
   void docksComeBackWithASession() {
-    QJsonArray places;
+    Layout places;
     QString path;
     int width = 0;
     {
@@ -105,15 +103,15 @@ class WindowForeign : public QObject {
       bench.trigger("showReport");
       bench.window.resizeDocks({bench.find<QDockWidget>("physicsDock")}, {420}, Qt::Horizontal);
       bench.settle();
-      places = bench.window.dockPlaces();
+      places = bench.window.arrangement();
       width = bench.find<QDockWidget>("physicsDock")->width();
       path = saved(bench);
     }
     QSettings().clear();
     Workbench bench;
-    QVERIFY(order(bench.window.dockPlaces()) != order(places));
+    QVERIFY(order(bench.window.arrangement()) != order(places));
     bench.open(path);
-    QCOMPARE(order(bench.window.dockPlaces()), order(places));
+    QCOMPARE(order(bench.window.arrangement()), order(places));
     QCOMPARE(bench.find<QDockWidget>("physicsDock")->width(), width);
     QVERIFY(bench.find<QDockWidget>("frameRateDock")->isFloating());
     const QPoint from = bench.place(0, 31);

@@ -111,18 +111,6 @@ class WindowLayout : public QObject {
     QVERIFY(propagation->isHidden());
   }
 
-  void theLeftColumnReturnsToItsWidth() {
-    Workbench bench;
-    auto* mesh = bench.find<QDockWidget>("meshDock");
-    const int width = mesh->width();
-    for (const char* show : {"showPropagation", "showElement"}) {
-      bench.trigger(show);
-      bench.settle();
-      bench.trigger(show);
-      QTRY_COMPARE(mesh->width(), width);
-    }
-  }
-
   void fourPanelsFitOnASmallScreen() {
     Workbench bench;
     bench.trigger("addPanel");

@@ -389,7 +389,7 @@ class WindowWords : public QObject {
 
   void lectureModeShowsOnlyThePanelsAndRestoresTheWindow() {
     Workbench bench;
-    const QJsonArray before = bench.window.dockPlaces();
+    const Layout before = bench.window.arrangement();
     const QSize size = bench.window.size();
     const int letters = bench.find<QLabel>("state0")->fontInfo().pixelSize();
     bench.trigger("showHints");
@@ -407,7 +407,7 @@ class WindowWords : public QObject {
     bench.trigger("toolCut");
     QVERIFY(tool->text().contains(QStringLiteral("Cut")));
     QVERIFY(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize() > letters);
-    QCOMPARE(bench.window.dockPlaces(), before);  // what a session stores
+    QCOMPARE(bench.window.arrangement(), before);  // what a session stores
     QTest::keyClick(&bench.view(0), Qt::Key_Escape);
     bench.settle();
     QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());

@@ -32,11 +32,6 @@ DockScroll::DockScroll(QWidget* content) {
   fitWidth();
 }
 
-void DockScroll::setFolded(bool folded) {
-  widget()->setVisible(!folded);
-  setMaximumHeight(folded ? 0 : QWIDGETSIZE_MAX);
-}
-
 QSize DockScroll::sizeHint() const {
   const int bar = contentWidth() > minimumWidth() ? horizontalScrollBar()->sizeHint().height() : 0;
   return widget()->sizeHint() + QSize(0, bar);

@@ -15,10 +15,6 @@ class DockScroll : public QScrollArea {
  public:
   explicit DockScroll(QWidget* content);
 
-  /// Hides the content and keeps its width, so that the title of the dock has room.
-  void setFolded(bool folded);
-  bool isFolded() const { return widget()->isHidden(); }
-
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 

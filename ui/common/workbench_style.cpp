@@ -1,8 +1,10 @@
 #include "common/workbench_style.h"
 
 #include <QLabel>
+#include <QMainWindow>
 #include <QPainter>
 #include <QStyleOption>
+#include <QTabBar>
 
 #include "common/colours.h"
 #include "common/icons.h"
@@ -22,10 +24,14 @@ WorkbenchStyle::WorkbenchStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
 
 /// Qt shows a text as rich text if it looks like it, and rich text may name files, which Qt then reads. Labels get
 /// texts from files: names, captions, errors. Tool tips and questions are shown by labels, too.
+/// Tabs of docks take no focus: Qt moves a bar with one tab beyond the edge of the window but does not hide it.
 void WorkbenchStyle::polish(QWidget* widget) {
   QProxyStyle::polish(widget);
   if (auto* label = qobject_cast<QLabel*>(widget); label != nullptr && label->textFormat() == Qt::AutoText) {
     label->setTextFormat(Qt::PlainText);
+  }
+  if (qobject_cast<QTabBar*>(widget) != nullptr && qobject_cast<QMainWindow*>(widget->parent()) != nullptr) {
+    widget->setFocusPolicy(Qt::NoFocus);
   }
 }
 
@@ -70,9 +76,7 @@ void WorkbenchStyle::drawControl(ControlElement element, const QStyleOption* opt
   QFont bold = painter->font();
   bold.setBold(true);
   painter->setFont(bold);
-  auto title = *static_cast<const QStyleOptionDockWidget*>(option);
-  title.rect.setLeft(title.rect.left() + (widget != nullptr ? widget->property(titleIndent).toInt() : 0));
-  QProxyStyle::drawControl(element, &title, painter, widget);
+  QProxyStyle::drawControl(element, option, painter, widget);
   painter->restore();
 }
 

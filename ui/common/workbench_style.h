@@ -14,9 +14,6 @@ class WorkbenchStyle : public QProxyStyle {
   Q_OBJECT
 
  public:
-  /// A property of a dock: space at the left of its title (pixels).
-  static constexpr const char* titleIndent = "titleIndent";
-
   WorkbenchStyle();
   /// Makes labels, tool tips and questions show their text as it is. A label with rich text sets Qt::RichText when it
   /// is made, and escapes what is not its own (QString::toHtmlEscaped).

@@ -4,7 +4,6 @@
 #include <QLabel>
 
 #include "common/dock_scroll.h"
-#include "common/fold.h"
 #include "common/text.h"
 #include "docks/selected_links.h"
 #include "document/edits.h"
@@ -15,8 +14,6 @@ StiffnessDock::StiffnessDock(Document& document)
     : document_(document),
       column_(new QVBoxLayout),
       presets_(new PresetRow(document)),
-      advanced_(new Fold(QStringLiteral("Advanced"), QStringLiteral("stiffnessAdvanced"),
-                         QStringLiteral("Shows or hides the axes of valid regions, the energy and its numbers"))),
       frame_(new QComboBox),
       frameNote_(new QLabel),
       energy_(new QComboBox) {
@@ -24,13 +21,12 @@ StiffnessDock::StiffnessDock(Document& document)
   column_->addWidget(presets_);
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     if (i == region_numbers) {
-      column_->addWidget(advanced_);
+      column_->addWidget(new SelectedLinks(document));
       addFrame();
       addEnergy();
     }
-    addRow(softness_numbers[i], i < region_numbers ? *column_ : advanced_->column());
+    addRow(softness_numbers[i]);
   }
-  column_->addWidget(new SelectedLinks(document));
   setColumn(*this, *column_);
   for (const auto change : {&Document::softnessChanged, &Document::meshChanged, &Document::relaxationChanged}) {
     connect(&document, change, this, &StiffnessDock::showSoftness);
@@ -38,9 +34,9 @@ StiffnessDock::StiffnessDock(Document& document)
   showSoftness();
 }
 
-void StiffnessDock::addRow(const SoftnessNumber& number, QVBoxLayout& column) {
+void StiffnessDock::addRow(const SoftnessNumber& number) {
   auto* row = rows_.emplace_back(new ParameterRow(*number.parameter));
-  column.addWidget(row);
+  column_->addWidget(row);
   connect(row, &ParameterRow::changed, this, [this, row, member = number.value](double value, int gesture) {
     LinkSoftness softness = document_.softness();
     softness.*member = value;
@@ -65,13 +61,13 @@ void StiffnessDock::addFrame() {
   auto* row = new QHBoxLayout;
   row->addWidget(label);
   row->addWidget(frame_, 1);
-  advanced_->column().addLayout(row);
+  column_->addLayout(row);
   frameNote_->setObjectName(QStringLiteral("frameNote"));
   frameNote_->setWordWrap(true);
   frameNote_->setText(
       QStringLiteral("The object extends equally in several directions, so not all of its axes exist. Those nearest to "
                      "the world's axes are used."));
-  advanced_->column().addWidget(frameNote_);
+  column_->addWidget(frameNote_);
   connect(frame_, &QComboBox::activated, this,
           [this] { edits::setRegionAxes(document_, AxesKind(frame_->currentData().toInt())); });
 }
@@ -113,23 +109,19 @@ void StiffnessDock::addEnergy() {
   auto* row = new QHBoxLayout;
   row->addWidget(label);
   row->addWidget(energy_, 1);
-  advanced_->column().addLayout(row);
+  column_->addLayout(row);
   connect(energy_, &QComboBox::activated, this,
           [this] { edits::setEnergy(document_, EnergyKind(energy_->currentData().toInt())); });
 }
 
 void StiffnessDock::showSoftness() {
   showFrame();
-  const EnergyKind kind = document_.wholeSoftness()->energy;
-  energy_->setCurrentIndex(energy_->findData(int(kind)));
-  bool changed = document_.wholeSoftness()->axes.kind() != AxesKind::axes || kind != standard_energy;
+  energy_->setCurrentIndex(energy_->findData(int(document_.wholeSoftness()->energy)));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const double value = document_.softness().*softness_numbers[i].value;
     rows_[i]->show(value);
     rows_[i]->setEnabled(i < region_numbers || usesLinkEnergy(document_));
-    changed = changed || (i >= region_numbers && value != LinkSoftness().*softness_numbers[i].value);
   }
-  advanced_->setChanged(changed);
 }
 
 }  // namespace chainmail

@@ -12,10 +12,8 @@
 
 namespace chainmail {
 
-class Fold;
-
-/// Softness of all links: its numbers, each with a reset button, the axes of valid regions, the kind of energy, and
-/// presets; below, softness of the selected links.
+/// Softness of all links and of the selected ones: its numbers, each with a reset button, and presets; below, the axes
+/// of valid regions, the kind of energy and its numbers.
 class StiffnessDock : public QDockWidget {
   Q_OBJECT
 
@@ -25,7 +23,7 @@ class StiffnessDock : public QDockWidget {
 
  private:
   void showSoftness();
-  void addRow(const SoftnessNumber& number, QVBoxLayout& column);
+  void addRow(const SoftnessNumber& number);
   void addFrame();
   void addEnergy();
   void showFrame();
@@ -33,7 +31,6 @@ class StiffnessDock : public QDockWidget {
   Document& document_;
   QVBoxLayout* column_;
   PresetRow* presets_;
-  Fold* advanced_;                   // the axes of valid regions, the energy and its numbers
   std::vector<ParameterRow*> rows_;  // in the order of softness_numbers
   QComboBox* frame_;
   QLabel* frameNote_;

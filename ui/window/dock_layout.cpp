@@ -1,32 +1,23 @@
 #include "window/dock_layout.h"
 
 #include <QDockWidget>
-#include <QJsonObject>
+#include <QGuiApplication>
 #include <QLayout>
 #include <QMainWindow>
 #include <QScopeGuard>
 #include <QScreen>
 #include <QTabBar>
+#include <QToolBar>
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace chainmail {
 namespace {
-
-constexpr int smallestDock = 20, largestDock = 10'000, farthest = 100'000;  // pixels
-
-struct AreaName {
-  Qt::DockWidgetArea area;
-  const char* name;
-};
-constexpr std::array areaNames{AreaName{Qt::LeftDockWidgetArea, "left"}, AreaName{Qt::RightDockWidgetArea, "right"},
-                               AreaName{Qt::TopDockWidgetArea, "top"}, AreaName{Qt::BottomDockWidgetArea, "bottom"}};
 
 /// Docks that share a place as tabs, in the order of the tabs. Most have one dock only.
 using Tabs = QList<QDockWidget*>;
@@ -104,151 +95,120 @@ std::vector<Tabs> docksIn(const QMainWindow& window, Qt::DockWidgetArea area) {
   return places;
 }
 
-QJsonObject entryOf(const QMainWindow& window, const QDockWidget& dock, const char* area, const Tabs& tabs) {
-  QJsonObject entry{{QStringLiteral("id"), dock.objectName()},
-                    {QStringLiteral("area"), QLatin1String(area)},
-                    {QStringLiteral("floating"), dock.isFloating()},
-                    {QStringLiteral("visible"), !dock.isHidden()}};
-  if (tabs.size() > 1) {
-    entry[QStringLiteral("tabs")] = tabs.first()->objectName();
-    entry[QStringLiteral("front")] = isFront(window, dock);
-  }
-  if (!dock.isHidden()) {
-    entry[QStringLiteral("size")] = QJsonArray{dock.width(), dock.height()};
-  }
-  if (dock.isFloating()) {
-    entry[QStringLiteral("position")] = QJsonArray{dock.x(), dock.y()};
-  }
-  return entry;
+DockPlace placeOf(const QMainWindow& window, const QDockWidget& dock, Qt::DockWidgetArea area, const Tabs& tabs) {
+  return {.id = dock.objectName(),
+          .area = area,
+          .floating = dock.isFloating(),
+          .visible = !dock.isHidden(),
+          .tabs = tabs.size() > 1 ? tabs.first()->objectName() : QString(),
+          .front = tabs.size() > 1 && isFront(window, dock),
+          .size = dock.size(),
+          .position = dock.isFloating() ? dock.pos() : QPoint()};
 }
 
-/// A checked entry.
-struct Place {
-  QDockWidget* dock;
-  Qt::DockWidgetArea area;
-  bool floating, visible, front;
-  QString tabs;
-  std::optional<QSize> size;
-  std::optional<QPoint> position;
-};
-
-/// Returns two whole numbers within limits, or nothing.
-std::optional<std::pair<int, int>> pairOf(const QJsonValue& json, int least, int most) {
-  const QJsonArray array = json.toArray();
-  if (array.size() != 2 || !array[0].isDouble() || !array[1].isDouble()) {
-    return std::nullopt;
+/// Completes what Qt does not know of a hidden dock.
+void complete(DockPlace& place, const Layout& before) {
+  const auto known = std::ranges::find(before.docks, place.id, &DockPlace::id);
+  if (place.visible || known == before.docks.end()) {
+    return;
   }
-  const auto bounded = [&](const QJsonValue& value) {
-    return int(std::clamp(value.toDouble(), double(least), double(most)));
-  };
-  return std::pair(bounded(array[0]), bounded(array[1]));
+  if (!place.floating) {
+    place.size = known->size;
+  }
+  if (place.tabs.isEmpty() && place.area == known->area) {
+    place.tabs = known->tabs;
+  }
 }
 
-std::optional<Place> viewPosition(const QJsonObject& entry, const QList<QDockWidget*>& docks) {
-  const auto dock = std::ranges::find(docks, entry[QStringLiteral("id")].toString(), &QDockWidget::objectName);
-  const auto area = std::ranges::find(areaNames, entry[QStringLiteral("area")].toString(),
-                                      [](const AreaName& one) { return QLatin1String(one.name); });
-  if (dock == docks.end() || area == areaNames.end()) {
-    return std::nullopt;
+void letFloat(QDockWidget& dock, const DockPlace& place) {
+  dock.setFloating(true);
+  if (!place.size.isEmpty()) {
+    dock.setGeometry({place.position, place.size});
   }
-  Place place{*dock,
-              area->area,
-              entry[QStringLiteral("floating")].toBool(),
-              entry[QStringLiteral("visible")].toBool(),
-              entry[QStringLiteral("front")].toBool(),
-              entry[QStringLiteral("tabs")].toString(),
-              {},
-              {}};
-  if (const auto size = pairOf(entry[QStringLiteral("size")], smallestDock, largestDock)) {
-    place.size = QSize(size->first, size->second);
-  }
-  if (const auto position = pairOf(entry[QStringLiteral("position")], -farthest, farthest)) {
-    place.position = QPoint(position->first, position->second);
-  }
-  return place;
 }
 
-/// Returns the entries that name a dock and an area. Of two entries for one dock, the first counts.
-std::vector<Place> placesOf(const QJsonArray& layout, QList<QDockWidget*> docks) {
-  std::vector<Place> places;
-  for (const auto& entry : layout) {
-    if (docks.isEmpty()) {
-      break;  // a file may have millions of entries
-    }
-    if (const auto place = viewPosition(entry.toObject(), docks)) {
-      places.push_back(*place);
-      docks.removeOne(place->dock);
-    }
-  }
-  return places;
-}
+using Places = std::vector<std::pair<QDockWidget*, DockPlace>>;
 
-/// Moves a floating dock onto the screen.
-void letFloat(const Place& place) {
-  place.dock->setFloating(true);
-  const QRect screen = place.dock->screen()->availableGeometry();
-  place.dock->resize(place.size.value_or(place.dock->size()).boundedTo(screen.size()));
-  const QPoint last = screen.bottomRight() - QPoint(place.dock->width(), place.dock->height()) + QPoint(1, 1);
-  const QPoint wanted = place.position.value_or(screen.topLeft());
-  place.dock->move(std::max(std::min(wanted.x(), last.x()), screen.left()),
-                   std::max(std::min(wanted.y(), last.y()), screen.top()));
-}
-
-void dockAll(QMainWindow& window, const std::vector<Place>& places) {
-  for (const Place& place : places) {
-    place.dock->setFloating(false);  // first: a dock that was removed stays floating
-    window.removeDockWidget(place.dock);
+void placeAll(QMainWindow& window, const Places& places) {
+  for (const auto& [dock, place] : places) {
+    dock->setFloating(false);  // first: a dock that was removed stays floating
+    window.removeDockWidget(dock);
   }
   std::map<QString, QDockWidget*> firsts;  // of tabs, by their names
-  for (const Place& place : places) {
-    const auto [first, isNew] = firsts.try_emplace(place.tabs, place.dock);
+  for (const auto& [dock, place] : places) {
+    const auto [first, isNew] = firsts.try_emplace(place.tabs, dock);
     if (isNew || place.tabs.isEmpty()) {
-      window.addDockWidget(place.area, place.dock);
+      window.addDockWidget(place.area, dock);
     } else {
-      window.tabifyDockWidget(first->second, place.dock);
+      window.tabifyDockWidget(first->second, dock);
     }
   }
-  for (const Place& place : places) {
-    place.dock->setVisible(place.visible);
+  for (const auto& [dock, place] : places) {
+    dock->setVisible(place.visible);
     if (place.floating) {
-      letFloat(place);
+      letFloat(*dock, place);
     }
   }
 }
 
 /// Gives the docks that are seen their sizes.
-void resizeAll(QMainWindow& window, const std::vector<Place>& places) {
-  QList<QDockWidget*> docks;
+void resizeAll(QMainWindow& window, const Places& places, const QRect& before) {
+  const auto scaled = [](int size, int now, int then) { return then > now ? int(qint64(size) * now / then) : size; };
+  QList<QDockWidget*> wide, tall;
   QList<int> widths, heights;
-  for (const Place& place : places) {
-    if (place.visible && !place.floating && place.size && (place.tabs.isEmpty() || place.front)) {
-      docks << place.dock;
-      widths << place.size->width();
-      heights << place.size->height();
+  for (const auto& [dock, place] : places) {
+    const bool seen = place.visible && !place.floating && (place.tabs.isEmpty() || place.front);
+    if (seen && place.size.width() > 0) {
+      wide << dock;
+      widths << scaled(place.size.width(), window.width(), before.width());
+    }
+    if (seen && place.size.height() > 0) {
+      tall << dock;
+      heights << scaled(place.size.height(), window.height(), before.height());
     }
   }
-  window.resizeDocks(docks, widths, Qt::Horizontal);
-  window.resizeDocks(docks, heights, Qt::Vertical);
+  window.resizeDocks(wide, widths, Qt::Horizontal);
+  window.resizeDocks(tall, heights, Qt::Vertical);
+}
+
+constexpr std::array areas{Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea,
+                           Qt::BottomDockWidgetArea};
+
+bool fitsItsScreen(const QMainWindow& window) {
+  const QSize least = window.minimumSizeHint() + window.frameGeometry().size() - window.size();
+  return least.boundedTo(window.screen()->availableSize()) == least;
 }
 
 }  // namespace
 
-QJsonArray dockLayout(const QMainWindow& window) {
-  QJsonArray layout;
-  for (const AreaName& one : areaNames) {
-    for (const Tabs& tabs : docksIn(window, one.area)) {
+QList<QRect> availableScreens() {
+  QList<QRect> available;
+  for (const QScreen* screen : QGuiApplication::screens()) {
+    available << screen->availableGeometry();
+  }
+  return available;
+}
+
+Layout layoutOf(const QMainWindow& window, const Layout& before) {
+  Layout layout{.window = window.geometry(),
+                .maximized = window.isMaximized(),
+                .toolBar = !window.findChild<QToolBar*>(QString(), Qt::FindDirectChildrenOnly)->isHidden()};
+  for (const Qt::DockWidgetArea area : areas) {
+    for (const Tabs& tabs : docksIn(window, area)) {
       for (const QDockWidget* dock : tabs) {
-        layout << entryOf(window, *dock, one.name, tabs);
+        layout.docks.push_back(placeOf(window, *dock, area, tabs));
+        complete(layout.docks.back(), before);
       }
     }
   }
   return layout;
 }
 
-void applyDockLayout(QMainWindow& window, const QJsonArray& layout) {
-  const std::vector<Place> places = placesOf(layout, docksOf(window));
-  if (places.empty()) {
-    return;
+void moveDocks(QMainWindow& window, Layout layout) {
+  layout = fitted(std::move(layout), availableScreens());
+  Places places;
+  for (const DockPlace& place : layout.docks) {
+    places.emplace_back(window.findChild<QDockWidget*>(place.id, Qt::FindDirectChildrenOnly), place);
   }
   {
     // A layout that reacts to each dock alone moves the others several times.
@@ -257,19 +217,35 @@ void applyDockLayout(QMainWindow& window, const QJsonArray& layout) {
       window.layout()->setEnabled(true);
       window.layout()->activate();
     });
-    dockAll(window, places);
+    placeAll(window, places);
+    if (window.isVisible()) {  // else widgets ask for more room than they need
+      gatherDocks(window);
+    }
   }
-  resizeAll(window, places);
-  for (const Place& place : places) {
+  resizeAll(window, places, layout.window);
+  for (const auto& [dock, place] : places) {
     if (place.front && place.visible) {
-      place.dock->raise();
+      dock->raise();
+    }
+    if (place.floating && !place.size.isEmpty()) {  // its content may need more room than it had
+      dock->move(onScreen(dock->geometry(), availableScreens()).topLeft());
     }
   }
 }
 
-void skipLoneTabs(const QMainWindow& window) {
-  for (QTabBar* bar : window.findChildren<QTabBar*>(Qt::FindDirectChildrenOnly)) {
-    bar->setFocusPolicy(bar->count() > 1 ? Qt::TabFocus : Qt::NoFocus);
+void gatherDocks(QMainWindow& window) {
+  for (auto area = areas.rbegin(); area != areas.rend() && !fitsItsScreen(window); ++area) {
+    QDockWidget* first = nullptr;
+    for (QDockWidget* dock : docksOf(window)) {
+      if (window.dockWidgetArea(dock) != *area || dock->isHidden() || dock->isFloating()) {
+        continue;
+      }
+      if (first != nullptr) {
+        window.tabifyDockWidget(first, dock);
+      }
+      first = first != nullptr ? first : dock;
+    }
+    window.layout()->invalidate();
   }
 }
 

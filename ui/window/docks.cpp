@@ -1,10 +1,8 @@
 #include "window/docks.h"
 
 #include <QAction>
-#include <QLayout>
 #include <QMainWindow>
 #include <QMenu>
-#include <QScopeGuard>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -25,13 +23,11 @@
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
+#include "window/dock_layout.h"
 #include "window/message_bar.h"
 
 namespace chainmail {
 namespace {
-
-// Heights in pixels: the table of selected links fits on a screen with 900 pixels.
-constexpr int stiffnessHeight = 400, rateHeight = 270;
 
 /// Reports the errors of a dock and the files that it saves.
 template <typename Dock>
@@ -120,6 +116,7 @@ const std::array entries{
               .tooltip = "Builds, opens and saves the object; shows samples",
               .icon = "mesh",
               .area = Qt::LeftDockWidgetArea,
+              .width = 1,
               .make = makeMesh},
     DockEntry{.id = "stiffnessDock",
               .action = "showStiffnessDock",
@@ -127,6 +124,7 @@ const std::array entries{
               .tooltip = "Stiffness parameters: how far links may shorten, stretch and lean",
               .icon = "stiffness",
               .area = Qt::RightDockWidgetArea,
+              .height = 400,
               .make = makeStiffness},
     DockEntry{.id = "physicsDock",
               .action = "showPhysics",
@@ -151,6 +149,7 @@ const std::array entries{
               .tooltip = "Painted frames per second, passes per second and pass times (ms) of each panel",
               .icon = "frameRate",
               .area = Qt::RightDockWidgetArea,
+              .height = 270,
               .make = makeFrameRate},
     DockEntry{.id = "reportDock",
               .action = "showReport",
@@ -236,25 +235,25 @@ void raiseWhenShown(QDockWidget& dock) {
                    [&dock, behind](bool seen) { *behind = !seen && (*behind || !dock.isHidden()); });
   QObject::connect(dock.toggleViewAction(), &QAction::triggered, &dock, [&dock, behind](bool shown) {
     if (shown || *behind) {
-      dock.show();
-      dock.raise();
+      bringUp(dock);
     }
   });
 }
 
 }  // namespace
 
+void bringUp(QDockWidget& dock) {
+  dock.show();
+  dock.raise();
+}
+
 std::span<const DockEntry> dockEntries() { return entries; }
 
-Docks::Docks(const DockParts& parts)
-    : window_(parts.window),
-      sizes_(std::make_unique<DockSizes>(parts.window)),
-      folds_(std::make_unique<DockFolds>(parts.window)) {
+Docks::Docks(const DockParts& parts) : window_(parts.window) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
   for (const DockEntry& entry : entries) {
     add(entry, parts);
   }
-  letFloat();
 }
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
@@ -265,35 +264,11 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
     parts.viewMenu.insertAction(parts.viewMenu.actions().value(end),
                                 dock->toggleViewAction());  // before the dock's own actions
   }
-  place(entry, *dock);
+  window_.addDockWidget(entry.area, dock);
   if (entry.tabbedWith != nullptr) {
     raiseWhenShown(*dock);
   }
   docks_.push_back(dock);
-  sizes_->follow(*dock);
-  folds_->follow(*dock);
-}
-
-void Docks::place(const DockEntry& entry, QDockWidget& dock) const {
-  window_.addDockWidget(entry.area, &dock);
-  if (entry.tabbedWith != nullptr) {
-    window_.tabifyDockWidget(byId(entry.tabbedWith), &dock);
-  }
-  dock.setVisible(entry.visible);
-}
-
-/// Acts after all docks have their places: another dock may be behind the same tab.
-void Docks::letFloat() const {
-  for (std::size_t i = 0; i < docks_.size(); ++i) {
-    if (entries[i].floating) {
-      docks_[i]->setFloating(true);
-    }
-  }
-}
-
-QDockWidget* Docks::byId(const char* id) const {
-  return *std::ranges::find_if(docks_,
-                               [id](const QDockWidget* dock) { return dock->objectName() == QLatin1String(id); });
 }
 
 void Docks::fill(QMenu& menu) const {
@@ -302,32 +277,44 @@ void Docks::fill(QMenu& menu) const {
   }
 }
 
-void Docks::reset() const {
-  folds_->unfoldAll();
-  {
-    // A layout that reacts to each dock alone moves the others several times.
-    window_.layout()->setEnabled(false);
-    const auto enable = qScopeGuard([this] {
-      window_.layout()->setEnabled(true);
-      window_.layout()->activate();
-    });
-    for (QDockWidget* dock : docks_) {
-      dock->setFloating(false);  // first: a dock that was removed stays floating
-      window_.removeDockWidget(dock);
+Layout Docks::first() const {
+  Layout layout;
+  for (std::size_t i = 0; i < docks_.size(); ++i) {
+    const DockEntry& entry = entries[i];
+    DockPlace& place = layout.docks.emplace_back(
+        DockPlace{.id = QLatin1String(entry.id),
+                  .area = entry.area,
+                  .floating = entry.floating,
+                  .visible = entry.visible,
+                  .tabs = QLatin1String(entry.tabbedWith != nullptr ? entry.tabbedWith : entry.id),
+                  .front = entry.visible,
+                  .size = {entry.width, entry.height}});
+    if (entry.floating) {
+      place.size = docks_[i]->sizeHint();
+      place.position = window_.geometry().center() - QPoint(place.size.width(), place.size.height()) / 2;
     }
-    for (std::size_t i = 0; i < docks_.size(); ++i) {
-      place(entries[i], *docks_[i]);
-    }
-    letFloat();
   }
-  resize();
+  return layout;
 }
 
-void Docks::resize() const {
-  auto& relaxation = get<RelaxationDock>();
-  window_.resizeDocks({&get<StiffnessDock>(), &relaxation, &get<FrameRateDock>()},
-                      {stiffnessHeight, relaxation.sizeHint().height(), rateHeight}, Qt::Vertical);
-  window_.resizeDocks({&get<MeshDock>()}, {1}, Qt::Horizontal);  // as narrow as possible
+Layout Docks::layout() const { return layoutOf(window_, applied_); }
+
+void Docks::take(const QJsonObject& json) {
+  QStringList ids;
+  for (const DockEntry& entry : entries) {
+    ids << QLatin1String(entry.id);
+  }
+  if (const Layout layout = layoutFrom(json, ids); !layout.docks.empty()) {
+    apply(layout);
+  }
+}
+
+void Docks::apply(const Layout& layout) {
+  moveDocks(window_, layout);
+  for (const DockPlace& place : layout.docks) {
+    const auto known = std::ranges::find(applied_.docks, place.id, &DockPlace::id);
+    (known != applied_.docks.end() ? *known : applied_.docks.emplace_back()) = place;
+  }
 }
 
 }  // namespace chainmail

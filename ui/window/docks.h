@@ -3,12 +3,10 @@
 #include <QDockWidget>
 #include <QKeySequence>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "window/dock_folds.h"
-#include "window/dock_sizes.h"
+#include "window/layout.h"
 
 class QActionGroup;
 class QMainWindow;
@@ -63,6 +61,7 @@ struct DockEntry {
   const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
   bool visible = true;               // visible at the first start
   bool floating = false;             // a window of its own until the user docks it
+  int width = 0, height = 0;         // at the first start (pixels); 0: as Qt divides the room
   /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
   QDockWidget* (*make)(const DockParts& parts, const Docks& made);
 };
@@ -90,21 +89,24 @@ class Docks {
   }
   /// Adds the actions that show the docks.
   void fill(QMenu& menu) const;
-  /// Sets the sizes for the first start.
-  void resize() const;
-  /// Shows, hides and places all docks as at the first start.
-  void reset() const;
+  /// Returns where the window and its docks are.
+  Layout layout() const;
+  /// Places the docks as in the JSON of a layout. A dock that it does not name stays as it is.
+  void take(const QJsonObject& json);
+  /// Shows, hides and places all docks as in a layout; without one, as at the first start.
+  void apply(const Layout& layout);
+  void reset() { apply(first()); }
 
  private:
   void add(const DockEntry& entry, const DockParts& parts);
-  void place(const DockEntry& entry, QDockWidget& dock) const;
-  void letFloat() const;
-  QDockWidget* byId(const char* id) const;
+  Layout first() const;
 
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;  // owned by the window
-  std::unique_ptr<DockSizes> sizes_;
-  std::unique_ptr<DockFolds> folds_;
+  Layout applied_;                   // where each dock was placed last
 };
+
+/// Shows a dock in front of its tabs.
+void bringUp(QDockWidget& dock);
 
 }  // namespace chainmail

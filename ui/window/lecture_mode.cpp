@@ -1,7 +1,6 @@
 #include "window/lecture_mode.h"
 
 #include <QDockWidget>
-#include <QLayout>
 #include <QMenu>
 #include <QMenuBar>
 #include <QStatusBar>
@@ -11,7 +10,8 @@
 #include "common/text_scale.h"
 #include "document/propagation.h"
 #include "panels/panel_area.h"
-#include "window/dock_layout.h"
+#include "window/docks.h"
+#include "window/main_window.h"
 
 namespace chainmail {
 namespace {
@@ -32,16 +32,14 @@ void collect(const QList<QAction*>& actions, QList<QAction*>& all) {
 
 }  // namespace
 
-LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QActionGroup& tools,
-                         QWidget& hints, int layoutVersion)
+LectureMode::LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools, QWidget& hints)
     : QObject(&window),
       window_(window),
-      area_(area),
+      area_(window.area()),
       propagation_(propagation),
       tools_(tools),
       tool_(new QLabel),
       hints_(hints),
-      layoutVersion_(layoutVersion),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
   action_->setCheckable(true);
@@ -55,7 +53,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
   window.statusBar()->addPermanentWidget(tool_);
   connect(&tools, &QActionGroup::triggered, this, &LectureMode::nameTool);
   connect(action_, &QAction::toggled, this, [this](bool on) { on ? enter() : restore(); });
-  connect(&area, &PanelArea::arranged, this, [this] {  // also after a panel was added
+  connect(&area_, &PanelArea::arranged, this, [this] {  // also after a panel was added
     if (isOn()) {
       enlargeIcons();
     }
@@ -63,10 +61,7 @@ LectureMode::LectureMode(QMainWindow& window, PanelArea& area, Propagation& prop
 }
 
 void LectureMode::enter() {
-  layout_ = window_.saveState(layoutVersion_);
-  places_ = dockLayout(window_);
-  geometry_ = window_.saveGeometry();
-  at_ = window_.geometry();
+  before_ = window_.docks().layout();
   propagation_.setHeld(propagation_.isShown());
   for (auto* dock : window_.findChildren<QDockWidget*>()) {
     dock->hide();
@@ -142,16 +137,16 @@ void LectureMode::restore() {
   shrink();  // first: large texts would make the docks and the window larger
   showMenus();
   window_.showNormal();
-  window_.restoreGeometry(geometry_);
-  if (!window_.isMaximized()) {
-    window_.setGeometry(at_);  // Qt 6.8 makes a window that fills the screen two pixels smaller
+  if (before_.maximized) {
+    window_.showMaximized();
+  } else {
+    window_.setGeometry(before_.window);
   }
   tool_->hide();
-  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
-  window_.layout()->setEnabled(false);
-  window_.restoreState(layout_, layoutVersion_);
-  window_.layout()->setEnabled(true);
-  window_.layout()->activate();
+  for (auto* bar : window_.findChildren<QToolBar*>(Qt::FindDirectChildrenOnly)) {
+    bar->setVisible(before_.toolBar);
+  }
+  window_.docks().apply(before_);
   hints_.setVisible(hadHints_);
   propagation_.setHeld(false);
   area_.setLecture(false);

@@ -2,16 +2,16 @@
 
 #include <QAbstractButton>
 #include <QActionGroup>
-#include <QJsonArray>
 #include <QLabel>
-#include <QMainWindow>
 #include <QPointer>
-#include <QRect>
 #include <utility>
 #include <vector>
 
+#include "window/layout.h"
+
 namespace chainmail {
 
+class MainWindow;
 class PanelArea;
 class Propagation;
 
@@ -23,17 +23,14 @@ class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(QMainWindow& window, PanelArea& area, Propagation& propagation, QActionGroup& tools, QWidget& hints,
-              int layoutVersion);
+  LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools, QWidget& hints);
 
   /// The switch for the menu.
   QAction& action() { return *action_; }
   bool isOn() const { return action_->isChecked(); }
   void leave() { action_->setChecked(false); }
-  /// The layout to restore afterwards (QMainWindow::saveState).
-  const QByteArray& layoutBefore() const { return layout_; }
-  /// The places of the docks to restore afterwards (dockLayout()).
-  const QJsonArray& placesBefore() const { return places_; }
+  /// The layout to restore afterwards.
+  const Layout& before() const { return before_; }
 
  private:
   void enter();
@@ -45,18 +42,15 @@ class LectureMode : public QObject {
   void hideMenus();
   void showMenus();
 
-  QMainWindow& window_;
+  MainWindow& window_;
   PanelArea& area_;
   Propagation& propagation_;
   const QActionGroup& tools_;
   QLabel* tool_;
   QWidget& hints_;
   bool hadHints_ = false;
-  int layoutVersion_;
   QAction* action_;
-  QByteArray layout_, geometry_;
-  QRect at_;  // of the window before
-  QJsonArray places_;
+  Layout before_;
   QFont font_;
   std::vector<std::pair<QPointer<QAbstractButton>, QSize>> icons_;  // buttons with large icons, and the size before
   bool hadMenus_ = false;

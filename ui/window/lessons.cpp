@@ -15,7 +15,6 @@
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "panels/panel_area.h"
-#include "window/dock_folds.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
 #include "window/lesson_editor.h"

@@ -5,6 +5,7 @@
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QFileInfo>
+#include <QJsonDocument>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -63,7 +64,7 @@ namespace {
 
 constexpr QSize usualSize(1600, 900);  // at the first start
 constexpr QSize roomOfFrame(40, 80);   // pixels, more than the frame of a window manager takes
-constexpr int layoutVersion = 5;  // raise it after changes to the docks: layouts of other versions are not restored
+const QString layoutKey = QStringLiteral("window");
 constexpr int statusMilliseconds = 4000;
 constexpr std::size_t longestUrl = 200;                     // bytes, in a message
 constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
@@ -107,7 +108,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
       toolActions_(new QActionGroup(this)),
-      lecture_(new LectureMode(*this, *area_, propagation_, *toolActions_, help_->hints(), layoutVersion)),
+      lecture_(new LectureMode(*this, propagation_, *toolActions_, help_->hints())),
       lessons_(new Lessons(*this, propagation_, *sessions_)),
       colourBy_(new ColourSelector(colouring_)),
       colourRange_(new ColourRangeMenu(colouring_, this)),
@@ -142,7 +143,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::arrange() {
   setAcceptDrops(true);
-  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+  setDockOptions(AnimatedDocks | AllowTabbedDocks);  // a Layout does not describe nested docks
   auto* central = new QWidget;
   auto* column = new QVBoxLayout(central);
   column->setContentsMargins(0, 0, 0, 0);
@@ -459,17 +460,13 @@ void MainWindow::makeDocks() {
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
-QJsonArray MainWindow::dockPlaces() const { return lecture_->isOn() ? lecture_->placesBefore() : dockLayout(*this); }
+Layout MainWindow::arrangement() const { return lecture_->isOn() ? lecture_->before() : docks_->layout(); }
 
-void MainWindow::takeDockPlaces(const QJsonArray& places) {
-  if (!places.isEmpty()) {
+void MainWindow::takeDocks(const QJsonObject& layout) {
+  if (layout.contains(QStringLiteral("docks"))) {
     lecture_->leave();
-    applyDockLayout(*this, places);
+    docks_->take(layout);
   }
-}
-
-QByteArray MainWindow::layoutForSettings() const {
-  return lecture_->isOn() ? lecture_->layoutBefore() : saveState(layoutVersion);
 }
 
 void MainWindow::resetLayout() {
@@ -479,22 +476,20 @@ void MainWindow::resetLayout() {
 }
 
 void MainWindow::restoreLayout() {
+  const auto json = QJsonDocument::fromJson(QSettings().value(layoutKey).toString().toUtf8()).object();
+  const Layout kept = fitted(layoutFrom(json, {}), availableScreens());
   const QSize available = screen()->availableSize();
-  resize(usualSize.boundedTo(available));
-  if (usualSize.boundedTo(available - roomOfFrame) != usualSize) {
+  const bool isSmall = usualSize.boundedTo(available - roomOfFrame) != usualSize;
+  kept.window.isNull() ? resize(usualSize.boundedTo(available)) : setGeometry(kept.window);
+  if (kept.window.isNull() ? isSmall : kept.maximized) {
     setWindowState(Qt::WindowMaximized);  // else its frame would move its last lines out of the screen
   }
-  docks_->resize();
-  const QSettings settings;
-  restoreGeometry(settings.value(QStringLiteral("geometry")).toByteArray());
-  // restoreState shows tabbed docks one by one. A layout that reacts at once removes some meanwhile, and Qt crashes.
-  // It trusts its bytes, so it only gets those of the user's own settings.
-  layout()->setEnabled(false);
-  restoreState(settings.value(QStringLiteral("layout")).toByteArray(), layoutVersion);
-  layout()->setEnabled(true);
-  layout()->activate();
+  bar_->setVisible(kept.toolBar);
+  docks_->reset();
+  docks_->take(json);
   // Widgets that were never shown ask for more room than they need, which widens the window beyond a small screen.
   QTimer::singleShot(0, this, [this] {
+    gatherDocks(*this);
     const QSize largest = screen()->availableSize() - (frameGeometry().size() - size());
     if (!isMaximized() && !isFullScreen() && size().boundedTo(largest) != size()) {
       resize(size().boundedTo(largest));
@@ -545,11 +540,10 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
+  const QByteArray layout = QJsonDocument(toJson(arrangement())).toJson(QJsonDocument::Compact);
   lecture_->leave();
   jobs_.close();
-  QSettings settings;
-  settings.setValue(QStringLiteral("geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("layout"), layoutForSettings());
+  QSettings().setValue(layoutKey, QString::fromUtf8(layout));
   QMainWindow::closeEvent(event);
 }
 

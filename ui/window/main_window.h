@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QJsonArray>
 #include <QMainWindow>
 #include <memory>
 
@@ -15,6 +14,7 @@
 #include "tools/propagation_overlay.h"
 #include "tools/select_tool.h"
 #include "tools/valid_regions.h"
+#include "window/layout.h"
 
 class QActionGroup;
 class QMenu;
@@ -59,10 +59,11 @@ class MainWindow : public QMainWindow {
   Jobs& jobs() { return jobs_; }
   Sessions& sessions() { return *sessions_; }
   Lessons& lessons() { return *lessons_; }
-  /// Returns the places, sizes and visibility of the docks; in the lecture mode, as they were before it.
-  QJsonArray dockPlaces() const;
-  /// Restores what dockPlaces() returned, see applyDockLayout().
-  void takeDockPlaces(const QJsonArray& places);
+  Docks& docks() { return *docks_; }
+  /// Returns where the window and its docks are; in the lecture mode, as they were before it.
+  Layout arrangement() const;
+  /// Places the docks that the JSON of a layout names.
+  void takeDocks(const QJsonObject& layout);
   /// Opens a session, mesh, volume or picture in the background: as one undo step, or as the first object of the
   /// window. If the file has an error, shows a message and changes nothing.
   void openFile(const QString& path, bool first = false);
@@ -101,7 +102,6 @@ class MainWindow : public QMainWindow {
   void showTitle();
   QString keepWorkBy(QString (Sessions::*keep)());
   bool keepsWork(QString (Sessions::*keep)());
-  QByteArray layoutForSettings() const;
   void restoreLayout();
   void resetLayout();
 

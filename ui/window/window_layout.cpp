@@ -107,20 +107,20 @@ std::string layoutOf(MainWindow& window) {
     const View& view = window.panel(panel).view();
     cameras << toJson(view.camera()->pose(), view.space());
   }
-  const QJsonObject layout{{QStringLiteral("cameras"), cameras},
-                           {QStringLiteral("linked"), window.area().links().cameras()},
-                           {QStringLiteral("colour"), text(info(window.colouring().mode()).name)},
-                           {QStringLiteral("colourRange"), window.colourRange().toJson()},
-                           {QStringLiteral("show"), window.showMenu().chosen()},
-                           {QStringLiteral("section"), window.docks().get<SectionDock>().toJson()},
-                           {QStringLiteral("docks"), window.dockPlaces()},
-                           {QStringLiteral("file"), keptPath(window.document().files().session())}};
+  QJsonObject layout = toJson(window.arrangement());
+  layout[QStringLiteral("cameras")] = cameras;
+  layout[QStringLiteral("linked")] = window.area().links().cameras();
+  layout[QStringLiteral("colour")] = text(info(window.colouring().mode()).name);
+  layout[QStringLiteral("colourRange")] = window.colourRange().toJson();
+  layout[QStringLiteral("show")] = window.showMenu().chosen();
+  layout[QStringLiteral("section")] = window.docks().get<SectionDock>().toJson();
+  layout[QStringLiteral("file")] = keptPath(window.document().files().session());
   return QJsonDocument(layout).toJson(QJsonDocument::Compact).toStdString();
 }
 
 void applyLayout(MainWindow& window, const std::string& json) {
   const QJsonObject layout = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
-  window.takeDockPlaces(layout[QStringLiteral("docks")].toArray());
+  window.takeDocks(layout);
   window.showMenu().show(layout[QStringLiteral("show")].toString());
   window.docks().get<SectionDock>().take(layout[QStringLiteral("section")].toObject());
   takeColours(window, layout[QStringLiteral("colour")].toString());
