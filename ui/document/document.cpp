@@ -68,7 +68,7 @@ std::vector<T> minus(const std::vector<T>& all, const std::vector<T>& some) {
 /// True for a change of the object. A handle must be released before it, or the change may be refused.
 bool changesObject(const Command& command) {
   using namespace commands;
-  return is_one_of<Cut, Uncut, Pin, Unpin, Split, Reset, SetSoftness>(command);
+  return is_one_of<Cut, Uncut, Pin, Unpin, commands::Split, Reset, SetSoftness>(command);
 }
 
 }  // namespace

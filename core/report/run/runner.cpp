@@ -14,11 +14,6 @@ std::vector<Item> sorted(std::vector<Item> items) {
   return items;
 }
 
-template <class... Kinds>
-bool is_one_of(const Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 }  // namespace
 
 Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options)
