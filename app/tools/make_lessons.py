@@ -266,7 +266,7 @@ def warp_a_face():
     lesson.drag([at(243, 90)], [[0, 36, 0]], 40)
     lesson.drag([at(200, 155)], [[0, -28, 0]], 40)
     lesson.step("Surprise",
-                "Drag the face yourself. File > Save warped picture saves the result of a panel at full resolution, "
+                "Drag the face yourself. File > Save picture saves what the panels show, "
                 "and File > Open makes a sheet of any PNG or JPEG.")
     return lesson
 

@@ -142,7 +142,9 @@ QString Autosave::writeNow() {
   object_ = written->object;
   if (!written->isWritten) {
     saved_ = {};
-    return written->error;
+    timer_.start();
+    return written->error.isEmpty() ? QStringLiteral("unsaved work: a panel has no positions; undo the last step")
+                                    : written->error;
   }
   return {};
 }

@@ -31,12 +31,6 @@ std::string caption(const JsonFields& fields, const Json& object, const char* ke
   if (trimmed(text).empty()) {
     fields.fail(std::string("'") + key + "' is empty", "write what the reader shall see");
   }
-  const bool is_title = longest == limits::name_bytes;
-  if (std::ranges::count(text, '\n') > (is_title ? 0 : limits::caption_lines)) {
-    fields.fail(
-        std::string("'") + key + "' has too many lines",
-        is_title ? "write it in one line" : "write at most " + std::to_string(limits::caption_lines + 1) + " lines");
-  }
   return text;
 }
 

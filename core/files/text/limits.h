@@ -18,7 +18,6 @@ inline constexpr std::size_t nrrd_header_lines = 10'000;
 // Texts, in UTF-8 (bytes)
 inline constexpr std::size_t name_bytes = 255;  // of an object and of a file, and the title of a lesson or of a step
 inline constexpr std::size_t caption_bytes = 4096;    // text of a step of a lesson
-inline constexpr std::ptrdiff_t caption_lines = 10;   // line ends in it; a title has none
 inline constexpr std::size_t text_bytes = 65'536;     // any other text in a file of JSON
 inline constexpr std::size_t preset_name_bytes = 60;  // of a preset of softness
 
