@@ -9,7 +9,6 @@ find_package(CLI11 2.1 QUIET)
 find_package(pugixml QUIET)
 find_package(CGAL QUIET)
 find_package(Qt6 6.4 QUIET COMPONENTS Widgets OpenGL OpenGLWidgets Svg)
-find_package(Qt6DBus 6.4 QUIET)
 find_library(CHAINMAIL_GMSH_LIBRARY gmsh)
 find_library(CHAINMAIL_TEEM_LIBRARY teem)
 find_library(CHAINMAIL_SECCOMP_LIBRARY seccomp)
@@ -69,4 +68,3 @@ chainmail_part(COMMAND_LINE "the program chainmail"
   NEEDS CLI11 CLI11_FOUND JSON CHAINMAIL_JSON calibration CHAINMAIL_CALIBRATE)
 chainmail_part(WINDOW "the workbench"
   NEEDS "Qt 6 (Widgets, OpenGL, Svg)" Qt6_FOUND JSON CHAINMAIL_JSON)
-chainmail_part(DBUS "the theme of the desktop, in the workbench" NEEDS "Qt 6 (DBus)" Qt6DBus_FOUND)

@@ -71,7 +71,6 @@ int main(int argc, char** argv) {
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // so that the user's files are not used
   QApplication application(argc, argv);
-  remember(Theme::dark);
   styleApplication();
   const QString folder = QString::fromLocal8Bit(argv[1]);
   return saveViolation(folder + QStringLiteral("/screenshot.png")) &&

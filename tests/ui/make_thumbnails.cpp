@@ -56,9 +56,8 @@ QImage framed(const QImage& picture) {
   return result;
 }
 
-bool saveAll(const QString& folder, Theme theme) {
-  const colours::Ground ground = theme == Theme::dark ? colours::Ground::dark : colours::Ground::light;
-  remember(theme);
+bool saveAll(const QString& folder, colours::Ground ground) {
+  remember(ground);
   applyGround(ground);
   for (const Sample& sample : samples()) {
     const QString path = samplesFolder() + QLatin1Char('/') + QString::fromUtf8(sample.file);
@@ -81,5 +80,5 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   styleApplication();
   const QString folder = QString::fromLocal8Bit(argv[1]);
-  return saveAll(folder, Theme::dark) && saveAll(folder, Theme::light) ? 0 : 1;
+  return saveAll(folder, colours::Ground::dark) && saveAll(folder, colours::Ground::light) ? 0 : 1;
 }

@@ -230,7 +230,6 @@ int runWindowTest(int argc, char** argv, const Arguments&... arguments) {
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
   qputenv("XDG_DATA_HOME", settings.path().toUtf8());  // so that the user's files are not used
   Application application(argc, argv);
-  remember(Theme::dark);  // independent of the desktop's theme
   styleApplication();
   if (const QString why = whyNoWindow(); !why.isEmpty()) {
     qCritical("%s", qPrintable(why));

@@ -59,7 +59,7 @@ class WindowComfort : public QObject {
  private slots:
   void init() { failOnWarnings(); }
   void cleanup() {
-    remember(Theme::dark);
+    remember(Ground::dark);
     applyGround(Ground::dark);
   }
 
@@ -189,22 +189,11 @@ class WindowComfort : public QObject {
     QCOMPARE(seen(1), colours::background.on(Ground::light));
     QVERIFY(
         bench.find<QLabel>("rateName0")->text().contains(panelColour(bench.document(), 0).on(Ground::light).name()));
-    QCOMPARE(rememberedTheme(), Theme::light);
     QCOMPARE(rememberedGround(), Ground::light);
     bench.trigger("themeDark");
     bench.settle();
     QCOMPARE(seen(0), colours::background.on(Ground::dark));
-    QCOMPARE(rememberedTheme(), Theme::dark);
-  }
-
-  void systemsLookIsFollowedWhereItIsKnown() {
-    remember(Theme::system);
-    QCOMPARE(rememberedGround(), Ground::dark);  // no theme of the system is known yet
-    rememberSystem(Ground::light);
-    QCOMPARE(rememberedGround(), Ground::light);
-    remember(Theme::dark);
     QCOMPARE(rememberedGround(), Ground::dark);
-    rememberSystem(Ground::dark);
   }
 
   void everyIconIsDrawnInThePalettesColoursAtAnyScale() {

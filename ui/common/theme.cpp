@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QPalette>
 #include <QSettings>
-#include <optional>
 
 namespace chainmail {
 namespace {
@@ -12,8 +11,6 @@ using colours::Colour;
 using colours::Ground;
 
 QString themeKey() { return QStringLiteral("theme"); }
-QString systemKey() { return QStringLiteral("systemTheme"); }
-QString darkName() { return QStringLiteral("dark"); }
 QString lightName() { return QStringLiteral("light"); }
 
 struct Role {
@@ -46,14 +43,6 @@ constexpr std::array roles{Role{QPalette::Window, {0xff242930, 0xffeceef1}},
                            Role{QPalette::Link, {0xff56b4e9, 0xff0068a8}},
                            Role{QPalette::LinkVisited, {0xffc9a0e8, 0xff6b3fa0}}};
 
-std::optional<Ground> named(const QString& name) {
-  return name == darkName()    ? std::optional(Ground::dark)
-         : name == lightName() ? std::optional(Ground::light)
-                               : std::nullopt;
-}
-
-QString nameOf(Ground ground) { return ground == Ground::dark ? darkName() : lightName(); }
-
 }  // namespace
 
 QPalette paletteOn(Ground ground) {
@@ -67,24 +56,13 @@ QPalette paletteOn(Ground ground) {
   return palette;
 }
 
-Theme rememberedTheme() {
-  const auto ground = named(QSettings().value(themeKey()).toString());
-  return !ground ? Theme::system : *ground == Ground::dark ? Theme::dark : Theme::light;
-}
-
 Ground rememberedGround() {
-  const QSettings settings;
-  const auto chosen = named(settings.value(themeKey()).toString());
-  return chosen ? *chosen : named(settings.value(systemKey()).toString()).value_or(Ground::dark);
+  return QSettings().value(themeKey()).toString() == lightName() ? Ground::light : Ground::dark;
 }
 
-void remember(Theme theme) {
-  QSettings settings;
-  settings.setValue(themeKey(), theme == Theme::system ? QStringLiteral("system")
-                                                       : nameOf(theme == Theme::dark ? Ground::dark : Ground::light));
+void remember(Ground ground) {
+  QSettings().setValue(themeKey(), ground == Ground::dark ? QStringLiteral("dark") : lightName());
 }
-
-void rememberSystem(Ground ground) { QSettings().setValue(systemKey(), nameOf(ground)); }
 
 void applyGround(Ground ground) {
   QApplication::setPalette(paletteOn(ground));

@@ -391,7 +391,7 @@ void MainWindow::fillViewMenu(QMenu& menu) {
   auto* reset = menu.addAction(QStringLiteral("Reset la&yout"), this, &MainWindow::resetLayout);
   reset->setObjectName(QStringLiteral("resetLayout"));
   reset->setStatusTip(QStringLiteral("Shows, hides and places the docks and the tool bar as at the first start"));
-  (new ThemeMenu(this))->fill(menu);
+  addThemes(menu);
 }
 
 /// Adds the switch of the figures below the panels, which is remembered.
