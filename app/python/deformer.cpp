@@ -208,28 +208,6 @@ void add_relaxation(MoverClass& deformer) {
           "Returns how close the object is to the equilibrium; all zeros if it was not relaxed to it.");
 }
 
-void add_control_points(MoverClass& deformer) {
-  deformer
-      .def(
-          "control_points",
-          [](const Mover& mover) {
-            const UseObject use(*mover.object());
-            return array_of(run(*mover.object(), true, [](api::Deformer& one) { return one.control_points(); }), 3);
-          },
-          "Returns the positions of the control points of free-form deformation: shape (n, 3), dtype float64 (mesh\n"
-          "units); no rows for other methods.")
-      .def(
-          "move_control_point",
-          [](const Mover& mover, const py::object& point, const py::object& target) {
-            const UseObject use(*mover.object());
-            const std::uint32_t id = id_of(point, "control point");
-            const api::Vector3 to = vector_of(target, "target");
-            return run(*mover.object(), true, [&](api::Deformer& one) { return one.move_control_point(id, to); });
-          },
-          py::arg("point"), py::arg("target"),
-          "Moves a control point of free-form deformation to a position (x, y, z) (mesh units).");
-}
-
 void add_settings(MoverClass& deformer) {
   deformer
       .def_property_readonly(
@@ -301,7 +279,6 @@ void add_deformer(py::module_& module) {
            py::arg("mesh"), py::arg("method") = "natural-queue", py::arg("precision") = "double");
   add_moves(deformer);
   add_relaxation(deformer);
-  add_control_points(deformer);
   add_settings(deformer);
   refuse_pickling(deformer, "it belongs to this process",
                   "make a Deformer there; for a copy here, use Deformer(body.copy(), method)");

@@ -173,29 +173,6 @@ void Deformer::set_job(const Job& job) { impl_->job = job; }
 void Deformer::set_tracing(bool on) { impl_->is_tracing = on; }
 std::span<const TraceStep> Deformer::trace() const { return impl_->trace; }
 
-std::vector<double> Deformer::control_points() {
-  return guarded([&] {
-    Solver& solver = impl_->solver();
-    solver.set_progress(Access::progress(impl_->job));
-    const inner::Mesh& mesh = solver.body().mesh();
-    const std::span<const double> coordinates = solver.control_points();
-    std::vector<double> points;
-    for (std::size_t i = 0; i < coordinates.size(); i += static_cast<std::size_t>(mesh.space_dimension)) {
-      const Point point = mesh.to_point(coordinates.data() + i);
-      points.insert(points.end(), point.begin(), point.end());
-    }
-    return points;
-  });
-}
-
-MoveResult Deformer::move_control_point(std::uint32_t point, const Vector3& target) {
-  auto& body = Access::impl(impl_->body);
-  check_coordinates(body.body().mesh(), "target", target, false);
-  MoveResult result = impl_->run([&](Trace*) { return body.solver->move_control_point(point, point_of(target)); });
-  result.reached.pivot = target;
-  return result;
-}
-
 std::vector<double> deform(const Mesh& mesh, std::string_view method, const std::vector<ElementId>& elements,
                            const Vector3& by) {
   Deformer deformer(mesh, method);

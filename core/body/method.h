@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -39,15 +38,6 @@ class Method {
 
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   virtual std::string remark() const { return {}; }
-
-  /// Returns the current positions of control points that a user may drag, space_dimension coordinates each (mesh
-  /// units), and prepares them; empty for most methods.
-  virtual std::span<const double> control_points(Body& /*body*/, const Progress& /*progress*/) { return {}; }
-  /// Moves a control point to a target (mesh units): one pass without a handle.
-  virtual PassCount move_control_point(Body& /*body*/, std::size_t /*point*/, const Point& /*target*/,
-                                       PassOutput /*output*/) {
-    return {};
-  }
 };
 
 /// Makes a method for bodies of a precision and a space dimension. A method that is added by a program outside may

@@ -110,8 +110,7 @@ std::vector<AlgorithmInfo> make_table() {
        .summary = "a lattice of control points deforms space",
        .style = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#c559ff"},  // hexagon
        .make = make_elastic_method<ElasticMethod::free_form>,
-       .elastic = ElasticMethod::free_form,
-       .has_control_points = true},
+       .elastic = ElasticMethod::free_form},
       {.algorithm = Algorithm::corotational,
        .name = "corotational",
        .label = "Corotational FEM",

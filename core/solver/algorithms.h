@@ -44,10 +44,9 @@ struct AlgorithmInfo {
   bool needs_pins = false;
 
   // What other code may assume.
-  bool holds_links = false;         // all links are valid after each pass
-  bool from_rest = false;           // the body stores displacements from rest instead of positions
-  bool has_control_points = false;  // a user may drag control points
-  bool obeys_iterations = false;    // ElasticOptions::iterations limits its iterations
+  bool holds_links = false;       // all links are valid after each pass
+  bool from_rest = false;         // the body stores displacements from rest instead of positions
+  bool obeys_iterations = false;  // ElasticOptions::iterations limits its iterations
 
   /// Owns the texts above, if they are not literals.
   std::shared_ptr<const void> texts = {};

@@ -107,24 +107,6 @@ void ElasticDeformation::hold(const Body& body, const Handle& handle, const Prog
   }
 }
 
-std::span<const double> ElasticDeformation::control_points(Body& body, const Progress& progress) {
-  prepare(body, progress);
-  return solver_->control_points();
-}
-
-PassCount ElasticDeformation::move_control_point(Body& body, std::size_t point, const Point& target,
-                                                 PassOutput output) {
-  prepare(body, output.progress);
-  std::array<double, 3> to{};
-  const auto dimension = std::size_t(body.mesh().space_dimension);
-  for (std::size_t k = 0; k < dimension; ++k) {
-    to[k] = target[body.mesh().axes[k]];
-  }
-  solver_->move_control_point(point, std::span(to).first(dimension));
-  check_answer(body);
-  return take_answer(body, {}, output.moved);
-}
-
 /// The parts of a body that a preparation depends on.
 Revisions ElasticDeformation::revisions_of(const Body& body) {
   return body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::elastic});

@@ -16,8 +16,6 @@ class ElasticDeformation final : public Method {
 
   PassCount move(Body& body, HandleMove& move, PassOutput output) override;
   std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
-  std::span<const double> control_points(Body& body, const Progress& progress) override;
-  PassCount move_control_point(Body& body, std::size_t point, const Point& target, PassOutput output) override;
 
  private:
   static Revisions revisions_of(const Body& body);

@@ -114,20 +114,6 @@ void Solver::prepare(ElementId element) {
   }
 }
 
-std::span<const double> Solver::control_points() {
-  return algorithm_.has_control_points ? method().control_points(body_, progress_) : std::span<const double>();
-}
-
-PassCount Solver::move_control_point(std::size_t point, const Point& target) {
-  if (point >= control_points().size() / static_cast<std::size_t>(body_.mesh().space_dimension)) {
-    throw Error("control point " + std::to_string(point), "there is no such point",
-                "choose free-form deformation, and one of its points");
-  }
-  return run([&](Method& method) {
-    return method.move_control_point(body_, point, target, {moved_, nullptr, threads_, progress_});
-  });
-}
-
 void Solver::wake(std::span<const ElementId> elements) {
   relaxation_.wake(body_, elements);
   awake_at_ = body_.revisions().positions;

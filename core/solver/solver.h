@@ -54,13 +54,6 @@ class Solver {
   /// The elements that the last pass moved, in order of update, without the handle.
   std::span<const ElementId> moved() const { return moved_; }
 
-  /// Returns the control points of free-form deformation, space_dimension coordinates each (mesh units); empty for
-  /// other algorithms.
-  std::span<const double> control_points();
-  /// Moves a control point to a target (mesh units): one pass without a handle. Throws Error if the point does
-  /// not exist.
-  PassCount move_control_point(std::size_t point, const Point& target);
-
   /// Makes these elements and their neighbours active: relaxation will visit them. The scheme `equilibrium` then visits
   /// all elements.
   void wake(std::span<const ElementId> elements);

@@ -87,17 +87,6 @@ def test_relaxation_to_the_equilibrium():
     assert "residual" in repr(found)
 
 
-def test_control_points():
-    deformer = chainmail.Deformer(chainmail.make_tetra(3, 3, 3), "ffd")
-    points = deformer.control_points()
-    assert points.shape == (64, 3)
-    deformer.move_control_point(0, points[0] + [-1, 0, 0])
-    assert np.allclose(deformer.control_points()[0], points[0] + [-1, 0, 0])
-    with pytest.raises(chainmail.Error):
-        deformer.move_control_point(64, (0, 0, 0))
-    assert chainmail.Deformer(chainmail.make_line(3)).control_points().shape == (0, 3)
-
-
 def test_the_shortcut():
     mesh = chainmail.make_grid(6, 4)
     deformer = chainmail.Deformer(mesh)

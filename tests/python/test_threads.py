@@ -23,7 +23,6 @@ def test_every_use_of_a_busy_body_is_an_error():
         "release": deformer.release,
         "trace": deformer.trace,
         "certificate": deformer.certificate,
-        "control points": deformer.control_points,
         "set_method": lambda: deformer.set_method("exact"),
         "set_threads": lambda: deformer.set_threads(2),
         "set_job": lambda: deformer.set_job(chainmail.Job()),

@@ -112,12 +112,6 @@ class Deformer {
   /// The candidates of the last move, in order, if it was traced and the method processes candidates one by one.
   std::span<const TraceStep> trace() const;
 
-  /// Returns the positions of the control points of free-form deformation: x, y, z each (mesh units); empty for other
-  /// methods. Throws Error if the object has no solution.
-  std::vector<double> control_points();
-  /// Moves a control point of free-form deformation to a position (mesh units). Throws Error if there is no such point.
-  MoveResult move_control_point(std::uint32_t point, const Vector3& target);
-
  private:
   friend struct Access;
   struct Impl;

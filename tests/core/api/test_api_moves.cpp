@@ -38,7 +38,6 @@ class ApiMovesTest : public QObject {
   void relaxation_equals_that_of_a_simulation();
   void the_equilibrium_is_certified();
   void moves_are_traced();
-  void control_points_move();
   void a_handle_of_many_moves_as_one();
   void bad_moves_change_nothing();
   void a_move_allocates_nothing();
@@ -226,18 +225,6 @@ void ApiMovesTest::moves_are_traced() {
   deformer.set_tracing(false);
   deformer.move(0, {-6, 1, 0});
   QVERIFY(deformer.trace().empty());
-}
-
-void ApiMovesTest::control_points_move() {
-  cm::Deformer deformer(cm::make_cloth(5, 5), "ffd");
-  const std::vector<double> points = deformer.control_points();
-  QCOMPARE(points.size(), std::size_t(3 * 16));
-  deformer.move_control_point(0, {-3, 0, 0});
-  QCOMPARE(deformer.control_points()[0], -3.0);
-  QVERIFY(!same_numbers(deformer.body().positions(), deformer.body().mesh().rest_positions()));
-  QVERIFY(has(refusal_of([&] { deformer.move_control_point(16, {}); }), "control point 16"));
-  QVERIFY(has(refusal_of([&] { deformer.move_control_point(0, {no_number, 0, 0}); }), "not a finite number"));
-  QVERIFY(cm::Deformer(cm::make_cloth(5, 5), "exact").control_points().empty());
 }
 
 void ApiMovesTest::a_handle_of_many_moves_as_one() {

@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "core/api/api_support.h"
-#include "files/session/session.h"
-#include "files/session_support.h"
 #include "program.h"
 
 namespace chainmail::test_api_programs {
@@ -37,7 +35,6 @@ class ApiProgramsTest : public QObject {
   void recorded_moves_are_those_of_calls();
   void bad_moves_are_refused();
   void single_links_are_softened_by_a_file();
-  void a_session_is_an_object();
   void objects_are_compared_in_one_report();
   void materials_take_turns();
   void the_suite_is_listed();
@@ -459,42 +456,6 @@ void ApiProgramsTest::single_links_are_softened_by_a_file() {
   write(folder / "links.csv", "0,1,0.5,2,0.25\n0,8,1,1,0\n");
   QVERIFY(has(refusal_of([&] { cm::read_softness(folder / "links.csv", body); }), ":2"));
   QVERIFY(State(body) == before);
-}
-
-void ApiProgramsTest::a_session_is_an_object() {
-  const Folder folder;
-  const auto path = folder / "a.chainmail";
-  const Session session = test::session_on(generate({MeshKind::grid, {4, 3, 1}, 1, {}}));
-  save_session(path, session);
-  QVERIFY(cm::is_session(path) && cm::is_session("A.CHAINMAIL") && !cm::is_session("a.obj"));
-  const cm::Body body = cm::read_session(path);
-  QVERIFY(body.cuts() == session.cuts && std::ranges::equal(body.pins(), session.pins));
-  QCOMPARE(body.softness().compression, session.softness->global.compression);
-  QCOMPARE(body.softness(4).stretch, session.softness->of(4).stretch);
-  QCOMPARE(body.elasticity().gent_limit, session.elastic.law.gent_limit);
-  QVERIFY(body.energy() == cm::EnergyKind::corotated);
-  Body restored(session.mesh, Precision::double_precision);
-  ElementBlocks all(session.mesh->element_count());
-  all.insert_all();
-  restored.restore(session.panels.front().positions, all);
-  for (cm::ElementId e = 0; e < session.mesh->element_count(); ++e) {
-    const Point at = point_of(*session.mesh, restored.positions(), e);
-    QVERIFY((body.position(e) == cm::Vector3{at.x(), at.y(), at.z()}));
-  }
-
-  Session named = test::session_on(generate({MeshKind::grid, {4, 3, 1}, 1, {}}));
-  named.mesh_file = "grid.dat";
-  save_session(path, named);
-  QVERIFY(!refusal_of([&] { cm::read_session(path); }).empty());
-  std::string asked;
-  const cm::Body opened = cm::read_session(path, [&](const std::string& name) {
-    asked = name;
-    return cm::make_grid(4, 3);
-  });
-  QCOMPARE(asked, std::string("grid.dat"));
-  QVERIFY(opened.cuts() == named.cuts);
-  write(path, "{}");
-  QVERIFY(has(refusal_of([&] { cm::read_session(path); }), "a.chainmail"));
 }
 
 void ApiProgramsTest::objects_are_compared_in_one_report() {
