@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "command_line/progress_line.h"
-#include "command_line/standard_input.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -231,9 +230,7 @@ std::optional<int> space_of(const CLI::Option* option) {
 
 MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
   MeshOptions options;
-  options.path =
-      add_value(app, "MESH", "", "mesh file: " + api::file_endings(api::FileUse::read) + "; - is standard input")
-          ->required();
+  options.path = add_value(app, "MESH", "", "mesh file: " + api::file_endings(api::FileUse::read))->required();
   options.size = add_value(app, "--size", "WxH[xD]", "number of elements of a .dat file along each axis");
   options.spacing =
       add_value(app, "--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file");
@@ -298,15 +295,14 @@ api::Mesh open_mesh(const MeshOptions& options) {
   if (const auto tolerance = options.weld == nullptr ? std::nullopt : value_of(options.weld)) {
     how.weld = tolerance_of(*tolerance);
   }
-  const InputFile file(*value_of(options.path));
-  const Watch watch("reading " + api::shown(file.path()));
-  return in_options(
-      {{"space dimension", "--space"},
-       {"size", "--size"},
-       {"spacing", "--spacing"},
-       {"threshold", "--threshold"},
-       {"every", "--voxels"}},
-      [&] { return file.read([&](const auto& path) { return api::read_mesh(path, how, watch.job()); }); });
+  const std::filesystem::path path = *value_of(options.path);
+  const Watch watch("reading " + api::shown(path));
+  return in_options({{"space dimension", "--space"},
+                     {"size", "--size"},
+                     {"spacing", "--spacing"},
+                     {"threshold", "--threshold"},
+                     {"every", "--voxels"}},
+                    [&] { return api::read_mesh(path, how, watch.job()); });
 }
 
 CLI::Option* add_mesh_target(CLI::App& app) {

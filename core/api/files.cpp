@@ -29,14 +29,6 @@ void write_file(const std::filesystem::path& path, const Outputs::Writer& writer
   guarded([&] { inner::write_file(path, writer); });
 }
 
-struct TemporaryFolder::Impl {
-  inner::TemporaryFolder folder;
-};
-
-TemporaryFolder::TemporaryFolder() : impl_(guarded([] { return std::make_unique<Impl>(); })) {}
-TemporaryFolder::~TemporaryFolder() = default;
-const std::filesystem::path& TemporaryFolder::path() const { return impl_->folder.path(); }
-
 void remove_folders_on_signals() { inner::remove_folders_on_signals(); }
 
 }  // namespace chainmail::api

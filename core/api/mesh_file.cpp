@@ -5,7 +5,6 @@
 #include "files/mesh/mesh_file.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
-#include "files/text/limits.h"
 
 namespace chainmail::api {
 namespace {
@@ -57,8 +56,6 @@ std::vector<FileFormat> file_formats() {
   }
   return formats;
 }
-
-static_assert(largest_file == limits::file_bytes);
 
 std::string file_endings(FileUse use, std::string_view last) { return mesh_endings(use_of(use), last); }
 std::string file_formats_help(FileUse use) { return mesh_formats_help(use_of(use)); }

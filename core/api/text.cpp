@@ -30,6 +30,5 @@ std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, in
 }
 
 std::string system_reason() { return inner::system_reason(); }
-std::string system_remedy(const std::string& otherwise) { return inner::system_remedy(otherwise); }
 
 }  // namespace chainmail::api

@@ -29,7 +29,7 @@ class Program {
     QProcess process;
     process.setChildProcessModifier(prepare);
     process.setWorkingDirectory(folder_.path());
-    process.setStandardInputFile(standardInput);
+    process.setStandardInputFile(QProcess::nullDevice());
     process.start(builtFile("bin/chainmail"), arguments);
     process.waitForFinished(60'000);
     const bool ended = process.exitStatus() == QProcess::NormalExit && process.state() == QProcess::NotRunning;
@@ -37,9 +37,6 @@ class Program {
   }
   /// Runs the program with the arguments in `line`, separated by spaces.
   Outcome run(const char* line) const { return run(QString(line).split(' ', Qt::SkipEmptyParts)); }
-
-  /// The file that the program reads as standard input; an empty one.
-  QString standardInput = QProcess::nullDevice();
 
   QString path(const QString& name) const { return folder_.filePath(name); }
   QByteArray read(const QString& name) const {

@@ -151,20 +151,17 @@ void ConvertCommandTest::the_file_that_was_read_is_not_replaced_data() {
                                            << "a.obj";
   QTest::newRow("hard link") << "a.obj"
                              << "hard.obj";
-  QTest::newRow("standard input") << "-"
-                                  << "a.obj";
 }
 
 /// The file may be the only copy.
 void ConvertCommandTest::the_file_that_was_read_is_not_replaced() {
   QFETCH(QString, input);
   QFETCH(QString, output);
-  Program program;
+  const Program program;
   const QByteArray text =
       "# mine\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 0.5 0.5 0\n"
       "f 1 3 5\nf 3 2 5\nf 2 1 5\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   program.write("a.obj", text);
-  program.standardInput = program.path("a.obj");
   std::filesystem::create_symlink("a.obj", program.path("symbolic.obj").toStdString());
   std::filesystem::create_hard_link(program.path("a.obj").toStdString(), program.path("hard.obj").toStdString());
   for (const char* command : {"convert", "repair", "simplify --elements 4"}) {

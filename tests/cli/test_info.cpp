@@ -10,7 +10,6 @@ class InfoCommandTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void standard_input_is_a_mesh();
   void json_has_the_keys_of_the_contract();
   void size_and_spacing_come_first();
   void an_option_that_cannot_be_is_named_itself_data();
@@ -18,19 +17,6 @@ class InfoCommandTest : public QObject {
   void bad_files_are_refused_data();
   void bad_files_are_refused();
 };
-
-void InfoCommandTest::standard_input_is_a_mesh() {
-  Program program;
-  program.write("a.obj", "v 1 2 3\nv 4 2 3\nl 1 2\n");
-  program.standardInput = program.path("a.obj");
-  const auto outcome = program.run("info -");
-  QCOMPARE(outcome.code, 0);
-  QVERIFY(outcome.out.startsWith("elements          2\n"));
-  program.write("a.obj", "v 1 2 3\nv 4 x 3\n");
-  QVERIFY(program.run("info -").error.startsWith("chainmail: standard input:2: 'x' is not a valid coordinate; "));
-  program.standardInput = QProcess::nullDevice();
-  QVERIFY(program.run("info -").error.startsWith("chainmail: standard input: it is empty; "));
-}
 
 void InfoCommandTest::json_has_the_keys_of_the_contract() {
   const Program program;

@@ -24,8 +24,7 @@ class Outputs {
   /// Removes what commit() has not put in place.
   ~Outputs();
 
-  /// Protects an input file: no output may replace it, under this name or another. The path `-` means the file that is
-  /// read as standard input, if it is one. Call this before add().
+  /// Protects an input file: no output may replace it, under this name or another. Call this before add().
   void keep(const std::filesystem::path& input);
   /// Adds a file. Throws Error if it cannot be written or is there twice, and WriteFailure if writing failed.
   void add(const std::filesystem::path& path, Writer writer);
@@ -40,25 +39,8 @@ class Outputs {
 /// Writes one file. If writing fails, the old file stays. Throws like Outputs.
 void write_file(const std::filesystem::path& path, const Outputs::Writer& writer);
 
-/// A new private folder for temporary files. The destructor removes it with its content.
-class TemporaryFolder {
- public:
-  /// Throws Error if the folder cannot be made.
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  /// Its path.
-  const std::filesystem::path& path() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
-/// From now on, a signal that ends the program (SIGINT, SIGTERM, SIGHUP) removes its temporary folders first, those of
-/// the library too. For the main function of a program.
+/// From now on, a signal that ends the program (SIGINT, SIGTERM, SIGHUP) removes the temporary folders of the library
+/// first. For the main function of a program.
 void remove_folders_on_signals();
 
 }  // namespace chainmail::api

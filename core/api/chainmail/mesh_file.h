@@ -42,9 +42,6 @@ void check_format(const std::filesystem::path& path, const Mesh& mesh);
 /// file is written.
 std::string lost_in_format(const std::filesystem::path& path, const Mesh& mesh);
 
-/// Largest size of a file that is read (bytes).
-inline constexpr std::uint64_t largest_file = std::uint64_t{4} << 30;
-
 /// Returns where the installed package has chainmail-import, the program that runs the readers of other libraries
 /// (.msh, .mesh, .off, .stl, .nrrd) in a sandbox. Programs that find the package with CMake get the path from it; for
 /// others it is empty.

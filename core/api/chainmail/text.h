@@ -39,7 +39,5 @@ std::optional<std::array<std::uint32_t, 3>> parse_size(std::string_view text, in
 
 /// Returns the reason for the failure of the last system call, from errno.
 std::string system_reason();
-/// Returns what to do about that failure: an answer for what the whole system is short of, else `otherwise`.
-std::string system_remedy(const std::string& otherwise);
 
 }  // namespace chainmail::api

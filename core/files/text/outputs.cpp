@@ -201,7 +201,7 @@ void Outputs::refuse_twice(const fs::path& path, const fs::path& target) {
   }
 }
 
-void Outputs::keep(const fs::path& input) { inputs_.push_back(input == "-" ? "/dev/stdin" : input); }
+void Outputs::keep(const fs::path& input) { inputs_.push_back(input); }
 
 /// True if an output is the file of an input, under whatever name. Devices and pipes may be both.
 bool Outputs::is_input(const fs::path& output) const {

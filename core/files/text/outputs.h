@@ -38,8 +38,7 @@ class Outputs {
   Outputs& operator=(const Outputs&) = delete;
   ~Outputs();
 
-  /// Protects an input file: no output may replace it, under this name or another. The path `-` means the file that is
-  /// read as standard input, if it is one. Call this before add().
+  /// Protects an input file: no output may replace it, under this name or another. Call this before add().
   void keep(const std::filesystem::path& input);
   /// Writes the content of a file. Throws Error if the target cannot be written.
   void add(const std::filesystem::path& path, Writer writer, Readers readers = Readers::as_usual);

@@ -129,14 +129,6 @@ void ApiProgramsTest::outputs_are_written_together() {
   QCOMPARE(content_of(first), std::string("new"));
   QCOMPARE(content_of(second), std::string("other"));
   QCOMPARE(content_of(input), std::string("input"));
-  std::filesystem::path there;
-  {
-    const cm::TemporaryFolder temporary;
-    there = temporary.path();
-    write(there / "x", "x");
-    QVERIFY(std::filesystem::is_directory(there));
-  }
-  QVERIFY(!std::filesystem::exists(there));
 }
 
 void ApiProgramsTest::a_full_disk_is_a_failure_to_write() {
