@@ -9,6 +9,7 @@
 #include "io/sessions.h"
 #include "session_bench.h"
 #include "window/message_bar.h"
+#include "window/window_layout.h"
 
 namespace chainmail::window_session {
 
@@ -45,6 +46,16 @@ class WindowSession : public QObject {
     for (int panel = 0; panel < bench.document().panels(); ++panel) {
       QVERIFY(bench.position(panel, 50) != bench.document().mesh()->rest_position(50));
     }
+  }
+
+  void aSessionSaysOnceWhatHasLeftTheWindow() {
+    Workbench bench;
+    applyLayout(bench.window,
+                R"({"docks": [{"id": "sizeTestDock", "visible": false}, {"id": "other", "visible": true}]})");
+    QCOMPARE(bench.window.messages().count(), 0);
+    applyLayout(bench.window, R"({"docks": [{"id": "sizeTestDock", "visible": true}]})");
+    QCOMPARE(bench.window.messages().count(), 1);
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("Size test")));
   }
 
   /// The docks show the settings of the session. The solvers must use the same settings in the next drag.

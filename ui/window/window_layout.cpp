@@ -99,6 +99,17 @@ void takeColours(MainWindow& window, const QString& name) {
   }
 }
 
+/// Says what a session of an older workbench shows that this one no longer has.
+void noteWhatLeft(MainWindow& window, const QJsonArray& docks) {
+  const auto showsSizeTest = [](const QJsonValue& dock) {
+    return dock[QStringLiteral("id")] == QStringLiteral("sizeTestDock") && dock[QStringLiteral("visible")].toBool();
+  };
+  if (std::any_of(docks.begin(), docks.end(), showsSizeTest)) {
+    emit window.document().noticed(
+        QStringLiteral("The session shows the dock Size test, which has left the window: use chainmail ramp"));
+  }
+}
+
 }  // namespace
 
 std::string layoutOf(MainWindow& window) {
@@ -121,6 +132,7 @@ std::string layoutOf(MainWindow& window) {
 void applyLayout(MainWindow& window, const std::string& json) {
   const QJsonObject layout = QJsonDocument::fromJson(QByteArray::fromStdString(json)).object();
   window.takeDocks(layout);
+  noteWhatLeft(window, layout[QStringLiteral("docks")].toArray());
   window.showMenu().show(layout[QStringLiteral("show")].toString());
   window.docks().get<SectionDock>().take(layout[QStringLiteral("section")].toObject());
   takeColours(window, layout[QStringLiteral("colour")].toString());
