@@ -54,7 +54,6 @@ class DocumentChangesTest : public QObject {
   void each_refused_grab_is_said();
   void a_change_ends_the_drag_in_the_solvers();
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
-  void a_split_keeps_the_mesh_file();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
 
  private:
@@ -119,13 +118,6 @@ void DocumentChangesTest::a_change_after_a_session_saved_while_dragging_can_be_s
   edits::setPinned(document, {7}, true);
   QVERIFY(is_idle(document));
   QCOMPARE(session_of(document)->pins, std::vector<ElementId>{7});
-}
-
-void DocumentChangesTest::a_split_keeps_the_mesh_file() {
-  Document document(mesh_, QStringLiteral("sheet"));
-  document.files().setMesh(QStringLiteral("sheet.obj"));
-  edits::split(document, split_of(document.mesh()));
-  QCOMPARE(document.files().mesh(), QStringLiteral("sheet.obj"));
 }
 
 void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {

@@ -177,7 +177,7 @@ DocumentState observed(Document& document, const Prefix& prefix = {}) {
       text_of(session, {}, 0), text_of(session, moves.first(done), done), text_of(session, moves, done), {}, {}, {}};
   state.facts << QStringLiteral("parts %1").arg(document.parts())
               << QStringLiteral("unsplit %1").arg(document.unsplitMesh()->link_count())
-              << QStringLiteral("files ") + document.files().session() + ' ' + document.files().mesh()
+              << QStringLiteral("files ") + document.files().session()
               << QStringLiteral("last drag %1").arg(document.moves().lastDrag().size())
               << QStringLiteral("selected %1, %2")
                      .arg(document.selection().elements().size())
@@ -286,7 +286,6 @@ class Life {
       fresh->addPanel();
     }
     edits::restore(*fresh, session, document_->files().session(), QStringLiteral("open"));
-    fresh->files().setMesh(document_->files().mesh());
     fresh->selection().set(document_->selection().elements());
     fresh->undoStack().clear();
     prefix = session->moves.empty() ? Prefix(fresh->moves().history()) : Prefix();
@@ -443,7 +442,6 @@ Life::Step Life::object_step(const Action& action) const {
           [other = meshes()[action.which % meshes().size()], rework = action.how % 2 == 0](Document& d, std::size_t) {
             rework ? edits::reworkMesh(d, other, d.name(), QStringLiteral("repair"))
                    : edits::replaceMesh(d, other, QStringLiteral("other"), QStringLiteral("build"));
-            d.files().setMesh(rework ? d.files().mesh() : QStringLiteral("other.obj"));
           };
     case Kind::reset:
       return [](Document& d, std::size_t) { edits::resetObject(d); };

@@ -16,7 +16,6 @@
 #include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/recovery_bar.h"
-#include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
@@ -224,8 +223,6 @@ class WindowLost : public QObject {
     Session others = sessionOf(one);
     others.pins = {7};
     save_session(file.toStdString(), others);
-    auto& bar = one.window.sessions().reloadBar();
-    QTRY_VERIFY(bar.isVisible());
     {
       const Answer cancel(QStringLiteral("Cancel"));
       one.trigger("saveSession");
@@ -233,10 +230,8 @@ class WindowLost : public QObject {
       QCOMPARE(cancel.questions, 1);
     }
     QCOMPARE(read_session(file.toStdString()).pins, std::vector<ElementId>{7});
-    one.find<QPushButton>("reload")->click();
-    one.settle();
+    one.open(file);
     QCOMPARE(one.document().pins(), std::vector<ElementId>{7});
-    QVERIFY(!bar.isVisible());
     edits::setPinned(one.document(), {8}, true);
     save_session(file.toStdString(), others);
     {
@@ -250,36 +245,6 @@ class WindowLost : public QObject {
     one.trigger("saveSession");  // what this window has written is known to it
     one.settle();
     QCOMPARE(read_session(file.toStdString()).pins, (std::vector<ElementId>{7, 8, 9}));
-    QVERIFY(!bar.isVisible());
-  }
-
-  void anotherProgramChangesTheOpenMesh() {
-    const QString file = path("part.obj"), session = path("session.chainmail");
-    Workbench bench(cloth());
-    auto* files = bench.window.findChild<FileActions*>();
-    auto& bar = bench.window.sessions().reloadBar();
-    files->savePath(file);
-    bench.settle();
-    bench.open(file);
-    files->savePath(file);  // what this window has written is known to it
-    bench.settle();
-    writeText(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    QTRY_VERIFY(bar.isVisible());
-    bench.document().undo();  // the object before has no file
-    QVERIFY(!bar.isVisible());
-    bench.document().redo();
-    QTRY_VERIFY(bar.isVisible());
-    bench.find<QPushButton>("reload")->click();
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), ElementId{3});
-    QVERIFY(!bar.isVisible());
-    // The session of a mesh is another file.
-    bench.window.sessions().savePath(session);
-    bench.settle();
-    writeText(file, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
-    writeText(session, "{}");
-    QTRY_VERIFY(bar.isVisible());
-    QVERIFY(bar.findChild<QLabel*>()->text().contains(QStringLiteral("session.chainmail")));
   }
 
   void aComputationThatEndsIsNamed() {

@@ -13,7 +13,6 @@
 #include "common/as_path.h"
 #include "folders.h"
 #include "io/recovery_bar.h"
-#include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"
@@ -120,9 +119,6 @@ class WindowReplaced : public QObject {
           menu->actions().first()->trigger();
         }
       }
-    });
-    row("a file that has changed", [file = path("other.chainmail")](Workbench& bench) {
-      emit bench.window.sessions().reloadBar().reloadRequested(file);
     });
     row("restored work", [](Workbench& bench) { bench.find<QPushButton>("restoreWork")->click(); });
   }

@@ -8,7 +8,6 @@ std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const Mes
                                          const std::vector<LinkId>& cuts, std::vector<ElementId> pins) {
   auto result = std::make_shared<DocumentObject>(mesh, object.name);
   result->unsplit = object.unsplit;
-  result->file = object.file;
   result->before = object.before;
   result->parts.cut(result->cuts, cuts);
   result->pins = std::move(pins);

@@ -32,7 +32,6 @@ struct DocumentObject {
   MeshPointer mesh;
   MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
-  QString file = {};  // the mesh file that it was opened from, if any
   Cuts cuts;
   Parts parts;                                        // connected parts of the object with these cuts
   std::vector<ElementId> pins;                        // ascending

@@ -74,7 +74,7 @@ bool changesObject(const Command& command) {
 }  // namespace
 
 Document::Document(MeshPointer mesh, const QString& name)
-    : files_(contents_), selection_(contents_), solvers_(contents_), handle_(*this), moves_(*this) {
+    : selection_(contents_), solvers_(contents_), handle_(*this), moves_(*this) {
   contents_.object = std::make_shared<DocumentObject>(std::move(mesh), name);
   contents_.softness = std::make_shared<const Softness>(standard_softness());
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};

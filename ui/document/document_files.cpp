@@ -18,9 +18,4 @@ void DocumentFiles::exchangeSession(QString& file) {
   Application::guarded([this] { emit sessionChanged(); });
 }
 
-void DocumentFiles::setMesh(const QString& file) {
-  contents_.object->file = file;
-  emit meshChanged();
-}
-
 }  // namespace chainmail

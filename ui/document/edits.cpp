@@ -311,9 +311,7 @@ void replaceMesh(Document& document, const MeshPointer& mesh, const QString& nam
 void reworkMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                 OwnSoftness own) {
   requireDrawable(*mesh);
-  Change edit = meshChange(document, mesh, name, text, std::move(own));
-  edit.after.object->file = document.files().mesh();
-  document.apply(std::move(edit));
+  document.apply(meshChange(document, mesh, name, text, std::move(own)));
 }
 
 void restore(Document& document, const std::shared_ptr<const Session>& session, const QString& file,

@@ -23,7 +23,6 @@
 #include "io/picture_file.h"
 #include "io/questions.h"
 #include "io/recovery_bar.h"
-#include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/volumes.h"
@@ -108,7 +107,6 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
       volumes_(new Volumes(document, jobs)),
       repair_(new MeshRepair(document, jobs, this)) {
   connect(volumes_, &Volumes::opened, this, &FileActions::remember);
-  connect(&sessions_.reloadBar(), &ReloadBar::reloadRequested, this, [this](const QString& path) { openPath(path); });
   connect(&sessions_, &Sessions::failed, this, &FileActions::failed);
   connect(&sessions_, &Sessions::recovered, this, &FileActions::recovered);
   connect(&sessions_, &Sessions::noted, this, &FileActions::noted);
@@ -262,7 +260,6 @@ void FileActions::read(const QString& path, bool first, bool ask) {
                   show(opened, defects, path, first);
                   if (!isSample(path)) {
                     sessions_.know(path, state);
-                    document_.files().setMesh(QFileInfo(path).absoluteFilePath());
                   }
                 };
               });

@@ -10,7 +10,6 @@
 #include "drawing/prepared_levels.h"
 #include "io/mesh_source.h"
 #include "io/recovery_bar.h"
-#include "io/reload_bar.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 
@@ -26,15 +25,7 @@ QString ownFile(const Session& session) {
 }  // namespace
 
 Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent)
-    : QObject(parent),
-      document_(document),
-      jobs_(jobs),
-      layout_(std::move(layout)),
-      recovery_(new RecoveryBar),
-      reload_(new ReloadBar),
-      watch_(new SessionWatch(document, this)) {
-  connect(watch_, &SessionWatch::changedOutside, reload_, &ReloadBar::offer);
-  connect(watch_, &SessionWatch::followed, reload_, &QWidget::hide);
+    : QObject(parent), document_(document), jobs_(jobs), layout_(std::move(layout)), recovery_(new RecoveryBar) {
   connect(recovery_, &RecoveryBar::restoreRequested, this, &Sessions::restore);
   connect(recovery_, &RecoveryBar::discarded, this, [this] {
     emit noted(
@@ -75,7 +66,6 @@ void Sessions::savePath(const QString& path) {
                 save_session(asPath(path), draft.finished(progress), progress);
                 return [this, path, steps, mesh, state = stateOf(path)] {
                   know(path, state);
-                  reload_->hide();
                   if (autosave_) {
                     autosave_->discardAdopted(mesh);
                   }
@@ -90,10 +80,10 @@ void Sessions::savePath(const QString& path) {
 }
 
 void Sessions::know(const QString& path, const std::optional<FileState>& state) {
-  watch_->know(QFileInfo(path).absoluteFilePath(), state);
+  files_.know(QFileInfo(path).absoluteFilePath(), state);
 }
 
-bool Sessions::isChangedOutside(const QString& path) const { return watch_->isChanged(path); }
+bool Sessions::isChangedOutside(const QString& path) const { return files_.isChanged(path); }
 
 void Sessions::protect() {
   autosave_ = std::make_unique<Autosave>(document_, layout_, this);

@@ -6,12 +6,11 @@
 #include "document/document.h"
 #include "files/session/session.h"
 #include "io/autosave.h"
-#include "io/session_watch.h"
+#include "io/known_files.h"
 
 namespace chainmail {
 
 class RecoveryBar;
-class ReloadBar;
 
 /// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
 /// next start.
@@ -33,8 +32,6 @@ class Sessions : public QObject {
 
   /// Returns the bar that offers unsaved work from earlier windows.
   RecoveryBar& recoveryBar() { return *recovery_; }
-  /// Returns the bar that tells of changes by other programs.
-  ReloadBar& reloadBar() { return *reload_; }
   /// Starts automatic saving, and offers unsaved work from earlier windows. Most tests do not call it.
   void protect();
   /// Keeps unsaved work for the next start. Call it when the user closes the window. Returns why the work could not be
@@ -63,8 +60,7 @@ class Sessions : public QObject {
   const LayoutAccess layout_;
   std::uint64_t steps_ = 0;  // number of edits, undos and redos
   RecoveryBar* recovery_;
-  ReloadBar* reload_;
-  SessionWatch* watch_;
+  KnownFiles files_;
   std::unique_ptr<Autosave> autosave_;
 };
 

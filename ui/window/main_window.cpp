@@ -30,7 +30,6 @@
 #include "io/picture_actions.h"
 #include "io/questions.h"
 #include "io/recovery_bar.h"
-#include "io/reload_bar.h"
 #include "io/repair_bar.h"
 #include "io/sessions.h"
 #include "io/volume_bar.h"
@@ -149,7 +148,6 @@ void MainWindow::arrange() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(&sessions_->recoveryBar());
-  column->addWidget(&sessions_->reloadBar());
   column->addWidget(&files_->volumes().bar());
   column->addWidget(&files_->repair().bar());
   column->addWidget(filling_);
