@@ -2,6 +2,7 @@
 
 #include <QAbstractButton>
 #include <QDockWidget>
+#include <QLabel>
 #include <QPushButton>
 #include <QTest>
 #include <QToolButton>
@@ -16,6 +17,7 @@
 #include "drawing/annotation.h"
 #include "drawing/colour_map.h"
 #include "drawing/object_drawing.h"
+#include "panels/violation_line.h"
 #include "window.h"
 #include "window/message_bar.h"
 
@@ -376,6 +378,31 @@ class WindowComfort : public QObject {
     const QPixmap drawn = button->icon().pixmap(QSize(16, 16), ratio);
     QCOMPARE(drawn.size(), QSize(16, 16) * ratio);
     QCOMPARE(bench.view(0).grabFramebuffer().size(), bench.view(0).size() * ratio);
+  }
+
+  void oneElementIsADotAndIsCountedAsOne() {
+    MeshParts parts;
+    parts.rest = {Point(0, 0, 0)};
+    Workbench bench(build_mesh(parts));
+    const QString about = bench.find<QLabel>("meshDescription")->text();
+    QVERIFY2(about.contains(QStringLiteral("1 element, 0 links")), qPrintable(about));
+    bench.settle();
+    const QPoint at = bench.place(0, 0);
+    QVERIFY(bench.view(0).rect().contains(at));
+    const QColor dot = bench.view(0).grabFramebuffer().pixelColor(at), ground = colours::background;
+    QVERIFY2(std::abs(dot.red() - ground.red()) + std::abs(dot.green() - ground.green()) > 80, qPrintable(dot.name()));
+  }
+
+  void oneLinkIsCountedAsOne() {
+    Workbench bench(generate({MeshKind::line, {2, 1, 1}, 1, {}}));
+    const QString about = bench.find<QLabel>("meshDescription")->text();
+    QVERIFY2(about.contains(QStringLiteral("2 elements, 1 link")) && !about.contains(QStringLiteral("1 links")),
+             qPrintable(about));
+    const QPoint from = bench.place(0, 1);
+    bench.stroke(0, {from, from + QPoint(100, 0)});
+    bench.settleFigures();
+    const QString figures = bench.window.panel(0).findChild<ViolationLine*>()->toolTip();
+    QVERIFY2(figures.contains(QStringLiteral("1 link checked")), qPrintable(figures));
   }
 
  private:

@@ -37,7 +37,6 @@
 #include "panels/colour_range_menu.h"
 #include "panels/colour_selector.h"
 #include "panels/panel.h"
-#include "tools/element_menu.h"
 #include "tools/element_readout.h"
 #include "tools/filling.h"
 #include "tools/pin_bar.h"
@@ -192,11 +191,6 @@ void MainWindow::listen() {
     }
     setWindowModified(document_.isModified());
   });
-  auto* elementMenu = new ElementMenu(document_, this);
-  for (Panel* panel : area_->panels()) {
-    elementMenu->follow(panel->view());
-  }
-  connect(area_, &PanelArea::added, elementMenu, [elementMenu](Panel* panel) { elementMenu->follow(panel->view()); });
   connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
   connect(lessons_, &Lessons::openChanged, &help_->hints(), &Hints::setAside);
 }
