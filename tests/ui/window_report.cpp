@@ -1,6 +1,5 @@
 // Tests the contents of the Report dock and its files in a real window.
 
-#include <QClipboard>
 #include <QDir>
 #include <QHeaderView>
 #include <QJsonArray>
@@ -78,10 +77,6 @@ class WindowReport : public QObject {
     QVERIFY(std::ranges::find(notes, std::string("filled: no sweeps")) != notes.end());
     QVERIFY(bench.find<QLabel>("reportTimesNote")->isVisible());
     QVERIFY(!bench.find<QLabel>("reportRefusals")->isVisible());
-    bench.click("reportCopy");
-    const QStringList lines = QApplication::clipboard()->text().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
-    QCOMPARE(lines.size(), 13);
-    QCOMPARE(lines.last().count(QLatin1Char('\t')), bench.table().columnCount() - 1);
   }
 
   void theTableIsBesideThePlotOnlyWhereBothHaveRoom() {
@@ -257,8 +252,6 @@ class WindowReport : public QObject {
       }
     }
     QCOMPARE(fromTheRight.size(), std::size_t{1});
-    bench.click("reportCopy");
-    QVERIFY(!QApplication::clipboard()->text().contains(QChar(0x2007)));
   }
 
   void aReportThatCannotBeSavedIsNotSavedByHalves() {
@@ -277,10 +270,9 @@ class WindowReport : public QObject {
   void everyWidgetIsNamed() {
     ReportBench bench;
     bench.run();
-    for (const char* name :
-         {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds", "reportRun",
-          "reportCancel", "reportProgress", "reportDrag", "reportError", "reportCopy", "reportSave", "reportSavePlot",
-          "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
+    for (const char* name : {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds",
+                             "reportRun", "reportCancel", "reportProgress", "reportDrag", "reportError", "reportSave",
+                             "reportSavePlot", "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
       auto* widget = bench.find<QWidget>(name);
       QVERIFY2(widget != nullptr, name);
       QVERIFY2(!widget->accessibleName().isEmpty() && !widget->toolTip().isEmpty(), name);

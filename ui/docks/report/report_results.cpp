@@ -1,9 +1,8 @@
 #include "docks/report/report_results.h"
 
-#include <QClipboard>
+#include <QCoreApplication>
 #include <QDateTime>
 #include <QDir>
-#include <QGuiApplication>
 #include <QResizeEvent>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -13,7 +12,6 @@
 #include "common/ask_where.h"
 #include "common/colours.h"
 #include "common/plot_widget.h"
-#include "common/table_text.h"
 #include "common/text.h"
 #include "docks/report/report_table.h"
 #include "files/results/report_json.h"
@@ -76,7 +74,6 @@ ReportResults::ReportResults()
     : heading_(new QLabel),
       drag_(new QComboBox),
       error_(new QComboBox),
-      copy_(new QPushButton(QStringLiteral("Copy table"))),
       savePlot_(new QPushButton(QStringLiteral("Save plot…"))),
       save_(new QPushButton(QStringLiteral("Save report…"))),
       plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
@@ -143,8 +140,6 @@ QLayout* ReportResults::makeBar() {
   heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name does not widen the dock
   name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
   name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Error that the plot shows against time"));
-  name(copy_, "reportCopy", QStringLiteral("Copy the table"),
-       QStringLiteral("Copies the table in the order shown, with tabs between columns"));
   name(savePlot_, "reportSavePlot", QStringLiteral("Save the plot"),
        QStringLiteral("Saves the plot with its legend as SVG, PDF or PNG"));
   name(save_, "reportSave", QStringLiteral("Save the report"),
@@ -158,12 +153,10 @@ QLayout* ReportResults::makeBar() {
   bar->addWidget(drag_);
   bar->addWidget(error_);
   bar->addStretch();
-  bar->addWidget(copy_);
   bar->addWidget(savePlot_);
   bar->addWidget(save_);
   connect(drag_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
   connect(error_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
-  connect(copy_, &QPushButton::clicked, this, &ReportResults::copy);
   connect(savePlot_, &QPushButton::clicked, this, &ReportResults::askWherePlot);
   connect(save_, &QPushButton::clicked, this, &ReportResults::save);
   return bar;
@@ -265,7 +258,5 @@ void ReportResults::savePlotTo(const QString& path) {
     emit failed(QString::fromStdString(error.what()));
   }
 }
-
-void ReportResults::copy() { QGuiApplication::clipboard()->setText(textOf(*table_)); }
 
 }  // namespace chainmail

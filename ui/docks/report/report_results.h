@@ -14,7 +14,7 @@ class PlotWidget;
 class ReportTable;
 
 /// Shows the results of a run: one drag as a plot and a table, and the refused algorithms with the reasons. Saves the
-/// report and copies the table.
+/// report.
 class ReportResults : public QWidget {
   Q_OBJECT
 
@@ -44,13 +44,11 @@ class ReportResults : public QWidget {
   void showDrag();
   void save();
   void askWherePlot();
-  void copy();
 
   ReportThread::Result result_;
   QLabel* heading_;
   QComboBox* drag_;
   QComboBox* error_;
-  QPushButton* copy_;
   QPushButton* savePlot_;
   QPushButton* save_;
   PlotWidget* plot_;

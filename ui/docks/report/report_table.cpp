@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "common/plot_painting.h"
-#include "common/table_text.h"
 #include "common/text.h"
 #include "report/page/format.h"
 
@@ -112,7 +111,6 @@ ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   }
   horizontalHeader()->setHighlightSections(false);
   sortByColumn(1, Qt::AscendingOrder);  // the fastest first
-  copyByKeys(*this);
   connect(horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, &ReportTable::fitColumns);
   fitColumns();
 }
