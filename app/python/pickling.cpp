@@ -98,7 +98,7 @@ py::dict parts_of(const api::Mesh& mesh) {
 }
 
 /// Makes a mesh of a dictionary that may come from outside.
-api::Mesh mesh_from(const py::object& parts) {
+api::Mesh unpickled_mesh(const py::object& parts) {
   if (!py::isinstance<py::dict>(parts)) {
     throw api::Error(state_of_mesh, "it is not a dictionary", "pickle the mesh again");
   }
@@ -163,7 +163,7 @@ void add_pickled_functions(const py::module_& module) {
 }
 
 void add_mesh_pickling(py::class_<api::Mesh>& mesh) {
-  add_pickling(mesh, &parts_of, &mesh_from);
+  add_pickling(mesh, &parts_of, &unpickled_mesh);
   mesh.def("__copy__", [](const py::object& self) { return self; });  // it does not change
   mesh.def(
       "__deepcopy__", [](const py::object& self, const py::object& /*memo*/) { return self; }, py::arg("memo"));
