@@ -99,8 +99,8 @@ QString FaultsTest::outcome(const Saving& saving, const NamedCall& call, int n, 
   }
   const bool is_old = after == saving.before, is_new = after == next;
   const bool is_whole = std::ranges::all_of(after, [&](const auto& file) {
-    return saving.before.contains(file.first) && saving.before.at(file.first) == file.second ||
-           next.contains(file.first) && next.at(file.first) == file.second;
+    return (saving.before.contains(file.first) && saving.before.at(file.first) == file.second) ||
+           (next.contains(file.first) && next.at(file.first) == file.second);
   });
   if (!is_whole) {
     return QStringLiteral("LOST: neither old nor new");

@@ -217,7 +217,7 @@ bool all_are_other() {
   const auto& [material, lattice, iterations, law, thickness] = other_elastic;
   const auto& [young, poisson] = material;
   const auto& [kind, gent_limit, fung_exponent] = law;
-  const auto& [on, step, scheme] = other_relaxation;
+  const auto& [on, step, scheme, anew] = other_relaxation;
   const auto& [global, links, energy, frame] = other_softness;
   const ElasticOptions elastic;
   const commands::SetRelaxation relaxation;
@@ -229,7 +229,7 @@ bool all_are_other() {
          lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && kind != elastic.law.kind &&
          gent_limit != elastic.law.gent_limit && fung_exponent != elastic.law.fung_exponent &&
          thickness != elastic.thickness && on != relaxation.on && step != relaxation.step &&
-         scheme != relaxation.scheme;
+         scheme != relaxation.scheme && !anew;  // which is of the command, not a setting
 }
 
 SplitPointer split_of_two_triangles() {
