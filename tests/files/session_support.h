@@ -33,7 +33,7 @@ inline std::vector<double> odd_floats(std::size_t count, std::uint64_t seed) {
 /// Returns an object that uses all features, on a mesh of 9 elements or more.
 inline Session session_on(const MeshPointer& mesh) {
   Session session;
-  session.name = "an \"object\" ∆\n";
+  session.name = "an \"object\" ∆";
   session.mesh = mesh;
   session.cuts = {0, 3};
   session.pins = {1, 8};

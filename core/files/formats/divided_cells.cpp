@@ -263,7 +263,8 @@ std::vector<ElementId> in_order(const std::vector<ElementId>& corners, std::span
     return corners;
   }
   std::vector<ElementId> result(corners.size());
-  std::ranges::transform(order, result.begin(), [&](int place) { return corners[std::size_t(place)]; });
+  std::ranges::transform(order.first(corners.size()), result.begin(),
+                         [&](int place) { return corners[std::size_t(place)]; });
   return result;
 }
 

@@ -48,7 +48,7 @@ constexpr std::size_t corner_count(DividedKind kind) {
 /// get a positive volume.
 void add_divided(ImportedMesh& mesh, DividedKind kind, std::span<const ElementId> corners);
 
-/// Returns corners in another order; `order` has the place of each one, and is empty if they stay.
+/// Returns corners in another order. `order` begins with the place of each one, and is empty if they stay.
 std::vector<ElementId> in_order(const std::vector<ElementId>& corners, std::span<const int> order);
 
 }  // namespace chainmail
