@@ -247,32 +247,8 @@ def against_fem():
     return lesson
 
 
-def warp_a_face():
-    width, height = 32, 24
-    at = lambda x, y: round((300 - y) / 300 * (height - 1)) * width + round(x / 400 * (width - 1))
-    lesson = Lesson("Warp a face", {"file": "face.png", "across": width}, ["natural-queue", "exact"])
-    lesson.pin(sorted({e for x in range(width) for e in (x, (height - 1) * width + x)} |
-                      {y * width + x for y in range(height) for x in (0, width - 1)}))
-    lesson.soften(compression=0.3, stretch=2, shear=1)
-    lesson.step("A picture on a sheet",
-                "A picture is a sheet of elements, too. Its border is pinned, so that the frame stays. "
-                "Next drags the corners of the mouth.", colour="plain", show="surface", tool="drag")
-    lesson.drag([at(140, 187)], [[-38, 34, 0]], 45)
-    lesson.drag([at(262, 187)], [[38, 34, 0]], 45)
-    lesson.step("A wide smile",
-                "Each drag moves the picture around the handle and leaves the rest alone. "
-                "Next raises the eyebrows and pulls the nose.")
-    lesson.drag([at(155, 90)], [[0, 36, 0]], 40)
-    lesson.drag([at(243, 90)], [[0, 36, 0]], 40)
-    lesson.drag([at(200, 155)], [[0, -28, 0]], 40)
-    lesson.step("Surprise",
-                "Drag the face yourself. File > Save picture saves what the panels show, "
-                "and File > Open makes a sheet of any PNG or JPEG.")
-    return lesson
-
-
 LESSONS = {"order": why_order_matters, "waiting-list": waiting_list, "exact": exact_and_taut, "organ": cut_an_organ,
-           "physics": against_fem, "face": warp_a_face}
+           "physics": against_fem}
 
 
 def main():

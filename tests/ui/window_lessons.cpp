@@ -3,10 +3,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QLabel>
-#include <QLineEdit>
-#include <QPlainTextEdit>
 #include <QPushButton>
-#include <QSlider>
 #include <QToolButton>
 #include <cmath>
 
@@ -14,7 +11,6 @@
 #include "document/edits.h"
 #include "document/lesson_player.h"
 #include "files/session/session.h"
-#include "files/text/limits.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
@@ -22,7 +18,6 @@
 #include "panels/panel_area.h"
 #include "panels/violation_line.h"
 #include "window.h"
-#include "window/hints.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
 #include "window/message_bar.h"
@@ -157,14 +152,8 @@ class WindowLessons : public QObject {
   void pageDownLeadsThroughAllLessons();
   void theNameOfTheNextLessonFitsANarrowBar();
   void undoMovesTheCaption();
-  void aLessonIsWrittenInTheWindow();
-  void aStepThatIsWrittenShowsThePassAsItsAuthorSawIt();
-  void stepsAreOrderedAndRemoved();
-  void aLessonOfTheMenuIsEditedAsACopy();
-  void textsThatNoFileHoldsAreNotTaken();
-  void aStepNeedsTheMovesOfTheLesson();
   void theBarKeepsItsHeight();
-  void theHintsAreHiddenDuringALesson();
+  void aLongCaptionScrolls();
   void theNextObjectHasTheColoursOfBefore();
   void aDragDuringAStepStopsIt();
   void relaxationAndPanelsOfTheUserAreTakenBack();
@@ -179,7 +168,6 @@ class WindowLessons : public QObject {
   void aDamagedLessonChangesNothing();
   void unknownNamesAreReported();
   void closingHidesTheBar();
-  void theHintsLeadToTheFirstLesson();
 
  private:
   /// Returns a window that tests share, with another object and without a lesson. It saves the time to open windows.
@@ -334,9 +322,6 @@ void WindowLessons::theHandleIsMarkedAfterItsDrag() {
   QVERIFY(marked().empty());
   back(bench);
   QCOMPARE(marked(), std::vector{handle});
-  open(bench, pathOf("face.chainmail"));
-  next(bench);
-  QCOMPARE(marked().size(), std::size_t{2});  // both corners of the mouth
   open(bench, pathOf("organ.chainmail"));
   next(bench);
   QVERIFY(marked().size() > 1);
@@ -385,7 +370,7 @@ void WindowLessons::theEndLeadsToTheNextLesson() {
   bench.settle();
   QCOMPARE(player(bench).lesson().title, std::string("Cut an organ"));
   QCOMPARE(player(bench).step(), std::size_t{0});
-  open(bench, pathOf("face.chainmail"));
+  open(bench, pathOf("physics.chainmail"));  // the last one
   toEnd();
   QVERIFY(!following->isVisible());
   QTest::mouseClick(close, Qt::LeftButton);
@@ -416,7 +401,7 @@ void WindowLessons::pageDownLeadsThroughAllLessons() {
   QCOMPARE(title(), QStringLiteral("Why order matters"));
   QVERIFY(player(bench).isLast());  // as if nothing but the last key had been pressed
   QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps.back().until);
-  open(bench, pathOf("face.chainmail"));
+  open(bench, pathOf("physics.chainmail"));  // the last one
   while (!player(bench).isLast()) {
     next(bench);
   }
@@ -475,180 +460,6 @@ void WindowLessons::undoMovesTheCaption() {
   QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps[1].until);
 }
 
-/// Types into a field, as a user does.
-template <class Field>
-void type(Workbench& bench, const char* name, const QString& text) {
-  auto* field = bench.find<Field>(name);
-  field->setFocus();
-  field->selectAll();
-  QTest::keyClicks(field, text);
-}
-
-void WindowLessons::aLessonIsWrittenInTheWindow() {
-  const QTemporaryDir folder;
-  const QString path = folder.filePath(QStringLiteral("own.chainmail"));
-  Workbench& bench = shared();
-  auto* editor = bench.find<QWidget>("lessonEditor");
-  bench.trigger("colourBy-violation");
-  bench.trigger("lessonNew");
-  QVERIFY(player(bench).isOpen() && editor->isVisible());
-  QVERIFY(!bench.find<QLabel>("lessonText")->isVisible());
-  type<QLineEdit>(bench, "lessonTitleField", QStringLiteral("My lesson"));
-  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("At rest."));
-  disturb(bench);
-  const auto* field = bench.find<QPlainTextEdit>("lessonCaptionField");
-  QVERIFY(field->height() >= 3 * field->fontMetrics().lineSpacing());  // for three short sentences
-  bench.trigger("lessonAddStep");
-  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("A pull"));
-  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("The others follow."));
-  QTest::mouseClick(bench.find<QToolButton>("lessonDone"), Qt::LeftButton);
-  QVERIFY(!editor->isVisible());
-  QCOMPARE(bench.find<QLabel>("lessonText")->text(), QStringLiteral("The others follow."));
-  const State pulled = stateOf(bench);
-  back(bench);
-  QCOMPARE(bench.find<QLabel>("lessonText")->text(), QStringLiteral("At rest."));
-  QCOMPARE(bench.document().moves().history().position(), bench.document().moves().history().start());
-  bench.window.sessions().savePath(path);
-  bench.settle();
-  shared();
-  open(bench, path);
-  const Lesson& lesson = player(bench).lesson();
-  QCOMPARE(lesson.title, std::string("My lesson"));
-  QCOMPARE(lesson.steps.size(), std::size_t{2});
-  QCOMPARE(lesson.steps[1].title, std::string("A pull"));
-  QCOMPARE(lesson.steps[0].colour, std::string("violation"));
-  QCOMPARE(player(bench).step(), std::size_t{0});
-  next(bench);
-  QVERIFY(stateOf(bench) == pulled);
-}
-
-void WindowLessons::aStepThatIsWrittenShowsThePassAsItsAuthorSawIt() {
-  Workbench& bench = shared();
-  const auto* dock = bench.find<QDockWidget>("propagationDock");
-  bench.trigger("showPropagation");
-  QTRY_VERIFY(dock->isVisible());
-  bench.settle();
-  bench.trigger("lessonNew");
-  QCOMPARE(player(bench).lesson().steps[0].dock, std::string("propagation"));
-  disturb(bench);
-  QTRY_VERIFY(bench.find<QSlider>("propagationStep0")->isEnabled());
-  bench.trigger("passFirst");
-  bench.trigger("passForward");
-  bench.trigger("lessonAddStep");
-  QCOMPARE(player(bench).lesson().steps[1].candidate, std::optional<std::uint32_t>(1));
-  bench.trigger("lessonClose");
-  bench.trigger("showPropagation");
-  QTRY_VERIFY(!dock->isVisible());
-}
-
-void WindowLessons::stepsAreOrderedAndRemoved() {
-  Workbench& bench = shared();
-  const auto titles = [&] {
-    QStringList all;
-    for (const LessonStep& step : player(bench).lesson().steps) {
-      all << QString::fromStdString(step.title);
-    }
-    return all.join(QLatin1Char(' '));
-  };
-  bench.trigger("lessonNew");
-  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("A"));
-  bench.trigger("lessonAddStep");  // at the same position
-  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("B"));
-  disturb(bench);
-  bench.trigger("lessonAddStep");
-  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("C"));
-  QCOMPARE(titles(), QStringLiteral("A B C"));
-  QVERIFY(!bench.find<QAction>("lessonMoveLater")->isEnabled());
-  const std::size_t until = player(bench).lesson().steps[2].until;
-  bench.trigger("lessonMoveEarlier");
-  QCOMPARE(titles(), QStringLiteral("A C B"));
-  QCOMPARE(player(bench).step(), std::size_t{1});
-  QCOMPARE(player(bench).lesson().steps[2].until, until);  // positions never fall
-  QCOMPARE(player(bench).lesson().steps[1].until, bench.document().moves().history().start());
-  bench.trigger("undo");
-  QCOMPARE(titles(), QStringLiteral("A B C"));
-  bench.trigger("redo");
-  bench.trigger("lessonRemoveStep");
-  QCOMPARE(titles(), QStringLiteral("A B"));
-  bench.trigger("lessonRemoveStep");
-  QCOMPARE(titles(), QStringLiteral("B"));
-  bench.trigger("lessonRemoveStep");
-  QVERIFY(!player(bench).isOpen() && bench.window.lessons().bar().isHidden());
-  bench.trigger("undo");
-  QVERIFY(player(bench).isOpen());
-  QCOMPARE(titles(), QStringLiteral("B"));
-  bench.settle();
-}
-
-void WindowLessons::aLessonOfTheMenuIsEditedAsACopy() {
-  const QTemporaryDir folder;
-  const QString path = folder.filePath(QStringLiteral("copy.chainmail"));
-  Workbench& bench = shared();
-  open(bench, pathOf("order.chainmail"));
-  QVERIFY(!bench.document().isModified());
-  bench.trigger("lessonEdit");
-  type<QPlainTextEdit>(bench, "lessonCaptionField", QStringLiteral("My words."));
-  QVERIFY(bench.document().isModified());
-  bench.trigger("undo");  // typing is one step
-  QCOMPARE(bench.document().undoStack().index(), 1);
-  QVERIFY(player(bench).lesson().steps[0].text != "My words.");
-  QCOMPARE(bench.find<QPlainTextEdit>("lessonCaptionField")->toPlainText(),
-           QString::fromStdString(player(bench).lesson().steps[0].text));
-  bench.trigger("redo");
-  bench.trigger("lessonEdit");
-  next(bench);
-  const State state = stateOf(bench);
-  back(bench);
-  bench.window.sessions().savePath(path);
-  bench.settle();
-  open(bench, path);
-  QCOMPARE(player(bench).lesson().steps[0].text, std::string("My words."));
-  next(bench);
-  QVERIFY(stateOf(bench) == state);
-}
-
-void WindowLessons::textsThatNoFileHoldsAreNotTaken() {
-  Workbench& bench = shared();
-  bench.trigger("lessonNew");
-  auto* field = bench.find<QLineEdit>("lessonStepTitleField");
-  type<QLineEdit>(bench, "lessonStepTitleField", QStringLiteral("Title"));
-  field->selectAll();
-  QTest::keyClick(field, Qt::Key_Delete);
-  QCOMPARE(player(bench).lesson().steps[0].title, std::string("Title"));
-  QTest::keyClick(field, Qt::Key_Return);
-  QCOMPARE(field->text(), QStringLiteral("Title"));
-  auto* caption = bench.find<QPlainTextEdit>("lessonCaptionField");
-  caption->setPlainText(QString(5000, QLatin1Char('x')));
-  QCOMPARE(player(bench).lesson().steps[0].text, std::string(limits::caption_bytes, 'x'));  // the beginning stays
-  const QSize size = bench.window.size();
-  for (const QString& text : {QString(4000, QLatin1Char('x')), QStringLiteral("line\n").repeated(800)}) {
-    caption->setPlainText(text);
-    bench.trigger("lessonEdit");
-    bench.settle();
-    QCOMPARE(bench.window.size(), size);  // a caption scrolls before it leaves the views no room
-    QVERIFY(bench.view(0).height() > size.height() / 4);
-    const auto* shown = bench.find<QLabel>("lessonText");
-    QVERIFY(shown->height() >= shown->heightForWidth(shown->width()));  // the last line can be reached
-    bench.trigger("lessonEdit");
-  }
-  bench.trigger("lessonEdit");
-}
-
-void WindowLessons::aStepNeedsTheMovesOfTheLesson() {
-  Workbench& bench = shared();
-  open(bench, pathOf("order.chainmail"));
-  next(bench);
-  disturb(bench);  // replaces the moves of the steps that follow
-  bench.trigger("lessonEdit");
-  const std::size_t steps = player(bench).lesson().steps.size();
-  bench.trigger("lessonAddStep");
-  QCOMPARE(player(bench).lesson().steps.size(), steps);
-  QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("not those of the lesson")),
-           qPrintable(bench.window.messages().sentence()));
-  bench.window.messages().clear();
-  bench.trigger("lessonEdit");
-}
-
 void WindowLessons::theBarKeepsItsHeight() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
@@ -664,26 +475,25 @@ void WindowLessons::theBarKeepsItsHeight() {
   }
 }
 
-void WindowLessons::theHintsAreHiddenDuringALesson() {
+void WindowLessons::aLongCaptionScrolls() {
+  const QTemporaryDir folder;
   Workbench& bench = shared();
-  const auto* hints = bench.find<Hints>("hints");
-  bench.trigger("showHints");
-  QVERIFY(hints->isVisible());
-  open(bench, pathOf("order.chainmail"));
-  QVERIFY(!hints->isVisible());
-  bench.trigger("lessonClose");
-  QVERIFY(hints->isVisible());
-  open(bench, pathOf("order.chainmail"));
-  bench.trigger("showHints");  // the user asks for them
-  QVERIFY(hints->isVisible());
-  bench.find<Hints>("hints")->hide();
+  const QSize size = bench.window.size();
+  for (const QByteArray& text : {QByteArray(4000, 'x'), QByteArray("line\\n").repeated(700)}) {
+    open(bench, changed(folder, "order.chainmail", "Both panels show the same sheet.", text));
+    QCOMPARE(bench.window.size(), size);  // it leaves the views their room
+    QVERIFY(bench.view(0).height() > size.height() / 4);
+    const auto* shown = bench.find<QLabel>("lessonText");
+    QVERIFY(shown->height() >= shown->heightForWidth(shown->width()));  // the last line can be reached
+  }
 }
 
 void WindowLessons::theNextObjectHasTheColoursOfBefore() {
+  const QTemporaryDir folder;
   Workbench& bench = shared();
   bench.window.colouring().setMode(ColourMode::violation);
   open(bench, pathOf("order.chainmail"));
-  open(bench, pathOf("face.chainmail"));  // a picture, without colours of values
+  open(bench, changed(folder, "order.chainmail", R"("colour": "violation")", R"("colour": "plain")"));
   QCOMPARE(bench.window.colouring().mode(), ColourMode::plain);
   bench.trigger("lessonClose");
   QCOMPARE(bench.window.colouring().mode(), ColourMode::plain);
@@ -771,7 +581,7 @@ void WindowLessons::aLessonReplacesNoWork() {
   Workbench& bench = shared();
   disturb(bench);
   const State work = stateOf(bench);
-  open(bench, pathOf("face.chainmail"));
+  open(bench, pathOf("exact.chainmail"));
   for (int round = 0; round < 16; ++round) {
     player(bench).isLast() ? back(bench) : next(bench);
   }
@@ -803,7 +613,7 @@ void WindowLessons::unsavedWorkIsOfferedAgain() {
     Workbench bench;
     bench.window.sessions().protect();
     disturb(bench);
-    open(bench, pathOf("face.chainmail"));
+    open(bench, pathOf("exact.chainmail"));
     QVERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("Your unsaved work is kept")));
     bench.window.close();
   }
@@ -863,7 +673,8 @@ void WindowLessons::aCutByTheUserStaysOutOfTheLesson() {
   const QTemporaryDir folder;
   const QString path = folder.filePath(QStringLiteral("cut.chainmail"));
   Workbench& bench = shared();
-  open(bench, pathOf("face.chainmail"));
+  // A sheet of triangles, which a stroke splits.
+  open(bench, changed(folder, "order.chainmail", R"({"file": "grid.dat"})", R"({"file": "face.png", "across": 32})"));
   const MeshPointer whole = bench.document().mesh();
   bench.trigger("toolCut");
   bench.find<QAction>("cutSplits")->setChecked(true);
@@ -920,16 +731,6 @@ void WindowLessons::closingHidesTheBar() {
   QVERIFY(bench.window.lessons().bar().isHidden());
   QVERIFY(!bench.find<QDockWidget>("propagationDock")->isVisible());
   QVERIFY(stateOf(bench) == state);
-}
-
-void WindowLessons::theHintsLeadToTheFirstLesson() {
-  Workbench& bench = shared();
-  bench.window.welcome();
-  QTest::mouseClick(bench.find<QPushButton>("hintsLesson"), Qt::LeftButton);
-  bench.settle();
-  QVERIFY(player(bench).isOpen());
-  QVERIFY(bench.find<Hints>("hints")->isHidden());
-  awaitStep(bench);
 }
 
 CHAINMAIL_WINDOW_TEST(WindowLessons)

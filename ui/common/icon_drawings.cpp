@@ -106,7 +106,7 @@ constexpr std::array drawings{
     // Help and messages.
     IconDrawing{"keyboard", "R 1.2 4 13.6 8.5 M 5 10.2 L 11 10.2",
                 "E 4 6.8 0.8 0.8 E 6.7 6.8 0.8 0.8 E 9.3 6.8 0.8 0.8 E 12 6.8 0.8 0.8"},
-    IconDrawing{"hints",
+    IconDrawing{"lesson",
                 "M 6 11.2 C 6 9.6 3.7 8.6 3.7 6 C 3.7 3.4 5.6 1.6 8 1.6 C 10.4 1.6 12.3 3.4 12.3 6 "
                 "C 12.3 8.6 10 9.6 10 11.2 Z M 6.4 13 L 9.6 13 M 7 14.8 L 9 14.8"},
     IconDrawing{"help", "M 5.2 5.2 C 5.2 1.2 11 1.2 11 5 C 11 7.5 8 7.5 8 10", "E 8 13 1 1"},

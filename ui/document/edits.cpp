@@ -9,7 +9,6 @@
 #include "body/split_state.h"
 #include "common/text.h"
 #include "document/document.h"
-#include "document/lesson_steps.h"
 #include "files/session/session.h"
 #include "files/session/softness_presets.h"
 #include "mesh/error.h"
@@ -110,6 +109,16 @@ void placeSession(Document& document, const std::shared_ptr<const Session>& sess
     relaxation.anew = true;
     document.solvers().log().replay(relaxation);
   }
+}
+
+/// Returns the first of the steps that end at or just before a position in the moves.
+std::size_t stepAt(const Lesson& lesson, std::size_t position) {
+  const auto& steps = lesson.steps;
+  std::size_t step = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    step = steps[i].until <= position && steps[i].until > steps[step].until ? i : step;
+  }
+  return step;
 }
 
 Change sessionChange(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
@@ -285,14 +294,6 @@ void resetObject(Document& document) {
   Change edit = document.change(QStringLiteral("reset object"));
   edit.resets = true;
   document.apply(std::move(edit));
-}
-
-void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture) {
-  if (lesson != document.lesson()) {
-    Change edit = document.change(text, gesture);
-    edit.after.lesson = lesson;
-    document.apply(std::move(edit));
-  }
 }
 
 void replaceMesh(Document& document, const MeshPointer& mesh, const QString& name, const QString& text, Opening opening,

@@ -39,9 +39,6 @@ void cut(Document& document, const std::vector<LinkId>& links);
 void split(Document& document, const SplitPointer& split, const std::vector<LinkId>& cut = {});
 void resetObject(Document& document);
 
-/// Gives the object another lesson, other captions or another step of them; without a session, it has no lesson.
-void setLesson(Document& document, const OpenLesson& lesson, const QString& text, int gesture = 0);
-
 /// How another object replaces the one of the document: as one undo step; as the first object of a window, which is no
 /// undo step; as unsaved work, which is modified from the start.
 enum class Opening { next, first, unsaved };

@@ -202,8 +202,6 @@ void MovePlayer::noteRecorded(const Session* lesson) {
   lessonTimeline_ = history().timeline();
 }
 
-void MovePlayer::noteLessonRecorded() { noteRecorded(document_.lesson().session.get()); }
-
 void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
 
 void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step) {

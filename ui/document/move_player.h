@@ -50,8 +50,6 @@ class MovePlayer : public QObject {
   void noteLessonStep(std::size_t step);
   /// True if the object is in the state to which goToInLesson() leads with these arguments.
   bool isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const;
-  /// Notes that the recorded commands are the moves of the present lesson, which was made from them.
-  void noteLessonRecorded();
   /// True if the recorded commands begin with the lesson's moves.
   bool recordsLesson() const;
   /// True if the last saved state differs from the present one only by moves of the lesson, which its file contains.

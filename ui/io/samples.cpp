@@ -30,7 +30,6 @@ constexpr std::array lessonTable{
     LessonFile{"exact.chainmail", "Exact and taut"},
     LessonFile{"organ.chainmail", "Cut an organ"},
     LessonFile{"physics.chainmail", "ChainMail against FEM"},
-    LessonFile{"face.chainmail", "Warp a face"},
 };
 
 /// Returns a folder beside the programs, in the build as after an installation; an empty string without this file in

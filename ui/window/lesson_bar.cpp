@@ -9,7 +9,6 @@
 
 #include "common/colours.h"
 #include "common/icons.h"
-#include "window/lesson_editor.h"
 
 namespace chainmail {
 namespace {
@@ -38,10 +37,8 @@ QString shown(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 
-LessonBar::LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& back, QAction& next, QAction& following,
-                     QAction& close)
+LessonBar::LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close)
     : player_(player),
-      editor_(editor),
       backAction_(back),
       nextAction_(next),
       followingAction_(following),
@@ -108,14 +105,12 @@ void LessonBar::arrange() {
   column->addLayout(head);
   caption_->setWidget(text_);
   column->addWidget(caption_);
-  column->addWidget(&editor_);
 }
 
 void LessonBar::listen() {
   connect(&player_, &LessonPlayer::openChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::stepChanged, this, &LessonBar::refresh);
   connect(&player_, &LessonPlayer::playsChanged, this, &LessonBar::refresh);
-  connect(&editor_, &LessonEditor::editingChanged, this, &LessonBar::refresh);
   for (const QAction* action : {&backAction_, &nextAction_}) {
     connect(action, &QAction::changed, this, &LessonBar::showKeys);
   }
@@ -242,7 +237,6 @@ void LessonBar::refresh() {
     return;
   }
   const QString caption = shown(player_.lesson().steps[player_.step()].text);
-  caption_->setVisible(!editor_.isEditing());
   showButtons();
   fit();
   if (text_->text() != caption) {

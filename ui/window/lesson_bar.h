@@ -12,17 +12,14 @@ class QScrollArea;
 
 namespace chainmail {
 
-class LessonEditor;
-
 /// The bar of an open lesson, below the panels: title, caption, number of the step, Back, Next and Close. At the
-/// end, Next gives way to the name of the next lesson. While the user writes a lesson, the editor replaces the caption.
+/// end, Next gives way to the name of the next lesson.
 class LessonBar : public QFrame {
   Q_OBJECT
 
  public:
-  /// The buttons trigger the actions. The bar owns the editor.
-  LessonBar(const LessonPlayer& player, LessonEditor& editor, QAction& back, QAction& next, QAction& following,
-            QAction& close);
+  /// The buttons trigger the actions.
+  LessonBar(const LessonPlayer& player, QAction& back, QAction& next, QAction& following, QAction& close);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -44,7 +41,6 @@ class LessonBar : public QFrame {
   void fitFollowing();
 
   const LessonPlayer& player_;
-  LessonEditor& editor_;
   QAction &backAction_, &nextAction_, &followingAction_;
   QScrollArea* caption_;
   QLabel *title_, *text_, *step_;

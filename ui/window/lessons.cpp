@@ -17,7 +17,6 @@
 #include "panels/panel_area.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
-#include "window/lesson_editor.h"
 #include "window/main_window.h"
 #include "window/message_bar.h"
 #include "window/show_menu.h"
@@ -54,7 +53,6 @@ QStringList toolNames() { return {tools.begin(), tools.end()}; }
 Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
     : QObject(&window),
       window_(window),
-      propagation_(propagation),
       player_(window.document(), propagation),
       next_(
           add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
@@ -67,7 +65,6 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
       close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
                  QStringLiteral("Closes the lesson; the object stays as it is"))),
       handle_(player_),
-      editor_(nullptr),
       bar_(nullptr) {
   next_->setIcon(icon("stepForward"));
   back_->setIcon(icon("stepBack"));
@@ -80,8 +77,7 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
     connect(&player_, change, this, &Lessons::adapt);
   }
-  editor_ = new LessonEditor(window.document(), player_, [this] { return look(); });
-  bar_ = new LessonBar(player_, *editor_, *back_, *next_, *following_, *close_);
+  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
@@ -101,7 +97,7 @@ QAction* Lessons::add(const char* name, const QString& text, const QKeySequence&
 }
 
 void Lessons::fill(QMenu& menu) {
-  QMenu* lessons = menu.addMenu(icon("hints"), QStringLiteral("&Lessons"));
+  QMenu* lessons = menu.addMenu(icon("lesson"), QStringLiteral("&Lessons"));
   for (const LessonFile& lesson : lessonFiles()) {
     const auto number = &lesson - lessonFiles().data() + 1;
     QAction* action = lessons->addAction(QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)));
@@ -112,13 +108,7 @@ void Lessons::fill(QMenu& menu) {
   }
   lessons->addSeparator();
   lessons->addActions({next_, back_, following_, close_});
-  lessons->addSeparator();
-  editor_->fill(*lessons);
 }
-
-QAction& Lessons::newLesson() { return editor_->newLesson(); }
-
-void Lessons::openFirst() { open(lessonFiles().front().file); }
 
 /// Returns the bundled lesson that is so many places after the present one; null if there is none.
 const LessonFile* Lessons::neighbour(int steps) const {
@@ -172,17 +162,15 @@ void Lessons::adapt() {
 
 void Lessons::start() {
   const bool atEnd = std::exchange(opensAtEnd_, false);
-  editor_->stop();
   if (player_.isOpen()) {
     warnOfUnknownNames();
     atEnd ? player_.goToEnd() : player_.start();
   }
 }
 
-/// When a lesson opens, hides the hints. When it closes, hides the dock that it has opened, and the next object has the
-/// colours and the look that the user had chosen before.
+/// When a lesson closes, hides the dock that it has opened, and the next object has the colours and the look that the
+/// user had chosen before.
 void Lessons::leave() {
-  emit openChanged(player_.isOpen());
   if (player_.isOpen()) {
     colourBefore_ = colourBefore_.value_or(window_.colouring().mode());
     return;
@@ -195,21 +183,6 @@ void Lessons::leave() {
 }
 
 // What the window shows at a step.
-
-/// Returns what the window shows now, for a step that the user writes.
-LessonStep Lessons::look() const {
-  LessonStep look;
-  look.colour = text(info(window_.colouring().mode()).name).toStdString();
-  look.show = window_.showMenu().chosen().toStdString();
-  if (propagation_.isShown()) {
-    look.dock = "propagation";
-    const PassPlayer* pass = propagation_.player(propagation_.chosen());
-    if (!propagation_.showsNewest() && pass != nullptr) {
-      look.candidate = std::uint32_t(pass->step());
-    }
-  }
-  return look;
-}
 
 QString Lessons::nameOf(std::string LessonStep::*which) const { return QString::fromStdString(player_.name(which)); }
 

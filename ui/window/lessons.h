@@ -14,7 +14,6 @@ class QMenu;
 namespace chainmail {
 
 class LessonBar;
-class LessonEditor;
 class MainWindow;
 class Sessions;
 struct LessonFile;
@@ -31,14 +30,6 @@ class Lessons : public QObject {
   /// Returns the bar. The window places and owns it.
   LessonBar& bar() { return *bar_; }
   LessonPlayer& player() { return player_; }
-  /// Makes a lesson from the recorded moves, for menus.
-  QAction& newLesson();
-  /// Opens the first lesson.
-  void openFirst();
-
- signals:
-  /// A lesson was opened or closed.
-  void openChanged(bool open);
 
  private:
   void open(const char* file);
@@ -53,7 +44,6 @@ class Lessons : public QObject {
   void showStep();
   void fitBefore();
   void fitAfter(bool playedOneByOne);
-  LessonStep look() const;
   void warnOfUnknownNames();
   QString nameOf(std::string LessonStep::*which) const;
   void chooseDock(const QString& name);
@@ -61,12 +51,10 @@ class Lessons : public QObject {
   QAction* tool(const QString& name) const;
 
   MainWindow& window_;
-  Propagation& propagation_;
   LessonPlayer player_;
   QAction *next_, *back_, *following_, *close_;
   LessonHandle handle_;
   bool opensAtEnd_ = false;  // true while a lesson is opened to show its last step
-  LessonEditor* editor_;     // owned by the bar
   LessonBar* bar_;
   QString dock_;                            // name of the dock that the lesson has opened
   std::optional<ColourMode> colourBefore_;  // what coloured the object before the lesson

@@ -191,8 +191,6 @@ void MainWindow::listen() {
     }
     setWindowModified(document_.isModified());
   });
-  connect(help_, &HelpMenu::lessonRequested, lessons_, &Lessons::openFirst);
-  connect(lessons_, &Lessons::openChanged, &help_->hints(), &Hints::setAside);
 }
 
 void MainWindow::listenToFiles() {
@@ -448,7 +446,6 @@ void MainWindow::makeDocks() {
                                              *editMenu_, *objectMenu_, *viewMenu_, showMenu_->menu(),
                                              [this](const QString& sentence) { showStatus(sentence); }});
   menuBar()->actions().first()->menu()->insertAction(afterFilm_, &docks_->get<ReplayDock>().exportFilm());
-  docks_->get<ReplayDock>().menu().addAction(&lessons_->newLesson());
   docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
