@@ -1,22 +1,21 @@
-// Tests that everything can be reached and done by keyboard and has a name, and that keys can be changed.
+// Tests that everything can be reached and done by keyboard and has a name, and that a page lists the keys.
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QComboBox>
-#include <QDialog>
 #include <QDockWidget>
-#include <QKeySequenceEdit>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTabBar>
 #include <QTest>
+#include <QTextBrowser>
 #include <QToolBar>
-#include <QTreeWidget>
 
 #include "window.h"
-#include "window/shortcuts.h"
+#include "window/keys_page.h"
 
 namespace chainmail::window_keyboard {
 
@@ -77,9 +76,8 @@ bool isControl(const QWidget& widget) {
   const QWidget* parent = widget.parentWidget();
   const bool part =
       qobject_cast<const QAbstractSpinBox*>(parent) != nullptr || qobject_cast<const QComboBox*>(parent) != nullptr ||
-      qobject_cast<const QKeySequenceEdit*>(parent) != nullptr || qobject_cast<const QLineEdit*>(parent) != nullptr ||
-      qobject_cast<const QAbstractItemView*>(parent) != nullptr || qobject_cast<const QTabBar*>(parent) != nullptr ||
-      widget.objectName().startsWith(QLatin1String("qt_"));
+      qobject_cast<const QLineEdit*>(parent) != nullptr || qobject_cast<const QAbstractItemView*>(parent) != nullptr ||
+      qobject_cast<const QTabBar*>(parent) != nullptr || widget.objectName().startsWith(QLatin1String("qt_"));
   return !part && (qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
                    qobject_cast<const QComboBox*>(&widget) != nullptr ||
                    qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
@@ -99,10 +97,7 @@ class WindowKeyboard : public QObject {
   Q_OBJECT
 
  private slots:
-  void init() {
-    failOnWarnings();
-    QSettings().remove(QStringLiteral("shortcuts"));
-  }
+  void init() { failOnWarnings(); }
 
   void everyActionHasANameAnEffectAndALetter() {
     Workbench bench;
@@ -128,10 +123,10 @@ class WindowKeyboard : public QObject {
   void noTwoActionsShareKeys() {
     Workbench bench;
     QMap<QKeySequence, QString> keys;
-    for (const auto& entry : Shortcuts(bench.window).entries()) {
-      for (const QKeySequence& one : entry.action->shortcuts()) {
-        QVERIFY2(!keys.contains(one), qPrintable(entry.place + QStringLiteral(" and ") + keys[one]));
-        keys[one] = entry.place;
+    for (const QAction* action : actionsOf(bench.window)) {
+      for (const QKeySequence& one : action->shortcuts()) {
+        QVERIFY2(!keys.contains(one), qPrintable(action->text() + QStringLiteral(" and ") + keys[one]));
+        keys[one] = action->text();
       }
     }
   }
@@ -213,94 +208,32 @@ class WindowKeyboard : public QObject {
     QCOMPARE(bench.place(0, 31), before);
   }
 
-  void keysAreChangedRefusedAndRemembered() {
-    {
-      Workbench bench;
-      auto* list = openList(bench);
-      auto* keys = dialog(bench)->findChild<QKeySequenceEdit*>(QStringLiteral("shortcutKeys"));
-      auto* answer = dialog(bench)->findChild<QLabel*>(QStringLiteral("shortcutAnswer"));
-      auto* fit = bench.find<QAction>("fitView");
-      search(bench, QStringLiteral("current side"));
-      QCOMPARE(visibleRows(*list), 1);
-      keys->setFocus();
-      QTest::keyClick(keys, Qt::Key_K);  // the key of Cut
-      QCOMPARE(fit->shortcut(), QKeySequence(Qt::Key_F));
-      QVERIFY2(answer->text().startsWith(QStringLiteral("K belongs to 'Edit › Cut'")), qPrintable(answer->text()));
-      QTest::keyClick(keys, Qt::Key_Shift);  // alone, it is no key of an action
-      QVERIFY(fit->shortcut() == QKeySequence(Qt::Key_F) && !answer->text().isEmpty());
-      QTest::keyClick(keys, Qt::Key_J, Qt::ControlModifier);
-      QCOMPARE(fit->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
-      QVERIFY(answer->text().isEmpty());
-      QVERIFY(fit->toolTip().contains(QStringLiteral("Ctrl+J")));
-      dialog(bench)->close();
-    }
+  void onePageListsTheKeysThatExist() {
     Workbench bench;
-    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::CTRL | Qt::Key_J));
-    openList(bench);
-    search(bench, QStringLiteral("current side"));
-    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutReset")), Qt::LeftButton);
-    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::Key_F));
-    QVERIFY(!QSettings().contains(QStringLiteral("shortcuts/fitView")));
-  }
-
-  /// Keyboards differ in the characters that need Shift.
-  void shiftThatTypesACharacterIsNotPartOfTheKeys() {
-    Workbench bench;
-    openList(bench);
-    search(bench, QStringLiteral("current side"));
-    auto* keys = dialog(bench)->findChild<QKeySequenceEdit*>(QStringLiteral("shortcutKeys"));
-    keys->setFocus();
-    QTest::keyClick(keys, Qt::Key_Exclam, Qt::ShiftModifier);
-    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::Key_Exclam));
-    QTest::keyClick(keys, Qt::Key_J, Qt::ShiftModifier);  // each keyboard has letters without it
-    QCOMPARE(bench.find<QAction>("fitView")->shortcut(), QKeySequence(Qt::SHIFT | Qt::Key_J));
-  }
-
-  void allKeysAreReset() {
-    Workbench bench;
-    auto* list = openList(bench);
-    QVERIFY(list->topLevelItemCount() > 25);
-    search(bench, QStringLiteral("scissors nobody has"));
-    QCOMPARE(visibleRows(*list), 0);
-    QVERIFY(!dialog(bench)->findChild<QKeySequenceEdit*>()->isEnabled());
-    search(bench, QStringLiteral("cut"));
-    list->setCurrentItem(list->findItems(QStringLiteral("Edit › Cut"), Qt::MatchExactly).value(0));
-    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutNone")), Qt::LeftButton);
-    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());
-    QTest::mouseClick(dialog(bench)->findChild<QAbstractButton*>(QStringLiteral("shortcutResetAll")), Qt::LeftButton);
-    QCOMPARE(bench.find<QAction>("toolCut")->shortcut(), QKeySequence(Qt::Key_K));
-    QVERIFY(QSettings().value(QStringLiteral("shortcuts/toolCut")).isNull());
-  }
-
-  void actionsThatComeLaterAreTakenInWithTheUsersKeys() {
-    QSettings().setValue(QStringLiteral("shortcuts/late"), QStringLiteral("K"));
-    Workbench bench;
-    auto* late = new QAction(QStringLiteral("Late"), &bench.window);
-    late->setObjectName(QStringLiteral("late"));
-    bench.window.addAction(late);
-    openList(bench);
-    QCOMPARE(late->shortcut(), QKeySequence(Qt::Key_K));
-    QVERIFY(bench.find<QAction>("toolCut")->shortcut().isEmpty());  // the user's key has priority
-  }
-
- private:
-  static QDialog* dialog(Workbench& bench) { return bench.find<QDialog>("shortcutsDialog"); }
-
-  static QTreeWidget* openList(Workbench& bench) {
     QTest::keyClick(&bench.window, Qt::Key_F1);
-    return QTest::qWaitForWindowActive(dialog(bench)) ? dialog(bench)->findChild<QTreeWidget*>() : nullptr;
-  }
-
-  static void search(Workbench& bench, const QString& words) {
-    dialog(bench)->findChild<QLineEdit*>(QStringLiteral("shortcutSearch"))->setText(words);
-  }
-
-  static int visibleRows(const QTreeWidget& list) {
-    int rows = 0;
-    for (int i = 0; i < list.topLevelItemCount(); ++i) {
-      rows += int(!list.topLevelItem(i)->isHidden());
+    auto* page = bench.find<QWidget>("keysPage");
+    QVERIFY(page->isVisible());
+    const auto* text = page->findChild<QTextBrowser*>();
+    QStringList rows = text->toPlainText().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
+    int listed = 0;
+    for (const QAction* action : actionsOf(bench.window)) {
+      const QString name = QString(action->text()).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+      const qsizetype at = rows.indexOf(name);
+      QVERIFY2(action->shortcut().isEmpty() ||
+                   (at > 0 && rows[at - 1].contains(action->shortcut().toString(QKeySequence::NativeText))),
+               qPrintable(name));
+      listed += action->shortcut().isEmpty() ? 0 : 1;
     }
-    return rows;
+    QVERIFY(listed > 40);
+    QVERIFY(page->screen()->availableGeometry().contains(page->frameGeometry()));
+    QCOMPARE(text->horizontalScrollBar()->maximum(), 0);
+    QTest::keyClick(page, Qt::Key_Escape);
+    QVERIFY(!page->isVisible());
+  }
+
+  void toolTipsNameTheKeys() {
+    Workbench bench;
+    QVERIFY(bench.find<QAction>("fitView")->toolTip().startsWith(QStringLiteral("Fit view (F)\nShows")));
   }
 };
 

@@ -128,16 +128,15 @@ class WindowLayout : public QObject {
     QVERIFY(more->width() >= 20);
   }
 
-  void thePropagationAndTheHintsFitOnASmallScreen() {
+  void thePropagationFitsOnASmallScreen() {
     Workbench bench;
-    bench.trigger("showHints");
     bench.trigger("showPropagation");
     bench.settle();
     for (const int width : {1180, 1060, 1024}) {  // as a mouse would: below 1200, the lists make room
       bench.window.resize(width, 768);
       bench.settle();
     }
-    QVERIFY(bench.find<QFrame>("hints")->isVisible() && bench.find<QDockWidget>("propagationDock")->isVisible());
+    QVERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
     QVERIFY2(bench.window.width() <= 1024 && bench.window.height() <= 768,
              qPrintable(QStringLiteral("%1 x %2").arg(bench.window.width()).arg(bench.window.height())));
   }

@@ -392,14 +392,13 @@ class WindowWords : public QObject {
     const Layout before = bench.window.arrangement();
     const QSize size = bench.window.size();
     const int letters = bench.find<QLabel>("state0")->fontInfo().pixelSize();
-    bench.trigger("showHints");
     bench.trigger("lectureMode");
     bench.settle();
     for (const auto* dock : bench.window.findChildren<QDockWidget*>()) {
       QVERIFY(!dock->isVisible());
     }
     auto& legend = bench.window.panel(0).legend();
-    QVERIFY(legend.height() >= 2 * legend.fontMetrics().height() && !bench.find<QFrame>("hints")->isVisible());
+    QVERIFY(legend.height() >= 2 * legend.fontMetrics().height());
     QVERIFY(!bench.find<QToolBar>("mainToolBar")->isVisible());
     auto* tool = bench.find<QLabel>("lectureTool");
     QVERIFY(tool->isVisible());
@@ -412,7 +411,6 @@ class WindowWords : public QObject {
     bench.settle();
     QVERIFY(!bench.find<QAction>("lectureMode")->isChecked());
     QVERIFY(bench.find<QToolBar>("mainToolBar")->isVisible() && !tool->isVisible());
-    QVERIFY(bench.find<QFrame>("hints")->isVisible());
     QVERIFY(bench.find<QDockWidget>("toolsDock")->isVisible());
     QTRY_COMPARE(bench.window.size(), size);
     QCOMPARE(bench.window.findChild<ViolationLine*>(QStringLiteral("violation0"))->fontInfo().pixelSize(), letters);

@@ -24,6 +24,7 @@ constexpr int elementRefreshMilliseconds = 100;
 // The hub of a star may have as many neighbours as there are elements.
 constexpr int maxRows = 200;
 constexpr int shownRows = 6;
+constexpr int idButtons = 32, widestId = 150;  // pixels
 
 void put(QTableWidget& table, int row, int column, const QString& words) {
   auto* item = table.item(row, column);
@@ -117,6 +118,8 @@ void ElementDock::arrange() {
   column->addWidget(neighbours_);
   column->addWidget(cut_);
   column->addStretch();
+  neighbours_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  neighbours_->horizontalHeader()->setStretchLastSection(true);
   const int row = neighbours_->verticalHeader()->defaultSectionSize();
   neighbours_->setFixedHeight((shownRows + 1) * row + 10);
   setWidget(new DockScroll(content));
@@ -159,6 +162,9 @@ void ElementDock::adaptToMesh() {
     const QSignalBlocker quiet(id_);
     id_->setRange(0, std::numeric_limits<int>::max());  // for ids beyond the last one, the dock shows a message
     id_->setSuffix(QStringLiteral(" (0 to %1)").arg(mesh.element_count() - 1));
+    // Qt would make room for the highest number of the range.
+    const QString longest = QString::number(mesh.element_count() - 1) + id_->suffix();
+    id_->setMinimumWidth(std::min(id_->fontMetrics().horizontalAdvance(longest) + idButtons, widestId));
   }
   QStringList columns{QString()};
   for (int k = 0; k < mesh.space_dimension; ++k) {

@@ -154,11 +154,9 @@ const std::array entries{
     DockEntry{.id = "reportDock",
               .action = "showReport",
               .title = "Report",
-              .menuText = "&Report: time against error",
               .tooltip = "Measures time per move and errors of the algorithms on this object",
               .icon = "report",
               .key = Qt::Key_E,
-              .inViewMenu = true,
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
               .floating = true,
@@ -166,11 +164,9 @@ const std::array entries{
     DockEntry{.id = "propagationDock",
               .action = "showPropagation",
               .title = "Propagation",
-              .menuText = "&Propagation, step by step",
               .tooltip = "Slow motion and single steps through a pass, with its waiting lists",
               .icon = "propagation",
               .key = Qt::Key_O,
-              .inViewMenu = true,
               .area = Qt::LeftDockWidgetArea,
               .tabbedWith = "meshDock",
               .visible = false,
@@ -195,11 +191,9 @@ const std::array entries{
     DockEntry{.id = "elementDock",
               .action = "showElement",
               .title = "Element",
-              .menuText = "&Element by its id",
               .tooltip = "Selects an element by its id, moves it by numbers, pins it, cuts its links",
               .icon = "element",
               .key = Qt::CTRL | Qt::Key_E,
-              .inViewMenu = true,
               .area = Qt::LeftDockWidgetArea,
               .tabbedWith = "meshDock",
               .visible = false,
@@ -221,7 +215,7 @@ void describe(const DockEntry& entry, QDockWidget& dock) {
   dock.setToolTip(QLatin1String(entry.tooltip));
   QAction* show = dock.toggleViewAction();
   show->setObjectName(QLatin1String(entry.action));
-  show->setText(QLatin1String(entry.menuText != nullptr ? entry.menuText : entry.title));
+  show->setText(QLatin1String(entry.title));
   show->setStatusTip(QLatin1String(entry.tooltip));
   show->setIcon(icon(entry.icon));
   show->setShortcut(entry.key);
@@ -257,13 +251,8 @@ Docks::Docks(const DockParts& parts) : window_(parts.window) {
 }
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
-  const qsizetype end = parts.viewMenu.actions().size();
   QDockWidget* dock = entry.make(parts, *this);
   describe(entry, *dock);
-  if (entry.inViewMenu) {
-    parts.viewMenu.insertAction(parts.viewMenu.actions().value(end),
-                                dock->toggleViewAction());  // before the dock's own actions
-  }
   window_.addDockWidget(entry.area, dock);
   if (entry.tabbedWith != nullptr) {
     raiseWhenShown(*dock);

@@ -50,13 +50,11 @@ struct DockParts {
 /// An entry of the table of all docks, which is in docks.cpp.
 struct DockEntry {
   const char* id;      // object name: identifies the dock in stored layouts, so it must not change
-  const char* action;  // object name of the action that shows the dock: identifies it in stored shortcuts
+  const char* action;  // object name of the action that shows the dock: identifies it for scripts and tests
   const char* title;
-  const char* menuText = nullptr;  // null: the title
-  const char* tooltip;             // what the dock shows or does
+  const char* tooltip;  // what the dock shows or does
   const char* icon;
   QKeySequence key = {};
-  bool inViewMenu = false;  // the action is also an entry of the View menu, not only of the Docks menu
   Qt::DockWidgetArea area;
   const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
   bool visible = true;               // visible at the first start

@@ -2,7 +2,7 @@
 
 #include <QCoreApplication>
 #include <QEvent>
-#include <QThread>
+#include <algorithm>
 #include <cmath>
 
 namespace chainmail {
@@ -14,8 +14,6 @@ constexpr double swing = 5.2;         // seconds per period, horizontal
 constexpr double rise = 3.4;          // seconds per period, vertical
 constexpr double beginning = 2;       // seconds until the full amplitude
 constexpr double reachInLinks = 3.5;  // horizontal amplitude in mean link lengths; the vertical one is 0.6 of it
-constexpr int restPatience = 200;     // milliseconds to wait for frames at rest
-constexpr double asGood = 1e-6;       // tolerance of a position at rest, relative to the amplitude
 
 bool isTouch(const QEvent& event) {
   switch (event.type()) {
@@ -79,23 +77,6 @@ void ExampleDrag::stop() {
   document_.undoStack().clear();
   document_.moves().forget();
   document_.highlight().set({});
-  // The press that ends the example must find the object at rest.
-  QElapsedTimer waited;
-  waited.start();
-  while (!showsRest() && waited.elapsed() < restPatience) {
-    QThread::msleep(1);
-    QCoreApplication::sendPostedEvents(&document_.solvers(), QEvent::MetaCall);  // delivers frames, but no user input
-  }
-}
-
-bool ExampleDrag::showsRest() const {
-  for (int panel = 0; panel < document_.panels(); ++panel) {
-    const Frame* frame = document_.solvers().frame(panel);
-    if (frame == nullptr || (point_of(*frame->mesh, frame->view(), element_) - from_).norm() > asGood * reach_) {
-      return false;
-    }
-  }
-  return true;
 }
 
 bool ExampleDrag::eventFilter(QObject* /*watched*/, QEvent* event) {

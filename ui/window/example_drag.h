@@ -9,7 +9,8 @@
 namespace chainmail {
 
 /// An animated drag that shows the object in motion on the first start. It ends before the first press of a button or
-/// key takes effect, or after 40 s. Then the object is exactly at rest, without an undo step or a last drag.
+/// key takes effect, or after 40 s. For the solvers, the object is then exactly at rest, without an undo step or a last
+/// drag; the views show it with their next frame.
 class ExampleDrag : public QObject {
   Q_OBJECT
 
@@ -27,7 +28,6 @@ class ExampleDrag : public QObject {
 
  private:
   void move();
-  bool showsRest() const;
 
   Document& document_;
   ElementId element_ = 0;

@@ -1,6 +1,7 @@
 #include "window/help_menu.h"
 
 #include <QMainWindow>
+#include <QSettings>
 #include <QTimer>
 
 #include "common/icons.h"
@@ -9,67 +10,49 @@ namespace chainmail {
 namespace {
 
 constexpr int exampleDelay = 300;  // milliseconds
+const QString welcomedKey = QStringLiteral("hintsSeen");
+
+/// Shows a window in front, which is made on first use.
+template <class Window>
+void present(Window*& window, QMainWindow& parent) {
+  if (window == nullptr) {
+    window = new Window(&parent);
+  }
+  window->show();
+  window->raise();
+  window->activateWindow();
+}
 
 }  // namespace
 
 HelpMenu::HelpMenu(QMainWindow& window, Document& document)
-    : QObject(&window), window_(window), shortcuts_(window), example_(document, nullptr), hints_(new Hints) {
-  connect(hints_, &Hints::lessonRequested, this, &HelpMenu::lessonRequested);
-}
+    : QObject(&window), window_(window), example_(document, nullptr) {}
 
 void HelpMenu::fill(QMenu& menu) {
-  auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, &HelpMenu::showManual);
+  auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, [this] { present(manual_, window_); });
   manual->setObjectName(QStringLiteral("showManual"));
   manual->setShortcut(Qt::CTRL | Qt::Key_F1);
   manual->setStatusTip(QStringLiteral("Opens the manual: a tour, the algorithms, results, files and the command line"));
-  auto* keys = menu.addAction(QStringLiteral("&Keyboard shortcuts…"), this, &HelpMenu::showShortcuts);
+  auto* keys = menu.addAction(QStringLiteral("&Keys"), this, [this] { present(keys_, window_); });
   keys->setObjectName(QStringLiteral("showShortcuts"));
   keys->setShortcut(QKeySequence::HelpContents);
-  keys->setStatusTip(QStringLiteral("Lists all actions with their keys and effects; keys can be changed"));
-  auto* again = menu.addAction(QStringLiteral("Show &hints"), hints_, &Hints::present);
-  again->setObjectName(QStringLiteral("showHints"));
-  again->setStatusTip(QStringLiteral("Shows the three hints of the first start"));
+  keys->setStatusTip(QStringLiteral("Lists all keys on one page, by task"));
   menu.addSeparator();
-  auto* about = menu.addAction(QStringLiteral("&About ChainMail workbench"), this, &HelpMenu::showAbout);
+  auto* about =
+      menu.addAction(QStringLiteral("&About ChainMail workbench"), this, [this] { present(about_, window_); });
   about->setObjectName(QStringLiteral("showAbout"));
   about->setStatusTip(QStringLiteral("Shows version, licences, Qt and OpenGL as text that can be copied"));
 }
 
 bool HelpMenu::welcome() {
-  if (Hints::seen()) {
+  QSettings settings;
+  if (settings.value(welcomedKey).toBool()) {
     return false;
   }
-  hints_->present();
-  // The views fit the object when the hints and the legends have their places, but not during a drag.
+  settings.setValue(welcomedKey, true);
+  // The views fit the object when the legends have their places, but not during a drag.
   QTimer::singleShot(exampleDelay, &example_, &ExampleDrag::start);
   return true;
-}
-
-void HelpMenu::showManual() {
-  if (manual_ == nullptr) {
-    manual_ = new ManualWindow(&window_);
-  }
-  manual_->show();
-  manual_->raise();
-  manual_->activateWindow();
-}
-
-void HelpMenu::showAbout() {
-  if (about_ == nullptr) {
-    about_ = new AboutDialog(&window_);
-  }
-  about_->show();
-  about_->raise();
-  about_->activateWindow();
-}
-
-void HelpMenu::showShortcuts() {
-  if (dialog_ == nullptr) {
-    dialog_ = new ShortcutsDialog(shortcuts_, &window_);
-  }
-  dialog_->show();
-  dialog_->raise();
-  dialog_->activateWindow();
 }
 
 }  // namespace chainmail

@@ -32,14 +32,13 @@ void collect(const QList<QAction*>& actions, QList<QAction*>& all) {
 
 }  // namespace
 
-LectureMode::LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools, QWidget& hints)
+LectureMode::LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools)
     : QObject(&window),
       window_(window),
       area_(window.area()),
       propagation_(propagation),
       tools_(tools),
       tool_(new QLabel),
-      hints_(hints),
       action_(new QAction(QStringLiteral("Lecture mode"), this)) {
   action_->setObjectName(QStringLiteral("lectureMode"));
   action_->setCheckable(true);
@@ -71,8 +70,6 @@ void LectureMode::enter() {
   }
   nameTool();
   tool_->show();
-  hadHints_ = hints_.isVisible();
-  hints_.hide();
   area_.setLecture(true);
   hideMenus();
   enlargeTexts();
@@ -147,7 +144,6 @@ void LectureMode::restore() {
     bar->setVisible(before_.toolBar);
   }
   window_.docks().apply(before_);
-  hints_.setVisible(hadHints_);
   propagation_.setHeld(false);
   area_.setLecture(false);
 }

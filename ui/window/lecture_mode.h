@@ -23,7 +23,7 @@ class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools, QWidget& hints);
+  LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools);
 
   /// The switch for the menu.
   QAction& action() { return *action_; }
@@ -47,8 +47,6 @@ class LectureMode : public QObject {
   Propagation& propagation_;
   const QActionGroup& tools_;
   QLabel* tool_;
-  QWidget& hints_;
-  bool hadHints_ = false;
   QAction* action_;
   Layout before_;
   QFont font_;

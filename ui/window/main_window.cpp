@@ -47,6 +47,7 @@
 #include "window/docks.h"
 #include "window/help_menu.h"
 #include "window/job_bar.h"
+#include "window/keys_page.h"
 #include "window/lecture_mode.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
@@ -106,7 +107,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
       toolActions_(new QActionGroup(this)),
-      lecture_(new LectureMode(*this, propagation_, *toolActions_, help_->hints())),
+      lecture_(new LectureMode(*this, propagation_, *toolActions_)),
       lessons_(new Lessons(*this, propagation_, *sessions_)),
       colourBy_(new ColourSelector(colouring_)),
       colourRange_(new ColourRangeMenu(colouring_, this)),
@@ -122,7 +123,7 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
   lessons_->fill(*help);
   help_->fill(*help);
   completeMenus(*menuBar());
-  help_->shortcuts().adopt();
+  showKeysInToolTips(*this);
   showTitle();
   restoreLayout();
   activate(dragTool_);
@@ -154,7 +155,6 @@ void MainWindow::arrange() {
   column->addWidget(area_, 1);
   column->addWidget(&lessons_->bar());
   auto* bars = new BarsOverViews(*area_);
-  bars->add(help_->hints());
   bars->add(*messages_);
   setCentralWidget(central);
   statusBar()->addWidget(readout_, 1);
@@ -265,7 +265,6 @@ void MainWindow::cancelCurrent() {
     measurement_.clear();
   }
   messages_->dismiss();
-  help_->dismissHints();
   area_->refresh();
 }
 
@@ -490,7 +489,13 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
 
-void MainWindow::welcome() { help_->welcome(); }
+void MainWindow::welcome() {
+  if (help_->welcome()) {
+    messages_->note(
+        QStringLiteral("Drag an element in any panel: all algorithms respond, side by side. F1 lists the keys; Help > "
+                       "Lessons has short lessons."));
+  }
+}
 
 void MainWindow::showStatus(const QString& sentence) { statusBar()->showMessage(sentence, statusMilliseconds); }
 

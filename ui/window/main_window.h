@@ -69,7 +69,7 @@ class MainWindow : public QMainWindow {
   void openFile(const QString& path, bool first = false);
   /// Keeps unsaved work for the next start, without questions. Returns why not, or an empty text.
   QString keepWork();
-  /// Shows an example and hints on the first start. Called if the window starts without a file.
+  /// Shows an example on the first start. Called if the window starts without a file.
   void welcome();
 
  protected:

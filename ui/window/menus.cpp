@@ -42,8 +42,7 @@ constexpr std::array actionIcons{ActionIcon{"openFile", "open"},
                                  ActionIcon{"showValidRegions", "region"},
                                  ActionIcon{"savePreset", "save"},
                                  ActionIcon{"deletePreset", "close"},
-                                 ActionIcon{"showShortcuts", "keyboard"},
-                                 ActionIcon{"showHints", "hints"}};
+                                 ActionIcon{"showShortcuts", "keyboard"}};
 
 // By the text of the submenu.
 constexpr std::array submenuIcons{ActionIcon{"Open recent", "history"},

@@ -26,7 +26,8 @@ struct OldSetting {
 };
 // Settings of earlier versions, which have no meaning any more. Those without a name go with another one.
 constexpr std::array oldSettings{OldSetting{"layout", "the layout of the docks"}, OldSetting{"geometry", nullptr},
-                                 OldSetting{"folds", nullptr}, OldSetting{"matcapShading", "matcap shading"}};
+                                 OldSetting{"folds", nullptr}, OldSetting{"matcapShading", "matcap shading"},
+                                 OldSetting{"shortcuts", "keys of your own"}};
 
 bool isRunning(const QString& process) {
   const pid_t id = process.toInt();

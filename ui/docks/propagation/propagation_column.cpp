@@ -68,7 +68,7 @@ void PropagationColumn::makeList() {
   list_->setModel(&model_);
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
-  list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // the lists share the room that there is
   list_->setMinimumHeight(smallestList);
   list_->setAllColumnsShowFocus(true);
   list_->setTextElideMode(Qt::ElideNone);  // a number with missing digits would be another number
