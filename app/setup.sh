@@ -14,7 +14,7 @@ build_packages=(
 format_version=14
 # Needed to show a window on a minimal machine: a software driver for OpenGL, and fonts.
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
-test_packages=(librapidcheck-dev xvfb jwm ffmpeg clang-format doxygen python3 python3-jsonschema)
+test_packages=(librapidcheck-dev xvfb jwm ffmpeg clang-format doxygen python3 python3-jsonschema zsh fish)
 check_packages=(clang-tidy python3)
 # The Python module, its tests and its pages.
 python_packages=(pybind11-dev python3-dev python3-numpy)

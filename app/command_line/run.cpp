@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "command_line/common.h"
+#include "command_line/completion.h"
 #include "version/version.h"
 
 namespace chainmail::command_line {
@@ -100,9 +101,9 @@ void run(int argc, char** argv) {
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
   const std::vector<Command> commands{
-      add_generate(root),  add_convert(root), add_fill(root),   add_repair(root),
-      add_simplify(root),  add_info(root),    add_deform(root), add_compare(root, as_typed(argc, argv)),
-      add_calibrate(root), add_ramp(root)};
+      add_generate(root),  add_convert(root), add_fill(root),      add_repair(root),
+      add_simplify(root),  add_info(root),    add_deform(root),    add_compare(root, as_typed(argc, argv)),
+      add_calibrate(root), add_ramp(root),    add_completion(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }
