@@ -39,14 +39,6 @@ class WindowAlgorithm : public QObject {
     QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
   }
 
-  void whereItDoesNotWorkItIsRefused() {
-    Workbench bench(cloth());
-    edits::setAlgorithm(bench.document(), 0, Algorithm::chainmail_3d);
-    QCOMPARE(bench.document().algorithm(0), Algorithm::generalized);
-    QVERIFY(bench.window.messages().isVisible());
-    QCOMPARE(bench.window.panel(0).selector().currentText(), QStringLiteral("Generalized ChainMail"));
-  }
-
   void theSelectorFollowsWhatRunsOnAnotherMesh() {
     Workbench bench;
     bench.choose(0, "3D ChainMail");
@@ -62,21 +54,6 @@ class WindowAlgorithm : public QObject {
     bench.settle();
     // The selector shows the algorithm that runs, for any mesh.
     QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, bench.document().algorithm(0));
-  }
-
-  void everyAlgorithmDeformsAGrid_data() {
-    QTest::addColumn<QByteArray>("label");
-    for (const auto& info : algorithms()) {
-      QTest::newRow(info.name.data()) << QByteArray(info.label.data());
-    }
-  }
-  void everyAlgorithmDeformsAGrid() {
-    QFETCH(QByteArray, label);
-    Workbench bench;
-    bench.choose(1, label.constData());
-    const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(150, -150)});
-    QVERIFY(bench.position(1, 32) != bench.document().mesh()->rest_position(32));
   }
 
   void exactStopsWhereThePinsHoldTheHandAndSaysSo() {

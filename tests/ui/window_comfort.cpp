@@ -118,69 +118,6 @@ class WindowComfort : public QObject {
     QVERIFY2(any >= 9.5, qPrintable(QString::number(any)));
   }
 
-  /// Unlit, and with links that are long in the view. In space, links are edges of faces; in a plane, lines.
-  void linksOfEveryAlgorithmStandOut() {
-    const auto cloth = generate({MeshKind::cloth, {3, 3, 1}, 1, 3}),
-               grid = generate({MeshKind::grid, {3, 3, 1}, 1, {}});
-    for (const Ground ground : {Ground::dark, Ground::light}) {
-      applyGround(ground);
-      for (const AlgorithmInfo& one : every_algorithm()) {
-        const ObjectDrawing::Paint paint{algorithmColour(one.algorithm), nullptr, {}};
-        const QColor face = ObjectDrawing::faceColour(*cloth, paint),
-                     edge = ObjectDrawing::linkColour(*cloth, paint, 20);
-        const auto over = [&](float of, float on) { return edge.alphaF() * of + (1 - edge.alphaF()) * on; };
-        const QColor seen = QColor::fromRgbF(over(edge.redF(), face.redF()), over(edge.greenF(), face.greenF()),
-                                             over(edge.blueF(), face.blueF()));
-        QVERIFY2(contrastOf(seen, face) >= ofMarks, qPrintable(QString::fromUtf8(one.name.data())));
-        QVERIFY(contrastOf(ObjectDrawing::linkColour(*grid, paint, 20), colours::background) >= ofMarks);
-      }
-    }
-  }
-
-  /// Many short links would cover an object, but those of a line have no neighbours.
-  void shortLinksAreFainter() {
-    const auto opacity = [](const MeshPointer& mesh, double pixels) {
-      return ObjectDrawing::linkColour(*mesh, {QColor(Qt::white), nullptr, {}}, pixels).alphaF();
-    };
-    for (const auto& mesh :
-         {generate({MeshKind::cloth, {3, 3, 1}, 1, 3}), generate({MeshKind::grid, {3, 3, 1}, 1, {}})}) {
-      QVERIFY(opacity(mesh, 5) < 0.75F * opacity(mesh, 20));
-    }
-    const auto line = generate({MeshKind::line, {5, 1, 1}, 1, {}});
-    QCOMPARE(opacity(line, 2), 1.0F);
-  }
-
-  /// The style's own have a contrast of 2.7.
-  void buttonsOfDocksHaveOurIcons() {
-    Workbench bench;
-    const auto docks = bench.window.findChildren<QDockWidget*>();
-    QVERIFY(!docks.isEmpty());
-    for (const QDockWidget* dock : docks) {
-      for (const auto& [button, name] :
-           {std::pair("qt_dockwidget_closebutton", "close"), {"qt_dockwidget_floatbutton", "float"}}) {
-        QCOMPARE(dock->findChild<QAbstractButton*>(QLatin1String(button))->icon().name(), QLatin1String(name));
-      }
-    }
-  }
-
-  void panelsWithOneAlgorithmHaveShadesOfItsColour() {
-    Workbench bench;
-    Document& document = bench.document();
-    QCOMPARE(panelColour(document, 0).on(Ground::light), algorithmColour(Algorithm::generalized).on(Ground::light));
-    edits::setAlgorithm(document, 0, Algorithm::exact);
-    edits::setAlgorithm(document, 1, Algorithm::exact);
-    bench.settle();
-    for (const Ground ground : {Ground::dark, Ground::light}) {
-      const QColor first = panelColour(document, 0).on(ground), second = panelColour(document, 1).on(ground);
-      QCOMPARE(first, algorithmColour(Algorithm::exact).on(ground));
-      QVERIFY(std::abs(first.lightness() - second.lightness()) > 15);
-    }
-    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(panelColour(document, 1)).name()));
-    document.undoStack().undo();
-    bench.settle();
-    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QColor(algorithmColour(document.algorithm(1))).name()));
-  }
-
   void themeChangesAtOnceAndIsRemembered() {
     Workbench bench;
     const auto seen = [&](int panel) { return bench.view(panel).grabFramebuffer().pixelColor(3, 3); };
@@ -196,25 +133,6 @@ class WindowComfort : public QObject {
     bench.settle();
     QCOMPARE(seen(0), colours::background.on(Ground::dark));
     QCOMPARE(rememberedGround(), Ground::dark);
-  }
-
-  void everyIconIsDrawnInThePalettesColoursAtAnyScale() {
-    for (const QString& name : iconNames()) {
-      const QIcon one = icon(qPrintable(name));
-      for (const double ratio : {1.0, 1.25, 2.0}) {
-        const QImage picture = one.pixmap(QSize(16, 16), ratio).toImage();
-        QCOMPARE(picture.size(), QSize(16, 16) * ratio);
-        QVERIFY2(inked(picture) > 8 * ratio, qPrintable(name));
-        const QRect inner = picture.rect().adjusted(1, 1, -1, -1);
-        QVERIFY2(inked(picture.copy(inner)) > 0, qPrintable(name));
-      }
-    }
-    QVERIFY(icon("no such icon").isNull());
-    const QIcon any = icon("fit");
-    QVERIFY(any.pixmap(QSize(0, 16)).isNull());  // no space in a narrow dock
-    const QImage dark = any.pixmap(QSize(16, 16), 1.0).toImage();
-    applyGround(Ground::light);
-    QVERIFY(any.pixmap(QSize(16, 16), 1.0).toImage() != dark);
   }
 
   /// Otherwise the next click would hit something else.
@@ -270,33 +188,6 @@ class WindowComfort : public QObject {
     QTest::mouseClick(bench.find<QToolButton>("dismissAll"), Qt::LeftButton);
     QVERIFY(!bar.isVisible());
     QCOMPARE(bar.count(), 0);
-  }
-
-  void wordsOfALineStandBesideItHoweverItSlants() {
-    const QFontMetricsF font{QFont()};
-    const QSizeF view(600, 400);
-    for (int degrees = 0; degrees < 360; degrees += 15) {
-      QLineF line(300, 200, 450, 200);
-      line.setAngle(degrees);
-      const QRectF box = annotationBox({line, QStringLiteral("12.5 (× 1.250)\ndx 3, dy 4")}, font, view);
-      QVERIFY(QRectF({}, view).contains(box));
-      for (int i = 0; i <= 100; ++i) {
-        QVERIFY2(!box.contains(line.pointAt(i / 100.0)), qPrintable(QString::number(degrees)));
-      }
-    }
-  }
-
-  void messagesAreReadOnEitherGround() {
-    for (const Ground ground : {Ground::dark, Ground::light}) {
-      applyGround(ground);
-      const QColor words = QApplication::palette().color(QPalette::WindowText);
-      for (const auto& [behind, sign] :
-           {std::pair(colours::infoGround, colours::infoSign), std::pair(colours::warningGround, colours::warningSign),
-            std::pair(colours::errorGround, colours::errorSign)}) {
-        QVERIFY(contrastOf(words, behind) >= ofText);
-        QVERIFY(contrastOf(sign, behind) >= ofMarks);
-      }
-    }
   }
 
   void firstStartShowsAnExampleThatLeavesNothingBehind() {

@@ -2,8 +2,6 @@
 
 #include <QLabel>
 #include <QSlider>
-#include <QToolButton>
-#include <QWheelEvent>
 
 #include "document/edits.h"
 #include "document/panel_colour.h"
@@ -81,27 +79,6 @@ class WindowCompare : public QObject {
     QVERIFY(fromMark(bench, 0, 12) < alike);
   }
 
-  void eachPanelMayHaveItsOwnRange() {
-    Workbench bench;
-    bench.choose(1, "Exact ChainMail");  // it has no violation
-    edits::setPinned(bench.document(), {40}, true);
-    bench.dragFar();
-    bench.trigger("colourBy-violation");
-    double largest = 0;
-    for (LinkId link = 0; link < bench.document().mesh()->link_count(); ++link) {
-      largest = std::max(largest, violationOf(bench, 0, link));
-    }
-    QVERIFY(largest > 0.5);
-    const auto highest = [&](int p) { return bench.window.panel(p).legend().highest(); };
-    const auto shown = [](double value) { return QLocale().toString(value, 'g', 3); };
-    QTRY_COMPARE(highest(1), shown(largest));
-    bench.trigger("linkColours");
-    QTRY_COMPARE(highest(1), shown(1e-4));
-    QCOMPARE(highest(0), shown(largest));
-    bench.trigger("linkColours");
-    QTRY_COMPARE(highest(1), shown(largest));
-  }
-
   void violationsAreSubtracted() {
     Workbench bench;
     edits::setPinned(bench.document(), {40}, true);
@@ -161,27 +138,6 @@ class WindowCompare : public QObject {
     bench.chooseGhost(0, QStringLiteral("No ghost"));
     QCOMPARE(bench.view(0).grabFramebuffer(), own);
     QVERIFY(!bench.find<QAction>("ghosts")->isChecked());
-  }
-
-  void ghostsFollowTheOtherPanelAndCuts() {
-    Workbench bench(generate({MeshKind::tetra, {5, 4, 3}, 1, {}}));
-    bench.trigger("ghosts");
-    bench.settle();
-    const QImage before = bench.view(0).grabFramebuffer();
-    edits::cut(bench.document(), {0, 1, 2, 3});
-    bench.dragFar();
-    QVERIFY(bench.view(0).grabFramebuffer() != before);
-    edits::replaceMesh(bench.document(), generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
-                       QStringLiteral("build"));
-    bench.settle();
-    QVERIFY(bench.view(1).ghost().of == 0);
-    bench.trigger("ghosts");
-    QVERIFY(!bench.view(1).ghost().of);
-    bench.settle();
-    const QImage without = bench.view(0).grabFramebuffer();
-    bench.trigger("ghosts");  // uploads the ghosts to the graphics card again
-    bench.settle();
-    QVERIFY(bench.view(0).grabFramebuffer() != without);
   }
 };
 

@@ -1,6 +1,5 @@
 // Tests the cut tool in a real window.
 
-#include <QDoubleSpinBox>
 #include <QLabel>
 
 #include "common/colours.h"
@@ -61,19 +60,6 @@ class WindowCut : public QObject {
     }
   }
 
-  void escapeGivesTheStrokeUp() {
-    Workbench bench;
-    bench.trigger("toolCut");
-    const auto places = strokeBetweenColumns(bench);
-    bench.stroke(0, places, false);
-    QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QVERIFY(bench.document().highlight().marks().links.empty());
-    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
-    bench.settle();
-    QCOMPARE(bench.document().cuts().count(), 0U);
-    QVERIFY(!bench.document().undoStack().canUndo());
-  }
-
   void cutsAreUndoneAndRedone() {
     Workbench bench;
     bench.trigger("toolCut");
@@ -131,15 +117,6 @@ class WindowCut : public QObject {
     QCOMPARE(picture(), patched);
   }
 
-  void keysChooseTheTool() {
-    Workbench bench;
-    QTest::keyClick(&bench.window, Qt::Key_K);
-    QVERIFY(bench.find<QAction>("toolCut")->isChecked());
-    QCOMPARE(bench.view(1).cursor().shape(), Qt::CrossCursor);
-    QTest::keyClick(&bench.window, Qt::Key_D);
-    QVERIFY(bench.find<QAction>("toolDrag")->isChecked());
-  }
-
   void undoInMidStrokeGivesTheStrokeUp() {
     Workbench bench;
     edits::replaceMesh(bench.document(), generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
@@ -154,25 +131,6 @@ class WindowCut : public QObject {
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
     bench.settle();
     QCOMPARE(bench.document().cuts().count(), 0U);
-  }
-
-  void aClickInAViewTakesTheKeysFromAField() {
-    Workbench bench;
-    auto* field = bench.find<QDoubleSpinBox>("shearSpin");
-    field->setFocus();
-    QTRY_COMPARE(QApplication::focusWidget(), field);
-    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, QPoint(4, 4));
-    QCOMPARE(QApplication::focusWidget(), &bench.view(0));
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_K);
-    QVERIFY(bench.find<QAction>("toolCut")->isChecked());
-  }
-
-  void cuttingTwiceCutsNothingTwice() {
-    Workbench bench;
-    bench.trigger("toolCut");
-    bench.stroke(0, strokeBetweenColumns(bench));
-    bench.stroke(0, strokeBetweenColumns(bench));
-    QCOMPARE(bench.document().undoStack().count(), 1);
   }
 };
 

@@ -1,9 +1,7 @@
 // Tests exact work in a real window: figures of the element under the cursor, views along the axes, distances, and
 // elements that are selected and moved by numbers.
 
-#include <QComboBox>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTableWidget>
@@ -36,20 +34,6 @@ void pick(Workbench& bench, int id) {
   bench.settle();
 }
 
-void type(Workbench& bench, const char* field, double value) {
-  auto* edit = bench.find<QLineEdit>(field);
-  edit->setText(edit->locale().toString(value));
-}
-
-/// Presses Move and waits for the end of the last step.
-void move(Workbench& bench) {
-  QPushButton* button = bench.find<QPushButton>("moveElement");
-  QVERIFY(button->isEnabled());
-  button->click();
-  QTRY_VERIFY(bench.document().handle().held().empty());
-  bench.settle();
-}
-
 }  // namespace
 
 class WindowExact : public QObject {
@@ -76,34 +60,6 @@ class WindowExact : public QObject {
     QVERIFY2(text.indexOf(QStringLiteral("<b>B</b>")) < text.indexOf(QStringLiteral("A: ")), qPrintable(text));
     QTest::mouseMove(&bench.view(1), QPoint(2, 2));
     QTRY_VERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
-  }
-
-  void aNarrowWindowLeavesOutTheSoftnessAndThenOtherPanels() {
-    Workbench bench;
-    auto* label = bench.find<QLabel>("readout");
-    const auto shown = [&](int width) {
-      label->resize(width, label->height());
-      bench.document().highlight().set({});
-      bench.document().highlight().set({middle, false, {}});
-      return readout(bench);
-    };
-    QVERIFY(shown(2000).contains(QStringLiteral("compression")));
-    const QString fewer = shown(500);
-    QVERIFY(fewer.contains(QStringLiteral("B: ")) && fewer.contains(QStringLiteral("links")));
-    QVERIFY(!fewer.contains(QStringLiteral("compression")));
-    const QString fewest = shown(300);
-    QVERIFY(fewest.contains(QStringLiteral("x 4, y 3")) && !fewest.contains(QStringLiteral("B: ")));
-  }
-
-  void theFiguresFollowADragByAnotherHand() {
-    Workbench bench;
-    bench.document().highlight().set({middle, false, {}});
-    const QString before = readout(bench);
-    bench.document().handle().grab(middle);
-    bench.document().handle().drag({4, -5, 0});
-    QTRY_VERIFY(readout(bench).contains(QStringLiteral("y -5")));
-    bench.document().handle().release();
-    QVERIFY(readout(bench) != before);
   }
 
   void looksAlongTheAxes_data() {
@@ -137,24 +93,6 @@ class WindowExact : public QObject {
     }
   }
 
-  void byParallelRaysTheFrontElementIsPicked() {
-    Workbench bench(block());
-    bench.trigger("parallelRays");
-    bench.trigger("viewFront");
-    const QPointF at = bench.view(0).viewPosition(5);  // 21, 37 and 53 are at the same position, nearer to the viewer
-    QCOMPARE(bench.view(0).search().elementAt(at), std::optional<ElementId>(53));
-    bench.trigger("viewBack");
-    QCOMPARE(bench.view(0).search().elementAt(bench.view(0).viewPosition(5)), std::optional<ElementId>(5));
-  }
-
-  void aPlaneObjectHasNoOtherSides() {
-    Workbench bench;
-    QVERIFY(!bench.find<QAction>("viewTop")->isEnabled());
-    QVERIFY(bench.find<QAction>("viewTop")->toolTip().contains(QStringLiteral("in 2D")));
-    edits::replaceMesh(bench.document(), block(), QStringLiteral("block"), QStringLiteral("build"));
-    QVERIFY(bench.find<QAction>("viewTop")->isEnabled());
-  }
-
   void aDoubleClickRecentresAndLeavesNoDragBehind() {
     for (const auto& mesh : {generate({MeshKind::grid, {9, 7, 1}, 1, {}}), block()}) {
       Workbench bench(mesh);
@@ -175,15 +113,6 @@ class WindowExact : public QObject {
       bench.settle();
       QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     }
-  }
-
-  void withThePinToolADoubleClickIsTwoClicks() {
-    Workbench bench;
-    bench.trigger("toolPin");
-    const QPoint at = bench.place(0, middle);
-    doubleClick(bench.view(0), at);
-    QVERIFY(bench.document().pins().empty());  // the first click pinned, the second unpinned
-    QCOMPARE(bench.place(0, middle), at);
   }
 
   void aDistanceIsMeasuredAndStaysWithTheElements() {
@@ -214,38 +143,6 @@ class WindowExact : public QObject {
     QVERIFY(readout(bench).contains(QStringLiteral("Left: drag an element")));
   }
 
-  /// The measured distance and the position of an element are shown for each panel.
-  void eachPanelHasItsOwnFigures() {
-    Workbench bench;
-    bench.choose(1, "Exact ChainMail");
-    edits::setPinned(bench.document(), {0}, true);
-    bench.dragFar();
-    constexpr ElementId from = 0, to = 22;
-    const auto apart = [&](int panel) { return (bench.position(panel, to) - bench.position(panel, from)).norm(); };
-    QVERIFY(figure(apart(0)) != figure(apart(1)));
-    bench.trigger("toolMeasure");
-    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, bench.place(0, from));
-    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, bench.place(0, to));
-    for (int panel = 0; panel < 2; ++panel) {
-      const QString own = QStringLiteral("%1: <b>%2</b>").arg(QLatin1Char("AB"[panel])).arg(figure(apart(panel)));
-      QVERIFY2(readout(bench).contains(own), qPrintable(readout(bench)));
-    }
-
-    bench.document().selection().set({to});
-    bench.find<QDockWidget>("elementDock")->show();
-    bench.settleFigures();
-    const auto* positions = bench.find<QTableWidget>("elementPositions");
-    const auto row = [&](int number) {
-      return QStringList{positions->item(number, 0)->text(), positions->item(number, 1)->text(),
-                         positions->item(number, 2)->text()};
-    };
-    QCOMPARE(row(0), (QStringList{QStringLiteral("rest"), QStringLiteral("4"), QStringLiteral("2")}));
-    for (int panel = 0; panel < 2; ++panel) {
-      const Point at = bench.position(panel, to);
-      QCOMPARE(row(panel + 1), (QStringList{QString(QLatin1Char("AB"[panel])), figure(at.x()), figure(at.y())}));
-    }
-  }
-
   void anElementIsPickedByItsId() {
     Workbench bench;
     QTest::keyClick(&bench.window, Qt::Key_E, Qt::ControlModifier);
@@ -269,54 +166,6 @@ class WindowExact : public QObject {
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 2);
     bench.document().selection().set({});
     QVERIFY(!bench.find<QPushButton>("moveElement")->isEnabled());
-  }
-
-  void anElementIsMovedToNumbersInStepsAsOneDrag() {
-    Workbench bench;
-    pick(bench, middle);
-    type(bench, "moveX", 4.25);
-    type(bench, "moveY", -2.5);
-    bench.find<QSpinBox>("moveSteps")->setValue(4);
-    move(bench);
-    for (int p = 0; p < 2; ++p) {
-      QCOMPARE(bench.position(p, middle), Point(4.25, -2.5, 0));
-      QCOMPARE(bench.document().solvers().frame(p)->statistics.passes, 4U);
-    }
-    std::vector<Command> drag = bench.document().moves().history().commands();  // recorded like a drag with the mouse
-    drag.erase(drag.begin(), drag.begin() + std::ptrdiff_t(bench.document().moves().history().start()));
-    QCOMPARE(drag.size(), 6U);
-    drag.pop_back();  // the Release command
-    QCOMPARE(std::get<commands::Grab>(drag.front()).elements, std::vector<ElementId>{middle});
-    QCOMPARE(std::get<commands::Drag>(drag.back()).target, Point(4.25, -2.5, 0));
-    QCOMPARE(std::get<commands::Drag>(drag[2]).target, Point(4.125, 0.25, 0));
-
-    bench.find<QComboBox>("moveHow")->setCurrentIndex(1);
-    type(bench, "moveX", -0.25);
-    type(bench, "moveY", 1);
-    move(bench);
-    QCOMPARE(bench.position(0, middle), Point(4, -1.5, 0));
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.position(1, middle), Point(4.25, -2.5, 0));
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.position(1, middle), bench.document().mesh()->rest_position(middle));
-  }
-
-  void aMoveByNumbersIsStopped() {
-    Workbench bench;
-    pick(bench, middle);
-    type(bench, "moveY", 40);
-    bench.find<QSpinBox>("moveSteps")->setValue(1000);
-    auto* button = bench.find<QPushButton>("moveElement");
-    button->click();
-    QVERIFY(button->text().contains(QStringLiteral("of 1000")));  // at once, because the first step may take long
-    QTRY_VERIFY(bench.document().solvers().frame(0)->statistics.passes > 2);
-    QVERIFY(button->text().contains(QStringLiteral("of 1000")));
-    button->click();
-    QVERIFY(bench.document().handle().held().empty());
-    bench.settle();
-    QVERIFY(bench.position(0, middle).y() < 40);
   }
 
   void pinsAndCutsByTheDock() {

@@ -2,7 +2,6 @@
 
 #include <QDropEvent>
 #include <QFile>
-#include <QImage>
 #include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
@@ -40,18 +39,6 @@ class WindowFiles : public QObject {
     QCOMPARE(bench.window.messages().sentence(),
              QStringLiteral("good.obj: 3 elements, 3 links, 1 triangle, 1 part, 1 × 1 units"));
     QCOMPARE(bench.document().mesh()->element_count(), 3U);
-  }
-
-  void openingIsOneStepOfUndo() {
-    Workbench bench;
-    const MeshPointer before = bench.document().mesh();
-    bench.open(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open triangle.obj"));
-    QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("triangle.obj")));
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), before);
-    QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("sample")));
   }
 
   void aFileIsDropped() {
@@ -104,56 +91,6 @@ class WindowFiles : public QObject {
     bench.settle();
     bench.open(path);
     QCOMPARE(bench.document().mesh()->rest_position(31), shown);
-  }
-
-  void eachPanelsOwnShapeIsSaved() {
-    Workbench bench;
-    bench.choose(1, "Exact ChainMail");
-    edits::setPinned(bench.document(), {0}, true);
-    bench.dragFar();
-    constexpr ElementId element = 22;
-    const std::array shown{bench.position(0, element), bench.position(1, element)};
-    QVERIFY(shown[0] != shown[1]);  // two algorithms have two results
-    for (int panel = 0; panel < 2; ++panel) {
-      files(bench).saveShapePath(panel, folder_.filePath(QStringLiteral("panel%1.obj").arg(panel)));
-      bench.settle();
-    }
-    for (int panel = 0; panel < 2; ++panel) {
-      bench.open(folder_.filePath(QStringLiteral("panel%1.obj").arg(panel)));
-      QCOMPARE(bench.document().mesh()->rest_position(element), shown[std::size_t(panel)]);
-    }
-  }
-
-  void theFileOpenedLastComesFirstAmongTheRecentOnes() {
-    Workbench bench;
-    const QString first = write("first.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
-    const QString second = write("second.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
-    const auto recent = [] { return QSettings().value(QStringLiteral("recentFiles")).toStringList().mid(0, 2); };
-    bench.open(first);
-    bench.open(second);
-    QCOMPARE(recent(), (QStringList{second, first}));
-    bench.open(first);  // the file moves to the front and is not added again
-    QCOMPARE(recent(), (QStringList{first, second}));
-  }
-
-  void aShapeIsNotSavedInAFormatThatHoldsNone() {
-    Workbench bench;
-    const QString path = folder_.filePath(QStringLiteral("shape.dat"));
-    files(bench).saveShapePath(0, path);
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("shape.dat: ")));
-    QVERIFY(!QFile::exists(path));
-    files(bench).savePath(path);  // a success removes the old message
-    bench.settle();
-    QVERIFY(!bench.window.messages().isVisible());
-  }
-
-  void aPlaceThatCannotBeWrittenGetsASentence() {
-    Workbench bench;
-    const QString nowhere = folder_.filePath(QStringLiteral("no/such/folder/x.obj"));
-    files(bench).savePath(nowhere);
-    bench.settle();
-    QVERIFY(bench.window.messages().isVisible());
-    QVERIFY(bench.window.messages().sentence().contains(nowhere));
   }
 
   void closingAsksNothingAndLosesNothing() {

@@ -2,7 +2,6 @@
 // Shift, by the ring and by numbers.
 
 #include <QComboBox>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -215,72 +214,6 @@ class WindowHandle : public QObject {
     QVERIFY(allPositions(bench) == after);
   }
 
-  void theRingIsDrawnAtTheCursor() {
-    Workbench bench;
-    const QPoint at = bench.place(0, 31);
-    pointAt(bench, 0, at);
-    setRadius(bench, 0, at, 40);
-    bench.settle();
-    const QPointF below = QPointF(at) + shownRadius(bench) * QPointF(std::cos(0.4), std::sin(0.4));
-    QVERIFY(bench.distanceFromColour(0, below, colours::marked) < 60);
-    QTest::keyClick(&bench.window, Qt::Key_Escape);
-    bench.settle();
-    QVERIFY(bench.distanceFromColour(0, below, colours::marked) > 60);
-  }
-
-  void aPressInsideALargeFaceGrabsItsNearestCorner() {
-    MeshParts parts;
-    parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    test::add_triangle(parts, 0, 1, 2);
-    test::add_triangle(parts, 0, 2, 3);
-    Workbench bench(build_mesh(std::move(parts)));
-    View& view = bench.view(0);
-    const QPointF inside =
-        0.2 * view.viewPosition(ElementId(0)) + 0.1 * view.viewPosition(1) + 0.7 * view.viewPosition(2);
-    for (const ElementId corner : {0, 1, 2}) {
-      QVERIFY(QLineF(inside, view.viewPosition(corner)).length() > 40);
-    }
-    pointAt(bench, 0, inside);
-    QCOMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(2));
-    QTest::mousePress(&view, Qt::LeftButton, {}, inside.toPoint());
-    QCOMPARE(held(bench), std::vector<ElementId>{2});
-    QTest::mouseRelease(&view, Qt::LeftButton, {}, inside.toPoint());
-  }
-
-  void theBrushReturnsToOneElement() {
-    Workbench bench;
-    const QPoint at = bench.place(0, 31);
-    pointAt(bench, 0, at);
-    for (const bool byWheel : {true, false}) {
-      setRadius(bench, 0, at, 90);
-      if (byWheel) {
-        QTest::keyPress(&bench.view(0), Qt::Key_R);
-        wheel(bench.view(0), at, -120 * 40);
-        QTest::keyRelease(&bench.view(0), Qt::Key_R);
-      } else {
-        QTest::keyClick(&bench.window, Qt::Key_Escape);
-      }
-      QCOMPARE(shownRadius(bench), 0);
-      bench.stroke(0, {at, at + QPoint(3, 0)}, false);
-      QCOMPARE(held(bench), std::vector<ElementId>{31});
-      QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, at);
-      bench.settle();
-    }
-    const double link = linkPixels(bench, 0);
-    wheel(bench.view(0), at, 240);  // without the key, the wheel zooms
-    QVERIFY(linkPixels(bench, 0) > 1.3 * link);
-  }
-
-  void theWheelMakesTheBrushAsLargeAsItMayBe() {
-    Workbench bench;
-    const QPoint at = bench.place(0, 31);
-    pointAt(bench, 0, at);
-    QTest::keyPress(&bench.view(0), Qt::Key_R);
-    wheel(bench.view(0), at, 120 * 100);
-    QTest::keyRelease(&bench.view(0), Qt::Key_R);
-    QCOMPARE(shownRadius(bench), int(GrabBrush::largestRadius));
-  }
-
   void aPinnedElementStaysOutOfTheHandle() {
     Workbench bench;
     edits::setPinned(bench.document(), {22}, true);
@@ -448,61 +381,6 @@ class WindowHandle : public QObject {
     QVERIFY(bench.distanceFromColour(1, pivot + QPointF(0, -radius), colours::selected) > 60);
   }
 
-  void theAngleIsShownInTheViewUnderTheCursor() {
-    Workbench bench;
-    RotationRing ring(bench.document());
-    const QPointF cursor(120, 80);
-    for (const auto& [degrees, words] : {std::pair(200.0, "200°"), std::pair(-20.4, "−20°"), std::pair(0.0, "0°")}) {
-      ring.showRotation(square, 1, cursor, degrees);
-      const std::vector<Annotation> shown = ring.annotations(bench.view(1));
-      QCOMPARE(shown.size(), std::size_t{1});
-      QCOMPARE(shown.front().words, QString::fromUtf8(words));
-      QVERIFY(QLineF(shown.front().line.p1(), bench.view(1).viewPosition(squareMiddle)).length() < 0.5);
-      QCOMPARE(shown.front().line.p2(), cursor);
-      QVERIFY(ring.annotations(bench.view(0)).empty());
-    }
-    ring.hideRotation();
-    QVERIFY(ring.annotations(bench.view(1)).empty());
-  }
-
-  void thereIsNoRingWhereNothingCanRotate_data() {
-    QTest::addColumn<MeshPointer>("mesh");
-    QTest::addColumn<std::vector<ElementId>>("pinned");
-    QTest::newRow("line") << generate({MeshKind::line, {9, 1, 1}, 1, {}}) << std::vector<ElementId>();
-    QTest::newRow("one element is free") << generate({MeshKind::grid, {9, 7, 1}, 1, {}})
-                                         << std::vector<ElementId>{4, 5};
-  }
-  void thereIsNoRingWhereNothingCanRotate() {
-    QFETCH(MeshPointer, mesh);
-    QFETCH(std::vector<ElementId>, pinned);
-    Workbench bench(mesh);
-    edits::setPinned(bench.document(), pinned, true);
-    const QImage before = bench.view(0).grabFramebuffer();
-    bench.document().selection().set({3, 4, 5});
-    bench.settle();
-    View& view = bench.view(0);
-    for (double radius = 20; radius < 300; radius += 2) {
-      const QPointF at = view.viewPosition(ElementId(pinned.empty() ? 4 : 3)) + QPointF(0, radius);
-      if (view.rect().contains(at.toPoint()) && !view.search().elementAt(at)) {
-        QTest::mousePress(&view, Qt::LeftButton, {}, at.toPoint());
-        QVERIFY(held(bench).empty());
-        QTest::mouseRelease(&view, Qt::LeftButton, {}, at.toPoint());
-      }
-    }
-    // Shift does not rotate a chain on a line.
-    if (pinned.empty()) {
-      const Positions from = positions(bench, 0);
-      QTest::mousePress(&view, Qt::LeftButton, {}, bench.place(0, 5));
-      moveTo(bench, 0, bench.place(0, 5) + QPoint(30, 30), Qt::ShiftModifier);
-      bench.settle();
-      const double by = bench.position(0, 3).x() - from[3].x();
-      QVERIFY(by > 0.1);
-      QVERIFY(std::abs(bench.position(0, 5).x() - from[5].x() - by) < 1e-5);
-      QTest::mouseRelease(&view, Qt::LeftButton, {}, bench.place(0, 5));
-      bench.settle();
-    }
-  }
-
   void escapeRestoresWhatWasBeforeTheDrag() {
     Workbench bench;
     const auto before = allPositions(bench);
@@ -523,58 +401,6 @@ class WindowHandle : public QObject {
     QVERIFY(allPositions(bench) == before);
     QCOMPARE(bench.document().undoStack().count(), 0);
     QVERIFY(bench.document().undoStack().isClean());
-  }
-
-  void escapeRestoresTheDragBefore() {
-    Workbench bench;
-    bench.dragFar();
-    bench.settle();
-    const auto before = allPositions(bench);
-    const QPoint from = bench.place(0, 22);
-    bench.stroke(0, {from, from + QPoint(90, 60)}, false);
-    bench.settle();
-    QVERIFY(allPositions(bench) != before);
-    QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
-    bench.settle();
-    QVERIFY(allPositions(bench) == before);
-    QCOMPARE(bench.document().undoStack().count(), 1);
-    bench.document().undo();
-    bench.document().redo();
-    bench.settle();
-    QVERIFY(allPositions(bench) == before);
-  }
-
-  void aSessionKeepsAndReplaysTheDrag() {
-    const QString path = folder_.filePath(QStringLiteral("handle.chainmail"));
-    std::vector<Positions> after;
-    std::size_t moves = 0;
-    {
-      Workbench bench;
-      bench.document().selection().set(square);
-      bench.settle();
-      const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
-      const QPoint from = bench.place(0, 22);
-      QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, from);
-      circle(bench, 0, pivot, from, 30, Qt::ShiftModifier);
-      moveTo(bench, 0, from + QPoint(20, -40), {});
-      QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
-      bench.settle();
-      after = allPositions(bench);
-      moves = bench.document().moves().history().length();
-      bench.window.sessions().savePath(path);
-      bench.settle();
-    }
-    Workbench bench;
-    bench.open(path);
-    QVERIFY2(!bench.window.messages().isVisible(), qPrintable(bench.window.messages().sentence()));
-    QVERIFY(allPositions(bench) == after);
-    bench.document().moves().goTo(0);
-    bench.settle();
-    QCOMPARE(bench.position(0, 22), bench.document().mesh()->rest_position(22));
-    bench.document().moves().goTo(moves);
-    bench.settle();
-    QVERIFY(allPositions(bench) == after);
   }
 
   void numbersMoveAndRotateTheSelection() {
@@ -626,55 +452,6 @@ class WindowHandle : public QObject {
     QVERIFY(how->isEnabled());
     QCOMPARE(how->currentIndex(), 0);
     QCOMPARE(bench.find<QLineEdit>("moveX")->text(), QStringLiteral("4"));  // where element 31 is
-  }
-
-  void inSpaceTheNumbersHaveAnAxis() {
-    Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
-    bench.find<QDockWidget>("elementDock")->show();
-    const std::vector<ElementId> elements{0, 1, 4, 5};
-    bench.document().selection().set(elements);
-    bench.settle();
-    const auto before = allPositions(bench);
-    auto* axis = bench.find<QComboBox>("moveAxis");
-    QVERIFY(axis->isVisible());
-    axis->setCurrentIndex(0);
-    bench.find<QLineEdit>("moveDegrees")->setText(QStringLiteral("90"));
-    bench.find<QPushButton>("moveElement")->click();
-    QTRY_VERIFY(held(bench).empty());
-    bench.settle();
-    for (int panel = 0; panel < 2; ++panel) {
-      const Point pivot = meanOf(before[std::size_t(panel)], elements);
-      for (const ElementId e : elements) {
-        const Point arm = before[std::size_t(panel)][e] - pivot;  // about x, y becomes z
-        QVERIFY((bench.position(panel, e) - (pivot + Point(arm.x(), -arm.z(), arm.y()))).norm() < 1e-5);
-      }
-    }
-  }
-
-  void theHeadSaysWhatStopsARotation() {
-    Workbench bench;
-    bench.choose(1, "Exact ChainMail");
-    edits::setPinned(bench.document(), {0, 8, 54, 62}, true);
-    bench.document().selection().set(square);
-    bench.settleFigures();
-    const QPointF pivot = bench.view(0).viewPosition(squareMiddle);
-    const QPoint from = bench.place(0, 22);
-    QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, from);
-    circle(bench, 0, pivot, from, 170, Qt::ShiftModifier);
-    bench.settleFigures();
-    const auto head = [&bench](const char* name) { return bench.find<QLabel>(name)->toolTip(); };
-    QVERIFY2(head("state1").contains(QStringLiteral("stopped at ")), qPrintable(head("state1")));
-    QVERIFY(!head("state0").contains(QStringLiteral("stop")));
-    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
-    bench.settleFigures();
-    QVERIFY(!head("state1").contains(QStringLiteral("stop")));
-    QVERIFY(bench.find<QLabel>("statistics1")->text().contains(QStringLiteral("violation")));
-    // A translation that pins stop says so as before.
-    QTest::mousePress(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 22));
-    moveTo(bench, 0, bench.place(0, 22) + QPoint(250, 0), {});
-    bench.settleFigures();
-    QVERIFY2(head("state1").contains(QStringLiteral("pins stop the handle")), qPrintable(head("state1")));
-    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, from);
   }
 
  private:

@@ -1,14 +1,11 @@
 // Tests background jobs in a real window: progress, cancelling, and which job replaces or refuses another.
 
 #include <QFile>
-#include <QLabel>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QToolButton>
 #include <semaphore>
 
 #include "document/edits.h"
-#include "files/mesh/mesh_file.h"
 #include "io/file_actions.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -62,22 +59,6 @@ class WindowJobs : public QObject {
     bench.settle();
     QCOMPARE(bench.document().mesh()->element_count(), 20U);
     QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("open new"));
-  }
-
-  void progressShowsAndMovesNothing() {
-    Gate gate;
-    Workbench bench;
-    const QSize size = bench.view(0).size();
-    auto* bar = bench.find<QWidget>("jobBar");
-    QVERIFY(!bar->isVisible());
-    load(bench, gate);
-    QTRY_VERIFY(bar->isVisible());
-    QTRY_COMPARE(bench.find<QProgressBar>("jobShare")->value(), 40);
-    QVERIFY(bench.find<QLabel>("jobText")->text().contains(QStringLiteral("new.obj")));
-    QCOMPARE(bench.view(0).size(), size);
-    gate.open();
-    QTRY_VERIFY(!bar->isVisible());
-    QCOMPARE(bench.view(0).size(), size);
   }
 
   void cancellingLeavesTheObject() {
@@ -149,25 +130,6 @@ class WindowJobs : public QObject {
     QVERIFY(!QFile::exists(path));
   }
 
-  void closingGivesAnOpeningUp() {
-    Gate gate;  // never opened, so the job would not end by itself
-    Workbench bench;
-    load(bench, gate);
-    QTRY_VERIFY(gate.reached());
-    bench.window.close();
-    QVERIFY(!bench.window.jobs().running());
-  }
-
-  void closingLetsASaveComeToItsEnd() {
-    const QString path = folder_.filePath(QStringLiteral("last.obj"));
-    {
-      Workbench bench(generate({MeshKind::grid, {100, 100, 1}, 1, {}}));
-      bench.window.findChild<FileActions*>()->savePath(path);
-      bench.window.close();
-    }
-    QCOMPARE(read_mesh(path.toStdString())->element_count(), 10'000U);
-  }
-
   void theFirstObjectIsNoStepOfUndo() {
     const QString path = folder_.filePath(QStringLiteral("first.obj"));
     Workbench bench;
@@ -178,14 +140,6 @@ class WindowJobs : public QObject {
     bench.settle();
     QVERIFY(bench.window.windowTitle().startsWith(QStringLiteral("first.obj")));
     QVERIFY(!bench.document().undoStack().canUndo());
-  }
-
-  void whatFailsUnexpectedlyGetsASentence() {
-    Workbench bench;
-    bench.window.jobs().start(Jobs::Kind::load, QStringLiteral("Opening x.obj"),
-                              [](const Progress&) -> Jobs::Finish { throw std::bad_alloc(); });
-    bench.settle();
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("Opening x.obj: there is not enough memory")));
   }
 
  private:

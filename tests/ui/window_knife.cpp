@@ -2,7 +2,6 @@
 
 #include <QSettings>
 #include <QToolButton>
-#include <QWheelEvent>
 
 #include "core/families.h"
 #include "docks/replay/replay_dock.h"
@@ -97,80 +96,6 @@ class WindowKnife : public QObject {
     QCOMPARE(bench.document().mesh(), split);
   }
 
-  void aSplitIsReplayed() {
-    Workbench bench(test::jittered_triangles(9, 7, 3));
-    const MeshPointer whole = bench.document().mesh();
-    bench.trigger("toolCut");
-    bench.find<QAction>("cutSplits")->setChecked(true);
-    bench.stroke(0, acrossColumns(bench));
-    const MeshPointer split = bench.document().mesh();
-    bench.trigger("toolDrag");
-    const QPoint right = bench.place(0, 44);
-    bench.stroke(0, {right, right + QPoint(60, 10)});
-    const Point end = bench.position(0, split->element_count() - 1);
-    bench.document().moves().goTo(0);
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), whole);
-    QCOMPARE(bench.document().parts(), 1U);
-    bench.document().moves().goTo(bench.document().moves().history().length());
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), split);
-    QCOMPARE(bench.document().parts(), 2U);
-    QCOMPARE(bench.position(0, split->element_count() - 1), end);
-    bench.trigger("undo");  // the whole replay is one step
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), split);
-    bench.trigger("undo");
-    bench.trigger("undo");
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), whole);
-  }
-
-  void playingGoesOnAfterASplit() {
-    Workbench bench(test::jittered_triangles(9, 7, 3));
-    bench.trigger("toolCut");
-    bench.find<QAction>("cutSplits")->setChecked(true);
-    bench.stroke(0, acrossColumns(bench));
-    const MeshPointer split = bench.document().mesh();
-    bench.trigger("toolDrag");
-    const QPoint right = bench.place(0, 44);
-    bench.stroke(0, {right, right + QPoint(60, 10)});
-    bench.trigger("showReplay");
-    bench.trigger("replayPlay");  // from the end: begins anew
-    QCOMPARE(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')), QStringLiteral("Pause"));
-    QTRY_COMPARE(bench.document().moves().history().position(), bench.document().moves().history().length());
-    QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().remove(QLatin1Char('&')) != QStringLiteral("Pause"));
-    QCOMPARE(bench.document().mesh(), split);
-  }
-
-  void savedMovesOfASplitOpenOnTheSplitObject() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("moves.json"));
-    Workbench bench(test::jittered_triangles(9, 7, 3));
-    const MeshPointer whole = bench.document().mesh();
-    bench.trigger("toolCut");
-    bench.find<QAction>("cutSplits")->setChecked(true);
-    bench.stroke(0, acrossColumns(bench));
-    const MeshPointer split = bench.document().mesh();
-    bench.trigger("showReplay");
-    auto& replay = *bench.find<ReplayDock>("replayDock");
-    replay.saveMoves(path);
-    bench.settle();
-    replay.openMoves(path);
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), whole);
-    const MoveHistory& history = bench.document().moves().history();
-    QCOMPARE(history.length(), history.start() + 1);
-    bench.document().moves().goTo(history.length());
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), split->element_count());
-    QCOMPARE(bench.document().parts(), 2U);
-    bench.trigger("undo");
-    bench.trigger("undo");
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), split);
-  }
-
   void linksBesideFacesAreCutWithTheStroke() {
     MeshParts parts;
     parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}};
@@ -197,21 +122,6 @@ class WindowKnife : public QObject {
     bench.trigger("undo");
     bench.settle();
     QVERIFY(bench.document().cuts().links().empty() && bench.document().mesh()->element_count() == 6);
-  }
-
-  void theWheelDoesNotZoomDuringAStroke() {
-    Workbench bench(test::jittered_triangles(9, 7, 3));
-    bench.trigger("toolCut");
-    View& view = bench.view(0);
-    const QPoint at = acrossColumns(bench).first();
-    const QPointF before = view.viewPosition(ElementId(40));
-    QTest::mousePress(&view, Qt::LeftButton, {}, at);
-    QWheelEvent event(at, view.mapToGlobal(at), {}, {0, 240}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
-    QApplication::sendEvent(&view, &event);
-    QCOMPARE(view.viewPosition(ElementId(40)), before);
-    QTest::mouseRelease(&view, Qt::LeftButton, {}, at);
-    QApplication::sendEvent(&view, &event);
-    QVERIFY(view.viewPosition(ElementId(40)) != before);
   }
 
   void linksAreCutWhereOnlyLinksAreDrawnAndOnRequest() {
@@ -281,19 +191,6 @@ class WindowKnife : public QObject {
     bench.trigger("cutFrontOnly");
     bench.stroke(0, across);
     QVERIFY(bench.document().cuts().count() > second);
-  }
-
-  void inAPlaneThereIsNothingToChooseAndItSaysWhy() {
-    Workbench bench;
-    bench.trigger("toolCut");
-    auto* button = bench.find<QToolButton>("cutFrontOnlyButton");
-    QVERIFY(button->isVisible() && !button->isEnabled());
-    QVERIFY(button->toolTip().contains(QStringLiteral("Not available in 2D")));
-    bench.trigger("toolDrag");
-    QVERIFY(!button->isVisible());
-    edits::replaceMesh(bench.document(), test::sphere(8, 4), QStringLiteral("sphere"), QStringLiteral("sphere"));
-    bench.settle();
-    QVERIFY(bench.find<QAction>("cutFrontOnly")->isEnabled());
   }
 };
 

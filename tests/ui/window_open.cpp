@@ -2,14 +2,11 @@
 
 #include <sys/stat.h>
 
-#include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
-#include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTextStream>
 #include <QToolButton>
@@ -30,77 +27,6 @@ class WindowOpen : public QObject {
 
  private slots:
   void init() { failOnWarnings(); }
-
-  void whatIsOpenedIsToldWithItsFlaws() {
-    Workbench bench;
-    const QString path = folder_.filePath(QStringLiteral("flawed.off"));
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("OFF\n5 4 0\n0 0 0\n2 0 0\n0 1 0\n9 9 9\n9 9 8\n3 0 1 2\n3 2 1 0\n3 0 3 3\n3 0 3 4\n");
-    file.close();
-    bench.open(path);
-    QCOMPARE(
-        messages(bench).sentence(),
-        QStringLiteral("flawed.off: 5 elements, 6 links, 2 triangles, 1 part, 9 × 9 × 9 units. 1 face or cell with "
-                       "a point used twice or fewer than 3, 1 duplicate face or cell left out"));
-    QCOMPARE(messages(bench).severity(), Severity::info);
-  }
-
-  void aFileOfAnotherProgramThatIsDamagedLosesNothing() {
-    Workbench bench;
-    const MeshPointer before = bench.document().mesh();
-    const QString path = folder_.filePath(QStringLiteral("damaged.msh"));
-    QFile whole(sourceFile("tests/files/foreign/gmsh41_binary.msh")), file(path);
-    QVERIFY(whole.open(QIODevice::ReadOnly) && file.open(QIODevice::WriteOnly));
-    file.write(whole.read(4000));
-    file.close();
-    bench.open(path);
-    QVERIFY2(messages(bench).sentence().startsWith(path), qPrintable(messages(bench).sentence()));
-    QCOMPARE(bench.document().mesh(), before);
-  }
-
-  void aScriptThatIsNamedAsAMeshIsNotRun() {
-    Workbench bench;
-    const MeshPointer before = bench.document().mesh();
-    const QString path = folder_.filePath(QStringLiteral("script.msh")),
-                  trace = folder_.filePath(QStringLiteral("trace"));
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("SystemCall \"touch " + trace.toUtf8() + "\";\n");
-    file.close();
-    bench.open(path);
-    const QString sentence = messages(bench).sentence();
-    QVERIFY2(sentence.startsWith(path + ": it does not begin as a Gmsh mesh"), qPrintable(sentence));
-    QVERIFY(!QFile::exists(trace));
-    QCOMPARE(bench.document().mesh(), before);
-  }
-
-  void aPipeIsRefusedAndTheNextFileOpens() {
-    Workbench bench;
-    for (const char* name : {"pipe.obj", "pipe.png", "pipe.chainmail"}) {
-      const QString path = folder_.filePath(QLatin1String(name));
-      QCOMPARE(mkfifo(qPrintable(path), 0600), 0);
-      bench.open(path);
-      QCOMPARE(messages(bench).sentence(),
-               path + QStringLiteral(": it is a pipe; save its content as a file, and use that"));
-    }
-    bench.open(sourceFile("meshes/sphere.obj"));
-    QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));
-  }
-
-  void coordinatesBeyondSinglePrecisionAreRefused() {
-    Workbench bench;
-    const auto before = bench.document().mesh();
-    const QString path = folder_.filePath(QStringLiteral("far.obj"));
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("v 0 0 0\nv 1e60 0 0\nv 0 1e60 0\nf 1 2 3\n");
-    file.close();
-    bench.open(path);
-    QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("scale the object down")),
-             qPrintable(bench.window.messages().sentence()));
-    QCOMPARE(bench.document().mesh(), before);
-  }
 
   void aVolumeAsksForItsThresholdAndBecomesABlock() {
     Workbench bench;
@@ -135,32 +61,6 @@ class WindowOpen : public QObject {
     bench.trigger("redo");
     bench.settle();
     QCOMPARE(bench.document().wholeSoftness()->links, stiff);
-  }
-
-  void nothingDenseEnoughIsNoAnswer() {
-    Workbench bench;
-    bench.open(sourceFile("tests/files/foreign/vtk.mha"));
-    auto* every = bench.find<QSpinBox>("volumeEvery");
-    every->setValue(2);
-    QCOMPARE(bench.find<QLabel>("volumeResult")->text(), QStringLiteral("24 voxels, about 3 elements"));
-    bench.find<QCheckBox>("volumeStiff")->setChecked(false);
-    QVERIFY(bench.find<QPushButton>("volumeAgree")->isEnabled());
-    bench.find<QPushButton>("volumeCancel")->click();
-    QVERIFY(!bench.window.findChild<FileActions*>()->volumes().bar().isVisible());
-  }
-
-  /// One voxel per element is a choice as any other: a large volume then keeps all its voxels.
-  void theChosenNumberOfVoxelsPerElementCounts() {
-    Workbench bench;
-    bench.open(sourceFile("tests/files/foreign/vtk.mha"));
-    const auto& bar = bench.window.findChild<FileActions*>()->volumes().bar();
-    auto* every = bench.find<QSpinBox>("volumeEvery");
-    QCOMPARE(every->text(), QStringLiteral("auto"));
-    QVERIFY(!bar.options().every);
-    for (const int voxels : {1, 2}) {
-      every->setValue(voxels);
-      QVERIFY(bar.options().every == std::uint32_t(voxels));
-    }
   }
 
   void aClosedSurfaceIsFilled() {
@@ -213,18 +113,6 @@ class WindowOpen : public QObject {
             !bench.find<QPushButton>("repairHoles")->isVisible());
   }
 
-  void aRepairKeepsTheSoftnessOfLinksInTheSolvers() {
-    Workbench bench;
-    bench.open(brokenCube());
-    const LinkId link = *find_link(*bench.document().mesh(), 0, 1);
-    edits::setSoftnessOf(bench.document(), {link}, LinkSoftness{1, 1, 0});
-    bench.find<QPushButton>("repairLoose")->click();
-    bench.settle();
-    QVERIFY(bench.document().wholeSoftness()->links.contains(link));
-    QCOMPARE(*bench.document().moves().history().object().softness,
-             *bench.document().wholeSoftness());  // what the solvers got
-  }
-
   void aRepairThatComesTooLateReplacesNothing() {
     Workbench bench;
     bench.open(brokenCube());
@@ -262,86 +150,6 @@ class WindowOpen : public QObject {
     QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
   }
 
-  void anObjectWithoutDefectsHasABarOnlyWhenAsked() {
-    Workbench bench;
-    bench.open(brokenCube());
-    bench.open(sourceFile("meshes/sphere.obj"));
-    const auto* bar = bench.find<QFrame>("repairBar");
-    QVERIFY(!bar->isVisible());
-    bench.trigger("repairMesh");
-    bench.settle();
-    QVERIFY(bar->isVisible());
-    QCOMPARE(repairText(bench), QStringLiteral("sphere.obj has no defects to repair"));
-    for (const char* name : {"repairShow", "repairLoose", "repairHoles"}) {
-      QVERIFY(!bench.find<QPushButton>(name)->isVisible());
-    }
-    const MeshPointer cloth = generate({MeshKind::cloth, {20, 20, 1}, 1, {}});
-    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
-    QVERIFY(!bar->isVisible());
-    bench.trigger("repairMesh");
-    bench.settle();
-    QVERIFY(repairText(bench).contains(QStringLiteral("outline of an open surface")));
-  }
-
-  void verticesWithinADistanceAreWelded() {
-    Workbench bench;
-    const MeshPointer cloth = generate({MeshKind::cloth, {4, 1, 1}, 1, {}});
-    edits::replaceMesh(bench.document(), cloth, QStringLiteral("cloth"), QStringLiteral("build"));
-    bench.trigger("repairMesh");
-    bench.settle();
-    auto* weld = bench.find<QPushButton>("repairWeld");
-    auto* distance = bench.find<QLineEdit>("repairDistance");
-    distance->setText(QStringLiteral("1e"));
-    QVERIFY(!weld->isEnabled());
-    distance->setText(QStringLiteral("0.5"));
-    weld->click();
-    bench.settle();
-    QCOMPARE(bench.document().mesh(), cloth);
-    QCOMPARE(messages(bench).sentence(),
-             QStringLiteral("cloth: no two of its vertices are as close as 0.5; choose a larger distance"));
-    distance->setText(QStringLiteral("1.2"));
-    QTest::keyClick(distance, Qt::Key_Return);
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), std::size_t{2});
-    QCOMPARE(bench.document().undoStack().undoText(), QStringLiteral("weld 2 duplicate vertices"));
-  }
-
-  void theFillOfferedSuitsLinearFem() {
-    Workbench bench;
-    bench.open(sourceFile("meshes/sphere.obj"));
-    const double mean = bench.document().mesh()->mean_link_length;
-    bench.trigger("fillSurface");
-    QVERIFY(std::abs(bench.find<QDoubleSpinBox>("fillSize")->value() - mean) < 0.01 * mean);
-    QVERIFY(!bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
-    bench.open(fineSphere());
-    bench.trigger("fillSurface");
-    auto* size = bench.find<QDoubleSpinBox>("fillSize");
-    QVERIFY(size->value() > 1.1 * bench.document().mesh()->mean_link_length);
-    QVERIFY(bench.find<QLabel>("fillAbout")->text().contains(QStringLiteral("coarser")));
-    const auto* limits = bench.find<QLabel>("fillDetails");
-    QCOMPARE(limits->text(), QStringLiteral("Few enough for Linear FEM, Quasi-Newton FEM (30,000), ARAP, XPBD, "
-                                            "Projective Dynamics, Neo-Hookean XPBD (100,000). Too many for "
-                                            "BEM (5,000), Neo-Hookean FEM, Corotational FEM (6,000)"));
-    size->setValue(bench.document().mesh()->mean_link_length);
-    QVERIFY2(limits->text().endsWith(QStringLiteral("Corotational FEM (6,000), Linear FEM, Quasi-Newton FEM (30,000)")),
-             qPrintable(limits->text()));
-    QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
-  }
-
-  void aRefusedLengthSaysWhyAndWhatToDo() {
-    Workbench bench;
-    bench.open(fineSphere(240, 440));
-    bench.trigger("fillSurface");
-    auto* size = bench.find<QDoubleSpinBox>("fillSize");
-    size->setValue(size->minimum());
-    QVERIFY(!bench.find<QPushButton>("fillAgree")->isEnabled());
-    QCOMPARE(bench.find<QLabel>("fillDetails")->text(),
-             QStringLiteral("More than 2,000,000 elements would take minutes and could not be dragged: choose longer "
-                            "edges"));
-    size->setValue(size->maximum());
-    QVERIFY(bench.find<QPushButton>("fillAgree")->isEnabled());
-  }
-
   void aSurfaceThatIsTooFineIsToldHowToGetCoarser() {
     Workbench bench;
     bench.open(sourceFile("meshes/sphere.obj"));
@@ -353,24 +161,6 @@ class WindowOpen : public QObject {
     QVERIFY2(said.contains(QStringLiteral("The surface is too fine for linear FEM (at most 30,000 elements): make it "
                                           "coarser with 'chainmail simplify FILE --elements ")),
              qPrintable(said));
-  }
-
-  void anOpenSurfaceSaysWhereItIsOpen() {
-    Workbench bench;
-    const QString path = folder_.filePath(QStringLiteral("open.off"));
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("OFF\n4 3 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
-    file.close();
-    bench.open(path);
-    const MeshPointer before = bench.document().mesh();
-    bench.trigger("fillSurface");
-    bench.find<QPushButton>("fillAgree")->click();
-    bench.settle();
-    QVERIFY2(messages(bench).sentence().contains(
-                 QStringLiteral("the surface is open: it has 1 hole, the first at element 0")),
-             qPrintable(messages(bench).sentence()));
-    QCOMPARE(bench.document().mesh(), before);
   }
 
  private:

@@ -6,7 +6,6 @@
 #include <QLocale>
 #include <QPushButton>
 #include <QRegularExpression>
-#include <QSpinBox>
 #include <QStandardItemModel>
 #include <future>
 
@@ -45,20 +44,6 @@ class WindowPhysics : public QObject {
 
  private slots:
   void init() { failOnWarnings(); }
-
-  void methodsAreOfferedBelowTheFamilyWhereTheyWork() {
-    Workbench bench(gridInAPlane());
-    auto& selector = bench.window.panel(0).selector();
-    QCOMPARE(selector.count(), int(every_algorithm().size()) + 1);  // and a separator
-    QVERIFY(item(bench, 0, "Linear FEM").isEnabled());
-    QVERIFY(!item(bench, 0, "BEM").isEnabled());
-    QVERIFY(item(bench, 0, "BEM").toolTip().contains(QStringLiteral("closed surfaces")));
-    edits::replaceMesh(bench.document(), generate({MeshKind::cloth, {5, 5, 1}, 1, 3}), QStringLiteral("cloth"),
-                       QStringLiteral("build"));
-    QVERIFY(!item(bench, 0, "Neo-Hookean FEM").isEnabled());
-    QVERIFY(item(bench, 0, "Neo-Hookean FEM").toolTip().contains(QStringLiteral("not a solid")));
-    QVERIFY(item(bench, 0, "Exact ChainMail").isEnabled());
-  }
 
   void layersArePinnedAtOnceAndUndone() {
     Workbench bench(gridInAPlane());
@@ -115,36 +100,6 @@ class WindowPhysics : public QObject {
     QCOMPARE(exponent->value(), StrainLaw().fung_exponent);
   }
 
-  void theThicknessIsThatOfASurfaceInSpace() {
-    {
-      Workbench bench(gridInAPlane());
-      QVERIFY(bench.find<QDoubleSpinBox>("thicknessSpin")->parentWidget()->isHidden());
-    }
-    Workbench bench(generate({.kind = MeshKind::cloth, .size = {4, 4}, .space_dimension = 3}));
-    auto* thickness = bench.find<QDoubleSpinBox>("thicknessSpin");
-    QVERIFY(!thickness->parentWidget()->isHidden());
-    thickness->setValue(0.05);
-    QCOMPARE(bench.document().elastic().thickness, 0.05);
-    bench.document().undo();
-    QCOMPARE(thickness->value(), ElasticOptions().thickness);
-  }
-
-  void materialAndLatticeAreStepsOfUndo() {
-    Workbench bench(gridInAPlane());
-    auto* poisson = bench.find<QDoubleSpinBox>("poissonSpin");
-    poisson->setValue(0.45);
-    QCOMPARE(bench.document().elastic().material.poisson, 0.45);
-    bench.find<QSpinBox>("latticeY")->setValue(6);
-    QCOMPARE(bench.document().elastic().lattice, (std::array<std::uint32_t, 3>{4, 6, 4}));
-    QVERIFY(bench.find<QSpinBox>("latticeZ")->isHidden());
-    bench.document().undo();
-    bench.document().undo();
-    QVERIFY(bench.document().elastic() == ElasticOptions());
-    QCOMPARE(poisson->value(), 0.3);
-    bench.document().redo();
-    QCOMPARE(poisson->value(), 0.45);
-  }
-
   void withoutPinsItOffersThemOnce() {
     Workbench bench(gridInAPlane());
     auto* bar = bench.find<QWidget>("pinsBar");
@@ -185,35 +140,6 @@ class WindowPhysics : public QObject {
     bench.document().undo();
     bench.settle();
     QCOMPARE(way(60), 0.0);
-  }
-
-  void whereNewtonStopsThePanelSaysSo() {
-    Workbench bench(generate({MeshKind::tetra, {5, 3, 3}, 1, {}}));
-    bench.choose(0, "Neo-Hookean FEM");
-    bench.trigger("pinLeft");
-    bench.document().handle().grab(22);
-    bench.document().handle().drag(Point(-6, 1, 1));  // through the pinned wall
-    // Newton's method tries many load steps, which takes seconds with a sanitizer.
-    QTRY_VERIFY_WITH_TIMEOUT(bench.document().solvers().idle(), 60'000);
-    bench.settle();
-    auto* figures = bench.find<QLabel>("statistics0");
-    QTRY_VERIFY(figures->toolTip().contains(QStringLiteral("last converged state")));
-    QVERIFY(!figures->text().contains(QStringLiteral("violation")));
-    bench.document().handle().drag(Point(2.1, 1, 1));
-    QTRY_VERIFY_WITH_TIMEOUT(bench.document().solvers().idle(), 60'000);
-    bench.settle();
-    QTRY_VERIFY(figures->text().contains(QStringLiteral("violation")));
-    bench.document().handle().release();
-  }
-
-  void pinningByHandTakesUpTheTool() {
-    Workbench bench(gridInAPlane());
-    bench.choose(0, "Linear FEM");
-    dragOne(bench);
-    QTRY_VERIFY(bench.find<QWidget>("pinsBar")->isVisible());
-    bench.find<QPushButton>("pinsByHand")->click();
-    QVERIFY(bench.find<QAction>("toolPin")->isChecked());
-    QVERIFY(!bench.find<QWidget>("pinsBar")->isVisible());
   }
 
   /// The reference solution takes positions from panel A alone.
@@ -269,40 +195,6 @@ class WindowPhysics : public QObject {
     QTRY_VERIFY(title(0).contains(QStringLiteral("displacement")));
     edits::resetObject(bench.document());
     QTRY_VERIFY(title(0).contains(QStringLiteral("drag an element first")));
-  }
-
-  /// A panel with the reference method has the reference solution for any handle.
-  void theReferenceHoldsAHandleOfMany() {
-    Workbench bench(gridInAPlane());
-    bench.choose(0, "Neo-Hookean FEM");
-    bench.trigger("colourBy-truth");
-    bench.trigger("pinBottom");
-    const auto title = [&bench](int panel) { return bench.window.panel(panel).legend().title(); };
-    bench.document().handle().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
-    bench.document().handle().dragBy(Point(0.4, 0.3, 0), {Point::UnitZ(), 12});
-    bench.document().handle().release();
-    bench.settle();
-    QTRY_VERIFY_WITH_TIMEOUT(title(0).contains(QStringLiteral("relative error ")), 30'000);
-    const QString after = title(0).section(QStringLiteral("relative error "), 1);
-    const double error = QLocale().toDouble(after.section(QRegularExpression(QStringLiteral("[,;() ]")), 0, 0));
-    QVERIFY2(error < 1e-4, qPrintable(title(0)));
-    QVERIFY(error > 0);
-    bench.document().handle().grab(std::vector<ElementId>{49, 50, 51, 58, 59, 60});
-    bench.document().handle().dragBy(Point(-0.4, -0.3, 0), {Point::UnitZ(), -12});
-    bench.document().handle().release();
-    bench.settle();
-    QTRY_VERIFY2(title(0).contains(QStringLiteral("back at rest")), qPrintable(title(0)));
-    edits::setPinned(bench.document(), {50}, true);
-    QTRY_VERIFY2(title(0).contains(QStringLiteral("is pinned")), qPrintable(title(0)));
-  }
-
-  void withoutATruthTheLegendSaysWhy() {
-    Workbench bench(generate({MeshKind::cloth, {5, 5, 1}, 1, 3}));
-    edits::setPinned(bench.document(), {0}, true);
-    const QPoint from = bench.place(0, 12);
-    bench.stroke(0, {from, from + QPoint(20, -20)});
-    bench.trigger("colourBy-truth");
-    QTRY_VERIFY(bench.window.panel(0).legend().title().contains(QStringLiteral("it is not a solid")));
   }
 };
 

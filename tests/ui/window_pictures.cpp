@@ -1,10 +1,8 @@
 // Tests pictures of the window and its parts, copied and saved, in a real window.
 
-#include <QCheckBox>
 #include <QClipboard>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QLabel>
 #include <QPainter>
 #include <QSpinBox>
 #include <QSvgRenderer>
@@ -71,20 +69,6 @@ class WindowPictures : public QObject {
     QCOMPARE(plain(pictureOf(bench.window)), plain(bench.window.grab().toImage()));
   }
 
-  void largerOnesShowTheSameFiner() {
-    Workbench bench;
-    bench.dragFar();
-    const QImage one = plain(pictureOf(bench.window)), two = plain(pictureOf(bench.window, 2));
-    QCOMPARE(two.size(), 2 * one.size());
-    // Thin lines fall differently between pixels. Objects at other positions would differ at least twice as much.
-    const QImage again = two.scaled(one.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-    QVERIFY2(difference(one, again) < 0.03, qPrintable(QString::number(difference(one, again))));
-    // It is drawn again: in an enlarged picture, pixels would come in equal pairs.
-    const QRect view(bench.view(0).mapTo(&bench.window, QPoint()) * 2, bench.view(0).size() * 2);
-    const QImage enlarged = one.scaled(two.size(), Qt::IgnoreAspectRatio, Qt::FastTransformation);
-    QVERIFY(difference(two.copy(view), enlarged.copy(view)) > 0.005);
-  }
-
   void aTransparentOneIsTheObjectAlone() {
     Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
     const QImage opaque = pictureOf(bench.view(0)), clear = pictureOf(bench.view(0), 1, true);
@@ -116,46 +100,6 @@ class WindowPictures : public QObject {
     bench.settle();
     QVERIFY(bench.find<QAction>("pictureOfWindow")->isChecked());  // panel C does not exist any more
     QVERIFY(!bench.find<QAction>("pictureOfObjectC")->isVisible());
-  }
-
-  void ofAPanelOutOfSightThereIsNone() {
-    Workbench bench;
-    bench.trigger("pictureOfPanelB");
-    bench.trigger("showAloneA");
-    bench.settle();
-    for (const char* name : {"hidden.png", "hidden.svg"}) {
-      const QString path = folder_.filePath(QLatin1String(name));
-      pictures(bench).savePath(path);
-      bench.settle();
-      QVERIFY(!QFile::exists(path));
-      QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("panel B is hidden")));
-      bench.window.messages().clear();
-    }
-  }
-
-  void choicesAreRemembered() {
-    {
-      Workbench bench;
-      bench.trigger("pictureOfPanels");
-      bench.trigger("pictureScale2");
-      bench.trigger("pictureTransparent");
-    }
-    Workbench bench;
-    QVERIFY(bench.find<QAction>("pictureOfPanels")->isChecked());
-    QVERIFY(bench.find<QAction>("pictureScale2")->isChecked());
-    QVERIFY(bench.find<QAction>("pictureTransparent")->isChecked());
-  }
-
-  void aPlaceThatCannotBeWrittenGetsASentence() {
-    Workbench bench;
-    for (const char* name : {"no/such/folder/x.png", "no/such/folder/x.svg", "no/such/folder/x.pdf"}) {
-      const QString nowhere = folder_.filePath(QLatin1String(name));
-      pictures(bench).savePath(nowhere);
-      bench.settle();
-      QVERIFY(bench.window.messages().isVisible());
-      QVERIFY(bench.window.messages().sentence().contains(nowhere));
-      bench.window.messages().clear();
-    }
   }
 
   void aDrawingHoldsLinesThatStandWhereTheScreenHasThem_data() {
@@ -191,29 +135,6 @@ class WindowPictures : public QObject {
     // Only the smoothing of edges differs. If lines were elsewhere, the difference would be as large as the drawn
     // share.
     QVERIFY2(apart < ofScreen / 2, qPrintable(QStringLiteral("%1 of %2").arg(apart).arg(ofScreen)));
-  }
-
-  void drawingsEndWhereTheViewsEnd() {
-    Workbench bench(generate({MeshKind::cloth, {6, 6, 1}, 1, {}}));
-    bench.view(0).zoom(3);
-    bench.trigger("pictureOfObjectA");
-    const QString path = folder_.filePath(QStringLiteral("part.svg"));
-    pictures(bench).savePath(path);
-    bench.settle();
-    QSvgRenderer svg(path);
-    QVERIFY(svg.isValid());
-    // A margin for half the width of a line and for the rounding of SVG numbers.
-    const QRectF view = QRectF(bench.view(0).rect()).adjusted(-1, -1, 1, 1);
-    QImage wider(bench.view(0).size() + QSize(200, 200), QImage::Format_RGB32);
-    wider.fill(Qt::white);
-    QPainter painter(&wider);
-    svg.setViewBox(bench.view(0).rect().adjusted(-100, -100, 100, 100));
-    svg.render(&painter);
-    painter.fillRect(view.translated(100, 100), Qt::white);
-    painter.end();
-    QImage empty(wider.size(), QImage::Format_RGB32);
-    empty.fill(Qt::white);
-    QCOMPARE(wider, empty);
   }
 
   /// On white, in the colours of the light theme, and without the boxes and buttons of the heads.
@@ -274,48 +195,6 @@ class WindowPictures : public QObject {
     QVERIFY(file.readAll().contains("width=\"80mm\""));
     const Workbench again;
     QVERIFY(again.window.findChild<QAction*>(QStringLiteral("pictureOwnSize"))->isChecked());
-  }
-
-  void theDialogOfTheSizeSaysHowManyPixels() {
-    PictureSizeDialog dialog(nullptr, QStringLiteral("Size"), {160, true, 300}, {1000, 500});
-    const auto text = [&] { return dialog.findChild<QLabel*>(QStringLiteral("picturePixels"))->text(); };
-    QCOMPARE(text(), QStringLiteral("1,890 × 945 pixels, 160.0 mm wide in print"));
-    auto* unit = dialog.findChild<QComboBox*>(QStringLiteral("pictureUnit"));
-    unit->setCurrentIndex(0);  // the same size in the other unit
-    QCOMPARE(dialog.chosen().width, 1890.0);
-    unit->setCurrentIndex(1);
-    QCOMPARE(dialog.chosen().width, 160.0);
-    dialog.findChild<QCheckBox*>(QStringLiteral("pictureAsOnScreen"))->setChecked(true);
-    QVERIFY(dialog.chosen().asOnScreen());
-    QCOMPARE(text().section(QLatin1Char(','), 0, 1), QStringLiteral("1,000 × 500 pixels"));
-    QCOMPARE(PictureSize({2000, true, 1200}).pixels(), PictureSize::mostPixels);  // not 94,488
-    QCOMPARE(PictureSize({2000, true, 1200}).dotsPerMetre(), 6000.0);             // so it is 2 m wide in print
-  }
-
-  void drawingsOfPanelsSayWhatTheyShow() {
-    Workbench bench;
-    bench.trigger("colourBy-violation");
-    bench.trigger("showFigures");
-    edits::setPinned(bench.document(), {40}, true);
-    bench.dragFar();
-    bench.settleFigures();
-    bench.trigger("pictureOfPanels");
-    const QString svg = folder_.filePath(QStringLiteral("panels.svg")), pdf = folder_.filePath(QStringLiteral("p.pdf"));
-    pictures(bench).savePath(svg);
-    bench.settle();
-    pictures(bench).savePath(pdf);
-    bench.settle();
-    QFile file(svg);
-    QVERIFY(file.open(QIODevice::ReadOnly));
-    const QString text = QString::fromUtf8(file.readAll());
-    for (const char* word :
-         {"Generalized ChainMail", "Natural Queue ChainMail", "links violated, worst", "links checked"}) {
-      QVERIFY2(text.contains(QLatin1String(word)), word);
-    }
-    QVERIFY(!text.contains(QStringLiteral("<image")));  // lines, not pixels
-    QFile document(pdf);
-    QVERIFY(document.open(QIODevice::ReadOnly));
-    QVERIFY(document.read(5) == "%PDF-");
   }
 
  private:

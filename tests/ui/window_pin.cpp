@@ -52,56 +52,6 @@ class WindowPin : public QObject {
     QVERIFY(bench.position(1, pinned) != rest);  // without the pin, the element moves
   }
 
-  void whatTheCursorIsAtStaysLitAfterAnEdit() {
-    Workbench bench;
-    bench.trigger("toolPin");
-    QTest::mouseMove(&bench.view(0), bench.place(0, 12));
-    QTest::mouseMove(&bench.view(0), bench.place(0, pinned));
-    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
-    bench.click(0, pinned);
-    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
-    bench.trigger("undo");
-    QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(pinned));
-  }
-
-  void aSecondClickUnpins() {
-    Workbench bench;
-    bench.trigger("toolPin");
-    bench.click(0, pinned);
-    bench.click(0, 12);
-    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{12, pinned}));
-    bench.click(0, pinned);
-    QCOMPARE(bench.document().pins(), std::vector<ElementId>{12});
-    bench.document().undoStack().undo();
-    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{12, pinned}));
-  }
-
-  void unpinAllIsOneStep() {
-    Workbench bench;
-    auto* unpin = bench.find<QAction>("unpinAll");
-    QVERIFY(!unpin->isEnabled());
-    edits::setPinned(bench.document(), {3, 5, 7}, true);
-    QVERIFY(unpin->isEnabled());
-    unpin->trigger();
-    QVERIFY(bench.document().pins().empty());
-    QVERIFY(!unpin->isEnabled());
-    bench.document().undoStack().undo();
-    QCOMPARE(bench.document().pins(), (std::vector<ElementId>{3, 5, 7}));
-    QVERIFY(unpin->isEnabled());
-  }
-
-  void pinsAreMarkedInBothPanels() {
-    Workbench bench;
-    for (int p = 0; p < 2; ++p) {
-      QVERIFY(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned) > 40);
-    }
-    edits::setPinned(bench.document(), {pinned}, true);
-    bench.settle();
-    for (int p = 0; p < 2; ++p) {
-      QCOMPARE(bench.distanceFromColour(p, bench.place(p, pinned), colours::pinned), 0);
-    }
-  }
-
   void aPinnedElementIsNotGrabbed() {
     Workbench bench;
     edits::setPinned(bench.document(), {pinned}, true);
@@ -115,23 +65,6 @@ class WindowPin : public QObject {
     QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     dragFar(bench);  // the next drag works normally
     QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);
-  }
-
-  void pinsGoWithTheMeshAndComeBack() {
-    Workbench bench;
-    edits::setPinned(bench.document(), {pinned}, true);
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
-                       QStringLiteral("build small"));
-    bench.settle();
-    QVERIFY(bench.document().pins().empty());
-    QVERIFY(!bench.find<QAction>("unpinAll")->isEnabled());
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.document().pins(), std::vector<ElementId>{pinned});
-    dragFar(bench);
-    for (int p = 0; p < 2; ++p) {
-      QCOMPARE(bench.position(p, pinned), bench.document().mesh()->rest_position(pinned));
-    }
   }
 };
 

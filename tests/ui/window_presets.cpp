@@ -68,17 +68,6 @@ class WindowPresets : public QObject {
     QCOMPARE(bench.shown(), QStringLiteral("Standard"));
   }
 
-  void aPresetMovesADeformedObjectAtOnce() {
-    PresetBench bench;
-    bench.pick("Rubber");
-    const QPoint from = bench.place(0, 35);
-    bench.stroke(0, {from, from + QPoint(100, 0)});
-    const double before = bench.position(1, 27).x();
-    bench.pick("Steel mail");
-    bench.settle();
-    QVERIFY(bench.position(1, 27).x() > before);
-  }
-
   void changedValuesAreCustomAndValuesOfAPresetAreIt() {
     PresetBench bench;
     bench.set("stretchSpin", 1.3);
@@ -90,14 +79,6 @@ class WindowPresets : public QObject {
     QCOMPARE(bench.shown(), QStringLiteral("Rubber"));
     QVERIFY(!bench.enabled("savePreset") && !bench.enabled("deletePreset"));
     QVERIFY(bench.find<QAction>("deletePreset")->toolTip().contains(QStringLiteral("built in")));
-  }
-
-  void aPresetWhoseValuesChangeIsNoLongerShown() {
-    PresetBench bench;
-    bench.pick("Rubber");
-    bench.pick("Standard");
-    bench.set("stretchSpin", 1.3);
-    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
   }
 
   void oneOfTheUsersIsSavedDeletedAndKept() {
@@ -115,34 +96,6 @@ class WindowPresets : public QObject {
     QVERIFY(!bench.has("wet clay"));
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
     QCOMPARE(bench.document().softness().stretch, 1.25);
-  }
-
-  void namesThatAreTakenAreRefusedWithASentence() {
-    PresetBench bench;
-    bench.set("stretchSpin", 1.25);
-    bench.name("savePreset", "Jelly");
-    QVERIFY(bench.window.messages().isVisible());
-    QVERIFY(bench.find<QLineEdit>("presetName")->isVisible());  // so that the user can correct the name
-    QTest::keyClick(bench.find<QLineEdit>("presetName"), Qt::Key_Escape);
-    QVERIFY(bench.field().isVisible());
-    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
-  }
-
-  void aNameThatTheUserLeavesIsNotSaved() {
-    PresetBench bench;
-    bench.set("stretchSpin", 1.25);
-    bench.trigger("savePreset");
-    auto* line = bench.find<QLineEdit>("presetName");
-    QTRY_VERIFY(line->hasFocus());
-    QTest::keyClicks(line, QStringLiteral("clay"));
-    // The user looks something up in another program and returns.
-    QFocusEvent toAnother(QEvent::FocusOut, Qt::ActiveWindowFocusReason);
-    QApplication::sendEvent(line, &toAnother);
-    QVERIFY(line->isVisible());
-    bench.find<QDoubleSpinBox>("stretchSpin")->setFocus(Qt::MouseFocusReason);
-    QVERIFY(!line->isVisible() && bench.field().isVisible());
-    QVERIFY(!bench.has("clay"));
-    QCOMPARE(bench.shown(), QStringLiteral("Custom"));
   }
 
   void presetsThatAreBrokenSaySo() {

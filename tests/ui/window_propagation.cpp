@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
-#include <QScrollBar>
 #include <QSlider>
 #include <QTreeView>
 
@@ -32,15 +31,6 @@ void openAndDrag(Workbench& bench, const Point& by = Point(4, 3, 0)) {
   QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
   bench.document().handle().grab(middle);
   bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + by);
-  bench.document().handle().release();
-  bench.settle();
-  QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
-}
-
-/// Makes another far drag, the other way.
-void openAnotherPass(Workbench& bench) {
-  bench.document().handle().grab(middle);
-  bench.document().handle().drag(bench.document().mesh()->rest_position(middle) - Point(4, 3, 0));
   bench.document().handle().release();
   bench.settle();
   QTRY_VERIFY(slider(bench, 0).isEnabled() && slider(bench, 1).isEnabled());
@@ -92,23 +82,6 @@ class WindowPropagation : public QObject {
     QVERIFY(positions(bench, 1) == after);
   }
 
-  void eachColumnNamesItsPanel() {
-    Workbench bench;
-    openAndDrag(bench);
-    for (int panel = 0; panel < bench.document().panels(); ++panel) {
-      const auto* title = bench.find<QLabel>(qPrintable(QStringLiteral("propagationPanel%1").arg(panel)));
-      QVERIFY(title != nullptr && title->isVisible());
-      QVERIFY(title->text().contains(bench.window.panel(panel).selector().currentText()));
-    }
-  }
-
-  void theLegendCountsCandidatesFromOne() {
-    Workbench bench;
-    openAndDrag(bench);
-    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
-    QCOMPARE(bench.window.panel(1).legend().lowest(), QStringLiteral("1"));
-  }
-
   void behindAnotherDockItColoursNothingAndKeepsItsStep() {
     Workbench bench;
     openAndDrag(bench);
@@ -126,57 +99,6 @@ class WindowPropagation : public QObject {
     QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
     QVERIFY(positions(bench, 1) != after);
     QCOMPARE(slider(bench, 1).value(), 0);
-  }
-
-  void lectureModeKeepsTheColours() {
-    Workbench bench;
-    openAndDrag(bench);
-    QTRY_COMPARE(bench.window.panel(1).legend().title(), updates());
-    bench.trigger("lectureMode");
-    bench.settle();
-    QVERIFY(!bench.find<QDockWidget>("propagationDock")->isVisible());
-    QCOMPARE(bench.window.panel(1).legend().title(), updates());
-    bench.trigger("lectureMode");
-    bench.settle();
-    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
-    QCOMPARE(bench.window.panel(1).legend().title(), updates());
-    QTest::keyClick(&bench.window, Qt::Key_O);
-    QTRY_VERIFY(bench.window.panel(1).legend().title() != updates());
-  }
-
-  void aHandleOfManyIsShownWithAllItsElements() {
-    Workbench bench;
-    QTest::keyClick(&bench.window, Qt::Key_O);
-    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
-    const std::vector<ElementId> handle{30, 31, 32};
-    bench.document().handle().grab(handle);
-    bench.document().handle().dragBy(Point(0, 3, 0));
-    bench.document().handle().release();
-    bench.settle();
-    QTRY_VERIFY(bench.find<QAction>("passBack")->isEnabled());
-    const auto after = positions(bench, 1);
-    bench.trigger("passFirst");
-    bench.settle();
-    for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
-      const Point rest = bench.document().mesh()->rest_position(e);
-      const bool held = std::ranges::find(handle, e) != handle.end();
-      QVERIFY((bench.position(1, e) - (held ? Point(rest + Point(0, 3, 0)) : rest)).norm() < 1e-5);
-    }
-    for (const ElementId e : handle) {
-      QVERIFY(bench.distanceFromColour(1, bench.view(1).viewPosition(e), colours::lit) < alike);
-    }
-    // One element of the handle is above the waiting candidates, the others are below them.
-    const int rows = list(bench, 1).rowCount();
-    const auto row = [&](int i) { return cell(bench, 1, i, 0) + cell(bench, 1, i, 2); };
-    QCOMPARE(row(0), QStringLiteral("30handle"));
-    QVERIFY(row(1).endsWith(QStringLiteral("next")));
-    QCOMPARE(row(rows - 2), QStringLiteral("31handle"));
-    QCOMPARE(row(rows - 1), QStringLiteral("32handle"));
-    bench.trigger("passForward");
-    QCOMPARE(cell(bench, 1, 0, 2), QStringLiteral("moved"));
-    QCOMPARE(cell(bench, 1, list(bench, 1).rowCount() - 3, 2), QStringLiteral("handle"));
-    bench.trigger("passLast");
-    QVERIFY(positions(bench, 1) == after);
   }
 
   void theListSaysWhatWaits() {
@@ -214,87 +136,6 @@ class WindowPropagation : public QObject {
     bench.trigger("passFirst");
     QTRY_VERIFY(bench.find<QLabel>("propagationState1")->text().contains(QStringLiteral("no waiting list")));
     QTRY_COMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
-  }
-
-  /// The numbers of elements are never shortened, also in many panels of a large mesh and with large texts.
-  void numbersInTheListsAreWhole_data() {
-    QTest::addColumn<bool>("lecture");
-    QTest::newRow("usual texts") << false;
-    QTest::newRow("large texts") << true;
-  }
-  void numbersInTheListsAreWhole() {
-    QFETCH(bool, lecture);
-    Workbench bench(generate({MeshKind::grid, {320, 320, 1}, 1, {}}));
-    bench.trigger("addPanel");
-    bench.trigger("addPanel");
-    QTest::keyClick(&bench.window, Qt::Key_O);
-    bench.settle();
-    if (lecture) {
-      bench.trigger("lectureMode");
-      bench.find<QDockWidget>("propagationDock")->show();
-    }
-    bench.settle();
-    for (int panel = 0; panel < bench.document().panels(); ++panel) {
-      auto* view = bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)));
-      QFont bold = view->font();
-      bold.setBold(true);
-      const QFontMetrics metrics(bold);
-      const int number = metrics.horizontalAdvance(QStringLiteral("102399"));
-      QVERIFY(view->columnWidth(0) >= number + view->iconSize().width() + 2 * 4);
-      QVERIFY(view->columnWidth(1) >= number + 2 * 4);
-      QVERIFY(view->columnWidth(2) >= metrics.horizontalAdvance(QStringLiteral("dropped")) + 2 * 4);
-      QCOMPARE(view->textElideMode(), Qt::ElideNone);
-      const int all = view->columnWidth(0) + view->columnWidth(1) + view->columnWidth(2);
-      QVERIFY(all <= view->viewport()->width() || view->horizontalScrollBarPolicy() != Qt::ScrollBarAlwaysOff);
-    }
-    if (lecture) {
-      bench.trigger("lectureMode");
-    }
-  }
-
-  /// Where there is room for the three columns, they fill the list, and nothing scrolls.
-  void theColumnsFillAWideList() {
-    Workbench bench;
-    openAndDrag(bench);
-    auto* dock = bench.find<QDockWidget>("propagationDock");
-    dock->setFloating(true);
-    dock->resize(1000, 500);
-    for (int panel = 0; panel < bench.document().panels(); ++panel) {
-      const auto* view = bench.find<QTreeView>(qPrintable(QStringLiteral("waitingList%1").arg(panel)));
-      QTRY_VERIFY(view->viewport()->width() > 400);
-      QTRY_COMPARE(view->columnWidth(0) + view->columnWidth(1) + view->columnWidth(2), view->viewport()->width());
-      QVERIFY(!view->horizontalScrollBar()->isVisible());
-    }
-  }
-
-  void passesCountFromTheDrag() {
-    Workbench bench;
-    openAndDrag(bench);
-    openAnotherPass(bench);
-    const auto note = [&] { return bench.find<QLabel>("state1")->toolTip(); };
-    bench.settleFigures();
-    QTRY_VERIFY2(note().contains(QStringLiteral("pass 1")), qPrintable(note()));
-    bench.document().handle().grab(middle);
-    for (int i = 1; i <= 3; ++i) {
-      bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(i, 0, 0));
-      bench.settle();  // so that each is a separate pass
-    }
-    bench.document().handle().release();
-    bench.settleFigures();
-    QTRY_VERIFY2(note().contains(QStringLiteral("pass 3")), qPrintable(note()));
-  }
-
-  void aPassThatComesLateJoinsTheSteps() {
-    Workbench bench;
-    openAndDrag(bench);
-    bench.choose(1, "Exact ChainMail");
-    bench.document().handle().grab(middle);
-    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(3, 2, 0));
-    bench.document().handle().release();
-    bench.trigger("passFirst");  // panel B has no pass yet
-    QVERIFY(!slider(bench, 1).isEnabled());
-    QTRY_VERIFY(slider(bench, 1).isEnabled());
-    QCOMPARE(slider(bench, 1).value(), 0);
   }
 
   void elementsAreColouredByOrderOfUpdate() {
@@ -339,30 +180,6 @@ class WindowPropagation : public QObject {
     QCOMPARE(slider(bench, 1).value(), 7);
   }
 
-  void theChosenPanelIsRemovedAndAnotherOneSteps() {
-    Workbench bench;
-    bench.trigger("addPanel");
-    bench.settle();
-    openAndDrag(bench);
-    QTRY_VERIFY(slider(bench, 2).isEnabled());
-    bench.find<QCheckBox>("passTogether")->setChecked(false);
-    slider(bench, 2).setValue(3);  // the third panel is chosen
-    bench.trigger("removePanel");
-    QTRY_COMPARE(bench.document().panels(), 2);
-    bench.settle();
-    openAnotherPass(bench);
-    bench.trigger("passFirst");
-    bench.trigger("passForward");
-    bench.trigger("passForward");
-    const std::array steps{slider(bench, 0).value(), slider(bench, 1).value()};
-    QCOMPARE(std::ranges::count(steps, 2), 1);  // one panel steps, as the box says
-    auto* speed = bench.find<QComboBox>("passSpeed");
-    speed->setCurrentIndex(speed->findData(1000));
-    bench.trigger("passPlay");
-    QTRY_COMPARE(slider(bench, 1).value(), slider(bench, 1).maximum());
-    QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
-  }
-
   void slowMotionRunsToTheEndAndStops() {
     Workbench bench;
     openAndDrag(bench);
@@ -372,24 +189,6 @@ class WindowPropagation : public QObject {
     QVERIFY(bench.find<QAction>("passPlay")->isChecked());
     QVERIFY(slider(bench, 1).value() < slider(bench, 1).maximum());
     QTRY_COMPARE(slider(bench, 1).value(), slider(bench, 1).maximum());
-    QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
-  }
-
-  /// The first panel is chosen, and only the second one has candidates.
-  void slowMotionOfAPanelWithoutCandidatesStops() {
-    Workbench bench;
-    bench.choose(0, "Free-form deformation");
-    QTest::keyClick(&bench.window, Qt::Key_O);
-    QTRY_VERIFY(bench.find<QDockWidget>("propagationDock")->isVisible());
-    bench.document().handle().grab(middle);
-    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(4, 3, 0));
-    bench.document().handle().release();
-    bench.settle();
-    QTRY_VERIFY(slider(bench, 1).isEnabled());
-    QVERIFY(!slider(bench, 0).isEnabled());
-    bench.find<QCheckBox>("passTogether")->setChecked(false);
-    bench.trigger("passPlay");
-    QVERIFY(bench.find<QAction>("passPlay")->isChecked());
     QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
   }
 
@@ -435,20 +234,6 @@ class WindowPropagation : public QObject {
       bench.trigger("passLast");
       QVERIFY(positions(bench, 0) == after);
     }
-  }
-
-  void aHundredThousandStepsStayQuick() {
-    Workbench bench(generate({MeshKind::grid, {320, 320, 1}, 1, {}}));
-    openAndDrag(bench, Point(400, 300, 0));
-    QVERIFY(slider(bench, 1).maximum() > 100'000);
-    QTRY_VERIFY(bench.find<QLabel>("state1")->toolTip().contains(QStringLiteral("drawn")));
-    QElapsedTimer clock;
-    clock.start();
-    for (const int step : {50'000, 50'001, 90'000, 10'000, 100'000}) {
-      slider(bench, 1).setValue(step);
-      bench.view(1).grabFramebuffer();
-    }
-    QVERIFY(clock.elapsed() < 5 * 2000);  // about 100 ms each; the limit allows for a busy machine
   }
 };
 

@@ -2,17 +2,13 @@
 
 #include <QComboBox>
 #include <QDeadlineTimer>
-#include <QDir>
 #include <QFile>
-#include <QImage>
 #include <QLabel>
 #include <QTemporaryDir>
 #include <functional>
-#include <sstream>
 
 #include "docks/frame_rate/frame_rate_dock.h"
 #include "document/edits.h"
-#include "document/panel_colour.h"
 #include "report/page/format.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -121,111 +117,6 @@ class WindowRate : public QObject {
     QCOMPARE(pointsIn(curve(samples, 0, 10, 500)), std::size_t{300});
   }
 
-  void aLineBreaksOffWhereNothingHappened() {
-    const std::vector<RateSample> samples{sampleAt(1, 5), sampleAt(1.5, 6), sampleAt(4, 7), sampleAt(7.1, 2400)};
-    const auto lines = curve(samples, 0, 10, 100);
-    // The last pass started 0.7 s after the previous one ended.
-    QCOMPARE(lines.size(), std::size_t{2});
-    QCOMPARE(lines[0], (QPolygonF{{1, 5}, {1.5, 6}}));
-    QCOMPARE(lines[1], (QPolygonF{{4, 7}, {7.1, 2400}}));
-    QVERIFY(curve({}, 0, 10, 100).empty());
-    // With many gaps, there are still no more points than requested.
-    std::vector<RateSample> sparse;
-    for (int i = 0; i < 3000; ++i) {
-      sparse.push_back(sampleAt(0.2 * i + (i / 5) * 1.2, i));
-    }
-    QVERIFY(pointsIn(curve(sparse, 0, sparse.back().time, 500)) <= 500);
-  }
-
-  void theHistoryKeepsTenMinutes() {
-    RateHistory history;
-    for (int i = 0; i <= 4000; ++i) {
-      history.add(sampleAt(i, 1));
-    }
-    QVERIFY(history.samples().size() <= 1300);  // at most twice as many: many old samples are removed at once
-    QCOMPARE(history.since(3900).size(), std::size_t{102});
-    QCOMPARE(history.since(3900).front().time, 3899.0);
-  }
-
-  void theTableHasEverySampleOnceInTheOrderOfTime() {
-    std::vector<RateHistory> panels(2);
-    panels[0].add(sampleAt(1, 0.5));
-    panels[0].add(sampleAt(3, 0.25));
-    panels[1].add(sampleAt(2, 8));
-    panels[1].add(sampleAt(4, 16));
-    std::ostringstream table;
-    writeCsv(table, panels);
-    const QList<QByteArray> rows = QByteArray::fromStdString(table.str()).trimmed().split('\n');
-    QCOMPARE(rows.size(), 5);
-    const auto isOf = [&](int row, const char* time, const char* panel, const char* ms) {
-      const QList<QByteArray> fields = rows[row].split(',');
-      return fields[0] == time && fields[1] == panel && fields[5] == ms;  // in milliseconds, as in the header
-    };
-    QVERIFY(isOf(1, "1", "A", "0.5") && isOf(2, "2", "B", "8"));
-    QVERIFY(isOf(3, "3", "A", "0.25") && isOf(4, "4", "B", "16"));
-  }
-
-  void aPanelThatComesAgainBeginsAnew() {
-    RateBench bench;
-    bench.trigger("addPanel");
-    bench.settle();
-    QVERIFY(bench.shakeUntilSampled(2));
-    bench.rest();
-    const double before = bench.end();
-    bench.trigger("removePanel");
-    bench.settle();
-    bench.trigger("addPanel");
-    bench.settle();
-    for (const QPointF& point : bench.points(2)) {
-      QVERIFY(point.x() >= before);
-    }
-  }
-
-  void theLagBehindTheEquilibriumIsPlotted() {
-    RateBench bench;
-    bench.set("rateQuantity", QStringLiteral("lag"));
-    QVERIFY(bench.shakeUntilShown());
-    bench.rest();
-    QVERIFY(bench.points(0).empty());  // nothing relaxes
-    edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::equilibrium});
-    const auto lags = [&](double below) {
-      const QPolygonF points = bench.points(0);
-      return std::ranges::any_of(points,
-                                 [&](const QPointF& point) { return point.y() < below; });  // 0: no energy is left
-    };
-    QVERIFY(bench.shakeUntilShown());
-    QTRY_VERIFY_WITH_TIMEOUT(lags(1e-3), 12'000);
-    QTemporaryDir folder;
-    bench.dock().saveTablePath(folder.filePath(QStringLiteral("rates.csv")));
-    const QList<QByteArray> rows = bytesOf(folder.filePath(QStringLiteral("rates.csv"))).trimmed().split('\n');
-    QVERIFY(rows[0].endsWith(",lag"));
-    QVERIFY(std::ranges::any_of(rows.mid(1), [](const QByteArray& row) { return !row.endsWith(','); }));
-  }
-
-  void bothPanelsAreOnOnePlot() {
-    RateBench bench;
-    QVERIFY(bench.shakeUntilSampled(0) && bench.shakeUntilSampled(1));
-    bench.rest();
-    for (const RateQuantity& one : rateQuantities().first(rateQuantities().size() - 1)) {  // nothing relaxes
-      bench.set("rateQuantity", QString::fromUtf8(one.name.data(), qsizetype(one.name.size())));
-      QVERIFY(bench.plot().title.starts_with(one.label));
-      QCOMPARE(bench.plot().series.size(), bench.document().panels());
-      for (std::size_t panel = 0; panel < 2; ++panel) {
-        const QPolygonF points = bench.points(panel);
-        QVERIFY2(points.size() > 3, one.name.data());
-        QVERIFY(std::ranges::any_of(points, [](const QPointF& point) { return point.y() > 0; }) ||
-                one.name.starts_with("violation"));
-      }
-    }
-    QVERIFY(bench.plot().series[0].colour != bench.plot().series[1].colour);
-    QCOMPARE(bench.plot().series[0].label, std::string("A Generalized ChainMail"));
-    QVERIFY(bench.find<QLabel>("rateName1")->text().contains(QStringLiteral("Natural Queue")));
-    bench.set("rateSpan", 60);
-    QCOMPARE(bench.end() - bench.plot().x.ends->front(), 60.0);
-    bench.choose(0, "Spiral");
-    QVERIFY(bench.find<QLabel>("rateName0")->text().contains(QStringLiteral("Spiral")));
-  }
-
   void aPlotStandsStillWhereItIsPausedOrNothingHappens() {
     RateBench bench;
     QVERIFY(bench.shakeUntilShown());
@@ -279,32 +170,6 @@ class WindowRate : public QObject {
       QCOMPARE(fields[4].isEmpty(), fields[5].isEmpty());
     }
     QVERIFY(found);
-  }
-
-  void thePlotIsSavedAsPictureAndForPrint() {
-    const QTemporaryDir folder;
-    RateBench bench;
-    bench.set("rateQuantity", QStringLiteral("painted"));
-    QVERIFY(bench.shakeUntilShown());
-    bench.rest();
-    bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.png")));
-    const QImage picture(folder.filePath(QStringLiteral("rates.png")));
-    QVERIFY(picture.width() > 1500);
-    for (int panel = 0; panel < 2; ++panel) {
-      int pixels = 0;
-      for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-          pixels += picture.pixelColor(x, y) == panelColour(bench.document(), panel).on(colours::Ground::light) ? 1 : 0;
-        }
-      }
-      QVERIFY(pixels > 100);  // the line in the legend alone would be longer
-    }
-    bench.dock().savePicturePath(folder.filePath(QStringLiteral("rates.pdf")));
-    QVERIFY(bytesOf(folder.filePath(QStringLiteral("rates.pdf"))).startsWith("%PDF-"));
-    bench.dock().savePicturePath(folder.filePath(QStringLiteral("missing/rates.png")));
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("missing")));
-    bench.dock().saveTablePath(folder.filePath(QStringLiteral("missing/rates.csv")));
-    QVERIFY(bench.window.messages().isVisible());
   }
 
  private:

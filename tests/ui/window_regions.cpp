@@ -62,49 +62,6 @@ class WindowRegions : public QObject {
     }
   }
 
-  void regionsAreDrawnOfFewSelectedElementsAndInEveryDimension() {
-    for (const auto& mesh :
-         {generate({MeshKind::line, {6, 1, 1}, 1, {}}), generate({MeshKind::block, {3, 3, 3}, 1, {}})}) {
-      Workbench bench(mesh);
-      const QImage without = bench.view(1).grabFramebuffer();
-      bench.trigger("showValidRegions");
-      bench.document().selection().set({1, 2});
-      for (const auto& region : regionsAbout(bench, 1, 1)) {
-        const QPointF at =
-            mesh->space_dimension == 1 ? bench.view(1).viewPosition(region.low) : corner(bench, 1, region);
-        QVERIFY(bench.distanceFromColour(1, at, colours::inside) < alike);
-      }
-      bench.document().selection().set({});
-      QCOMPARE(bench.view(1).grabFramebuffer(), without);
-    }
-  }
-
-  void aLensMagnifiesSmallRegionsInAPlane() {
-    Workbench bench(generate({MeshKind::grid, {61, 61, 1}, 1, {}}));
-    bench.trigger("showValidRegions");
-    bench.document().highlight().set({});
-    const QImage without = bench.view(0).grabFramebuffer();
-    bench.document().highlight().set({30 * 61 + 30, false, {}});
-    QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() > 150);  // more than the regions themselves
-    bench.document().highlight().set({});
-    bench.document().selection().set({30 * 61 + 30});
-    QVERIFY(differenceOf(without, bench.view(0).grabFramebuffer()).width() < 100);  // a lens belongs to the cursor
-  }
-
-  void regionsFollowTheSoftnessOfTheirLink() {
-    Workbench bench;
-    bench.trigger("showValidRegions");
-    bench.document().highlight().set({middle, false, {}});
-    const Point edge = Point(5.2, 2.9, 0);  // a corner of the region for the global softness
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) < alike);
-    edits::setSoftnessOf(bench.document(), {*find_link(*bench.document().mesh(), middle, middle + 1)},
-                         LinkSoftness{1, 1.5, 0.3});
-    bench.settle();
-    bench.document().highlight().set({middle, false, {}});  // again, because the cursor may be over the window
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(edge), colours::inside) > alike);
-    QVERIFY(bench.distanceFromColour(0, bench.view(0).viewPosition(Point(5.5, 2.7, 0)), colours::inside) < alike);
-  }
-
  private:
   static std::vector<NeighbourRegion> regionsAbout(Workbench& bench, int panel, ElementId element) {
     const Document& document = bench.document();

@@ -7,8 +7,6 @@
 #include <QProcess>
 #include <QSignalSpy>
 #include <QSlider>
-#include <QStandardPaths>
-#include <QToolButton>
 
 #include "docks/replay/replay_dock.h"
 #include "document/edits.h"
@@ -155,35 +153,6 @@ std::vector<float> run(const std::vector<Command>& moves, const MeshPointer& mes
   return positions;
 }
 
-constexpr std::size_t drags = 40;  // so many that a state is saved behind them
-
-/// Returns a drag of many moves, sweeps, and another drag.
-std::vector<Command> dragRelaxAndDrag(const Mesh& mesh) {
-  std::vector<Command> moves{commands::Grab{31}};
-  for (std::size_t i = 1; i <= drags; ++i) {
-    moves.emplace_back(commands::Drag{mesh.rest_position(31) + 0.1 * double(i) * Point(1, -1, 0)});
-  }
-  moves.emplace_back(commands::Release{});
-  moves.emplace_back(commands::Relax{50, 1, RelaxationScheme::mean});
-  moves.emplace_back(commands::Grab{10});
-  moves.emplace_back(commands::Drag{mesh.rest_position(10) + Point(-1, 2, 0)});
-  moves.emplace_back(commands::Release{});
-  return moves;
-}
-
-/// Returns two drags of 100 moves each.
-std::vector<Command> twoLongDrags(const Mesh& mesh, const Point& step) {
-  std::vector<Command> moves;
-  for (const ElementId element : {31U, 10U}) {
-    moves.emplace_back(commands::Grab{element});
-    for (int i = 1; i <= 100; ++i) {
-      moves.emplace_back(commands::Drag{mesh.rest_position(element) + double(i) * step});
-    }
-    moves.emplace_back(commands::Release{});
-  }
-  return moves;
-}
-
 /// Stands in for ffmpeg, which loses details: the film is the pictures as they are.
 class RawFilms {
  public:
@@ -315,76 +284,6 @@ class WindowReplay : public QObject {
     QVERIFY(shapes(bench) == live);
   }
 
-  /// Snapshots on the way must not be within a drag, because they do not store the handle.
-  void anyPlaceOfALongDragIsReachedFromAnywhere() {
-    Workbench bench;
-    const std::vector<Command> moves = twoLongDrags(*bench.document().mesh(), Point(0.05, -0.05, 0));
-    bench.document().moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
-    bench.settle();
-    for (const std::size_t place : {moves.size(), std::size_t{70}, std::size_t{150}, std::size_t{36}, std::size_t{103},
-                                    std::size_t{101}, std::size_t{180}, std::size_t{140}}) {
-      bench.document().moves().goTo(place);
-      bench.settle();
-      const std::vector<Command> done(moves.begin(), moves.begin() + std::ptrdiff_t(place));
-      for (int panel = 0; panel < 2; ++panel) {
-        QVERIFY2(bench.document().solvers().frame(panel)->positions ==
-                     run(done, bench.document().mesh(), bench.document().algorithm(panel)),
-                 qPrintable(QStringLiteral("after %1 commands").arg(place)));
-      }
-    }
-  }
-
-  /// Snapshots on the way belong to the moves that were there then.
-  void otherMovesAreReachedWithoutTheSnapshotsOfTheFirst() {
-    Workbench bench;
-    Document& document = bench.document();
-    for (const double step : {0.05, -0.05}) {
-      const std::vector<Command> moves = twoLongDrags(*document.mesh(), Point(step, -step, 0));
-      document.moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
-      bench.settle();
-      document.moves().goTo(moves.size());
-      bench.settle();
-      const std::size_t back = moves.size() - 50;  // after the snapshot between both drags
-      document.moves().goTo(back);
-      bench.settle();
-      const std::vector<Command> done(moves.begin(), moves.begin() + std::ptrdiff_t(back));
-      QVERIFY(document.solvers().frame(0)->positions == run(done, document.mesh(), document.algorithm(0)));
-    }
-  }
-
-  void goingOnBeforeSweepsEndGivesWhatAReplayWithoutAPauseGives_data() {
-    QTest::addColumn<int>("first");
-    QTest::addColumn<int>("then");
-    const int afterSweeps = int(drags + 3), end = int(drags + 6);
-    QTest::newRow("forward") << afterSweeps << end;
-    QTest::newRow("back") << end << end - 1;  // the state that was saved after the sweeps lacks some of them, too
-    QTest::newRow("back to the sweeps") << end << afterSweeps;
-  }
-
-  /// The solvers are held, so that the sweeps are still to come when the slider moves on.
-  void goingOnBeforeSweepsEndGivesWhatAReplayWithoutAPauseGives() {
-    QFETCH(int, first);
-    QFETCH(int, then);
-    Workbench bench;
-    Document& document = bench.document();
-    const std::vector<Command> moves = dragRelaxAndDrag(*document.mesh());
-    document.moves().load(std::make_shared<const std::vector<Command>>(moves), QStringLiteral("open"));
-    bench.settle();
-    std::promise<void> gate;
-    const auto opened = gate.get_future().share();
-    for (int panel = 0; panel < document.panels(); ++panel) {
-      document.solvers().ask(panel, [opened](const Simulation&) { opened.wait(); });
-    }
-    document.moves().goTo(std::size_t(first));
-    document.moves().goTo(std::size_t(then));
-    gate.set_value();
-    bench.settle();
-    const std::vector<Command> done(moves.begin(), moves.begin() + then);
-    for (int panel = 0; panel < document.panels(); ++panel) {
-      QVERIFY(document.solvers().frame(panel)->positions == run(done, document.mesh(), document.algorithm(panel)));
-    }
-  }
-
   void fromAPlaceInTheMiddleTheHandGoesOn() {
     Workbench bench;
     work(bench);
@@ -499,24 +398,6 @@ class WindowReplay : public QObject {
     QCOMPARE(bench.document().undoStack().count(), 2);
   }
 
-  void anOpeningOfMovesThatIsCancelledLeavesTheObject() {
-    Workbench bench;
-    work(bench);
-    const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().moves().history().length();
-    QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("large.json"));
-    writeDrags(path, 200'000);
-    dock(bench)->openMoves(path);
-    QTRY_VERIFY(bench.window.jobs().share() > 0.1);  // the job has started
-    QTest::mouseClick(bench.find<QToolButton>("jobCancel"), Qt::LeftButton);
-    QVERIFY(!bench.window.jobs().running());
-    bench.settle();
-    QVERIFY(shapes(bench) == live);
-    QCOMPARE(bench.document().moves().history().length(), length);
-    QVERIFY(!bench.window.messages().isVisible());
-  }
-
   /// The moves were checked for a mesh that is replaced meanwhile.
   void movesThatWereReadForAnotherObjectAreNotTaken() {
     Workbench bench;
@@ -543,23 +424,6 @@ class WindowReplay : public QObject {
     bench.settle();
     QVERIFY(shapes(bench) == live);
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
-  }
-
-  void relaxationIsRepeatedTheSameEachTime() {
-    Workbench bench;
-    edits::setRelaxation(bench.document(), {true, 1, RelaxationScheme::mean});
-    work(bench);
-    settleAll(bench);
-    const Shapes live = shapes(bench);
-    go(bench, "replayFirst");
-    QVERIFY(!bench.document().relaxation().on);  // the effects of relaxation are in the recorded commands
-    go(bench, "replayLast");
-    QVERIFY(shapes(bench) == live);
-    go(bench, "replayFirst");
-    go(bench, "replayLast");
-    QVERIFY(shapes(bench) == live);
-    bench.trigger("undo");
-    QVERIFY(bench.document().relaxation().on);
   }
 
   void aFilmShowsEveryMove() {

@@ -6,8 +6,6 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QScrollBar>
-#include <QSplitter>
-#include <set>
 
 #include "document/edits.h"
 #include "report_bench.h"
@@ -48,19 +46,6 @@ class WindowReport : public QObject {
     QCOMPARE(bench.window.size(), QSize(1280, 800));
   }
 
-  void itRunsByItselfOnlyWhileItIsEmpty() {
-    ReportBench bench;
-    auto* dock = bench.find<ReportDock>("reportDock");
-    QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());  // cancelled
-    bench.run();
-    bench.trigger("showReport");
-    QTRY_VERIFY(!dock->isVisible());
-    bench.trigger("showReport");
-    QVERIFY(dock->isVisible());
-    QVERIFY(!bench.thread().running());
-    QVERIFY(bench.results().isVisible());
-  }
-
   void aRunFillsPlotAndTable() {
     ReportBench bench;
     bench.run();
@@ -79,86 +64,6 @@ class WindowReport : public QObject {
     QVERIFY(!bench.find<QLabel>("reportRefusals")->isVisible());
   }
 
-  void theTableIsBesideThePlotOnlyWhereBothHaveRoom() {
-    ReportBench bench;
-    bench.choose("reportSweeps", 0);
-    bench.run();
-    const auto* split = bench.find<QSplitter>("reportSplitter");
-    const int table = bench.results().tableWidth();
-    QVERIFY(table > 300);
-    bench.results().resize(4 * table, 300);
-    QCOMPARE(split->orientation(), Qt::Horizontal);
-    bench.results().resize(table + 50, 100);  // beside the table, the plot would have 50 pixels
-    QCOMPARE(split->orientation(), Qt::Vertical);
-    bench.results().resize(4 * table, 4 * table);  // both have their full width below each other
-    QCOMPARE(split->orientation(), Qt::Vertical);
-  }
-
-  void aLongNameDoesNotWidenTheDock() {
-    ReportBench bench;
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {9, 7, 1}, 1, {}}), QString(400, QLatin1Char('x')),
-                       {});
-    bench.settle();
-    bench.choose("reportSweeps", 0);
-    bench.run();
-    const auto* heading = bench.find<QLabel>("reportHeading");
-    QVERIFY(heading->text().startsWith(bench.document().name()));
-    const int words = heading->fontMetrics().horizontalAdvance(heading->text());
-    QVERIFY(bench.results().minimumSizeHint().width() < words / 2);
-  }
-
-  void errorsOfZeroStandOnALineOfTheirOwn() {
-    ReportBench bench;
-    bench.choose("reportPrecision", 1);
-    bench.choose("reportSweeps", 0);
-    bench.choose("reportError", 2);
-    bench.run();
-    QCOMPARE(bench.cell(QStringLiteral("Exact"), exactColumn), QStringLiteral("0"));
-    const report::PlotAxes axes(bench.plot().plot());
-    QVERIFY(axes.y.has_zero());
-    const double zero = bench.plot().positionOf(1, 0).y();
-    int above = 0;
-    for (const report::PlotMark& one : bench.marks()) {
-      // Errors from rounding count as 0, as in the report's files.
-      const QString name = QString::fromStdString(bench.plot().plot().series[one.series].label);
-      const bool isZero = bench.cell(name, exactColumn).toDouble() < 1e-12;
-      QCOMPARE(bench.plot().positionOf(one.x, one.y).y() == zero, isZero);
-      above += isZero ? 0 : 1;
-    }
-    QVERIFY(above > 0);  // Generalized has another result
-    bench.choose("reportError", 0);
-    QCOMPARE(bench.marks().size(), std::size_t{6});
-  }
-
-  void pointingAtAMarkReadsIt() {
-    ReportBench bench;
-    bench.choose("reportSweeps", 0);
-    QVERIFY(bench.plot().readingAt({10, 10}).isEmpty());  // before the first run
-    bench.run();
-    for (const report::PlotMark& one : bench.marks()) {
-      const QPointF there = bench.plot().positionOf(one.x, one.y);
-      QVERIFY(bench.plot().rect().contains(there.toPoint()));
-      const QString reading = bench.plot().readingAt(there);
-      // Another mark may have the same position.
-      QVERIFY2(std::ranges::any_of(bench.marks(),
-                                   [&](const auto& mark) { return QString::fromStdString(mark.title) == reading; }),
-               qPrintable(reading));
-    }
-    QVERIFY(bench.plot().readingAt({0, 0}).isEmpty());
-  }
-
-  void theTableSortsByNumbers() {
-    ReportBench bench;
-    bench.run();
-    bench.table().sortByColumn(msColumn, Qt::DescendingOrder);
-    double last = 1e300;
-    for (int row = 0; row < bench.table().rowCount(); ++row) {
-      const double ms = bench.table().item(row, msColumn)->text().toDouble();
-      QVERIFY(ms <= last);
-      last = ms;
-    }
-  }
-
   void whoIsRefusedIsListedWithTheReason() {
     ReportBench bench;
     const QPoint from = bench.place(0, 31);
@@ -172,24 +77,6 @@ class WindowReport : public QObject {
                  refusals->text().contains(QStringLiteral("pinned")),
              qPrintable(refusals->text()));
     QCOMPARE(bench.table().rowCount(), 0);
-  }
-
-  void algorithmsThatDoNotFitCannotBeChosen() {
-    ReportBench bench;
-    auto* list = bench.find<QListWidget>("reportAlgorithms");
-    QListWidgetItem* original = list->findItems(QStringLiteral("3D ChainMail"), Qt::MatchExactly).value(0);
-    QVERIFY((original->flags() & Qt::ItemIsEnabled) != 0);
-    edits::replaceMesh(bench.document(), generate({MeshKind::cloth, {5, 4, 1}, 1, {}}), QStringLiteral("cloth"), {});
-    bench.settle();
-    QVERIFY((original->flags() & Qt::ItemIsEnabled) == 0);
-    QVERIFY(original->toolTip().contains(QStringLiteral("grid")));
-    bench.choose("reportSweeps", 1);
-    bench.run();
-    QCOMPARE(bench.table().rowCount(), 5);
-    for (int row = 0; row < list->count(); ++row) {
-      list->item(row)->setCheckState(Qt::Unchecked);
-    }
-    QVERIFY(!bench.find<QPushButton>("reportRun")->isEnabled());
   }
 
   void savingWritesThreeFilesThatParse() {
@@ -229,31 +116,6 @@ class WindowReport : public QObject {
     QVERIFY(read(folder, "report.csv").size() > 100);
   }
 
-  void thePlotIsSavedAsADrawing() {
-    ReportBench bench;
-    bench.run();
-    const QTemporaryDir folder;
-    for (const auto& [name, begin] :
-         {std::pair("plot.svg", "<?xml"), std::pair("plot.pdf", "%PDF"), std::pair("plot.png", "\x89PNG")}) {
-      bench.results().savePlotTo(folder.filePath(QLatin1String(name)));
-      QVERIFY2(read(folder, name).startsWith(begin), name);
-    }
-    QVERIFY(read(folder, "plot.svg").contains("Natural Queue"));
-  }
-
-  void decimalPointsStandBelowEachOther() {
-    ReportBench bench;
-    bench.run();
-    std::set<int> fromTheRight;
-    for (int row = 0; row < bench.table().rowCount(); ++row) {
-      const QString words = bench.table().item(row, violationColumn)->text();
-      if (words.contains(QLatin1Char('.')) && !words.contains(QLatin1Char('e'))) {
-        fromTheRight.insert(int(words.size() - words.indexOf(QLatin1Char('.'))));
-      }
-    }
-    QCOMPARE(fromTheRight.size(), std::size_t{1});
-  }
-
   void aReportThatCannotBeSavedIsNotSavedByHalves() {
     ReportBench bench;
     bench.run();
@@ -265,18 +127,6 @@ class WindowReport : public QObject {
     bench.window.messages().hide();
     bench.results().saveTo(folder.filePath(QStringLiteral("missing")));
     QVERIFY(bench.window.messages().isVisible());
-  }
-
-  void everyWidgetIsNamed() {
-    ReportBench bench;
-    bench.run();
-    for (const char* name : {"reportDrags", "reportAlgorithms", "reportSweeps", "reportPrecision", "reportSeconds",
-                             "reportRun", "reportCancel", "reportProgress", "reportDrag", "reportError", "reportSave",
-                             "reportSavePlot", "reportPlot", "reportLegend", "reportTable", "reportHeading"}) {
-      auto* widget = bench.find<QWidget>(name);
-      QVERIFY2(widget != nullptr, name);
-      QVERIFY2(!widget->accessibleName().isEmpty() && !widget->toolTip().isEmpty(), name);
-    }
   }
 
  private:

@@ -1,7 +1,5 @@
 // Tests the runs of the Report dock in a real window: the compared object, cancelling, and edits during a run.
 
-#include <optional>
-
 #include "document/edits.h"
 #include "fair_timer.h"
 #include "report/page/format.h"
@@ -40,17 +38,6 @@ class WindowReportRun : public QObject {
     qInfo("until the thread ended, %s", qPrintable(timer.inWords()));
   }
 
-  void theThreadOfACancelledRunEndsAndItsResultIsDropped() {
-    ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
-    bench.runForLong();
-    bench.find<QPushButton>("reportCancel")->click();
-    bench.isReady();
-    QTRY_VERIFY(!bench.thread().atWork());  // the run would take minutes
-    QCoreApplication::sendPostedEvents();   // the thread has ended, so all its messages are queued
-    bench.isReady();
-    QVERIFY(bench.find<QLabel>("reportEmpty")->isVisible());
-  }
-
   void aRunRightAfterACancelledOneCounts() {
     ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
     bench.runForLong();
@@ -60,16 +47,6 @@ class WindowReportRun : public QObject {
     bench.run();
     QCOMPARE(bench.table().rowCount(), 6);
     QTRY_VERIFY(!bench.thread().atWork());
-  }
-
-  void theWindowStaysLiveDuringARun() {
-    ReportBench bench;
-    bench.runForLong();
-    QVERIFY(bench.find<QProgressBar>("reportProgress")->updatesEnabled());  // else the bar is not drawn again
-    const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(40, -60)});
-    QVERIFY(bench.document().solvers().frame(0)->statistics.passes > 0);
-    QVERIFY(bench.thread().running());
   }
 
   void theLastDragIsUsed() {
@@ -103,16 +80,6 @@ class WindowReportRun : public QObject {
              QString::fromStdString(report::figure(expected.violation.max)));
   }
 
-  void theLastDragGoesWithItsMesh() {
-    ReportBench bench;
-    const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(70, -60)});
-    bench.choose("reportDrags", 1);
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("other"), {});
-    QVERIFY(bench.document().moves().lastDrag().empty());
-    QCOMPARE(bench.find<QComboBox>("reportDrags")->currentIndex(), 0);
-  }
-
   void theObjectIsComparedAsItIs() {
     ReportBench bench;
     edits::cut(bench.document(), {0, 5, 9});
@@ -139,17 +106,6 @@ class WindowReportRun : public QObject {
     // The result is for the object from the start of the run, and the heading says so.
     QVERIFY(bench.find<QLabel>("reportHeading")->text().startsWith(QStringLiteral("sample, 63 elements")));
     QCOMPARE(bench.table().rowCount(), 12);
-  }
-
-  void theWindowClosesDuringARun() {
-    std::optional<test::FairTimer> timer;
-    {
-      ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
-      bench.runForLong();
-      bench.window.close();
-      timer.emplace();
-    }
-    QVERIFY2(timer->within(2000), qPrintable(timer->inWords()));  // the run would take minutes
   }
 };
 

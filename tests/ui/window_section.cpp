@@ -73,24 +73,6 @@ std::shared_ptr<Texture> fourSquares(double size) {
 }
 const QColor lowLeft(255, 0, 0), lowRight(0, 255, 0), highLeft(0, 0, 255), highRight(255, 255, 255);
 
-/// Returns a colour of a texture of 5 × 5 texels with different neighbours. Its box is larger than a sheet from 0 to 8,
-/// by 1 on each side: a texel is 2 mesh units wide, and the centres of the texels inside the sheet are at 2, 4 and 6.
-QColor ofTexel(int x, int y) { return {40 + 50 * x, 40 + 50 * y, (x + y) % 2 == 0 ? 60 : 200}; }
-std::shared_ptr<Texture> colouredSquares() {
-  auto texture = std::make_shared<Texture>();
-  texture->size = {5, 5, 1};
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 5; ++x) {
-      const QColor colour = ofTexel(x, y);
-      for (const int channel : {colour.red(), colour.green(), colour.blue(), 255}) {
-        texture->texels.push_back(std::uint8_t(channel));
-      }
-    }
-  }
-  texture->box = {Point(-1, -1, 0), Point(9, 9, 0)};
-  return texture;
-}
-
 MeshPointer picturedSheet(const std::shared_ptr<Texture>& texture = fourSquares(8)) {
   const auto cloth = generate({MeshKind::cloth, {9, 9, 1}, 1, {}});
   MeshParts parts;
@@ -99,26 +81,6 @@ MeshPointer picturedSheet(const std::shared_ptr<Texture>& texture = fourSquares(
   }
   parts.links = cloth->links;
   parts.triangles = cloth->triangles;
-  parts.texture = texture;
-  return build_mesh(std::move(parts));
-}
-
-/// Returns a block that is dark below the middle of x and light above.
-MeshPointer slicedVolume() {
-  const auto block = tetraBlock();
-  MeshParts parts;
-  for (ElementId e = 0; e < block->element_count(); ++e) {
-    parts.rest.push_back(block->rest_position(e));
-  }
-  parts.links = block->links;
-  parts.tetrahedra = block->tetrahedra;
-  auto texture = std::make_shared<Texture>();
-  texture->size = {28, 8, 4};
-  texture->channels = 1;
-  for (std::size_t i = 0; i < texture->byte_count(); ++i) {
-    texture->texels.push_back(i % 28 < 14 ? 40 : 220);
-  }
-  texture->box = {Point(0, 0, 0), Point(width - 1, height - 1, depth - 1)};
   parts.texture = texture;
   return build_mesh(std::move(parts));
 }
@@ -186,19 +148,6 @@ class WindowSection : public QObject {
     bench.trigger("section");
     bench.settle();
     QCOMPARE(bench.picture(), whole);  // the dock has closed, too
-  }
-
-  void theOtherSideIsSeenFromTheBack() {
-    SectionBench bench;
-    bench.trigger("section");
-    const QColor open = bench.colourAt(bench.place(0, inLayer(2)));
-    bench.trigger("viewBack");
-    const QColor back = bench.colourAt(bench.place(0, inLayer(2)));
-    QVERIFY(!isInside(back) && isInside(open));
-    bench.trigger("flipSection");
-    QVERIFY(bench.find<QCheckBox>("sectionFlip")->isChecked());
-    const QColor other = bench.colourAt(bench.place(0, inLayer(2)));
-    QVERIFY2(isInside(other), qPrintable(other.name() + open.name()));
   }
 
   void whatIsNotSeenIsNotPicked() {
@@ -291,22 +240,6 @@ class WindowSection : public QObject {
     QVERIFY(dock->isHidden());
   }
 
-  void aSessionKeepsIt() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("section.chainmail"));
-    SectionBench bench;
-    bench.trigger("section");
-    bench.trigger("flipSection");
-    bench.find<QSlider>("sectionSlider")->setValue(300);
-    const auto plane = bench.find<SectionDock>("sectionDock")->plane();
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    bench.trigger("section");
-    bench.find<QComboBox>("sectionAxis")->setCurrentIndex(0);
-    bench.open(path);
-    QCOMPARE(bench.find<SectionDock>("sectionDock")->plane(), plane);
-  }
-
   void aPictureLiesOnItsSheetAndIsWarpedWithIt() {
     Workbench bench(picturedSheet());
     const auto holds = [&](const QImage& image) {
@@ -340,29 +273,6 @@ class WindowSection : public QObject {
                   lowLeft) <= 3);
   }
 
-  /// Each texel is at its position, with an error of less than half a texel, and has the size that its box defines.
-  void everyTexelOfAPictureIsSeenWhereItLies() {
-    Workbench bench(picturedSheet(colouredSquares()));
-    bench.settle();
-    bench.document().highlight().set({});
-    const QImage screen = bench.view(0).grabFramebuffer(), print = inLines(bench.view(0));
-    const auto seen = [&](const QImage& image, double x, double y) {
-      return image.pixelColor(bench.view(0).viewPosition(Point(x, y, 0)).toPoint());
-    };
-    for (int x = 1; x <= 3; ++x) {
-      for (int y = 1; y <= 3; ++y) {
-        const QByteArray texel = QByteArray::number(x) + ", " + QByteArray::number(y);
-        // Between the centres of two texels, the screen shows a mixture of both.
-        const QPointF middle(2.0 * x, 2.0 * y);
-        QVERIFY2(apart(seen(screen, middle.x() + 0.04, middle.y() + 0.02), ofTexel(x, y)) <= 5, texel);
-        // Print has one colour per triangle, and each triangle is inside one texel.
-        for (const auto& [dx, dy] : {std::pair(-0.7, -0.8), std::pair(0.8, 0.7), std::pair(-0.7, 0.8)}) {
-          QVERIFY2(apart(seen(print, middle.x() + dx, middle.y() + dy), ofTexel(x, y)) <= 1, texel);
-        }
-      }
-    }
-  }
-
   /// The same test for voxels. The brightness also depends on the depth, so it is compared with volumes of one grey.
   void everyVoxelIsSeenWhereItLies_data() {
     QTest::addColumn<int>("layer");
@@ -394,18 +304,6 @@ class WindowSection : public QObject {
         }
       }
     }
-  }
-
-  void slicesOfAVolumeAreSeenInItsSections() {
-    SectionBench bench(slicedVolume());
-    bench.trigger("section");
-    const QImage screen = bench.picture(), print = inLines(bench.view(0));
-    const auto grey = [&](const QImage& image, double x) { return bench.colourIn(image, Point(x, 4.4, 2)); };
-    for (const QImage& image : {screen, print}) {
-      QVERIFY(grey(image, 3.4).saturation() < 30 && grey(image, 11.4).saturation() < 30);
-      QVERIFY(grey(image, 11.4).lightness() > grey(image, 3.4).lightness() + 60);  // fog reduces the difference
-    }
-    QVERIFY(apart(grey(screen, 3.4), grey(print, 3.4)) <= 6 && apart(grey(screen, 11.4), grey(print, 11.4)) <= 6);
   }
 };
 

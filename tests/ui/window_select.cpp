@@ -80,28 +80,6 @@ class WindowSelect : public QObject {
     QVERIFY(bench.document().selection().empty());
   }
 
-  void escapeInAFieldKeepsTheSelection() {
-    Workbench bench;
-    bench.trigger("toolSelect");
-    bench.document().selection().set(square);
-    auto& selector = bench.window.panel(0).selector();
-    selector.setFocus();
-    QTRY_COMPARE(QApplication::focusWidget(), &selector);
-    QTest::keyClick(&selector, Qt::Key_Escape);
-    QCOMPARE(bench.document().selection().elements(), square);
-    QTest::keyClick(&bench.window, Qt::Key_Escape);
-    QVERIFY(bench.document().selection().empty());
-  }
-
-  void aClickSelectsTheNearestOrNone() {
-    Workbench bench;
-    bench.trigger("toolSelect");
-    bench.click(1, 31);
-    QCOMPARE(bench.document().selection().elements(), std::vector<ElementId>{31});
-    QTest::mouseClick(&bench.view(1), Qt::LeftButton, {}, QPoint(4, 4));
-    QVERIFY(bench.document().selection().empty());
-  }
-
   void theBrushSelectsAlongItsWay() {
     Workbench bench;
     bench.trigger("toolSelect");
@@ -127,60 +105,6 @@ class WindowSelect : public QObject {
     QCOMPARE(bench.document().selection().elements(), square);
     QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, bench.place(0, 53));
     QCOMPARE(bench.document().selection().elements(), square);
-  }
-
-  /// Another window may receive the release. The next move of the mouse then has no pressed button.
-  void aBrushStrokeWithoutItsReleaseIsGivenUp() {
-    Workbench bench;
-    QVERIFY(holdsABrushStroke(bench));
-    View& view = bench.view(0);
-    const QPointF at = bench.place(0, 53);
-    QMouseEvent move(QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
-    QApplication::sendEvent(&view, &move);
-    QTRY_COMPARE(bench.document().selection().elements(), square);
-    QTest::mouseRelease(&view, Qt::LeftButton, {}, at.toPoint());
-    QCOMPARE(bench.document().selection().elements(), square);
-  }
-
-  void anotherMeshInMidStrokeIsSafe() {
-    Workbench bench;
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {40, 30, 1}, 1, {}}), QStringLiteral("large"),
-                       QStringLiteral("build large"));
-    bench.settle();
-    bench.trigger("toolSelect");
-    selectBetween(bench, 1000, 1199);
-    QVERIFY(!bench.document().selection().empty());
-    bench.find<QToolButton>("selectBrush")->click();
-    bench.stroke(0, {bench.place(0, 45), bench.place(0, 53)}, false);
-    bench.document().undoStack().undo();  // the other mesh does not have those elements
-    QVERIFY(bench.document().selection().empty());
-    bench.settle();
-    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, QPoint(4, 4));
-    QVERIFY(bench.document().selection().empty());
-  }
-
-  void theSelectionIsMarkedInBothPanels() {
-    Workbench bench;
-    const QImage before[]{bench.view(0).grabFramebuffer(), bench.view(1).grabFramebuffer()};
-    bench.document().selection().set({31});
-    bench.settle();
-    for (int p = 0; p < 2; ++p) {
-      const QPointF ring = QPointF(bench.place(p, 31)) + QPointF(4, 4);  // next to the lines of the grid
-      QVERIFY(bench.distanceFromColour(p, ring, colours::selected) < 40);
-    }
-    bench.document().selection().set({});
-    bench.settle();
-    for (int p = 0; p < 2; ++p) {
-      QCOMPARE(bench.view(p).grabFramebuffer(), before[p]);
-    }
-  }
-
-  void withNothingSelectedTheGroupSaysWhatToDo() {
-    Workbench bench;
-    QVERIFY(!bench.find<QPushButton>("setSelected")->isEnabled());
-    QVERIFY(!bench.find<QPushButton>("selectedToGlobal")->isEnabled());
-    QVERIFY(!bench.find<QDoubleSpinBox>("selected-shearSpin")->isEnabled());
-    QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("Nothing selected")));
   }
 
   void setIsOneStepOfUndoAndBackToGlobalAnother() {
@@ -219,40 +143,6 @@ class WindowSelect : public QObject {
     QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
   }
 
-  void theRowsFollowWhatIsSetAndUndone() {
-    Workbench bench;
-    bench.document().selection().set({10, 11, 12});
-    auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
-    edits::setSoftness(bench.document(), {0.4, 1.2, 0.1}, QStringLiteral("compression"));
-    QCOMPARE(spin->value(), 0.4);  // these links have no softness of their own
-    bench.document().undo();
-    QCOMPARE(spin->value(), 0.8);
-    edits::setSoftnessOf(bench.document(), bench.document().selection().links(), LinkSoftness{0.6, 1.2, 0.1});
-    QCOMPARE(spin->value(), 0.6);
-    QVERIFY(bench.find<QPushButton>("selectedToGlobal")->isEnabled());
-    bench.document().undo();
-    QCOMPARE(spin->value(), 0.8);
-    QVERIFY(!bench.find<QPushButton>("selectedToGlobal")->isEnabled());
-  }
-
-  void aSliderGoesFromItsLowestToItsHighestValue() {
-    Workbench bench;
-    const std::vector<std::pair<const char*, Parameter>> sliders{
-        {"compression", parameters::compression}, {"stretch", parameters::stretch}, {"shear", parameters::shear}};
-    for (const auto& [name, parameter] : sliders) {
-      auto* slider = bench.find<QSlider>((std::string(name) + "Slider").c_str());
-      const auto* spin = bench.find<QDoubleSpinBox>((std::string(name) + "Spin").c_str());
-      for (const double share : {1.0, 0.25, 0.0}) {
-        slider->setValue(int(share * slider->maximum()));
-        QCOMPARE(spin->value(), parameter.lowest + share * (parameter.slider_highest - parameter.lowest));
-        QCOMPARE(slider->value(), int(share * slider->maximum()));
-      }
-    }
-    QCOMPARE(bench.document().softness().compression, parameters::compression.lowest);
-    QCOMPARE(bench.document().softness().stretch, parameters::stretch.lowest);
-    QCOMPARE(bench.document().softness().shear, parameters::shear.lowest);
-  }
-
   void aSliderOfAllLinksKeepsTheirOwnAndIsOneStep() {
     Workbench bench;
     setSquare(bench, 0.3);
@@ -270,31 +160,6 @@ class WindowSelect : public QObject {
     QCOMPARE(bench.document().wholeSoftness()->links.size(), squareLinks);
     bench.trigger("resetStiffness");
     QCOMPARE(*bench.document().wholeSoftness(), standard_softness());
-  }
-
-  void aStiffLinkDoesNotGive() {
-    Workbench bench(generate({MeshKind::line, {6, 1, 1}, 1, {}}));
-    bench.document().selection().set({0, 1});
-    bench.find<QDoubleSpinBox>("selected-stretchSpin")->setValue(1);
-    bench.find<QPushButton>("setSelected")->click();
-    const QPoint from = bench.place(0, 0);
-    bench.stroke(0, {from, from - QPoint(40, 0)});
-    for (int p = 0; p < 2; ++p) {
-      QVERIFY(bench.position(p, 0).x() < -0.2);
-      QVERIFY(std::abs(bench.position(p, 1).x() - bench.position(p, 0).x() - 1) < 1e-5);
-      QVERIFY(bench.position(p, 2).x() - bench.position(p, 1).x() > 1.1);
-    }
-  }
-
-  void ownSoftnessGoesWithTheMeshAndComesBack() {
-    Workbench bench;
-    setSquare(bench, 0.3);
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("small"),
-                       QStringLiteral("build small"));
-    QVERIFY(bench.document().selection().empty());
-    QVERIFY(bench.document().wholeSoftness()->links.empty());
-    bench.document().undoStack().undo();
-    QCOMPARE(bench.document().wholeSoftness()->links.size(), squareLinks);
   }
 };
 

@@ -1,8 +1,6 @@
 // Tests sessions in a real window: saving, opening, and dropping files.
 
-#include <QDropEvent>
 #include <QFile>
-#include <QMimeData>
 
 #include "document/edits.h"
 #include "io/file_actions.h"
@@ -58,36 +56,6 @@ class WindowSession : public QObject {
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("Size test")));
   }
 
-  /// The docks show the settings of the session. The solvers must use the same settings in the next drag.
-  void theSolversTakeTheSettingsOfASession() {
-    const QString path = folder_.filePath(QStringLiteral("settings.chainmail"));
-    const SolverSettings saved{{true, 0.5, RelaxationScheme::link}, {{2, 0.4}, {3, 4, 5}}};
-    const SolverSettings other{{false, 0.75, RelaxationScheme::equilibrium}, {{3, 0.2}, {2, 2, 2}}};
-    const auto set = [](Workbench& bench, const SolverSettings& settings) {
-      edits::setRelaxation(bench.document(), settings.relaxation);
-      edits::setElastic(bench.document(), settings.elastic, QStringLiteral("material"));
-    };
-    {
-      Workbench bench(cloth());
-      set(bench, saved);
-      bench.window.sessions().savePath(path);
-      bench.settle();
-    }
-    Workbench bench;
-    set(bench, other);
-    bench.open(path);
-    for (int i = 0; i < 2; ++i) {
-      for (int panel = 0; panel < bench.document().panels(); ++panel) {
-        QVERIFY(bench.settings(panel) == saved);
-      }
-      bench.document().undo();
-      for (int panel = 0; panel < bench.document().panels(); ++panel) {
-        QVERIFY(bench.settings(panel) == other);
-      }
-      bench.document().redo();
-    }
-  }
-
   /// The cameras are restored in direction, position and distance, whatever the cameras of the next window are.
   void everyPanelIsLookedAtAsBefore() {
     const QString path = folder_.filePath(QStringLiteral("cameras.chainmail"));
@@ -125,56 +93,6 @@ class WindowSession : public QObject {
       QCOMPARE(now.framed, before.framed);
     }
     QVERIFY(poses[0].yaw != poses[1].yaw && poses[1].yaw != poses[2].yaw);
-  }
-
-  /// A camera that was turned but not moved shows the whole object, from the chosen side, in a window of any size.
-  void aCameraThatWasOnlyTurnedFitsTheNextWindow() {
-    const QString path = folder_.filePath(QStringLiteral("turned.chainmail"));
-    {
-      Workbench bench(generate({MeshKind::tetra, {5, 4, 3}, 1, {}}));
-      bench.trigger("viewTop");
-      bench.window.sessions().savePath(path);
-      bench.settle();
-    }
-    Workbench bench;
-    bench.window.resize(1000, 640);
-    bench.settle();
-    bench.open(path);
-    QCOMPARE(bench.view(0).camera()->pose().yaw, 0.0);
-    QCOMPARE(bench.view(0).camera()->pose().pitch, 90.0);
-    const QRect all = bench.view(0).rect();
-    QVERIFY(all.contains(bench.place(0, 0)) && all.contains(bench.place(0, 59)));
-  }
-
-  void whatWasDoneIsGoneBackInAndForth() {
-    const QString path = folder_.filePath(QStringLiteral("moves.chainmail"));
-    Workbench bench(cloth());
-    changeEverything(bench);
-    bench.document().undo();  // the last drag is then undone and can be redone
-    bench.settle();
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    const Session saved = sessionOf(bench);
-    QVERIFY(saved.moves_done < saved.moves.size());
-    bench.document().redo();
-    bench.settle();
-    const Session ahead = sessionOf(bench);
-
-    Workbench again;
-    again.open(path);
-    Document& document = again.document();
-    QCOMPARE(document.moves().history().position(), saved.moves_done);
-    document.moves().goTo(0);
-    again.settle();
-    // The positions are floats of a few units.
-    QVERIFY((again.position(0, 50) - document.mesh()->rest_position(50)).norm() < 1e-6);
-    QVERIFY(document.cuts().links().empty() && document.pins().empty());
-    document.moves().goTo(saved.moves_done);
-    again.settle();
-    compare(sessionOf(again), saved);
-    document.moves().goTo(saved.moves.size());
-    again.settle();
-    compare(sessionOf(again), ahead);
   }
 
   void openingIsOneStepOfUndo() {
@@ -229,40 +147,6 @@ class WindowSession : public QObject {
     QVERIFY(!bench.window.isWindowModified());
     const QStringList recent = QSettings().value(QStringLiteral("recentFiles")).toStringList();
     QCOMPARE(recent.value(0), path);
-  }
-
-  void aSessionIsDropped() {
-    const QString path = folder_.filePath(QStringLiteral("d.CHAINMAIL"));
-    Workbench bench(cloth());
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    edits::replaceMesh(bench.document(), generate({MeshKind::line, {5, 1, 1}, 1, {}}), QStringLiteral("line"),
-                       QStringLiteral("build"));
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(path)});
-    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(&bench.window, &enter);
-    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(&bench.window, &drop);
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->element_count(), 108U);
-  }
-
-  void aBadSessionGetsASentenceAndChangesNothing() {
-    const QString path = folder_.filePath(QStringLiteral("e.chainmail"));
-    Workbench bench(cloth());
-    changeEverything(bench);
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    QFile file(path);
-    QVERIFY(file.resize(file.size() / 2));
-    const Session before = sessionOf(bench);
-    const int steps = bench.document().undoStack().count();
-    bench.open(path);
-    QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("it ends too early")),
-             qPrintable(bench.window.messages().sentence()));
-    compare(sessionOf(bench), before);
-    QCOMPARE(bench.document().undoStack().count(), steps);
   }
 
  private:

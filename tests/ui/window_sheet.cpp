@@ -162,19 +162,6 @@ class WindowSheet : public QObject {
     QVERIFY(std::abs(int(texels[std::size_t{4} * 80 * 119 + 1]) - was.green()) < 12);  // JPEG is not exact
   }
 
-  void aSessionKeepsThePicture() {
-    Workbench bench;
-    bench.open(picture("a.png"));
-    const auto texture = bench.document().mesh()->texture;
-    const QString path = folder_.filePath(QStringLiteral("sheet.chainmail"));
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    Workbench again;
-    again.open(path);
-    QVERIFY(again.document().mesh()->texture != nullptr);
-    QVERIFY(again.document().mesh()->texture->texels == texture->texels);
-  }
-
  private:
   void write(const QString& name, const QByteArray& bytes) const {
     QFile file(folder_.filePath(name));

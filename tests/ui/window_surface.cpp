@@ -128,19 +128,6 @@ class WindowSurface : public QObject {
     QTRY_COMPARE(picture(bench), open);
   }
 
-  void linksThatAreColouredAreDrawnOnTheSurface() {
-    Workbench bench(tetraBlock());
-    bench.trigger("showSurface");
-    const QImage plain = picture(bench);
-    bench.trigger("colourBy-shear");
-    bench.settleFigures();
-    const QImage coloured = picture(bench);
-    bench.trigger("showSurfaceAndLinks");
-    QVERIFY(coloured != plain);
-    bench.document().highlight().set({});
-    QVERIFY(picture(bench) != plain);
-  }
-
   void linksThatWouldHideTheSurfaceWaitForANearerLook() {
     Workbench bench(generate({MeshKind::tetra, {140, 140, 3}, 1, {}}));  // about 120,000 visible links
     bench.trigger("viewFront");
@@ -152,63 +139,6 @@ class WindowSurface : public QObject {
     QTRY_VERIFY(bench.view(0).leavesLinksOut());
     bench.trigger("colourBy-shear");  // this colour mode needs the links
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());
-  }
-
-  void anObjectOfLinksAloneHasNoSurfaceToChoose() {
-    Workbench bench(generate({MeshKind::block, {4, 4, 4}, 1, {}}));
-    QVERIFY(bench.find<QAction>("showLinks")->isChecked());
-    for (const char* name : {"showSurface", "showSurfaceAndLinks"}) {
-      QVERIFY(!bench.find<QAction>(name)->isEnabled());
-      QVERIFY(bench.find<QAction>(name)->toolTip().contains(QStringLiteral("no faces")));
-    }
-    edits::replaceMesh(bench.document(), tetraBlock(), QStringLiteral("tetra"), QStringLiteral("build"));
-    QVERIFY(bench.find<QAction>("showSurface")->isEnabled());
-    QVERIFY(bench.find<QAction>("showSurfaceAndLinks")->isChecked());
-  }
-
-  void theChoiceIsThatOfAllPanelsAndRemembered() {
-    {
-      Workbench bench(tetraBlock());
-      bench.trigger("showLinks");
-      bench.trigger("addPanel");
-      bench.settle();
-      QVERIFY(bench.view(2).grabFramebuffer() != QImage());
-      bench.trigger("showSurface");
-      for (int panel = 0; panel < 3; ++panel) {
-        bench.settle();
-        const QImage shown = bench.view(panel).grabFramebuffer();
-        QVERIFY(!isGround(shown.pixel(bench.place(panel, middleOfTheFront))));
-      }
-    }
-    Workbench again(tetraBlock());
-    QVERIFY(again.find<QAction>("showSurface")->isChecked());
-    // Sheets with a picture have a separate choice, because links would cover the picture.
-    again.trigger("showLinks");
-    MeshParts parts;
-    parts.rest = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)};
-    parts.triangles = {{0, 1, 2}, {0, 2, 3}};
-    parts.links = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
-    auto texture = std::make_shared<Texture>();
-    texture->texels.resize(texture->byte_count());
-    texture->box = {Point(0, 0, 0), Point(1, 1, 0)};
-    parts.texture = texture;
-    edits::replaceMesh(again.document(), build_mesh(std::move(parts)), QStringLiteral("picture"),
-                       QStringLiteral("build"));
-    QVERIFY(again.find<QAction>("showSurface")->isChecked());
-    again.document().undoStack().undo();
-    QVERIFY(again.find<QAction>("showLinks")->isChecked());
-  }
-
-  void aSessionKeepsIt() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("volume.chainmail"));
-    Workbench bench(tetraBlock());
-    bench.trigger("showSurface");
-    bench.window.sessions().savePath(path);
-    bench.settle();
-    bench.trigger("showLinks");
-    bench.open(path);
-    QVERIFY(bench.find<QAction>("showSurface")->isChecked());
   }
 };
 
