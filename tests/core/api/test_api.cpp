@@ -19,14 +19,10 @@ class ApiTest : public QObject {
   void bad_arrays_are_refused_data();
   void bad_arrays_are_refused();
   void bad_meshes_are_refused();
-  void files_are_written_and_read_data();
-  void files_are_written_and_read();
   void foreign_files_are_read();
   void bad_files_are_refused();
   void positions_go_in_and_out();
-  void a_snapshot_restores_every_bit();
   void bodies_are_independent();
-  void links_are_cut_and_soft();
   void a_frame_turns_the_regions();
   void bad_input_of_a_body_changes_nothing();
 };
@@ -133,27 +129,6 @@ void ApiTest::bad_meshes_are_refused() {
   QVERIFY(has(refusal_of([&] { grid.side("front"); }), "does not extend along that axis"));
 }
 
-void ApiTest::files_are_written_and_read_data() {
-  QTest::addColumn<QString>("ending");
-  for (const char* ending : {".obj", ".ply", ".msh"}) {
-    QTest::newRow(ending) << QString(ending);
-  }
-}
-
-void ApiTest::files_are_written_and_read() {
-  QFETCH(QString, ending);
-  const QTemporaryDir folder;
-  const std::filesystem::path path = folder.filePath("mesh" + ending).toStdString();
-  cm::Deformer deformer(cm::make_cloth(5, 4), "natural-queue");
-  deformer.move(0, {-2.25, 1.5, 0});
-  cm::write_mesh(path, deformer.body());
-  const cm::Mesh read = cm::read_mesh(path);
-  QVERIFY(same_numbers(read.rest_positions(), deformer.body().positions()));
-  QCOMPARE(read.link_count(), deformer.body().mesh().link_count());
-  cm::write_mesh(path, deformer.body().mesh());
-  QVERIFY(same_numbers(cm::read_mesh(path).rest_positions(), deformer.body().mesh().rest_positions()));
-}
-
 void ApiTest::foreign_files_are_read() {
   const cm::Mesh mesh = cm::read_mesh(source_file("meshes/organ.msh"));
   QCOMPARE(mesh.object_dimension(), 3);
@@ -205,26 +180,6 @@ void ApiTest::positions_go_in_and_out() {
   }
 }
 
-void ApiTest::a_snapshot_restores_every_bit() {
-  for (const char* method : {"natural-queue", "exact"}) {
-    cm::Deformer deformer(cm::make_cloth(9, 9), method, cm::Precision::single_precision);
-    const cm::Snapshot rest = deformer.body().snapshot();
-    deformer.move(0, {-3.1, 0.7, 0});
-    const cm::Snapshot moved = deformer.body().snapshot();
-    const std::vector<double> positions = deformer.body().positions();
-    deformer.move(0, {-7.9, 5.3, 0});
-    QVERIFY(!same_numbers(deformer.body().positions(), positions));
-    deformer.body().restore(moved);
-    QVERIFY(same_numbers(deformer.body().positions(), positions));
-    QVERIFY(deformer.body().snapshot() == moved && moved != rest);
-    deformer.body().restore(rest);
-    QVERIFY(same_numbers(deformer.body().positions(), deformer.body().mesh().rest_positions()));
-    cm::Body other(cm::make_cloth(9, 9), cm::Precision::single_precision), finer(deformer.body().mesh());
-    QVERIFY(has(refusal_of([&] { other.restore(moved); }), "another mesh or precision"));
-    QVERIFY(has(refusal_of([&] { finer.restore(moved); }), "another mesh or precision"));
-  }
-}
-
 void ApiTest::bodies_are_independent() {
   cm::Body body(cm::make_grid(5, 5));
   body.pin({24});
@@ -247,27 +202,6 @@ void ApiTest::bodies_are_independent() {
   QVERIFY(State(copy) == before);
   const cm::Body moved = std::move(copy);
   QVERIFY(State(moved) == before);
-}
-
-void ApiTest::links_are_cut_and_soft() {
-  cm::Body body(cm::make_line(4));
-  body.cut(1, 2);
-  QVERIFY(body.is_cut(1) && !body.is_cut(0) && body.cuts() == std::vector<cm::LinkId>{1});
-  cm::Deformer deformer(body, "natural-queue");
-  QCOMPARE(deformer.move(0, {-5, 0, 0}).moved, std::uint64_t(1));
-  deformer.body().reset();
-  deformer.body().uncut({1});
-  QCOMPARE(deformer.move(0, {-5, 0, 0}).moved, std::uint64_t(3));
-  deformer.body().reset();
-  deformer.body().pin({2});
-  QVERIFY(deformer.body().is_pinned(2) && !deformer.body().is_pinned(1));
-  QCOMPARE(deformer.move(0, {-5, 0, 0}).moved, std::uint64_t(1));
-  deformer.body().unpin({2});
-  deformer.body().reset();
-  deformer.body().set_softness({1, 1}, {.compression = 0, .stretch = 100, .shear = 0});
-  QCOMPARE(deformer.body().softness(1).stretch, 100.0);
-  QCOMPARE(deformer.body().softness(0), deformer.body().softness());
-  QCOMPARE(deformer.move(0, {-5, 0, 0}).moved, std::uint64_t(1));
 }
 
 void ApiTest::a_frame_turns_the_regions() {

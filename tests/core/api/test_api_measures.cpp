@@ -12,7 +12,6 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/run/ramp.h"
 
 namespace chainmail::test_api_measures {
 
@@ -29,15 +28,11 @@ class ApiMeasuresTest : public QObject {
  private slots:
   void measures_are_those_of_core();
   void the_reference_solution_is_that_of_core();
-  void the_reference_solution_has_the_law_of_the_body();
   void bad_measures_are_refused();
   void jobs_are_cancelled();
   void methods_are_compared();
-  void many_elements_are_compared();
-  void methods_are_compared_with_physics();
   void bad_comparisons_are_refused();
   void softness_is_calibrated();
-  void grids_grow_until_methods_are_too_slow();
   void bad_calibrations_are_refused();
 };
 
@@ -101,24 +96,6 @@ void ApiMeasuresTest::the_reference_solution_is_that_of_core() {
   QVERIFY(cm::physical_error_of_rest(found).relative > 0.5);
   body.set_positions(reference);
   QVERIFY(cm::physical_error(body, found).max < 1e-12);
-}
-
-void ApiMeasuresTest::the_reference_solution_has_the_law_of_the_body() {
-  cm::Body body(organ());
-  body.pin(body.mesh().side("left"));
-  std::vector<double> positions = body.mesh().rest_positions();
-  const cm::ElementId tip = body.mesh().side("right").back();
-  positions[3 * tip] += 0.5;
-  body.set_positions(positions);
-  const std::vector<double> plain = cm::reference_solution(body, {tip}).positions();
-  body.set_elasticity({.law = cm::StrainLaw::gent, .gent_limit = 1.4});
-  const cm::ReferenceSolution stiffening = cm::reference_solution(body, {tip});
-  QVERIFY(stiffening.positions() != plain);
-  cm::Deformer deformer(body.mesh(), "neo-hookean");
-  deformer.body().pin(body.mesh().side("left"));
-  deformer.body().set_elasticity(body.elasticity());
-  deformer.move(tip, {positions[3 * tip], positions[3 * tip + 1], positions[3 * tip + 2]});
-  QVERIFY(cm::physical_error(deformer.body(), stiffening).relative < 1e-5);
 }
 
 void ApiMeasuresTest::bad_measures_are_refused() {
@@ -207,48 +184,6 @@ void ApiMeasuresTest::methods_are_compared() {
   QCOMPARE(cm::compare(body, {}, {.methods = {"exact"}, .repetitions = 1}).rows().size(), std::size_t(3));
 }
 
-void ApiMeasuresTest::many_elements_are_compared() {
-  const cm::Body body(cm::make_cloth(8, 8));
-  const cm::Drag drag{.name = "turn", .elements = {0, 1, 8, 9}, .path = {{{-3, -2, 0}, {{0, 0, 1}, 30}}}};
-  const auto rows =
-      cm::compare(body, {drag},
-                  {.methods = {"natural-queue"}, .precision = cm::Precision::double_precision, .repetitions = 1})
-          .rows();
-  cm::Deformer deformer(body, "natural-queue");
-  cm::Handle handle = deformer.grab(drag.elements);
-  deformer.move(handle, handle.after(drag.path[0]));
-  QCOMPARE(rows.at(0).refusal, std::string());
-  QCOMPARE(rows.at(0).violation->max, cm::violation(deformer.body()).max);
-}
-
-void ApiMeasuresTest::methods_are_compared_with_physics() {
-  cm::Body body(organ());
-  body.pin(body.mesh().side("left"));
-  const cm::ElementId tip = body.mesh().side("right").back();
-  const cm::Drag drag{.name = "bend", .elements = {tip}, .path = {{{0, 0.3, 0}, {}}, {{0, 0.6, 0}, {}}}};
-  cm::CompareOptions options;
-  options.methods = {"natural-queue", "fem"};
-  options.repetitions = 1;
-  options.seconds = 0.01;
-  options.precision = cm::Precision::double_precision;
-  options.against = cm::Reference::physics;
-  const cm::Comparison comparison = cm::compare(body, {drag}, options);
-  const auto& rows = comparison.rows();
-  QCOMPARE(rows.size(), std::size_t(3));
-  QCOMPARE(rows[0].method, std::string("nothing"));
-  QVERIFY(!rows[0].ms_per_move && rows[0].to_physics->relative > 0.5);
-  QVERIFY(rows[1].ms_per_move.value() > 0 && rows[2].prepare_ms.value() > 0);
-  QVERIFY(rows[2].to_physics->relative < rows[1].to_physics->relative);
-
-  cm::Deformer deformer(body, "natural-queue");
-  cm::Handle handle = deformer.grab({tip});
-  deformer.move(handle, handle.after(drag.path[0]));
-  deformer.move(handle, handle.after(drag.path[1]));
-  const auto reference = cm::reference_solution(deformer.body(), {tip});
-  QVERIFY(std::abs(cm::physical_error(deformer.body(), reference).relative - rows[1].to_physics->relative) < 1e-9);
-  QVERIFY(has(comparison.html(), "Linear FEM") && has(comparison.csv(), "nothing"));
-}
-
 void ApiMeasuresTest::bad_comparisons_are_refused() {
   cm::Body body(cm::make_grid(4, 4));
   body.pin({15});
@@ -320,33 +255,6 @@ void ApiMeasuresTest::softness_is_calibrated() {
   std::ostringstream written;
   written << preset.rdbuf();
   QVERIFY(has(written.str(), "\"felt\"") && has(written.str(), "\"compression\""));
-}
-
-void ApiMeasuresTest::grids_grow_until_methods_are_too_slow() {
-  const report::RampOptions inner;
-  const cm::RampOptions defaults;  // but for the largest grid, those of the command line
-  QVERIFY(defaults.seed == inner.seed && defaults.budget == inner.budget && defaults.drags == inner.drags &&
-          defaults.moves == inner.moves && inner.precision == Precision::single_precision);
-  const cm::RampOptions options{
-      .methods = {"exact", "natural-queue"}, .budget = 60, .largest = 40, .drags = 1, .moves = 2};
-  const cm::Job job;
-  const cm::Ramp ramp = cm::ramp(options, job);
-  QCOMPARE(ramp.methods.size(), std::size_t(2));
-  for (const cm::RampMethod& one : ramp.methods) {
-    QVERIFY(one.largest_width == 6U && !one.lost);  // 6 x 6 is the largest grid of up to 40 elements
-  }
-  QCOMPARE(ramp.sizes.back().elements, std::uint64_t(36));
-  QVERIFY(ramp.sizes.back().real_time && ramp.sizes.back().passes == 2 && ramp.seconds > 0);
-  QVERIFY(job.share() > 0);
-  const cm::Ramp none = cm::ramp({.methods = {"exact"}, .budget = 1e-12, .largest = 40, .drags = 1, .moves = 1});
-  QVERIFY(!none.methods[0].largest_width && none.methods[0].lost && none.sizes[0].repeated);
-  QVERIFY(has(refusal_of([] { cm::ramp({.budget = 0}); }), "budget"));
-  QVERIFY(has(refusal_of([] { cm::ramp({.largest = 15}); }), "largest"));
-  QVERIFY(has(refusal_of([] { cm::ramp({.methods = {"fem"}}); }), "not of the ChainMail family"));
-  QVERIFY(has(refusal_of([] { cm::ramp({.softness = {.stretch = 0}}); }), "stretch"));
-  const cm::Job cancelled;
-  cancelled.cancel();
-  QVERIFY_EXCEPTION_THROWN(cm::ramp(options, cancelled), cm::Cancelled);
 }
 
 void ApiMeasuresTest::bad_calibrations_are_refused() {

@@ -1,8 +1,6 @@
 #include <QtTest>
 #include <algorithm>
-#include <cmath>
 
-#include "core/allocations.h"
 #include "core/api/api_support.h"
 #include "mesh/generate.h"
 #include "program.h"
@@ -33,14 +31,9 @@ class ApiMovesTest : public QObject {
   void methods_are_those_of_the_table();
   void moves_equal_those_of_the_solver_data();
   void moves_equal_those_of_the_solver();
-  void a_copied_body_continues_alike();
-  void a_far_object_keeps_its_digits();
   void relaxation_equals_that_of_a_simulation();
-  void the_equilibrium_is_certified();
   void moves_are_traced();
-  void a_handle_of_many_moves_as_one();
   void bad_moves_change_nothing();
-  void a_move_allocates_nothing();
   void one_call_deforms();
 };
 
@@ -121,45 +114,6 @@ void ApiMovesTest::moves_equal_those_of_the_solver() {
   }
 }
 
-/// Exact ChainMail stores displacements, the others positions; a copy stores the same numbers.
-void ApiMovesTest::a_copied_body_continues_alike() {
-  for (const char* method : {"natural-queue", "exact"}) {
-    cm::Deformer first(cm::make_cloth(7, 6), method, cm::Precision::single_precision);
-    first.move(0, {-2.7, 0.3, 0});
-    cm::Deformer second(first.body(), method);
-    QVERIFY(same_numbers(second.body().positions(), first.body().positions()));
-    for (const double x : {-3.9, -8.1}) {
-      first.move(0, {x, 1.1, 0});
-      second.move(0, {x, 1.1, 0});
-      QVERIFY(same_numbers(second.body().positions(), first.body().positions()));
-    }
-    second.set_method("spiral");
-    QCOMPARE(second.method(), std::string("spiral"));
-    second.move(0, {-9, 0, 0});
-    QVERIFY(!same_numbers(second.body().positions(), first.body().positions()));
-  }
-}
-
-/// In single precision too, also after the method was set.
-void ApiMovesTest::a_far_object_keeps_its_digits() {
-  const cm::Mesh near = cm::make_cloth(7, 6);
-  std::vector<double> rest = near.rest_positions();
-  for (std::size_t i = 0; i < rest.size(); i += 3) {
-    rest[i] += 4.5e6;
-    rest[i + 1] -= 5.3e6;
-  }
-  std::vector<cm::ElementId> corners;
-  for (const auto& triangle : near.triangles()) {
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
-  }
-  const cm::Mesh mesh = cm::make_mesh({.positions = rest, .triangles = corners});
-  cm::Deformer deformer(mesh, "exact", cm::Precision::single_precision);
-  deformer.set_method("natural-queue");
-  deformer.move(0, {4.5e6 - 2.7, -5.3e6 + 0.3, 0});
-  const double worst = cm::violation(deformer.body()).max;
-  QVERIFY2(worst < 1e-5, qPrintable(QString::number(worst)));
-}
-
 void ApiMovesTest::relaxation_equals_that_of_a_simulation() {
   for (const cm::RelaxationScheme scheme : {cm::RelaxationScheme::mean, cm::RelaxationScheme::link}) {
     cm::Deformer deformer(cm::make_grid(8, 8), "natural-queue");
@@ -189,21 +143,6 @@ void ApiMovesTest::relaxation_equals_that_of_a_simulation() {
   QCOMPARE(elastic.relax(3), 0);
 }
 
-void ApiMovesTest::the_equilibrium_is_certified() {
-  cm::Deformer deformer(cm::make_grid(8, 8), "natural-queue");
-  QCOMPARE(deformer.certificate().iterations, 0);
-  deformer.body().pin({0});
-  deformer.move(63, {9, 8, 0});
-  const int close = deformer.relax(200, {.scheme = cm::RelaxationScheme::equilibrium});
-  QVERIFY(close > 1 && close < 200);
-  const cm::EquilibriumCertificate found = deformer.certificate();
-  QCOMPARE(found.iterations, close);
-  QVERIFY(found.residual <= 1e-3 && found.violation < 1e-9 && (!found.energy_gap || *found.energy_gap >= 0));
-  QVERIFY((deformer.body().position(63) == cm::Vector3{9, 8, 0}));
-  QCOMPARE(deformer.relax(7, {.scheme = cm::RelaxationScheme::equilibrium, .until = 0}), 7);
-  QVERIFY(deformer.certificate().residual < found.residual);
-}
-
 void ApiMovesTest::moves_are_traced() {
   cm::Deformer deformer(cm::make_grid(4, 4), "natural-queue");
   deformer.move(0, {-2, 0, 0});
@@ -225,26 +164,6 @@ void ApiMovesTest::moves_are_traced() {
   deformer.set_tracing(false);
   deformer.move(0, {-6, 1, 0});
   QVERIFY(deformer.trace().empty());
-}
-
-void ApiMovesTest::a_handle_of_many_moves_as_one() {
-  cm::Deformer deformer(cm::make_grid(6, 6), "natural-queue");
-  cm::Handle handle = deformer.grab({7, 0, 1, 6});
-  QVERIFY(std::ranges::equal(handle.elements(), std::vector<cm::ElementId>{0, 1, 6, 7}));
-  QVERIFY((handle.grabbed() == cm::Pose{{0.5, 0.5, 0}, {}}) && handle.pose() == handle.grabbed());
-  const cm::MoveResult result = deformer.move(handle, handle.after({{-4, 0, 0}, {{0, 0, 2}, 90}}));
-  QVERIFY(result.moved > 0 && result.reached == handle.pose());
-  QVERIFY((handle.pose().pivot == cm::Vector3{-3.5, 0.5, 0}));
-  QVERIFY(std::abs(handle.pose().rotation.degrees - 90) < 1e-12);
-  QVERIFY((handle.pose().rotation.axis == cm::Vector3{0, 0, 1}));
-  // Element 0, at (-0.5, -0.5) from the pivot, turns to (0.5, -0.5).
-  const cm::Vector3 at = deformer.body().position(0);
-  QVERIFY(std::abs(at.x - -3) < 1e-12 && std::abs(at.y - 0) < 1e-12);
-  cm::Handle copy = handle;
-  QVERIFY(copy.pose() == handle.pose());
-  deformer.move(copy, copy.grabbed());
-  QVERIFY(copy.pose() != handle.pose());
-  QVERIFY(std::abs(deformer.body().position(7).x - 1) < 1e-12);
 }
 
 void ApiMovesTest::bad_moves_change_nothing() {
@@ -284,23 +203,6 @@ void ApiMovesTest::bad_moves_change_nothing() {
   refused([&] { deformer.relax(1, {.step = 0}); }, "relax-step");
   refused([&] { deformer.relax(1, {.until = 2}); }, "relax-until");
   QVERIFY(handle.pose() == pinned.pose());
-}
-
-void ApiMovesTest::a_move_allocates_nothing() {
-  for (const char* method : {"generalized", "natural-queue", "exact"}) {
-    cm::Deformer deformer(cm::make_grid(20, 20), method);
-    cm::Handle handle = deformer.grab({0});
-    const auto drag = [&] {
-      for (int step = 1; step <= 10; ++step) {
-        deformer.move(handle, handle.after({{-0.7 * step, 0.2 * step, 0}, {}}));
-      }
-    };
-    drag();
-    drag();
-    const auto before = chainmail::test::allocations.load();
-    drag();
-    QCOMPARE(chainmail::test::allocations.load(), before);
-  }
 }
 
 void ApiMovesTest::one_call_deforms() {

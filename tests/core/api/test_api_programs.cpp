@@ -16,29 +16,17 @@ class ApiProgramsTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void texts_are_read_and_written();
-  void outputs_are_written_together();
   void a_full_disk_is_a_failure_to_write();
   void numbers_have_names_limits_and_help();
   void choices_have_names();
   void lattices_are_made_by_name();
-  void sides_have_names();
   void formats_say_what_they_hold();
   void a_stream_gets_what_a_file_gets();
-  void visible_triangles_are_the_surface();
-  void a_mesh_is_described();
-  void a_mesh_is_repaired();
-  void a_surface_is_simplified_and_filled();
-  void presets_are_written_and_read();
   void a_simulation_moves_as_a_deformer_does();
   void a_simulation_reports_its_passes();
   void recorded_moves_are_those_of_calls();
-  void bad_moves_are_refused();
-  void single_links_are_softened_by_a_file();
   void objects_are_compared_in_one_report();
-  void materials_take_turns();
   void the_suite_is_listed();
-  void a_job_says_what_runs();
 };
 
 namespace {
@@ -52,25 +40,6 @@ std::string content_of(const std::filesystem::path& path) {
 
 void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-std::size_t lines_in(const std::string& text) { return std::size_t(std::ranges::count(text, '\n')); }
-
-/// A cube of 12 triangles as a mesh of its own.
-cm::Mesh surface_of(const cm::Mesh& solid) {
-  std::vector<cm::ElementId> corners, new_ids(solid.element_count(), cm::no_sponsor);
-  std::vector<double> positions;
-  for (const auto& triangle : cm::Body(solid).visible_triangles()) {
-    for (const cm::ElementId corner : triangle) {
-      if (new_ids[corner] == cm::no_sponsor) {
-        new_ids[corner] = cm::ElementId(positions.size() / 3);
-        const cm::Vector3 at = solid.rest_position(corner);
-        positions.insert(positions.end(), {at.x, at.y, at.z});
-      }
-      corners.push_back(new_ids[corner]);
-    }
-  }
-  return cm::make_mesh({.positions = positions, .triangles = corners});
-}
-
 class Folder {
  public:
   std::filesystem::path operator/(const char* name) const { return folder_.filePath(name).toStdString(); }
@@ -80,56 +49,6 @@ class Folder {
 };
 
 }  // namespace
-
-void ApiProgramsTest::texts_are_read_and_written() {
-  QCOMPARE(cm::printable("a\tb"), std::string("a\\x09b"));
-  QCOMPARE(cm::printable("é\xff"), std::string("é\\xff"));
-  QCOMPARE(cm::in_quotes("word"), std::string("'word'"));
-  QVERIFY(cm::in_quotes(std::string(1000, 'x')).size() < 200);
-  QCOMPARE(cm::shown("a/b.obj"), std::string("a/b.obj"));
-  for (const double number : {0.1, -1.0 / 3, 1e300, 5e-324, 0.0}) {
-    QCOMPARE(*cm::parse_number(cm::digits_of(number)), number);
-  }
-  QCOMPARE(cm::digits_of(0.1), std::string("0.1"));
-  QCOMPARE(cm::in_words(cm::Vector3{1, 0.5, -2}), std::string("(1, 0.5, -2)"));
-  QCOMPARE(cm::figure(0.123456), std::string("0.123"));
-  for (const char* word : {"", "x", "1,5", "nan", "inf", "1e999", "0x10", "1 "}) {
-    QVERIFY2(!cm::parse_number(word), word);
-  }
-  QCOMPARE(*cm::parse_count("4294967295"), 4294967295u);
-  for (const char* word : {"", "-1", "+1", "1.0", "4294967296", "1x"}) {
-    QVERIFY2(!cm::parse_count(word), word);
-  }
-  QVERIFY((*cm::parse_size("9x7") == std::array<std::uint32_t, 3>{9, 7, 1}));
-  QVERIFY((*cm::parse_size("5", 1) == std::array<std::uint32_t, 3>{5, 1, 1}));
-  QVERIFY(!cm::parse_size("5") && !cm::parse_size("9x7", 3) && !cm::parse_size("9x0") && !cm::parse_size("9x7x2x1"));
-}
-
-void ApiProgramsTest::outputs_are_written_together() {
-  const Folder folder;
-  const auto first = folder / "a", second = folder / "b", input = folder / "in";
-  write(first, "old");
-  write(input, "input");
-  {
-    cm::Outputs outputs;
-    outputs.add(first, [](std::ostream& out) { out << "new"; });
-    QVERIFY_EXCEPTION_THROWN(outputs.add(second, [](std::ostream&) { throw std::logic_error("no"); }),
-                             std::logic_error);
-  }
-  QCOMPARE(content_of(first), std::string("old"));
-  QVERIFY(!std::filesystem::exists(second));
-  cm::Outputs outputs;
-  outputs.keep(input);
-  QVERIFY(!refusal_of([&] { outputs.add(input, [](std::ostream&) {}); }).empty());
-  outputs.add(first, [](std::ostream& out) { out << "new"; });
-  outputs.add(second, [](std::ostream& out) { out << "other"; });
-  QCOMPARE(content_of(first), std::string("old"));
-  QVERIFY(!refusal_of([&] { outputs.add(first, [](std::ostream&) {}); }).empty());
-  outputs.commit();
-  QCOMPARE(content_of(first), std::string("new"));
-  QCOMPARE(content_of(second), std::string("other"));
-  QCOMPARE(content_of(input), std::string("input"));
-}
 
 void ApiProgramsTest::a_full_disk_is_a_failure_to_write() {
   const auto fill = [] { cm::write_file("/dev/full", [](std::ostream& out) { out << "text"; }); };
@@ -200,14 +119,6 @@ void ApiProgramsTest::lattices_are_made_by_name() {
   QVERIFY(!refusal_of([] { cm::make_lattice("grid", {4, 0, 1}); }).empty());
 }
 
-void ApiProgramsTest::sides_have_names() {
-  const cm::Mesh block = cm::make_block(3, 3, 3);
-  QCOMPARE(cm::side_names().size(), std::size_t(7));
-  for (const std::string_view name : cm::side_names()) {
-    QCOMPARE(block.side(name).size(), std::size_t(name == "boundary" ? 26 : 9));
-  }
-}
-
 void ApiProgramsTest::formats_say_what_they_hold() {
   for (const cm::FileFormat& format : cm::file_formats()) {
     const std::string ending = format.endings.substr(0, format.endings.find(' ')), path = "x" + ending;
@@ -242,96 +153,6 @@ void ApiProgramsTest::a_stream_gets_what_a_file_gets() {
     QCOMPARE(rest.str(), content_of(path));
     QVERIFY(moved.str() != rest.str());
   }
-}
-
-void ApiProgramsTest::visible_triangles_are_the_surface() {
-  QCOMPARE(cm::Body(cm::make_tetra(4, 3, 3)).visible_triangles().size(), std::size_t(2 * (2 * 6 + 2 * 6 + 2 * 4)));
-  QCOMPARE(cm::Body(cm::make_grid(4, 3)).visible_triangles().size(), std::size_t(0));
-  cm::Body cloth(cm::make_cloth(4, 3));
-  QCOMPARE(cloth.visible_triangles().size(), std::size_t(2 * 3 * 2));
-  cloth.cut(5, 6);  // an inner edge of two triangles
-  QCOMPARE(cloth.visible_triangles().size(), std::size_t(2 * 3 * 2 - 2));
-}
-
-void ApiProgramsTest::a_mesh_is_described() {
-  const std::string text = cm::describe(organ()), json = cm::describe_json(organ());
-  QVERIFY(has(text, "elements          36\n") && has(text, "tetrahedra        72\n"));
-  QVERIFY(has(text, "bounds            (0, 0, 0) to (3, 2, 2)\n") && !has(text, "defects"));
-  QVERIFY(has(json, "\"elements\": 36") && has(json, "\"tetrahedra\": 72"));
-  const Folder folder;
-  write(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 2\nf 4 2 3\n");
-  const cm::Mesh read = cm::read_mesh(folder / "a.obj");
-  QVERIFY(!read.flaws().empty() && has(cm::describe(read), read.flaws()) && has(read.remark(), read.flaws()));
-  QVERIFY(has(cm::describe(read), "1 duplicate vertex"));
-  QVERIFY(has(cm::describe_json(read), "\"collapsed\": 1"));
-  QVERIFY(organ().flaws().empty());
-}
-
-/// A box without its lid, with one corner there twice and an element without links.
-void ApiProgramsTest::a_mesh_is_repaired() {
-  const std::vector<double> positions{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1,
-                                      1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, 0, 5, 5, 5};
-  const std::vector<cm::ElementId> triangles{0, 2, 1, 0, 3, 2, 8, 1, 5, 8, 5, 4, 1, 2, 6,
-                                             1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-  const cm::Mesh mesh = cm::make_mesh({.positions = positions, .triangles = triangles});
-  const cm::Repair all = cm::repair(mesh);
-  QCOMPARE(all.mesh().element_count(), 8u);
-  QCOMPARE(all.mesh().triangles().size(), std::size_t(12));
-  QVERIFY(has(all.text(), "1 duplicate vertex welded") && has(all.text(), "1 loose point removed") &&
-          has(all.text(), "1 hole closed with 2 triangles") && !has(all.text(), "left"));
-  QVERIFY(has(all.json(), "\"before\"") && has(all.json(), "\"loose_points\": 1") &&
-          has(all.json(), "\"elements\": 8"));
-  const cm::Repair loose = cm::repair(mesh, {.weld = false, .holes = false});
-  QCOMPARE(loose.mesh().element_count(), 9u);
-  QVERIFY(has(loose.text(), "left") && has(loose.text(), "1 hole"));
-  QCOMPARE(cm::repair(mesh, {.tolerance = 1.1, .loose = false, .holes = false}).mesh().triangles().size(),
-           std::size_t(0));
-  QVERIFY(has(cm::repair(all.mesh()).text(), "nothing"));
-}
-
-void ApiProgramsTest::a_surface_is_simplified_and_filled() {
-  const cm::Mesh box = surface_of(cm::make_tetra(5, 5, 5));
-  QCOMPARE(box.triangles().size(), std::size_t(6 * 16 * 2));
-  const cm::Mesh coarse = cm::simplify(box, 40);
-  QCOMPARE(coarse.element_count(), 40u);
-  QCOMPARE(coarse.triangles().size(), std::size_t(2 * 40 - 4));  // Euler: a closed surface without a handle
-  const cm::Mesh filled = cm::fill(box, 1);
-  QVERIFY(!filled.tetrahedra().empty() && filled.element_count() >= box.element_count());
-  double volume = 0;
-  for (const auto& [a, b, c, d] : filled.tetrahedra()) {
-    const cm::Vector3 at = filled.rest_position(a);
-    volume += std::abs(cm::dot(cm::cross(filled.rest_position(b) - at, filled.rest_position(c) - at),
-                               filled.rest_position(d) - at)) /
-              6;
-  }
-  QVERIFY(std::abs(volume - 64) < 1e-9);
-  QVERIFY(has(refusal_of([&] { cm::simplify(box, 1000); }), "elements"));
-  QVERIFY(has(refusal_of([&] { cm::fill(box, 0); }), "size"));
-  QVERIFY(has(refusal_of([&] { cm::fill(cm::make_cloth(3, 3)); }), "surface"));
-}
-
-void ApiProgramsTest::presets_are_written_and_read() {
-  const Folder folder;
-  const auto path = folder / "presets.json";
-  const std::vector<cm::Preset> presets{{"felt", {.compression = 1.0 / 3}}, {"silk", {.shear = 0.7, .exponent = 2}}};
-  cm::write_file(path, [&](std::ostream& out) { cm::write_presets(out, presets); });
-  const auto read = cm::read_presets(path);
-  QCOMPARE(read.size(), std::size_t(2));
-  for (std::size_t i = 0; i < 2; ++i) {
-    QVERIFY(read[i].name == presets[i].name && read[i].softness == presets[i].softness);
-  }
-  const auto built_in = cm::built_in_presets();
-  QVERIFY(built_in.front().name == "Standard" && built_in.front().softness == cm::LinkSoftness());
-  for (const cm::Preset& one : built_in) {
-    QVERIFY(cm::fault_of_preset_name(one.name).empty());
-    cm::Body(cm::make_line(2)).set_softness(one.softness);  // within its ranges
-  }
-  QVERIFY(cm::fault_of_preset_name(std::string(cm::preset_name_bytes, 'x')).empty());
-  QVERIFY(!cm::fault_of_preset_name(std::string(cm::preset_name_bytes + 1, 'x')).empty());
-  std::ostringstream out;
-  QVERIFY(has(refusal_of([&] { cm::write_presets(out, {{cm::Preset{"a\nb", {}}}}); }), "name"));
-  QVERIFY(has(refusal_of([&] { cm::write_presets(out, {{cm::Preset{"a", {.stretch = 0}}}}); }), "stretch"));
-  QVERIFY(!refusal_of([&] { cm::read_presets(folder / "none.json"); }).empty());
 }
 
 void ApiProgramsTest::a_simulation_moves_as_a_deformer_does() {
@@ -427,29 +248,6 @@ void ApiProgramsTest::recorded_moves_are_those_of_calls() {
   QVERIFY((replayed.position(3) == cm::Vector3{3, -2, 0}));
 }
 
-void ApiProgramsTest::bad_moves_are_refused() {
-  const Folder folder;
-  const cm::Mesh mesh = cm::make_grid(3, 3);
-  QVERIFY(!refusal_of([&] { cm::read_moves(folder / "none.json", mesh); }).empty());
-  write(folder / "moves.json", R"({"version": 1, "commands": [{"do": "pin", "elements": [9]}]})");
-  QVERIFY(has(refusal_of([&] { cm::read_moves(folder / "moves.json", mesh); }), "9"));
-}
-
-void ApiProgramsTest::single_links_are_softened_by_a_file() {
-  const Folder folder;
-  cm::Body body(cm::make_grid(3, 3));
-  body.set_softness({.stretch = 1.5});
-  write(folder / "links.csv", "a,b,compression,stretch,shear\n1,0,0.5,2,0.25\n");
-  cm::read_softness(folder / "links.csv", body);
-  const cm::LinkId link = *body.mesh().find_link(0, 1);
-  QVERIFY((body.softness(link) == cm::LinkSoftness{.compression = 0.5, .stretch = 2, .shear = 0.25}));
-  QCOMPARE(body.softness(link + 1).stretch, 1.5);
-  const State before(body);
-  write(folder / "links.csv", "0,1,0.5,2,0.25\n0,8,1,1,0\n");
-  QVERIFY(has(refusal_of([&] { cm::read_softness(folder / "links.csv", body); }), ":2"));
-  QVERIFY(State(body) == before);
-}
-
 void ApiProgramsTest::objects_are_compared_in_one_report() {
   std::vector<cm::ComparedObject> objects{{"first", cm::Body(cm::make_grid(4, 4))},
                                           {"second", cm::Body(cm::make_cloth(4, 4))}};
@@ -484,26 +282,6 @@ void ApiProgramsTest::objects_are_compared_in_one_report() {
   QVERIFY(has(refusal_of([] { cm::built_in_objects(cm::Reference::physics, {}, {}, {.poisson = 1}); }), "poisson"));
 }
 
-void ApiProgramsTest::materials_take_turns() {
-  cm::Body body(organ());
-  body.pin(body.mesh().side("left"));
-  const cm::ElementId tip = body.mesh().side("right").back();
-  const cm::ComparedObject object{"organ", body, "an organ", {{"bend", {tip}, {{{0, 0.5, 0}, {}}}}}};
-  cm::CompareOptions options{.methods = {"fem"}, .repetitions = 1, .against = cm::Reference::physics};
-  options.materials = {cm::Elasticity(), {.law = cm::StrainLaw::gent}};
-  const cm::Comparison comparison = cm::compare({object}, options);
-  const auto& rows = comparison.rows();
-  QCOMPARE(rows.size(), std::size_t(4));
-  QVERIFY(has(rows[0].object, "neo-Hookean") || has(rows[0].object, "Neo-Hookean"));
-  QVERIFY(has(rows[3].object, "Gent"));
-  QVERIFY(rows[1].to_physics->relative != rows[3].to_physics->relative);  // a stiffening material is farther away
-  const auto files = comparison.files();
-  for (const char* plot : {"overview.svg", "object-1.svg", "object-2.svg"}) {
-    const auto found = std::ranges::find(files, plot, &cm::ReportFile::name);
-    QVERIFY2(found != files.end() && has(found->content, "<svg"), plot);
-  }
-}
-
 void ApiProgramsTest::the_suite_is_listed() {
   std::set<std::string> names;
   bool with_organ = false;
@@ -522,20 +300,6 @@ void ApiProgramsTest::the_suite_is_listed() {
   write(folder / "a.json", "{}");
   QVERIFY(has(refusal_of([&] { cm::merge_suites({folder / "a.json"}); }), "a.json"));
   QVERIFY(has(refusal_of([&] { cm::judge_answers(folder / "a.json", {}); }), "a.json"));
-}
-
-void ApiProgramsTest::a_job_says_what_runs() {
-  const cm::Job job, idle;
-  QCOMPARE(idle.text(), std::string());
-  const cm::Ramp ramp = cm::ramp({.methods = {"exact"}, .largest = 20, .drags = 1, .moves = 2}, job);
-  QVERIFY(has(job.text(), "4x4, drag"));
-  QCOMPARE(lines_in(ramp.csv), ramp.sizes.size() + 1);
-  QVERIFY(has(ramp.text, "Exact ChainMail") && has(ramp.json, "\"algorithms\""));
-  cm::Body body(organ());
-  body.pin(body.mesh().side("left"));
-  const cm::Calibration found = cm::calibrate(body, {.drags = 1, .held_out = 1, .evaluations = 2});
-  QVERIFY(has(found.text, "Natural Queue ChainMail comes closest") &&
-          has(found.text, "Drags not used by the search (1)"));
 }
 
 CHAINMAIL_TEST(ApiProgramsTest)
