@@ -1,6 +1,5 @@
 #include <QtTest>
 #include <cmath>
-#include <numbers>
 
 #include "bullet/soft_body.h"
 #include "core/pinned.h"
@@ -14,24 +13,15 @@ class BulletTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void its_entry_differs_from_the_others();
   void a_taut_chain_has_the_lengths_that_cancel_data();
   void a_taut_chain_has_the_lengths_that_cancel();
   void two_taut_links_have_the_lengths_of_bullets_formula();
-  void slack_links_keep_their_lengths_data();
-  void slack_links_keep_their_lengths();
   void the_answer_is_repeated_bit_for_bit();
   void pins_and_handle_are_exactly_in_place_data();
   void pins_and_handle_are_exactly_in_place();
   void a_handle_of_many_turns_as_a_rigid_body();
   void each_move_is_that_of_a_new_solver();
-  void reset_brings_back_the_first_answer();
   void cut_links_are_not_followed();
-  void what_no_link_reaches_keeps_its_bits();
-  void an_object_at_rest_stays_at_rest();
-  void a_long_object_comes_to_rest();
-  void the_unit_and_the_origin_do_not_matter();
-  void a_turned_frame_does_not_matter();
   void the_limit_of_iterations_is_told();
   void a_cancelled_move_moves_nothing();
   void a_target_out_of_range_moves_nothing();
@@ -71,16 +61,6 @@ std::vector<double> lengths_of(const Solver& solver, const Mesh& mesh) {
     lengths.push_back((position_of(solver, mesh, b) - position_of(solver, mesh, a)).norm());
   }
   return lengths;
-}
-
-/// Returns the largest difference between the length of a link and its rest length (mesh units).
-double largest_excess(const Solver& solver, const Mesh& mesh) {
-  const std::vector<double> lengths = lengths_of(solver, mesh);
-  double largest = 0;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    largest = std::max(largest, std::abs(lengths[link] - rest_length(mesh, link)));
-  }
-  return largest;
 }
 
 /// True if the numbers are those of a chain whose pairs of neighbours each add 1 to one of the two.
@@ -124,20 +104,6 @@ Point in_space(Point point, int space) {
 
 }  // namespace
 
-void BulletTest::its_entry_differs_from_the_others() {
-  const AlgorithmInfo entry = bullet_soft_body();
-  for (const AlgorithmInfo& one : every_algorithm()) {
-    if (one.name != entry.name) {
-      QVERIFY(one.algorithm != entry.algorithm);
-      QVERIFY(one.label != entry.label && one.style.path != entry.style.path && one.style.colour != entry.style.colour);
-    }
-  }
-  QVERIFY(info(bullet()).name == "bullet" && find_algorithm("bullet") == bullet());
-  QVERIFY(QString::fromUtf8(entry.source.data(), qsizetype(entry.source.size()))
-              .contains(QRegularExpression("^Coumans 2015; Bullet [0-9]+\\.[0-9]{2}$")));
-  QVERIFY(entry.needs_pins && entry.is_added() && !entry.has_steps());
-}
-
 void BulletTest::a_taut_chain_has_the_lengths_that_cancel_data() { add_spaces_and_precisions(); }
 
 /// In each frame, a link that is a little too long gets its rest length, and moves its two ends by the same way. At
@@ -178,24 +144,6 @@ void BulletTest::two_taut_links_have_the_lengths_of_bullets_formula() {
     QVERIFY(std::abs(lengths[0] + lengths[1] - whole) < 1e-12);
     QVERIFY(std::min(std::abs(lengths[0] - last), std::abs(lengths[1] - last)) < 1e-4);
   }
-}
-
-void BulletTest::slack_links_keep_their_lengths_data() {
-  QTest::addColumn<int>("space");
-  QTest::newRow("chain in 2D") << 2;
-  QTest::newRow("grid in 3D") << 3;
-}
-
-/// The handle comes nearer to the pins, so that every link can have its rest length.
-void BulletTest::slack_links_keep_their_lengths() {
-  QFETCH(const int, space);
-  const MeshPointer mesh =
-      space == 2 ? make_mesh(MeshKind::line, {12, 1, 1}, 2) : make_mesh(MeshKind::grid, {8, 8, 1}, 3);
-  Solver solver = patient(mesh, first_column(*mesh));
-  move_by(solver, *mesh, mesh->element_count() - 1, in_space({-2, 1, 1.5}, space));
-  QVERIFY2(solver.remark().empty(), solver.remark().c_str());
-  QVERIFY(solver.moved().size() > mesh->element_count() / 2);
-  QVERIFY2(largest_excess(solver, *mesh) < 2e-4, qPrintable(QString::number(largest_excess(solver, *mesh))));
 }
 
 void BulletTest::the_answer_is_repeated_bit_for_bit() {
@@ -319,18 +267,6 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
   QVERIFY(check_property("each move is that of a new solver in the same state", holds));
 }
 
-void BulletTest::reset_brings_back_the_first_answer() {
-  const MeshPointer mesh = make_mesh(MeshKind::cloth, {10, 8, 1});
-  Solver solver = patient(mesh, first_column(*mesh));
-  move_by(solver, *mesh, 79, {0.5, 1, 0});
-  const std::vector<double> first = positions_of(solver, *mesh);
-  move_by(solver, *mesh, 45, {-2, 1, 0});
-  QVERIFY(!same_bits(positions_of(solver, *mesh), first));
-  solver.body().reset();
-  move_by(solver, *mesh, 79, {0.5, 1, 0});
-  QVERIFY(same_bits(positions_of(solver, *mesh), first));
-}
-
 /// What lies behind the cut stays, and follows again when the links are restored.
 void BulletTest::cut_links_are_not_followed() {
   const MeshPointer mesh = make_mesh(MeshKind::line, {9, 1, 1}, 2);
@@ -347,71 +283,6 @@ void BulletTest::cut_links_are_not_followed() {
   QVERIFY((beyond == std::vector<ElementId>{5, 6, 7}));
   solver.body().uncut(std::span(&link, 1));
   QVERIFY((moved() == std::vector<ElementId>{1, 2, 3, 4, 5, 6, 7}));
-}
-
-/// Their positions have more digits than Bullet has.
-void BulletTest::what_no_link_reaches_keeps_its_bits() {
-  const MeshPointer one = make_mesh(MeshKind::cloth, {4, 4, 1});
-  const MeshPointer mesh = side_by_side(*one, *one, {0.1, 1. / 3, 0});
-  Solver solver = patient(mesh, {0});
-  const std::vector<double> before = positions_of(solver, *mesh);
-  move_by(solver, *mesh, 15, {1, 1, 0});
-  const std::vector<double> after = positions_of(solver, *mesh);
-  const auto half = std::ptrdiff_t(before.size() / 2);
-  QVERIFY(std::equal(before.begin() + half, before.end(), after.begin() + half));
-  QVERIFY(!solver.moved().empty() && solver.moved().back() < 16);
-}
-
-/// Rest lengths are those of the rounded positions that Bullet has, in the frame of the body.
-void BulletTest::an_object_at_rest_stays_at_rest() {
-  const MeshPointer mesh = jittered_triangles(9, 8, 5);
-  Solver solver = patient(mesh, {0});
-  for (const double turn : {0.0, 0.5}) {
-    Softness softness;
-    softness.axes = RegionAxes(AxesKind::given, Point(0, 0, turn));
-    solver.body().set_softness(softness);
-    solver.move(71, position_of(solver, *mesh, 71));
-    QVERIFY(solver.moved().empty());
-  }
-}
-
-/// Far from the middle of a long object, rounding moves elements by more than others move at rest.
-void BulletTest::a_long_object_comes_to_rest() {
-  const MeshPointer mesh = make_mesh(MeshKind::line, {800, 1, 1});
-  Solver solver = patient(mesh, {0});
-  move_by(solver, *mesh, 799, {0.5, 0, 0});
-  QVERIFY2(solver.remark().empty(), solver.remark().c_str());
-}
-
-/// Bullet counts in mean link lengths from the middle of the object.
-void BulletTest::the_unit_and_the_origin_do_not_matter() {
-  const MeshPointer mesh = make_mesh(MeshKind::cloth, {8, 6, 1});
-  const double unit = 0x1p-20, far = 64;  // powers of 2, so that Bullet gets the same numbers
-  const MeshPointer small =
-      build_mesh(placed(*mesh, [&](const Point& at) { return Point(unit * at + Point(far, -far, 0)); }));
-  Solver solver = patient(mesh, first_column(*mesh)), of_small = patient(small, first_column(*mesh));
-  move_by(solver, *mesh, 47, {1, 0.5, 0});
-  move_by(of_small, *small, 47, unit * Point(1, 0.5, 0));
-  for (ElementId e = 0; e < mesh->element_count(); ++e) {
-    const Point scaled = (position_of(of_small, *small, e) - Point(far, -far, 0)) / unit;
-    QVERIFY((scaled - position_of(solver, *mesh, e)).norm() < 1e-6);
-  }
-}
-
-/// A body may store its positions along the axes of another frame, also from one move to the next.
-void BulletTest::a_turned_frame_does_not_matter() {
-  const MeshPointer mesh = make_mesh(MeshKind::cloth, {8, 6, 1});
-  Solver solver = patient(mesh, first_column(*mesh)), other = patient(mesh, first_column(*mesh));
-  move_by(solver, *mesh, 47, {1, 0, 0});
-  Softness turned;
-  turned.axes = RegionAxes(AxesKind::given, Point(0, 0, 0.5));
-  solver.body().set_softness(turned);
-  const Point target = mesh->rest_position(47) + Point(1.5, 0.5, 0);
-  solver.move(47, target);
-  QVERIFY((position_of(solver, *mesh, 47) - target).norm() < 1e-14);
-  move_by(other, *mesh, 47, {1, 0, 0});
-  other.move(47, target);
-  QVERIFY(largest_step(positions_of(solver, *mesh), positions_of(other, *mesh)) < 0.001);
 }
 
 /// Frames that follow in later moves lead on to the same place.

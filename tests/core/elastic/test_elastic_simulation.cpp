@@ -19,12 +19,6 @@ class ElasticSimulationTest : public QObject {
   void a_drag_is_answered();
   void undo_is_exact_data() { every_method(); }
   void undo_is_exact();
-  void a_drag_after_an_undo_knows_nothing_of_what_was_undone();
-  void a_drag_after_a_placement_goes_on_from_there();
-  void pins_that_were_moved_hold_where_they_are_now_data() { every_method(); }
-  void pins_that_were_moved_hold_where_they_are_now();
-  void cuts_and_pins_between_drags_count_data();
-  void cuts_and_pins_between_drags_count();
   void an_updated_factor_changes_no_bit();
   void a_shape_is_kept_when_exact_takes_over();
   void without_pins_nothing_moves();
@@ -110,100 +104,6 @@ void ElasticSimulationTest::undo_is_exact() {
   bar.drag(44, Point(4, 3, 2));
   // The same equilibrium again: Newton's method reaches it within its tolerance of 1e-9 cells.
   QVERIFY(largest_step(bar.all(), after) < 1e-8);
-}
-
-/// Free-form deformation continues from the current shape of the object, also after an undo.
-void ElasticSimulationTest::a_drag_after_an_undo_knows_nothing_of_what_was_undone() {
-  Bar bar(Algorithm::free_form), never(Algorithm::free_form);
-  for (Bar* one : {&bar, &never}) {
-    one->drag(tip, Point(4.2, 0.3, 0));
-  }
-  bar.apply(commands::KeepState{1});
-  bar.drag(44, Point(6, 4, 1));
-  bar.apply(commands::RestoreState{1});
-  for (Bar* one : {&bar, &never}) {
-    one->drag(24, Point(5, 1, 2));
-  }
-  QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
-  bar.apply(commands::KeepState{2});
-  never.drag(24, Point(4, 2, 2));
-  bar.drag(24, Point(5, 3, 3));
-  bar.apply(commands::RestoreState{2});
-  bar.drag(24, Point(4, 2, 2));  // also for the element that was grabbed before the undo
-  QVERIFY(largest_step(bar.all(), never.all()) < 1e-9);
-}
-
-/// A restored snapshot, as a recording keeps it, is where the next drag starts, also for the element that was grabbed.
-void ElasticSimulationTest::a_drag_after_a_placement_goes_on_from_there() {
-  for (const ElementId next : {ElementId{24}, ElementId{44}}) {
-    Bar bar(Algorithm::free_form), fresh(Algorithm::free_form);
-    bar.drag(tip, Point(4.2, 0.3, 0));
-    const auto snapshot = std::make_shared<const Snapshot>(bar.snapshot());
-    bar.drag(44, Point(6, 4, 1));
-    for (Bar* one : {&bar, &fresh}) {
-      one->apply(commands::SetPositions{snapshot});
-      one->drag(next, Point(5, 1, 2));
-    }
-    QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-9);
-  }
-}
-
-/// A reset moves the pinned elements to rest. A method must not use what it prepared for their old positions.
-void ElasticSimulationTest::pins_that_were_moved_hold_where_they_are_now() {
-  QFETCH(const int, algorithm);
-  Bar bar(Algorithm::natural_queue, false), fresh{Algorithm(algorithm)};
-  const auto left = layer(bar.mesh(), *find_side("left"));
-  for (const ElementId pin : left) {
-    bar.drag(pin, bar.mesh().rest_position(pin) + Point(-0.3, 0.1, 0));
-  }
-  bar.apply(commands::Pin{left});
-  bar.apply(commands::SetAlgorithm{Algorithm(algorithm)});
-  bar.drag(tip, Point(4.2, 0.3, 0.1));
-  QVERIFY(bar.at(left.front()) != bar.mesh().rest_position(left.front()));
-  bar.apply(commands::Reset{});
-  for (Bar* one : {&bar, &fresh}) {
-    one->drag(tip, Point(4.2, 0.3, 0.1));
-  }
-  for (const ElementId pin : left) {
-    QCOMPARE(bar.at(pin), bar.mesh().rest_position(pin));
-  }
-  QVERIFY(largest_step(bar.all(), fresh.all()) < 1e-8);
-}
-
-void ElasticSimulationTest::cuts_and_pins_between_drags_count_data() {
-  QTest::addColumn<int>("algorithm");
-  QTest::newRow("linear FEM") << int(Algorithm::linear_fem);
-  QTest::newRow("neo-Hookean FEM") << int(Algorithm::neo_hookean);
-}
-
-/// An answer depends on the object as it is now, not on the object of the last drag.
-void ElasticSimulationTest::cuts_and_pins_between_drags_count() {
-  QFETCH(const int, algorithm);
-  const Point target(4.2, 0.3, 0.1);
-  const auto answer = [&](const std::vector<Command>& before) {
-    Bar bar{Algorithm(algorithm)};
-    for (const Command& command : before) {
-      bar.apply(command);
-    }
-    bar.drag(tip, target);
-    return bar.all();
-  };
-  Bar bar{Algorithm(algorithm)};
-  const std::vector<LinkId> links{*find_link(bar.mesh(), 2, 3), *find_link(bar.mesh(), 7, 8)};
-  const Command cut = commands::Cut{links}, pin = commands::Pin{{22, 23}};
-  const auto plain = answer({}), when_cut = answer({cut}), when_pinned = answer({pin});
-  QVERIFY(largest_step(plain, when_cut) > 1e-3 && largest_step(plain, when_pinned) > 1e-3);
-  const auto now = [&](const Command& change) {
-    bar.apply(change);
-    bar.drag(tip, target);
-    return bar.all();
-  };
-  QVERIFY(largest_step(now(commands::Release{}), plain) < 1e-8);
-  QVERIFY(largest_step(now(cut), when_cut) < 1e-8);
-  QVERIFY(largest_step(now(commands::Uncut{links}), plain) < 1e-8);
-  bar.apply(commands::Reset{});
-  QVERIFY(largest_step(now(pin), when_pinned) < 1e-8);
-  QVERIFY(largest_step(now(commands::Unpin{{22, 23}}), plain) < 1e-8);
 }
 
 /// Linear FEM updates its factors at a cut and at its undo. A simulation in which the same links were cut from the

@@ -1,5 +1,4 @@
 #include <QtTest>
-#include <set>
 
 #include "core/report/comparisons.h"
 #include "mesh/error.h"
@@ -20,14 +19,11 @@ class CompareTest : public QObject {
  private slots:
   void everyone_takes_part_or_is_refused();
   void exact_is_at_no_distance_from_itself();
-  void natural_queue_leaves_no_violation_on_a_grid();
-  void generalized_leaves_violations();
   void errors_by_hand_on_a_chain();
   void relaxation_is_made_and_counted();
   void cuts_pins_and_softness_are_taken();
   void what_moves_change_is_undone_for_the_next_run();
   void errors_are_the_same_each_time();
-  void default_cases_are_what_they_say();
   void three_drags_reach_as_far_as_they_say();
 };
 
@@ -54,21 +50,6 @@ void CompareTest::exact_is_at_no_distance_from_itself() {
   QVERIFY(errors.largest_over_handle.value() <= 1 + rounding);
   // Float is close to double, but not equal.
   QVERIFY(errors.float_to_double.max > 0 && errors.float_to_double.max < 1e-5);
-}
-
-void CompareTest::natural_queue_leaves_no_violation_on_a_grid() {
-  const auto grid = make_mesh(MeshKind::grid, {9, 7, 1});
-  const Errors errors = errors_of(object(grid, drag(*grid, 31, {3, 2, 0})), Algorithm::natural_queue);
-  QVERIFY(errors.violation.max < rounding);
-  QCOMPARE(errors.violation.fraction, 0.0);
-  QVERIFY(errors.to_exact->max < rounding);
-}
-
-void CompareTest::generalized_leaves_violations() {
-  const Errors errors = errors_of(jittered(), Algorithm::generalized);
-  QVERIFY(errors.violation.max > 0.1 && errors.violation.fraction > 0.01);
-  QVERIFY(errors.to_exact->max > 0.1 && errors.to_exact->rms > 0 && errors.to_exact->rms < errors.to_exact->max);
-  QVERIFY(errors.energy_over_exact.value() != 1);
 }
 
 void CompareTest::errors_by_hand_on_a_chain() {
@@ -146,23 +127,6 @@ void CompareTest::errors_are_the_same_each_time() {
       QCOMPARE(one->moved, other->moved);
     }
   }
-}
-
-void CompareTest::default_cases_are_what_they_say() {
-  const auto cases = default_cases({});
-  std::set<std::string> names;
-  for (const Case& one : cases) {
-    names.insert(one.name);
-    QCOMPARE(one.drags.size(), std::size_t{3});
-    QVERIFY(one.mesh->element_count() > 500);
-  }
-  QCOMPARE(names.size(), std::size_t{6});
-  QVERIFY(cases[1].cuts.size() > 100);
-  QVERIFY(cases[3].mesh->space_dimension == 3 && cases[3].mesh->object_dimension == 2);
-  QVERIFY(!cases[4].mesh->tetrahedra.empty());
-  const auto& stiff = cases[5].softness.links;
-  QVERIFY(!stiff.empty() && stiff.size() < cases[5].mesh->link_count() / 4);
-  QVERIFY(stiff.begin()->second.stretch < 1.021 && stiff.begin()->second.compression > 0.979);
 }
 
 void CompareTest::three_drags_reach_as_far_as_they_say() {

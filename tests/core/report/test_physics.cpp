@@ -1,5 +1,4 @@
 #include <Eigen/Geometry>
-#include <QXmlStreamReader>
 #include <QtTest>
 #include <algorithm>
 #include <array>
@@ -13,9 +12,6 @@
 #include "mesh/layers.h"
 #include "program.h"
 #include "report/page/physics_figures.h"
-#include "report/page/physics_html.h"
-#include "report/page/physics_means.h"
-#include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
 #include "report/run/drag_times.h"
 #include "report/run/physics_cases.h"
@@ -36,7 +32,6 @@ class PhysicsTest : public QObject {
   void errors_by_hand();
   void nothing_moving_on_a_stretched_bar();
   void half_the_way_is_half_the_relative_error();
-  void nothing_moving_takes_part_first();
   void times_of_a_drag_are_split();
   void preparation_is_no_part_of_a_move();
   void a_cut_in_the_middle_is_measured_against_the_same_cut();
@@ -47,11 +42,9 @@ class PhysicsTest : public QObject {
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
   void turned_objects_show_what_depends_on_the_axes();
-  void the_shape_is_measured();
   void what_has_no_answer_is_refused_by_name();
   void objects_grow();
   void it_stops_at_once();
-  void the_page_is_well_formed_and_says_all();
   void csv_and_text_have_a_row_for_each();
 };
 
@@ -89,8 +82,6 @@ std::map<std::pair<Algorithm, int>, PhysicalError> errors_of(const PhysicsDrag& 
   }
   return errors;
 }
-
-Origin origin() { return {{"a processor", 2, "a compiler", "Release"}, "chainmail compare", "today", "v"}; }
 
 // Error of Newton's method, over the handle's displacement.
 constexpr double converged = 1e-6;
@@ -161,20 +152,6 @@ void PhysicsTest::half_the_way_is_half_the_relative_error() {
   };
   for (const double share : {0.0, 0.5, 1.0, 2.0, 3.0}) {
     QVERIFY(std::abs(relative_at(share) - std::abs(1 - share)) < 1e-12);
-  }
-}
-
-void PhysicsTest::nothing_moving_takes_part_first() {
-  for (const PhysicsObject& object : everything().objects) {
-    for (const PhysicsDrag& one : object.drags) {
-      QVERIFY2(one.no_reference.empty(), one.no_reference.c_str());
-      const PhysicsEntry& first = one.entries.front();
-      QCOMPARE(label(first.contestant), std::string("Nothing moves"));
-      const PhysicalError& error = first.measurement.value().error;
-      // All elements except the handle and the pins are wrong by their whole displacement, at most nearly the handle's.
-      QVERIFY2(error.relative > 0.6 && error.relative < 1, qPrintable(QString::number(error.relative)));
-      QCOMPARE(first.measurement->ms_per_move.count, 0);
-    }
   }
 }
 
@@ -465,26 +442,6 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
   QVERIFY(!table.rows.empty());
 }
 
-void PhysicsTest::the_shape_is_measured() {
-  for (const PhysicsObject& object : everything().objects) {
-    for (const PhysicsDrag& drag : object.drags) {
-      for (const PhysicsEntry& entry : drag.entries) {
-        if (!entry.measurement) {
-          continue;
-        }
-        const ShapeFigures& shape = entry.measurement->shape;
-        QVERIFY(shape.hausdorff && shape.volume_change && shape.inverted_cells && shape.stretch);
-        if (entry.contestant.algorithm == Algorithm::neo_hookean) {
-          QVERIFY(*shape.hausdorff < 1e-4 && *shape.inverted_cells == 0);
-        }
-        if (entry.contestant.algorithm == Algorithm::exact && entry.contestant.sweeps == 0) {
-          QVERIFY(shape.violation < 1e-4 && *shape.stretch > 1);
-        }
-      }
-    }
-  }
-}
-
 void PhysicsTest::what_has_no_answer_is_refused_by_name() {
   const auto sentence_of = [](const Case& object) -> QString {
     try {
@@ -535,41 +492,6 @@ void PhysicsTest::it_stops_at_once() {
   const auto report = compare_with_physics({pinned_sheet(25, {}, {})}, quick({}, {0}), {}, stop.get_token());
   QVERIFY(report.stopped);
   QVERIFY(report.objects.at(0).drags.empty());
-}
-
-void PhysicsTest::the_page_is_well_formed_and_says_all() {
-  std::ostringstream out;
-  write_html(out, everything(), origin());
-  QXmlStreamReader reader(QByteArray::fromStdString(out.str()));
-  int drawings = 0, tables = 0, lines = 0;
-  QString text;
-  while (!reader.atEnd()) {
-    reader.readNext();
-    drawings += reader.isStartElement() && reader.name() == u"svg" ? 1 : 0;
-    tables += reader.isStartElement() && reader.name() == u"table" ? 1 : 0;
-    lines += reader.isStartElement() && reader.name() == u"polyline" ? 1 : 0;
-    text += reader.isCharacters() ? reader.text() : QStringView();
-  }
-  QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
-  QVERIFY(text.contains("on the same cells") && text.contains("Nothing moves") && text.contains("nothing moves"));
-  QVERIFY(text.contains("Linear FEM, on the same cells") && text.contains("BEM, on its surface mesh"));
-  QCOMPARE(drawings, 1 + 2 + 3);
-  QCOMPARE(tables, 5);
-  const Plot overview = physics_overview(everything());
-  QCOMPARE(overview.panels.size(), std::size_t{2});
-  double mean = 0, nothing = 0;
-  for (std::size_t i = 0; i < 12; ++i) {
-    const PhysicsDrag& one = everything().objects[0].drags[i];
-    mean += one.entries[1].measurement->error.relative / 12;
-    nothing += one.entries[0].measurement->error.relative / 12;
-  }
-  QVERIFY(std::abs(overview.panels[0].marks[0].y - mean) < 1e-14);
-  QVERIFY(std::abs(overview.panels[0].level.value().y - nothing) < 1e-14);
-  QVERIFY(lines >= 2 * 4 * 5);  // each number of sweeps of an algorithm is a line in each panel
-  for (const AlgorithmInfo& one : every_algorithm()) {
-    QVERIFY(text.contains(QString::fromUtf8(one.label.data(), int(one.label.size()))));
-  }
-  QVERIFY(text.contains("Young’s modulus 1, Poisson’s ratio 0.3"));
 }
 
 void PhysicsTest::csv_and_text_have_a_row_for_each() {

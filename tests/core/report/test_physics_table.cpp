@@ -1,8 +1,6 @@
 #include <QtTest>
-#include <sstream>
 
 #include "program.h"
-#include "report/page/physics_figures.h"
 #include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
 
@@ -17,8 +15,6 @@ class PhysicsTableTest : public QObject {
  private slots:
   void a_refusal_is_one_drag_s();
   void who_cannot_take_part_has_one_row();
-  void the_file_has_each_number_under_its_name_data();
-  void the_file_has_each_number_under_its_name();
 };
 
 namespace {
@@ -73,13 +69,6 @@ QString cell(const FigureTable& table, const std::string& group, const std::stri
                                     : table.rows.at(0).cells.at(std::size_t(column - table.columns.begin())));
 }
 
-/// Returns the field under a name in a row of a CSV table; row 0 is the first one below the names.
-QString field(const std::string& csv, int row, const QString& name) {
-  const QStringList lines = QString::fromStdString(csv).split('\n');
-  const qsizetype column = lines[0].split(',').indexOf(name);
-  return column < 0 ? "no column " + name : lines.value(1 + row).split(',').value(column);
-}
-
 }  // namespace
 
 /// A contestant that one drag refuses keeps its figures of the others. Its mean is not in the plot, where it would
@@ -109,64 +98,6 @@ void PhysicsTableTest::who_cannot_take_part_has_one_row() {
   GrowthSeries swept = refused;
   swept.contestant.sweeps = 1;
   QCOMPARE(growth_table({"bar", "a bar", {grown, refused, swept}}).rows.size(), std::size_t{2});
-}
-
-void PhysicsTableTest::the_file_has_each_number_under_its_name_data() {
-  QTest::addColumn<QString>("name");
-  QTest::addColumn<QString>("number");
-  const auto row = [](const char* name, const char* number) { QTest::newRow(name) << QString(name) << number; };
-  const auto time_rows = [](const QString& name, double median, int count) {
-    const auto add = [&](const QString& column, double number) {
-      QTest::newRow(qPrintable(column)) << column << QString::number(number);
-    };
-    add(name + "_ms", median);
-    add(name + "_lower_quartile", median - 0.25);
-    add(name + "_upper_quartile", median + 0.5);
-    add(name + "_repetitions", count);
-  };
-  row("object", "bar");
-  row("elements", "50");
-  row("pins", "60");
-  row("drag", "tear");
-  row("hand", "0.75");
-  row("handle", "70");
-  row("algorithm", "fem");
-  row("refusal", "");
-  row("repetitions", "9");
-  row("ms", "64");
-  row("ms_lower_quartile", "63.75");
-  row("ms_upper_quartile", "64.5");
-  row("ms_min", "63.625");
-  row("ms_max", "64.75");
-  row("prepare_ms", "24");
-  time_rows("first", 64, 9);
-  time_rows("after_cut", 32, 8);
-  time_rows("factorize", 8, 6);
-  time_rows("grab", 16, 7);
-  row("relative", "0.31");
-  row("error_rms", "0.12");
-  row("error_max", "0.13");
-  row("moving_rms", "0.14");
-  row("moving_max", "0.15");
-  row("moving_elements", "9");
-  row("hausdorff", "0.21");
-  row("volume_change", "0.22");
-  row("inverted_cells", "23");
-  row("largest_stretch", "0.24");
-  row("violation_max", "0.25");
-  row("residual", "0.0625");
-  row("regions_bind", "1");
-  row("iterations", "40");
-}
-
-void PhysicsTableTest::the_file_has_each_number_under_its_name() {
-  QFETCH(QString, name);
-  QFETCH(QString, number);
-  PhysicsReport report;
-  report.objects = {object()};
-  std::ostringstream csv;
-  write_csv(csv, report);
-  QCOMPARE(field(csv.str(), 1, name), number);
 }
 
 CHAINMAIL_TEST(PhysicsTableTest)

@@ -4,7 +4,6 @@
 
 #include "core/families.h"
 #include "program.h"
-#include "report/page/ramp_plot.h"
 #include "report/page/ramp_table.h"
 #include "report/run/growth.h"
 #include "report/run/ramp.h"
@@ -28,13 +27,11 @@ class RampTest : public QObject {
   void drags_are_a_hands();
   void drags_keep_to_the_scenes_axes();
   void a_race_gives_second_attempts();
-  void widths_grow();
   void every_size_and_algorithm_has_a_row();
   void all_make_the_same_moves();
   void every_attempt_has_drags_of_its_own();
   void a_budget_may_be_used_up();
   void a_lost_algorithm_is_out();
-  void each_size_shows_who_is_still_in();
   void a_hiccup_does_not_count();
   void what_others_take_does_not_count();
   void it_stops();
@@ -198,15 +195,6 @@ void RampTest::a_race_gives_second_attempts() {
   QVERIFY(race.is_over());  // no size is left
 }
 
-void RampTest::widths_grow() {
-  std::vector<std::uint32_t> widths{4};
-  while (widths.back() < 2000) {
-    widths.push_back(next_width(widths.back()));
-    const double ratio = double(widths.back()) / widths[widths.size() - 2];
-    QVERIFY(widths.back() <= 14 ? widths.back() == widths[widths.size() - 2] + 1 : ratio > 1.05 && ratio < 1.15);
-  }
-}
-
 void RampTest::every_size_and_algorithm_has_a_row() {
   Time time;
   const Ramp result = ramp(options_of(time, 49));
@@ -296,34 +284,6 @@ void RampTest::a_lost_algorithm_is_out() {
   text.str("");
   write_text(text, never, {});
   QVERIFY(text.str().find("never") != std::string::npos);
-}
-
-void RampTest::each_size_shows_who_is_still_in() {
-  Ramp ramp;
-  ramp.options.algorithms = {Algorithm::spiral, Algorithm::exact};
-  for (const auto& [width, algorithm, p99] :
-       {std::tuple(4U, Algorithm::spiral, 2.0), {4U, Algorithm::exact, 20.0}, {5U, Algorithm::spiral, 3.0}}) {
-    RampRow& row = ramp.rows.emplace_back();
-    row.width = width;
-    row.algorithm = algorithm;
-    row.median_ms = 1;
-    row.p99_ms = p99;
-    row.in_real_time = p99 < 16;
-  }
-  std::ostringstream text;
-  write_text(text, ramp, {});
-  const Plot plot = ramp_plot(ramp);
-  QCOMPARE(plot.panels.front().marks.size(), std::size_t{3});
-  QVERIFY(!plot.panels.front().marks[0].hollow && plot.panels.front().marks[2].hollow);  // 20 ms are no real time
-  QCOMPARE(plot.panels.front().curves[0].points.size(), std::size_t{2});
-  QCOMPARE(plot.good_below.value(), 1e3 / 60);
-  const QStringList lines = QString::fromStdString(text.str()).split('\n');
-  const auto cells = [&](const QString& size) {
-    const auto line = std::ranges::find_if(lines, [&](const QString& one) { return one.startsWith(size); });
-    return line == lines.end() ? QStringList() : line->simplified().split(' ');
-  };
-  QCOMPARE(cells("4x4"), (QStringList{"4x4", "1/2", "1/20!"}));
-  QCOMPARE(cells("5x5"), (QStringList{"5x5", "1/3"}));
 }
 
 void RampTest::a_hiccup_does_not_count() {

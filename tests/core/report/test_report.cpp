@@ -8,8 +8,6 @@
 #include "report/page/compared_figures.h"
 #include "report/page/format.h"
 #include "report/page/html.h"
-#include "report/page/plot.h"
-#include "report/page/svg.h"
 #include "report/page/table.h"
 
 namespace chainmail::test_report {
@@ -21,17 +19,10 @@ class ReportTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void figures_have_three_digits();
   void text_is_escaped();
-  void an_axis_spans_whole_decades();
-  void zero_has_a_place_of_its_own();
   void an_axis_of_nothing_stands();
-  void a_linear_axis_ends_at_a_round_number();
-  void a_plot_has_every_contestant_on_it();
-  void a_plot_is_well_formed();
   void a_page_is_well_formed_and_needs_nothing_else();
   void the_main_table_takes_the_worst();
-  void a_refusal_is_listed();
   void csv_has_a_row_for_each();
 };
 
@@ -72,12 +63,6 @@ std::string page() {
   return out.str();
 }
 
-std::string drawn(const Plot& plot) {
-  std::ostringstream out;
-  write_svg(out, plot);
-  return out.str();
-}
-
 /// Returns the names of the XML elements; empty if the text is not well-formed XML.
 QStringList elements_of(const std::string& text, QString* all_text = nullptr) {
   QXmlStreamReader reader(QByteArray::fromStdString(text));
@@ -99,50 +84,12 @@ QStringList elements_of(const std::string& text, QString* all_text = nullptr) {
 
 }  // namespace
 
-void ReportTest::figures_have_three_digits() {
-  QCOMPARE(figure(0), std::string("0"));
-  QCOMPARE(figure(1.0 / 3), std::string("0.333"));
-  QCOMPARE(figure(1234567), std::string("1.23e6"));
-  QCOMPARE(figure(2.5e-7), std::string("2.5e-7"));
-  QCOMPARE(figure(1e-10), std::string("1e-10"));
-  QCOMPARE(figure(std::optional<double>()), std::string("n/a"));
-  QCOMPARE(percent(0.0625), std::string("6.25%"));
-  QCOMPARE(all_digits(0.1), std::string("0.1"));
-  QCOMPARE(all_digits(std::optional<double>()), std::string());
-}
-
 void ReportTest::text_is_escaped() {
   QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
   // A truncated character, a surrogate, an overlong form, and one beyond the last; then valid ones of each length.
   QCOMPARE(escaped("\xc3"), std::string("?"));
   QCOMPARE(escaped("\xed\xa0\x80|\xc0\xaf|\xf4\x90\x80\x80"), std::string("???|??|????"));
   QCOMPARE(escaped("é€𝄞"), std::string("é€𝄞"));
-}
-
-void ReportTest::an_axis_spans_whole_decades() {
-  const Axis axis = Axis::logarithmic({0.02, 7}, 1e-9);
-  QVERIFY(!axis.has_zero());
-  // From 0.01 to 10.
-  QCOMPARE(axis.position(0.01), 0.0);
-  QCOMPARE(axis.position(10), 1.0);
-  QVERIFY(std::abs(axis.position(0.1) - 1.0 / 3) < 1e-12);
-  QVERIFY(std::abs(axis.position(std::sqrt(10.0)) - 2.5 / 3) < 1e-12);
-  QCOMPARE(axis.position(1000), 1.0);
-  QCOMPARE(axis.position(0.0001), 0.0);
-  QCOMPARE(axis.ticks().size(), std::size_t{4});
-  QCOMPARE(axis.ticks().front().label, std::string("0.01"));
-  QCOMPARE(axis.ticks().back().label, std::string("10"));
-}
-
-void ReportTest::zero_has_a_place_of_its_own() {
-  const Axis axis = Axis::logarithmic({0, 1e-20, 0.02, 7}, 1e-12);
-  QVERIFY(axis.has_zero());
-  QVERIFY(0 < axis.position(0) && axis.position(0) < axis.first_decade());
-  QCOMPARE(axis.position(1e-20), axis.position(0));
-  QCOMPARE(axis.position(0.01), axis.first_decade());
-  QCOMPARE(axis.position(10), 1.0);
-  QCOMPARE(axis.ticks().front().label, std::string("0"));
-  QCOMPARE(axis.ticks().front().position, axis.position(0));
 }
 
 void ReportTest::an_axis_of_nothing_stands() {
@@ -152,47 +99,6 @@ void ReportTest::an_axis_of_nothing_stands() {
       QVERIFY(axis.position(value) >= 0 && axis.position(value) <= 1);
     }
     QVERIFY(axis.ticks().size() >= 2);
-  }
-}
-
-void ReportTest::a_linear_axis_ends_at_a_round_number() {
-  const Axis axis = Axis::from_zero_to(0.037);
-  QCOMPARE(axis.position(0), 0.0);
-  QCOMPARE(axis.position(0.05), 1.0);
-  QCOMPARE(axis.position(0.075), 1.5);  // values beyond the axis are outside
-  QCOMPARE(axis.ticks().size(), std::size_t{3});
-  QCOMPARE(axis.ticks()[1].label, std::string("0.025"));
-  QCOMPARE(axis.ticks()[2].label, std::string("0.050"));  // as many decimals as the finest label
-  QVERIFY(!axis.has_zero());
-  QCOMPARE(Axis::from_zero_to(20).position(20), 1.0);
-  QCOMPARE(Axis::from_zero_to(0).position(1), 1.0);
-}
-
-void ReportTest::a_plot_has_every_contestant_on_it() {
-  const Plot plot = violation_plot(comparison().cases[0]);
-  QVERIFY(!is_empty(plot) && is_empty(Plot()));
-  QCOMPARE(plot.panels.size(), std::size_t{2});
-  QCOMPARE(plot.series.size(), std::size_t{2});  // the refused contestant has no marks
-  QVERIFY(plot.series[0].style != plot.series[1].style);
-  const auto& marks = plot.panels[1].marks;
-  QCOMPARE(marks.size(), std::size_t{3});
-  QVERIFY(!marks[0].hollow && marks[1].hollow && !marks[2].hollow);
-  QCOMPARE(marks[0].series, marks[1].series);
-  QCOMPARE(marks[0].x, 0.02);
-  QCOMPARE(marks[0].x_low, 0.01);
-  QCOMPARE(marks[0].x_high, 0.04);
-  QCOMPARE(marks[1].y, 0.5);
-  QCOMPARE(distance_plot(comparison().cases[0]).panels[0].marks[0].y, 0.125);  // RMS
-}
-
-void ReportTest::a_plot_is_well_formed() {
-  for (const Plot& plot : {violation_plot(comparison().cases[0]), distance_plot(comparison().cases[0]), Plot{}}) {
-    const QStringList elements = elements_of(drawn(plot));
-    QVERIFY(!elements.isEmpty());
-    QCOMPARE(elements.first(), QString("svg"));
-    // One mark per measurement, and one per line of the legend.
-    const std::size_t marks = plot.panels.empty() ? 0 : 6 + plot.series.size();
-    QCOMPARE(std::size_t(elements.count("path")), marks);
   }
 }
 
@@ -223,18 +129,6 @@ void ReportTest::the_main_table_takes_the_worst() {
   QCOMPARE(plain.to_exact->max, 0.25);             // of the first drag
   QCOMPARE(tables[0].rows[1].violation.max, 0.5);  // of the second
   QCOMPARE(tables[0].rows[1].violation.fraction, 0.125);
-}
-
-void ReportTest::a_refusal_is_listed() {
-  QCOMPARE(main_tables(comparison())[0].rows[2].refusal, std::string("it works, on grids, alone"));
-  QString words;
-  elements_of(page(), &words);
-  QCOMPARE(words.count("it works, on grids, alone"), 3);  // main table, and each drag's
-  std::ostringstream out;
-  write_text(out, comparison());
-  // As wide as the longest name, `Natural Queue ChainMail, 10 sweeps`.
-  QVERIFY(QString::fromStdString(out.str()).contains("\n  " + QString("3D ChainMail").leftJustified(34) +
-                                                     "  it works, on grids, alone\n"));
 }
 
 void ReportTest::csv_has_a_row_for_each() {

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/format.h"
 #include "report/page/front.h"
-#include "report/page/suite_csv.h"
-#include "report/page/suite_plot.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"
@@ -73,19 +69,13 @@ class SuiteTest : public QObject {
   void the_coarse_organ_has_a_reference_of_three_levels();
   void bars_for_fronts_have_the_size_that_they_say();
   void long_experiments_run_only_where_they_are_named();
-  void each_size_is_one_column();
   void times_grow_with_the_accuracy();
   void a_fresh_move_is_timed_with_its_grab();
   void a_curve_has_the_error_of_each_drag();
-  void points_of_curves_are_compared();
   void parts_have_every_experiment_once();
-  void parts_are_joined();
   void an_experiment_twice_is_refused();
   void means_leave_out_the_cut();
   void the_front_has_whom_no_one_beats();
-  void errors_below_the_change_of_the_reference_are_equal();
-  void plots_name_everyone_and_the_front();
-  void unknown_experiments_are_refused();
 };
 
 void SuiteTest::timoshenko_meets_both_ends() {
@@ -328,22 +318,6 @@ void SuiteTest::long_experiments_run_only_where_they_are_named() {
   QCOMPARE(merged({part({"fronts-2k"}), part({"bar"})}).results.front().name, std::string("bar"));
 }
 
-void SuiteTest::each_size_is_one_column() {
-  SuiteResult result;
-  result.orders = {{"Linear FEM", "fem", "", {{100, 0.5}, {400, 0.125}}, 2.0},
-                   {"Exact", "exact", "", {{400, 0.5}, {50, 0.75}}, {}},
-                   {"BEM", "bem", "it has no cells", {}, {}}};
-  const FigureTable table = order_table(result);
-  QStringList names;
-  for (const auto& column : table.columns) {
-    names << QString::fromStdString(column.name);
-  }
-  QCOMPARE(names, QStringList({"50", "100", "400", "order"}));
-  QCOMPARE(table.rows.at(0).cells, std::vector<std::string>({"-", "0.5", "0.125", "2"}));
-  QCOMPARE(table.rows.at(1).cells.at(0), std::string("0.75"));
-  QVERIFY(table.rows.at(2).refusal == "it has no cells" && table.rows.at(2).cells.empty());
-}
-
 void SuiteTest::times_grow_with_the_accuracy() {
   SuiteOptions options;
   options.algorithms = {Algorithm::exact, Algorithm::linear_fem, Algorithm::boundary_elements};
@@ -431,19 +405,6 @@ void SuiteTest::parts_have_every_experiment_once() {
   }
 }
 
-void SuiteTest::parts_are_joined() {
-  const Suite all = merged({part({"sheet", "torsion"}), part({"bar", "cantilever"})});
-  std::vector<std::string> names;
-  for (const SuiteResult& result : all.results) {
-    names.push_back(result.name);
-  }
-  QCOMPARE(names, (std::vector<std::string>{"cantilever", "torsion", "bar", "sheet"}));
-  QCOMPARE(all.runs.size(), std::size_t(2));
-  const auto missing = missing_from(all);
-  QCOMPARE(missing.size(), suite_names().size() - 4);
-  QVERIFY(std::ranges::count(missing, "organ") == 1 && std::ranges::count(missing, "bar") == 0);
-}
-
 void SuiteTest::an_experiment_twice_is_refused() {
   try {
     merged({part({"sheet", "bar"}), part({"bar"})});
@@ -503,107 +464,6 @@ void SuiteTest::the_front_has_whom_no_one_beats() {
   }
   QCOMPARE(names, (std::vector<std::string>{"fast", "the same as the fast one", "middle", "slow and close"}));
   QVERIFY(front(means, speeds_against_error[1]).empty());  // nobody has a time of a fresh grab
-}
-
-/// The reference changed by 0.05 in its last refinement, so nobody knows who of those below that is closer.
-void SuiteTest::errors_below_the_change_of_the_reference_are_equal() {
-  SuiteResult result;
-  result.name = "bar";
-  const auto add = [&](const char* who, double ms, double error) {
-    SuiteRow& row = result.rows.emplace_back(SuiteRow{"pull", 1, false, who, "xpbd", ""});
-    row.later_ms = ms;
-    row.relative = error;
-    row.reference_change = 0.05;
-  };
-  add("far", 1, 0.2);
-  add("close", 2, 0.04);
-  add("closer, slower", 3, 0.01);
-  const auto means = means_of(result);
-  std::vector<std::string> names;
-  for (const SuiteMean* one : front(means, speeds_against_error[0])) {
-    names.push_back(one->contestant);
-  }
-  QCOMPARE(names, (std::vector<std::string>{"far", "close"}));
-  Suite suite;
-  suite.results = {result};
-  const auto findings = suite_findings(suite);
-  QCOMPARE(findings.at(0), std::string("bar: close (below 0.05), closer, slower (below 0.05) are closest"));
-  QVERIFY(findings.at(1).ends_with("far (1 ms, 0.2), close (2 ms, below 0.05)"));
-  const FigureTable summary = suite_summary(suite), table = suite_table(result);
-  QCOMPARE(summary.rows.at(0).cells.front(), std::string("0.2"));
-  QCOMPARE(summary.rows.at(2).cells.front(), std::string("below 0.05*"));
-  QCOMPARE(table.rows.at(0).cells.front(), std::string("0.2"));
-  QCOMPARE(table.rows.at(1).cells.front(), std::string("below 0.05"));
-  for (const PlotMark& mark : suite_plot(suite, speeds_against_error[0]).panels.at(0).marks) {
-    QVERIFY(mark.y >= 0.05);
-  }
-  SuiteResult times;
-  times.times = {{"XPBD", "xpbd", "", {}, {{.iterations = 5, .relative = 0.03}}}};
-  QCOMPARE(time_table(times).rows.front().cells.front(), std::string("0.03"));
-  times.references = {{{{100, {}}, {800, 0.05}}, {}, false, ""}};
-  QCOMPARE(time_table(times).rows.front().cells.front(), std::string("below 0.05"));
-}
-
-/// Each number of iterations counts as a contestant of its own: the front goes along the curves, and is drawn.
-void SuiteTest::points_of_curves_are_compared() {
-  SuiteResult result;
-  result.name = "bar";
-  result.times = {{"XPBD", "xpbd", "", {}, {{1, 0.5, 1, 0.6, 3, {}, {}}, {10, 0.2, 8, 0.1, 9, {}, {}}}},
-                  {"Linear FEM", "fem", "", {}, {{0, 0.3, 2, 0.3, 4, 0.25, 7}}}};
-  Suite suite;
-  suite.results = {result};
-  QCOMPARE(suite_findings(suite),
-           (std::vector<std::string>{
-               "bar, later move: on the front are XPBD × 1 (1 ms, 0.5), Linear FEM (2 ms, 0.3), XPBD × 10 (8 ms, 0.2)",
-               "bar, fresh grab: on the front are XPBD × 1 (3 ms, 0.6), Linear FEM (4 ms, 0.3), XPBD × 10 (9 ms, 0.1)",
-               "bar, move after a cut: on the front are Linear FEM (7 ms, 0.25)"}));
-  const Plot plot = suite_plot(suite, speeds_against_error[0]);
-  const auto& curves = plot.panels.at(0).curves;
-  QCOMPARE(curves.size(), std::size_t(2));  // XPBD's, and the front
-  QVERIFY(curves[0].points == (std::vector<std::array<double, 2>>{{1, 0.5}, {8, 0.2}}));
-  QVERIFY(plot.series.at(curves[0].series).label == "XPBD" && plot.panels[0].marks.size() == 3);
-  QCOMPARE(suite_plot(suite, speeds_against_error[2]).panels.at(0).marks.size(), std::size_t(1));
-  std::ostringstream csv;
-  write_csv(csv, suite);
-  const QStringList lines = QString::fromStdString(csv.str()).split('\n', Qt::SkipEmptyParts);
-  // A row for each error that is reached, XPBD and linear FEM, and for each point.
-  QCOMPARE(lines.filter(",bend,").size(), 3 + 2 + 3);
-  QCOMPARE(lines.filter(",fresh grab,").size(), 4 + 2 + 3);
-  QCOMPARE(lines.filter(",cut,").size(), 0 + 2 + 1);
-}
-
-/// Every contestant of a plot is in its legend, and the line of the front is beside them.
-void SuiteTest::plots_name_everyone_and_the_front() {
-  SuiteResult result;
-  result.name = "bar";
-  for (const AlgorithmInfo& one : every_algorithm()) {
-    SuiteRow& row = result.rows.emplace_back();
-    row.contestant = one.label;
-    row.algorithm = one.name;
-    row.relative = 1 / double(result.rows.size());
-    row.later_ms = double(result.rows.size());
-  }
-  Suite suite;
-  suite.results = {result};
-  const Plot plot = suite_plot(suite, speeds_against_error[0]);
-  QCOMPARE(plot.series.size(), result.rows.size() + 1);
-  const PlotPanel& panel = plot.panels.at(0);
-  for (std::size_t i = 0; i < panel.marks.size(); ++i) {
-    QCOMPARE(plot.series[panel.marks[i].series].label, result.rows[i].contestant);
-  }
-  QCOMPARE(panel.curves.size(), std::size_t{1});
-  QVERIFY(plot.series[panel.curves[0].series].label.starts_with("front"));
-  // In steps, from one to the next; neo-Hookean FEM may not win.
-  QCOMPARE(panel.curves[0].points.size(), 2 * (result.rows.size() - 1) - 1);
-}
-
-void SuiteTest::unknown_experiments_are_refused() {
-  try {
-    run_suite({"hammer"}, {});
-    QFAIL("not refused");
-  } catch (const Error& error) {
-    QVERIFY(std::string(error.what()).find("hammer") != std::string::npos);
-  }
 }
 
 CHAINMAIL_TEST(SuiteTest)

@@ -21,13 +21,9 @@ class UndoTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void swapping_brings_the_object_back_and_forth();
   void later_moves_come_out_as_if_nothing_had_been();
   void another_mesh_comes_back_with_its_cuts_and_softness();
   void any_change_is_undone();
-  void whether_the_object_is_valid_comes_back_too();
-  void states_have_names_of_their_own();
-  void a_restored_state_stays_kept();
   void states_come_back_in_any_order();
   void a_change_to_exact_is_undone_with_it();
   void a_dropped_state_is_gone();
@@ -63,24 +59,6 @@ Trace trace_of_drags(Simulation& simulation) {
 }
 
 }  // namespace
-
-void UndoTest::swapping_brings_the_object_back_and_forth() {
-  for (const Precision precision : precisions) {
-    auto simulation = worked_simulation(Algorithm::natural_queue, precision);
-    const SavedState before(simulation);
-    carry_out(simulation, commands::KeepState{1});
-    QVERIFY(SavedState(simulation) == before);
-    change_everything(simulation);
-    const SavedState after(simulation);
-    QVERIFY(!after.same_object(before));
-    for (int i = 0; i < 3; ++i) {
-      exchange(simulation, 1);  // undo
-      QVERIFY(SavedState(simulation).same_object(before));
-      exchange(simulation, 1);  // redo
-      QVERIFY(SavedState(simulation).same_object(after));
-    }
-  }
-}
 
 void UndoTest::later_moves_come_out_as_if_nothing_had_been() {
   for (const Algorithm algorithm : on_any_mesh) {
@@ -130,46 +108,6 @@ void UndoTest::any_change_is_undone() {
     RC_ASSERT(SavedState(simulation).same_object(after));
   };
   QVERIFY(check_property("undo and redo of cuts, softness, drags and relaxation are exact", holds));
-}
-
-void UndoTest::whether_the_object_is_valid_comes_back_too() {
-  Simulation simulation(sphere(12, 6), Algorithm::generalized, Precision::double_precision);
-  carry_out(simulation, commands::KeepState{1});
-  drag_by(simulation, 0, Point(0, 0, 9));  // Generalized leaves some of its links invalid
-  simulation.measure_all();
-  QVERIFY(!simulation.valid());
-  exchange(simulation, 1);
-  QVERIFY(simulation.valid());
-  exchange(simulation, 1);
-  QVERIFY(!simulation.valid());
-}
-
-void UndoTest::states_have_names_of_their_own() {
-  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::double_precision);
-  const SavedState first(simulation);
-  carry_out(simulation, commands::KeepState{1});
-  drag_by(simulation, 3, Point(1, 1, 0));
-  const SavedState second(simulation);
-  carry_out(simulation, commands::KeepState{2});
-  drag_by(simulation, 9, Point(-1, 1, 0));
-  exchange(simulation, 2);  // undo the second step, then the first
-  QVERIFY(SavedState(simulation).same_object(second));
-  exchange(simulation, 1);
-  QVERIFY(SavedState(simulation).same_object(first));
-  exchange(simulation, 1);  // and redo the first
-  QVERIFY(SavedState(simulation).same_object(second));
-}
-
-void UndoTest::a_restored_state_stays_kept() {
-  auto simulation = worked_simulation(Algorithm::natural_queue, Precision::single_precision);
-  const SavedState first(simulation);
-  carry_out(simulation, commands::KeepState{1});
-  for (int i = 0; i < 2; ++i) {
-    change_everything(simulation);
-    QVERIFY(!SavedState(simulation).same_object(first));
-    carry_out(simulation, commands::RestoreState{1});
-    QVERIFY(SavedState(simulation).same_object(first));
-  }
 }
 
 /// States share the blocks that did not change between them. No state may change the blocks of another. Exact stores
