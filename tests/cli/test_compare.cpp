@@ -19,8 +19,6 @@ class CompareCommandTest : public QObject {
   }
   void writes_the_report();
   void options_are_taken();
-  void the_page_names_the_command();
-  void replaces_an_older_report();
   void plots_of_an_older_report_are_named();
   void wrong_usage_data();
   void wrong_usage();
@@ -85,23 +83,6 @@ void CompareCommandTest::options_are_taken() {
   QVERIFY(soft < stiff);
 }
 
-void CompareCommandTest::the_page_names_the_command() {
-  const auto outcome =
-      program_->run(QStringList{"compare", "grid.dat", "--repetitions", "1", "--algorithms", "exact", "-o", "it's"});
-  QVERIFY2(outcome.code == 0, outcome.error);
-  QCOMPARE(report("it's")["origin"]["command_line"].toString(),
-           QString("chainmail compare grid.dat --repetitions 1 --algorithms exact -o 'it'\\''s'"));
-}
-
-void CompareCommandTest::replaces_an_older_report() {
-  QVERIFY(QDir(program_->path("")).mkdir("out"));
-  program_->write("out/report.csv", "old");
-  program_->write("out/note.txt", "mine");
-  QCOMPARE(program_->run("compare grid.dat" + QByteArray(short_run)).code, 0);
-  QVERIFY(program_->read("out/report.csv").startsWith("object,elements,"));
-  QCOMPARE(program_->read("out/note.txt"), QByteArray("mine"));
-}
-
 /// A plot beside the new report looks as if it belonged to it. Files of others are not named, and all of them stay.
 void CompareCommandTest::plots_of_an_older_report_are_named() {
   QVERIFY(QDir(program_->path(".")).mkdir("out"));
@@ -120,27 +101,14 @@ void CompareCommandTest::wrong_usage_data() {
   QTest::addColumn<QString>("where");
   const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
   row("compare grid.dat", "-o: it is missing; ");
-  row("compare grid.dat -o", "-o: its value is missing; ");
   row("compare grid.dat none.dat -o out", "none.dat: ");
-  row("compare grid.dat -o grid.dat", "-o: grid.dat is not a folder; ");
   row("compare grid.dat -o grid.dat/out", "-o: grid.dat is not a folder; ");
   row("compare grid.dat --algorithms best -o out", "--algorithms: 'best' is not known; use generalized, ");
-  row("compare grid.dat --algorithms exact,,spiral -o out", "--algorithms: '' ");
   row("compare grid.dat --algorithms exact,exact -o out", "--algorithms: 'exact' is given twice; ");
   row("compare grid.dat --relax 0,-1 -o out", "--relax: '-1' ");
-  row("compare grid.dat --relax 1e3 -o out", "--relax: '1e3' ");
-  row("compare grid.dat --relax 2000000 -o out", "--relax: '2000000' ");
-  row("compare grid.dat --relaxation none -o out", "--relaxation: 'none' is not known; ");
-  row("compare grid.dat --relaxation equilibrium -o out", "--relaxation: 'equilibrium' is not known; use mean or link");
-  row("compare grid.dat --relax equilibrium,equilibrium -o out", "--relax: 'equilibrium' is given twice; ");
-  row("compare grid.dat --relax-step 0 -o out", "--relax-step: ");
-  row("compare grid.dat --precision half -o out", "--precision: 'half' is not known; ");
   row("compare grid.dat --repetitions 0 -o out", "--repetitions: '0' ");
-  row("compare grid.dat --stretch 0.5 -o out", "--stretch: ");
-  row("compare grid.dat --moves none.json -o out", "none.json: there is no such file; ");
   row("compare grid.dat --moves grid.dat -o out", "grid.dat:1: it is not JSON; ");
   row("compare --moves none.json -o out", "--moves: the mesh of the recorded moves is missing; ");
-  row("compare grid.dat --pin 3 -o out", "--pin: there is no such option; ");
 }
 
 void CompareCommandTest::wrong_usage() {

@@ -16,12 +16,10 @@ class ConvertCommandTest : public QObject {
 
  private slots:
   void a_mesh_goes_to_another_format();
-  void what_was_left_out_is_noted();
   void a_volume_is_taken_as_asked();
   void a_surface_is_simplified();
   void a_mesh_is_repaired();
   void what_a_format_does_not_hold_is_said();
-  void cells_have_no_holes();
   void the_file_that_was_read_is_not_replaced_data();
   void the_file_that_was_read_is_not_replaced();
   void bad_usage_is_one_sentence_and_leaves_no_file_data();
@@ -52,14 +50,6 @@ void ConvertCommandTest::a_mesh_goes_to_another_format() {
   const auto mesh = read_mesh(program.path("a.msh").toStdString());
   QCOMPARE(mesh->triangles.size(), std::size_t{4});
   QCOMPARE(mesh->links.size(), std::size_t{6});
-}
-
-void ConvertCommandTest::what_was_left_out_is_noted() {
-  const Program program;
-  program.write("a.off", "OFF\n3 2 0\n0 0 0\n3 0 0\n0 3 0\n3 0 1 2\n3 2 1 0\n");
-  const auto outcome = program.run("convert a.off -o a.obj");
-  QCOMPARE(outcome.code, 0);
-  QCOMPARE(outcome.error, QByteArray("chainmail: note: 1 duplicate face or cell left out\n"));
 }
 
 void ConvertCommandTest::a_volume_is_taken_as_asked() {
@@ -130,14 +120,6 @@ void ConvertCommandTest::what_a_format_does_not_hold_is_said() {
   QCOMPARE(program.run("convert a.mesh -o a.vtu").error, QByteArray());
 }
 
-void ConvertCommandTest::cells_have_no_holes() {
-  const Program program;
-  QCOMPARE(program.run("generate tetra 2x2x2 -o a.msh").code, 0);
-  QCOMPARE(program.run("repair a.msh -o b.msh").out, QByteArray("repaired  nothing\n"));
-  check_refused(program, "repair a.msh --holes -o c.msh",
-                "--holes: the object has cells, and only surfaces have holes; ");
-}
-
 void ConvertCommandTest::the_file_that_was_read_is_not_replaced_data() {
   QTest::addColumn<QString>("input");
   QTest::addColumn<QString>("output");
@@ -182,35 +164,17 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
                           << "a.xyz: the ending .xyz is not known; ";
   QTest::newRow("read only") << "convert a.off -o a.node"
                              << "a.node: a .node file can be opened but not written; ";
-  QTest::newRow("itself") << "convert a.off -o a.off"
-                          << "a.off: a .off file can be opened but not written; ";
   QTest::newRow("no volume") << "convert a.off --threshold 3 -o a.obj"
                              << "a.off: it is not a volume of voxels; ";
-  QTest::newRow("no voxels") << "convert a.off --voxels 2 -o a.obj"
-                             << "a.off: it is not a volume of voxels; ";
-  QTest::newRow("threshold") << "convert a.mha --threshold dense -o a.obj"
-                             << "--threshold: ";
-  QTest::newRow("voxels") << "convert a.mha --voxels 0 -o a.obj"
-                          << "--voxels: ";
   QTest::newRow("nothing") << "convert a.mha --threshold 41 -o a.obj"
                            << "--threshold: no voxel has a density of 41 or more; ";
   QTest::newRow("open") << "fill open.off -o a.msh"
                         << "open.off: the surface is open: it has 1 hole, ";
-  QTest::newRow("repair itself") << "repair a.mha -o a.mha"
-                                 << "a.mha: a .mha file can be opened but not written; ";
-  QTest::newRow("repair twice") << "repair a.off -o b.obj --json b.obj"
-                                << "b.obj: ";
-  QTest::newRow("repair nothing") << "repair a.off --fins -o b.obj"
-                                  << "--fins: there is no such option; ";
-  QTest::newRow("simplified to nothing") << "simplify a.off --elements 3 -o a.msh"
-                                         << "--elements: '3' is not a whole number in range; use 4 to ";
   QTest::newRow("simplified to more") << "simplify a.off --elements 9 -o a.msh"
                                       << "--elements: the surface has 4, so 9 are not fewer; use a finer surface";
   QTest::newRow("border too long") << "simplify strip.off --elements 5 -o a.msh"
                                    << "strip.off: the 6 elements at its borders and non-manifold edges stay, so it "
                                       "cannot have 5; use a surface with more elements inside";
-  QTest::newRow("simplified, but to what") << "simplify a.off -o a.msh"
-                                           << "--elements: it is missing; ";
   QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"
                         << "--edge: it must be a number above 0; ";
 }

@@ -24,14 +24,9 @@ class DeformCommandTest : public QObject {
   void a_chain_follows();
   void acts_are_carried_out_in_their_order();
   void a_handle_of_many_moves_and_rotates();
-  void coordinates_left_out_stay();
-  void coordinates_that_do_not_exist_must_be_0();
-  void steps_are_equal_and_end_at_the_target();
-  void the_energy_is_that_of_the_material();
   void a_script_is_carried_out_before_the_acts();
   void sweeps_are_interrupted_at_once_data();
   void sweeps_are_interrupted_at_once();
-  void more_space_may_be_given();
   void acts_that_do_not_fit_are_refused_data();
   void acts_that_do_not_fit_are_refused();
 
@@ -125,55 +120,6 @@ void DeformCommandTest::a_handle_of_many_moves_and_rotates() {
   QVERIFY2(text.contains("degrees by links outside the handle, or by pins"), text);
 }
 
-void DeformCommandTest::coordinates_left_out_stay() {
-  const auto positions = deform("--algorithm spiral --move 7:9 --by 7:0,0.25", "grid.dat");
-  QCOMPARE(positions[7], (QList<double>{9, 1.25, 0}));
-  QCOMPARE(program_->json("out.json")["passes"][0]["target"].toArray(), (QJsonArray{9, 1, 0}));
-}
-
-void DeformCommandTest::coordinates_that_do_not_exist_must_be_0() {
-  QCOMPARE(xs("--move 0:-1,0,0")[0], -1.0);
-  // A plane at z = 5: its elements stay at z = 5.
-  program_->write("plane.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2 3\n");
-  for (const char* options : {"--move 0:1,1,5", "--move 0:1,1,0", "--by 0:1,1,0"}) {
-    const auto positions = deform("--algorithm spiral " + QByteArray(options), "plane.obj");
-    QCOMPARE(positions[0], (QList<double>{1, 1, 5}));
-  }
-  const auto outcome = program_->run("deform plane.obj --algorithm spiral --by 0:1,1,5");
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: --by 0:1,1,5: "), outcome.error);
-}
-
-void DeformCommandTest::steps_are_equal_and_end_at_the_target() {
-  QCOMPARE(xs("--steps 4 --move 0:-1 --by 0:0.3")[0], -1 + 0.3);
-  const auto passes = program_->json("out.json")["passes"].toArray();
-  QCOMPARE(passes.size(), 8);
-  QCOMPARE(passes[0]["target"][0].toDouble(), -0.25);
-  QCOMPARE(passes[1]["target"][0].toDouble(), -0.5);
-  QCOMPARE(passes[2]["target"][0].toDouble(), -0.75);
-  QVERIFY(passes[3]["target"][0].toDouble() == -1.0);
-  QVERIFY(passes[7]["target"][0].toDouble() == -1 + 0.3);
-  QVERIFY(xs("--steps 3 --move 0:0.1")[0] == 0.1);
-}
-
-/// The energy is that of the material, unless something else says that links are meant.
-void DeformCommandTest::the_energy_is_that_of_the_material() {
-  QCOMPARE(program_->run("generate tetra 3x3x3 -o block.msh").code, 0);
-  program_->write("moves.json", R"({"version": 1, "commands": [{"do": "grab", "element": 26},
-    {"do": "drag", "by": [0.3, 0.2, 0]}]})");
-  const auto energy = [&](const QByteArray& options) {
-    deform("--algorithm exact --pin left " + options, "block.msh");
-    return program_->json("out.json")["energy"].toDouble();
-  };
-  const double material = energy("--by 26:0.3,0.2,0 --energy material"),
-               links = energy("--by 26:0.3,0.2,0 --energy corotated");
-  QVERIFY(material > 0 && links > 0 && material != links);
-  QCOMPARE(energy("--by 26:0.3,0.2,0"), material);
-  QCOMPARE(energy("--by 26:0.3,0.2,0 --lateral 1"), links);
-  QCOMPARE(energy("--script moves.json"), links);
-  QCOMPARE(energy("--script moves.json --energy material"), material);
-}
-
 void DeformCommandTest::a_script_is_carried_out_before_the_acts() {
   program_->write("moves.json", R"({"version": 1, "commands": [{"do": "cut", "links": [[2, 3]]},
     {"do": "grab", "element": 0}, {"do": "drag", "target": [-1, 0, 0]}, {"do": "release"},
@@ -209,12 +155,6 @@ void DeformCommandTest::sweeps_are_interrupted_at_once() {
   QVERIFY(process.waitForFinished(2000));
   QCOMPARE(process.exitStatus(), QProcess::CrashExit);  // by the signal, as shells expect
   QCOMPARE(program_->files(), before);
-}
-
-void DeformCommandTest::more_space_may_be_given() {
-  const auto positions = deform("--algorithm spiral --space 3 --by 0:0,0,-2");
-  QCOMPARE(positions[0], (QList<double>{0, 0, -2}));
-  QCOMPARE(positions[1], (QList<double>{1, 0, -2 + 0.1}));  // it may lean by 0.1
 }
 
 void DeformCommandTest::acts_that_do_not_fit_are_refused_data() {

@@ -10,41 +10,10 @@ class InfoCommandTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void json_has_the_keys_of_the_contract();
   void size_and_spacing_come_first();
   void an_option_that_cannot_be_is_named_itself_data();
   void an_option_that_cannot_be_is_named_itself();
-  void bad_files_are_refused_data();
-  void bad_files_are_refused();
 };
-
-void InfoCommandTest::json_has_the_keys_of_the_contract() {
-  const Program program;
-  program.write("a.obj", "v 1 2 3\nv 4 2 3\nv 4 6 3\nv 1 6 3\nv 0 0 3\nf 1 2 3 4\n");
-  const auto outcome = program.run("info a.obj --json -");
-  QCOMPARE(outcome.code, 0);
-  const auto info = QJsonDocument::fromJson(outcome.out).object();
-  QStringList keys = info.keys();
-  QCOMPARE(keys, (QStringList{"bounds", "components", "defects", "elements", "flaws", "hexahedra", "joined", "kind",
-                              "left_out", "links", "mean_link_length", "object_dimension", "schema_version",
-                              "space_dimension", "tetrahedra", "triangles"}));
-  QCOMPARE(info["elements"].toInt(), 5);
-  QCOMPARE(info["links"].toInt(), 4);
-  QCOMPARE(info["triangles"].toInt(), 2);
-  QCOMPARE(info["tetrahedra"].toInt(), 0);
-  QCOMPARE(info["object_dimension"].toInt(), 2);
-  QCOMPARE(info["space_dimension"].toInt(), 2);
-  QCOMPARE(info["components"].toInt(), 2);
-  QCOMPARE(info["bounds"].toArray(), (QJsonArray{QJsonArray{0, 0, 3}, QJsonArray{4, 6, 3}}));
-  QCOMPARE(info["mean_link_length"].toDouble(), 3.5);
-  QCOMPARE(info["defects"].toObject(), (QJsonObject{{"duplicate_vertices", 0},
-                                                    {"loose_points", 1},
-                                                    {"holes", 0},
-                                                    {"hole_edges", 0},
-                                                    {"non_manifold_edges", 0},
-                                                    {"inverted_cells", 0}}));
-  QVERIFY(program.run("info a.obj").out.contains("\ndefects           1 loose point\n"));
-}
 
 void InfoCommandTest::size_and_spacing_come_first() {
   const Program program;
@@ -81,34 +50,6 @@ void InfoCommandTest::an_option_that_cannot_be_is_named_itself() {
                 "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
                 "LOCAL\n\x0a\x14\x1e\x28");
   check_refused(program, qPrintable("info " + arguments), where);
-}
-
-void InfoCommandTest::bad_files_are_refused_data() {
-  QTest::addColumn<QByteArray>("text");
-  QTest::addColumn<QString>("where");
-  const auto row = [](const char* name, const QByteArray& text, const char* where) {
-    QTest::newRow(name) << text << where;
-  };
-  row("2x1.dat", "0 1 1\n1 0\n", "2x1.dat:1: element 0 lists 1, but 1 does not list 0; ");
-  row("1x1.dat", "", "1x1.dat: it is empty; ");
-  row("a.dat", "0 0\n", "a.dat: the size of its lattice is not known; ");
-  row("a.obj", "v 0 0 0\nf 1 2 3\n", "a.obj:2: there is no vertex 3; ");
-  row("b.obj", QByteArray("\0\1\2", 3), "b.obj: it is not a text file; ");
-  row("a.ply", "ply\n", "a.ply:2: its header does not end; ");
-  row("c.obj", "v 0 0 0\nv 1 2 nan\n", "c.obj:2: 'nan' is not a valid coordinate");
-}
-
-void InfoCommandTest::bad_files_are_refused() {
-  QFETCH(QByteArray, text);
-  QFETCH(QString, where);
-  const Program program;
-  const QString name = QTest::currentDataTag();
-  program.write(name, text);
-  const auto outcome = program.run(QStringList{"info", name, "--json", "out.json"});
-  QCOMPARE(outcome.code, 2);
-  QVERIFY2(is_one_sentence(outcome), outcome.error);
-  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where), outcome.error);
-  QCOMPARE(program.files(), QStringList{name});
 }
 
 CHAINMAIL_TEST(InfoCommandTest)

@@ -18,45 +18,18 @@ class OutputsCommandTest : public QObject {
     program_ = std::make_unique<Program>();
     QCOMPARE(program_->run("generate cloth 6x5 -o cloth.obj").code, 0);
   }
-  void json_has_the_keys_of_the_contract();
   void the_trace_has_a_row_for_each_candidate();
   void positions_read_back_bit_for_bit();
   void deformed_obj_holds_links_and_cuts();
   void a_dash_is_standard_output();
   void one_failing_output_leaves_all();
   void what_was_read_is_not_replaced();
-  void the_place_where_pins_stop_the_hand_is_told();
   void a_full_device_is_status_1();
-  void options_stand_anywhere();
   void a_signal_leaves_no_temporary_folder();
 
  private:
   std::unique_ptr<Program> program_;
 };
-
-void OutputsCommandTest::json_has_the_keys_of_the_contract() {
-  QCOMPARE(program_->run("deform cloth.obj --algorithm spiral --by 14:2,1 --json a.json").code, 0);
-  const QByteArray text = program_->read("a.json");
-  qsizetype last = -1;
-  for (const char* key :
-       {"kind", "schema_version", "algorithm", "elements", "links", "passes", "element", "target", "checked", "moved",
-        "milliseconds", "violation", "max", "rms", "fraction", "energy", "displacement", "shape"}) {
-    const auto at = text.indexOf('"' + QByteArray(key) + '"');
-    QVERIFY2(at > last, key);
-    last = at;
-  }
-  const auto json = program_->json("a.json");
-  QCOMPARE(json.keys().size(), 10);
-  QCOMPARE(json["shape"].toObject().keys(), (QStringList{"inverted_cells", "largest_stretch", "volume_change"}));
-  QCOMPARE(json["passes"][0].toObject().keys().size(), 5);
-  QCOMPARE(json["violation"].toObject().keys(), (QStringList{"fraction", "max", "rms"}));
-  QCOMPARE(json["displacement"].toObject().keys(), (QStringList{"max", "rms"}));
-  QCOMPARE(json["elements"].toInt(), 30);
-  QCOMPARE(json["links"].toInt(), 69);  // 25 + 24 + 20
-  QCOMPARE(json["passes"][0]["target"].toArray(), (QJsonArray{4, 3, 0}));
-  QVERIFY(json["passes"][0]["milliseconds"].toDouble() > 0);
-  QCOMPARE(json["displacement"]["max"].toDouble(), std::sqrt(5.0));
-}
 
 void OutputsCommandTest::what_was_read_is_not_replaced() {
   program_->write("soft.csv", "0,1,0.5,2,0.5\n");
@@ -71,16 +44,6 @@ void OutputsCommandTest::what_was_read_is_not_replaced() {
   }
   QCOMPARE(program_->run("info cloth.obj --json cloth.obj").code, 2);
   QCOMPARE(program_->read("cloth.obj"), mesh);
-}
-
-void OutputsCommandTest::the_place_where_pins_stop_the_hand_is_told() {
-  QCOMPARE(program_->run("generate line 5 -o line.dat").code, 0);
-  const QByteArray pull = "deform line.dat --algorithm exact --stretch 1.25 --pin 0 --json - --by 4:";
-  const auto place = [&](const char* by) {
-    return QJsonDocument::fromJson(program_->run(pull + by).out).object()["passes"][0]["stopped_at"];
-  };
-  QCOMPARE(place("90").toArray(), (QJsonArray{5, 0, 0}));
-  QVERIFY(place("0.5").isUndefined());
 }
 
 void OutputsCommandTest::the_trace_has_a_row_for_each_candidate() {
@@ -178,13 +141,6 @@ void OutputsCommandTest::a_full_device_is_status_1() {
   QCOMPARE(outcome.code, 1);
   QVERIFY2(is_one_sentence(outcome) && outcome.error.startsWith("chainmail: /dev/full: "), outcome.error);
   QCOMPARE(program_->files(), before);
-}
-
-void OutputsCommandTest::options_stand_anywhere() {
-  const auto before = program_->run("deform --algorithm spiral --by 14:2,1 --positions - cloth.obj");
-  const auto after = program_->run("deform cloth.obj --positions=- --by=14:2,1 --algorithm=spiral");
-  QCOMPARE(before.code, 0);
-  QCOMPARE(before.out, after.out);
 }
 
 /// Ends an import at different times after its folder is there.

@@ -164,19 +164,12 @@ void PeersTest::wrong_answers_are_refused_data() {
     QTest::newRow(name) << change << QString(says);
   };
   row("another kind", "it is not a chainmail answer", [](QJsonObject& json) { json["kind"] = "chainmail case"; });
-  row("another version", "does not have the version 1", [](QJsonObject& json) { json["schema_version"] = 2; });
   row("another case", "it answers another case, x", [](QJsonObject& json) { json["case"] = "x"; });
   row("too few positions", "it has positions of 1 elements", [](QJsonObject& json) {
     json["positions"] = QJsonArray{QJsonArray{0, 0, 0}};
   });
   row("two coordinates", "a position does not have three coordinates", [](QJsonObject& json) {
     json["positions"] = QJsonArray{QJsonArray{0, 0}};
-  });
-  row("a text in place of a number", "", [](QJsonObject& json) {
-    json["positions"] = QJsonArray{QJsonArray{0, 0, "1"}};
-  });
-  row("too few times", "it has times of 2 moves, the case has 24", [](QJsonObject& json) {
-    json["moves_ms"] = QJsonArray{1, 2};
   });
   row("a time below 0", "a time is below 0", [](QJsonObject& json) { json["grab_ms"] = -1; });
   row("the handle stays", "of the handle is not at its place", [](QJsonObject& json) { json["positions"] = "rest"; });
@@ -205,20 +198,11 @@ void PeersTest::wrong_cases_are_refused_data() {
   };
   row("an id that is too large", "an id is not a whole number",
       [](QJsonObject& json) { json["pins"] = QJsonArray{1'000'000}; });
-  row("an id below 0", "an id is not a whole number", [](QJsonObject& json) { json["pins"] = QJsonArray{-1}; });
-  row("an id twice", "an id appears twice", [](QJsonObject& json) { json["pins"] = QJsonArray{3, 3}; });
   row("no handle", "'handle' or 'moves' is empty", [](QJsonObject& json) {
     json["handle"] = QJsonArray();
     json["moves"] = QJsonArray{QJsonArray()};
   });
-  row("no moves", "'handle' or 'moves' is empty", [](QJsonObject& json) { json["moves"] = QJsonArray(); });
-  row("cells of two corners", "a cell does not have three or four corners", [](QJsonObject& json) {
-    json["cells"] = QJsonArray{QJsonArray{0, 1}};
-  });
   row("no cells", "'cells' is empty", [](QJsonObject& json) { json["cells"] = QJsonArray(); });
-  row("triangles in space", "its triangles do not lie in a plane", [](QJsonObject& json) {
-    json["cells"] = QJsonArray{QJsonArray{0, 1, 2}};
-  });
   row("a short reference", "'reference' does not have a position for each element", [](QJsonObject& json) {
     json["reference"] = QJsonArray{QJsonArray{0, 0, 0}};
   });
