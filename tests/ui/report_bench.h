@@ -58,6 +58,6 @@ struct ReportBench : Workbench {
 };
 
 // Columns of the table.
-constexpr int msColumn = 1, violationColumn = 2, exactColumn = 5;
+constexpr int msColumn = 1, violationColumn = 2;
 
 }  // namespace chainmail
