@@ -5,7 +5,7 @@ namespace chainmail::test_info {
 
 using namespace chainmail::test;
 
-/// Tests `chainmail info`: its output, and its errors for bad files.
+/// Tests `chainmail info`: its options.
 class InfoCommandTest : public QObject {
   Q_OBJECT
 

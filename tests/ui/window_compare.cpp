@@ -1,4 +1,4 @@
-// Tests comparisons of panels in a real window: linked marks, ghosts, distances, and the choice of the reference panel.
+// Tests comparisons of panels in a real window: linked marks, differences and ghosts.
 
 #include <QLabel>
 #include <QSlider>

@@ -1,5 +1,5 @@
 // Tests exact work in a real window: figures of the element under the cursor, views along the axes, distances, and
-// elements that are selected and moved by numbers.
+// elements that are chosen by their ids.
 
 #include <QLabel>
 #include <QPushButton>

@@ -1,4 +1,4 @@
-// Tests background jobs in a real window: progress, cancelling, and which job replaces or refuses another.
+// Tests background jobs in a real window: cancelling, and which job replaces or refuses another.
 
 #include <QFile>
 #include <QPushButton>

@@ -1,4 +1,4 @@
-// Tests files of users in a real window: the texts about them, voxel volumes, and filled surfaces.
+// Tests files of users in a real window: voxel volumes, filled surfaces, and repairs.
 
 #include <sys/stat.h>
 

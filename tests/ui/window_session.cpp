@@ -1,4 +1,4 @@
-// Tests sessions in a real window: saving, opening, and dropping files.
+// Tests sessions in a real window: saving and opening.
 
 #include <QFile>
 

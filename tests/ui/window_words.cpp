@@ -1,5 +1,4 @@
-// Tests the words around the views: the sentence on violation, figures on demand, the list of algorithms, the lecture
-// mode, and the tool bar in narrow windows.
+// Tests the words around the views: the sentence on violation, figures on demand, and the lecture mode.
 
 #include <QDockWidget>
 #include <QLabel>

@@ -10,8 +10,8 @@
 
 namespace chainmail::test_api_programs {
 
-/// The part of the public interface from which programs like the command line are made: texts, files, tables of what a
-/// user may choose, repairs, simulations, sessions and reports.
+/// The part of the public interface from which programs like the command line are made: files, tables of what a user
+/// may choose, simulations and reports.
 class ApiProgramsTest : public QObject {
   Q_OBJECT
 

@@ -14,7 +14,7 @@ namespace chainmail::test_report {
 
 using namespace chainmail::report;
 
-/// The output of a comparison: numbers, axes, plots, page and tables.
+/// The output of a comparison: page and tables.
 class ReportTest : public QObject {
   Q_OBJECT
 
