@@ -3,7 +3,6 @@
 #include <QFile>
 
 #include "document/edits.h"
-#include "io/file_actions.h"
 #include "io/sessions.h"
 #include "session_bench.h"
 #include "window/message_bar.h"
