@@ -1,9 +1,7 @@
 // Tests themes, icons, messages and the first start in a real window.
 
 #include <QAbstractButton>
-#include <QDockWidget>
 #include <QLabel>
-#include <QPushButton>
 #include <QTest>
 #include <QToolButton>
 #include <cmath>
@@ -14,9 +12,7 @@
 #include "common/theme.h"
 #include "document/edits.h"
 #include "document/panel_colour.h"
-#include "drawing/annotation.h"
 #include "drawing/colour_map.h"
-#include "drawing/object_drawing.h"
 #include "panels/violation_line.h"
 #include "window.h"
 #include "window/message_bar.h"
@@ -297,17 +293,6 @@ class WindowComfort : public QObject {
     bench.settleFigures();
     const QString figures = bench.window.panel(0).findChild<ViolationLine*>()->toolTip();
     QVERIFY2(figures.contains(QStringLiteral("1 link checked")), qPrintable(figures));
-  }
-
- private:
-  static int inked(const QImage& picture) {
-    int count = 0;
-    for (int y = 0; y < picture.height(); ++y) {
-      for (int x = 0; x < picture.width(); ++x) {
-        count += int(picture.pixelColor(x, y).alpha() > 100);
-      }
-    }
-    return count;
   }
 };
 
