@@ -21,6 +21,7 @@ python_packages=(pybind11-dev python3-dev python3-numpy)
 python_test_packages=(python3-pytest python3-distributed mypy python3-sphinx)
 # For packages: made by tests/package/check, and checked.
 package_packages=(build-essential help2man dpkg-dev debhelper dh-python lintian desktop-file-utils appstream libxml2-utils debootstrap)
+mutant_packages=(python3)
 bench_packages=(libbenchmark-dev)
 fuzz_packages=(clang libclang-rt-dev)
 
