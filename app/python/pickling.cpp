@@ -79,7 +79,7 @@ std::optional<api::StateValue> value_of(py::handle part) {
 
 constexpr const char* state_of_mesh = "state of a mesh";
 
-py::dict parts_of(const api::Mesh& mesh) {
+py::object parts_of(const api::Mesh& mesh) {
   const auto in_python = [](const auto& value) -> py::object {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) {

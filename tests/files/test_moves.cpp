@@ -263,10 +263,10 @@ void MovesTest::other_files_are_refused_data() {
   row("null", "m.json: it contains no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
   row(R"({"commands": []})", "m.json: 'version' is missing; ");
-  row(R"({"version": 3, "commands": []})", "m.json: its version is not 1 or 2; ");
-  row(R"({"version": "1", "commands": []})", "m.json: its version is not 1 or 2; ");
-  row(R"({"version": 1.5, "commands": []})", "m.json: its version is not 1 or 2; ");
-  row(R"({"version": -1, "commands": []})", "m.json: its version is not 1 or 2; ");
+  row(R"({"version": 4, "commands": []})", "m.json: its version is not 1 to 3; ");
+  row(R"({"version": "1", "commands": []})", "m.json: its version is not 1 to 3; ");
+  row(R"({"version": 1.5, "commands": []})", "m.json: its version is not 1 to 3; ");
+  row(R"({"version": -1, "commands": []})", "m.json: its version is not 1 to 3; ");
   row(R"({"version": 1})", "m.json: 'commands' is missing; ");
   row(R"({"version": 1, "commands": {}})", "m.json: 'commands' is not an array; ");
   row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not a known key; ");
@@ -416,8 +416,8 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
 /// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
-            read(R"({"commands": [{"do": "twist"}], "version": 3})");
-          }).startsWith("m.json: its version is not 1 or 2; "));
+            read(R"({"commands": [{"do": "twist"}], "version": 4})");
+          }).startsWith("m.json: its version is not 1 to 3; "));
   QVERIFY(error_of([&] {
             read(R"({"version": 1, "commands": [{"do": "twist"}] ,})");
           }).startsWith("m.json:1: it is not JSON; "));

