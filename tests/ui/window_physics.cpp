@@ -6,7 +6,6 @@
 #include <QLocale>
 #include <QPushButton>
 #include <QRegularExpression>
-#include <QStandardItemModel>
 #include <future>
 
 #include "document/edits.h"
@@ -17,11 +16,6 @@
 namespace chainmail::window_physics {
 
 namespace {
-
-const QStandardItem& item(Workbench& bench, int panel, const char* label) {
-  auto& selector = bench.window.panel(panel).selector();
-  return *qobject_cast<QStandardItemModel*>(selector.model())->item(selector.findText(QLatin1String(label)));
-}
 
 MeshPointer gridInAPlane() { return generate({MeshKind::grid, {9, 7, 1}, 1, {}}); }
 
