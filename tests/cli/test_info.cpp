@@ -1,4 +1,5 @@
 #include "cli/chainmail_program.h"
+#include "folders.h"
 #include "program.h"
 
 namespace chainmail::test_info {
@@ -13,6 +14,7 @@ class InfoCommandTest : public QObject {
   void size_and_spacing_come_first();
   void an_option_that_cannot_be_is_named_itself_data();
   void an_option_that_cannot_be_is_named_itself();
+  void a_lesson_is_checked();
 };
 
 void InfoCommandTest::size_and_spacing_come_first() {
@@ -50,6 +52,21 @@ void InfoCommandTest::an_option_that_cannot_be_is_named_itself() {
                 "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
                 "LOCAL\n\x0a\x14\x1e\x28");
   check_refused(program, qPrintable("info " + arguments), where);
+}
+
+void InfoCommandTest::a_lesson_is_checked() {
+  const Program program;
+  QFile lesson(QString::fromStdString(source_file("resources/lessons/exact.chainmail").string()));
+  QVERIFY(lesson.open(QIODevice::ReadOnly));
+  QByteArray text = lesson.readAll();
+  program.write("lesson.chainmail", text);
+  program.run("info lesson.chainmail --json a.json");
+  QVERIFY(program.json("a.json")["elements"].toInt() > 0);
+  const QByteArray step = "\"until\": 1";
+  QVERIFY(text.contains(step));
+  text.replace(text.indexOf(step), step.size(), "\"until\": -1");
+  program.write("wrong.chainmail", text);
+  check_refused(program, "info wrong.chainmail", "wrong.chainmail: ");
 }
 
 CHAINMAIL_TEST(InfoCommandTest)

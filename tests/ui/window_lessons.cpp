@@ -347,7 +347,8 @@ void WindowLessons::figuresOfAWholePassSaySo() {
   const QString late = sentence();
   QVERIFY2(late.startsWith(QStringLiteral("%1 % of links violated").arg(std::lround(100 * violated(bench, 0)))),
            qPrintable(late));
-  QCOMPARE(early, QStringLiteral("After the pass: ") + late);
+  QCOMPARE(QString(early).replace(QStringLiteral(" violated after the pass,"), QStringLiteral(" violated,")), late);
+  QVERIFY2(early != late, qPrintable(early));
 }
 
 void WindowLessons::theEndLeadsToTheNextLesson() {
@@ -479,7 +480,7 @@ void WindowLessons::aLongCaptionScrolls() {
   const QTemporaryDir folder;
   Workbench& bench = shared();
   const QSize size = bench.window.size();
-  for (const QByteArray& text : {QByteArray(4000, 'x'), QByteArray("line\\n").repeated(700)}) {
+  for (const QByteArray& text : {QByteArray(3900, 'x'), QByteArray("line\\n").repeated(700)}) {  // of at most 4,096
     open(bench, changed(folder, "order.chainmail", "Both panels show the same sheet.", text));
     QCOMPARE(bench.window.size(), size);  // it leaves the views their room
     QVERIFY(bench.view(0).height() > size.height() / 4);

@@ -40,6 +40,8 @@ std::string work(Session session) {
 void drop(Workbench& bench, const QUrl& url) {
   QMimeData data;
   data.setUrls({url});
+  QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&bench.window, &enter);
   QDropEvent event(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&bench.window, &event);
   bench.settle();
@@ -104,7 +106,10 @@ class WindowReplaced : public QObject {
     };
     opens("a session", path("other.chainmail"));
     opens("a mesh", sourceFile("meshes/cloth.obj"));
-    row("a sample", [](Workbench& bench) { bench.find<QToolButton>("sample torus.obj")->click(); });
+    row("a sample", [](Workbench& bench) {
+      bench.find<QPushButton>("openSamples")->click();
+      bench.find<QToolButton>("sample torus.obj")->click();
+    });
     row("Build", [](Workbench& bench) { bench.find<QPushButton>("buildMesh")->click(); });
     row("a volume", [](Workbench& bench) {
       bench.open(sourceFile("meshes/phantom.nrrd"));
@@ -153,6 +158,7 @@ class WindowReplaced : public QObject {
 
   /// Undo returns to the work, and once it is saved, there is no other copy of it.
   void workIsKeptUntilItIsSaved() {
+    bench_.reset();
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     SafeBench bench;
     change(bench);
@@ -170,6 +176,7 @@ class WindowReplaced : public QObject {
   }
 
   void workThatCannotBeKeptMayBeDiscarded() {
+    bench_.reset();
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     SafeBench bench;
     change(bench);
@@ -182,16 +189,17 @@ class WindowReplaced : public QObject {
   }
 
   void aDropFromElsewhereGetsASentence() {
-    const MeshPointer mesh = bench_->document().mesh();
-    drop(*bench_, QUrl(QStringLiteral("https://example.org/mesh.obj")));
-    QCOMPARE(bench_->window.messages().sentence(),
+    Workbench bench;
+    const MeshPointer mesh = bench.document().mesh();
+    drop(bench, QUrl(QStringLiteral("https://example.org/mesh.obj")));
+    QCOMPARE(bench.window.messages().sentence(),
              QStringLiteral("https://example.org/mesh.obj: it is not a file of this computer; save it to a file first, "
                             "then drop that file"));
-    drop(*bench_, QUrl(QStringLiteral("file://server/mesh.obj")));
-    QVERIFY(bench_->window.messages().sentence().startsWith(QStringLiteral("file://server/mesh.obj: it is not")));
-    QVERIFY(bench_->document().mesh() == mesh);
-    drop(*bench_, QUrl(QStringLiteral("file://localhost") + sourceFile("meshes/sphere.obj")));
-    QCOMPARE(bench_->document().name(), QStringLiteral("sphere.obj"));
+    drop(bench, QUrl(QStringLiteral("file://server/mesh.obj")));
+    QVERIFY(bench.window.messages().sentence().startsWith(QStringLiteral("file://server/mesh.obj: it is not")));
+    QVERIFY(bench.document().mesh() == mesh);
+    drop(bench, QUrl(QStringLiteral("file://localhost") + sourceFile("meshes/sphere.obj")));
+    QCOMPARE(bench.document().name(), QStringLiteral("sphere.obj"));
   }
 
   /// A name that is not UTF-8, and one with a line end.
@@ -238,6 +246,7 @@ class WindowReplaced : public QObject {
   }
   void theLastDragIsKeptAtTheEnd() {
     QFETCH(int, signal);
+    bench_.reset();
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     QProcess display, program;
     if (signal == 0) {

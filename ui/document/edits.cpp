@@ -81,7 +81,9 @@ void replace(Document& document, const std::function<Change()>& edit, Opening op
   if (opening == Opening::first) {
     steps.clear();
   }
-  opening == Opening::unsaved ? steps.resetClean() : steps.setClean();
+  if (opening != Opening::unsaved) {  // else Undo returns to a state that is as clean as before
+    steps.setClean();
+  }
 }
 
 /// Shows as many panels as the session has, within the limits of the window.

@@ -106,7 +106,7 @@ void Film::startJob() {
               [share = job_](const Progress& progress) -> Jobs::Finish {
                 try {
                   for (; !share->ended; std::this_thread::sleep_for(std::chrono::milliseconds(pollMilliseconds))) {
-                    progress.report(share->done, share->pictures);
+                    progress.report(double(share->done) / double(share->pictures));
                   }
                 } catch (...) {
                   share->cancelled = true;

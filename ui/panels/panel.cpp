@@ -183,11 +183,15 @@ QString Panel::work(const Statistics& statistics) {
 
 /// True if the panel's object is not at rest, however it came there: a session may bring positions without moves.
 bool Panel::hasMoved(const Statistics& statistics) {
+  const Frame& frame = *document_.solvers().frame(panel_);
+  if (frame.mesh != movedMesh_) {  // the solver goes on counting when another object replaces the one before
+    movedMesh_ = frame.mesh;
+    passesBefore_ = statistics.passes;
+  }
   const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
-  if (statistics.passes > 0 || document_.cuts().count() > 0 || history.passes(history.position()) > 0) {
+  if (statistics.passes != passesBefore_ || document_.cuts().count() > 0 || history.passes(history.position()) > 0) {
     return true;
   }
-  const Frame& frame = *document_.solvers().frame(panel_);
   if (frame.number != movedNumber_ || frame.series != movedSeries_) {
     movedNumber_ = frame.number;
     movedSeries_ = frame.series;

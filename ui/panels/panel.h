@@ -85,6 +85,8 @@ class Panel : public QFrame {
   // The result of hasMoved() for a frame.
   std::uint64_t movedNumber_ = 0, movedSeries_ = 0;
   bool moved_ = false;
+  MeshPointer movedMesh_;           // the object of the last frame
+  std::uint64_t passesBefore_ = 0;  // of its solver, before it had this object
 };
 
 }  // namespace chainmail

@@ -145,9 +145,10 @@ void View::updateHover() {
 }
 
 View::~View() {
-  if (context() != nullptr) {
-    disconnect(context(), nullptr, this, nullptr);  // aboutToBeDestroyed must not reach a destroyed view
+  if (context() == nullptr) {
+    return;  // it was never shown
   }
+  disconnect(context(), nullptr, this, nullptr);  // aboutToBeDestroyed must not reach a destroyed view
   makeCurrent();
   painter_.destroy();
   freeGhostPainter();

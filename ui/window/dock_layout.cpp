@@ -175,7 +175,8 @@ constexpr std::array areas{Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::
                            Qt::BottomDockWidgetArea};
 
 bool fitsItsScreen(const QMainWindow& window) {
-  const QSize least = window.minimumSizeHint() + window.frameGeometry().size() - window.size();
+  const QSize frame = window.frameGeometry().size() - window.size();  // empty until the window manager has drawn it
+  const QSize least = window.minimumSizeHint() + (frame.isNull() ? roomOfFrame : frame);
   return least.boundedTo(window.screen()->availableSize()) == least;
 }
 

@@ -1,5 +1,6 @@
 #include "window/keys_page.h"
 
+#include <QKeyEvent>
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
@@ -129,6 +130,15 @@ KeysPage::KeysPage(QMainWindow* window) : QDialog(window), window_(*window), pag
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(page_);
+}
+
+/// Escape closes the page, though it is the key of an action of the window.
+bool KeysPage::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();
+    return true;
+  }
+  return QDialog::event(event);
 }
 
 /// Actions may come and go.

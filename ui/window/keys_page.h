@@ -22,6 +22,7 @@ class KeysPage : public QDialog {
   explicit KeysPage(QMainWindow* window);
 
  protected:
+  bool event(QEvent* event) override;
   void showEvent(QShowEvent* event) override;
 
  private:

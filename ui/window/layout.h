@@ -8,6 +8,8 @@
 
 namespace chainmail {
 
+inline constexpr QSize roomOfFrame(40, 80);  // pixels, more than the frame of a window manager takes
+
 /// Where a dock is.
 struct DockPlace {
   QString id = {};  // its object name

@@ -62,7 +62,6 @@ namespace chainmail {
 namespace {
 
 constexpr QSize usualSize(1600, 900);  // at the first start
-constexpr QSize roomOfFrame(40, 80);   // pixels, more than the frame of a window manager takes
 const QString layoutKey = QStringLiteral("window");
 constexpr int statusMilliseconds = 4000;
 constexpr std::size_t longestUrl = 200;                     // bytes, in a message
@@ -465,11 +464,11 @@ void MainWindow::resetLayout() {
 
 void MainWindow::restoreLayout() {
   const auto json = QJsonDocument::fromJson(QSettings().value(layoutKey).toString().toUtf8()).object();
-  const Layout kept = fitted(layoutFrom(json, {}), availableScreens());
+  const Layout wanted = layoutFrom(json, {}), kept = fitted(wanted, availableScreens());
   const QSize available = screen()->availableSize();
   const bool isSmall = usualSize.boundedTo(available - roomOfFrame) != usualSize;
   kept.window.isNull() ? resize(usualSize.boundedTo(available)) : setGeometry(kept.window);
-  if (kept.window.isNull() ? isSmall : kept.maximized) {
+  if (kept.window.isNull() ? isSmall : kept.maximized || kept.window.size() != wanted.window.size()) {
     setWindowState(Qt::WindowMaximized);  // else its frame would move its last lines out of the screen
   }
   bar_->setVisible(kept.toolBar);

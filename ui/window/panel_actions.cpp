@@ -32,7 +32,6 @@ PanelActions::PanelActions(PanelArea& area, Document& document, Colouring& colou
   ghosts_->setCheckable(true);
   compare_->setObjectName(QStringLiteral("compareWith"));
   compare_->setToolTipsVisible(true);
-  compared_->setMenu(compare_);
   for (int panel = 0; panel < Document::maxPanels; ++panel) {
     makeOnes(panel);
   }
@@ -112,7 +111,9 @@ void PanelActions::fill(QMenu& menu) {
 
 void PanelActions::fill(QToolBar& bar) {
   bar.addAction(compared_);
-  qobject_cast<QToolButton*>(bar.widgetForAction(compared_))->setPopupMode(QToolButton::InstantPopup);
+  auto* button = qobject_cast<QToolButton*>(bar.widgetForAction(compared_));
+  button->setMenu(compare_);  // the action's own menu would give the View menu its text, too
+  button->setPopupMode(QToolButton::InstantPopup);
 }
 
 /// Enables and disables the actions. The tool tip of a disabled action explains why.

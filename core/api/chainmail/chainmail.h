@@ -22,6 +22,7 @@
 #include "chainmail/preset.h"
 #include "chainmail/ramp.h"
 #include "chainmail/repair.h"
+#include "chainmail/session.h"
 #include "chainmail/simulation.h"
 #include "chainmail/state.h"
 #include "chainmail/suite.h"
