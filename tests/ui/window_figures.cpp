@@ -238,8 +238,7 @@ class WindowFigures : public QObject {
   void statesThatAreWiderThanTheViewHaveMoreLines() {
     Workbench bench;
     auto* chips = bench.window.panel(0).findChild<StateChips*>();
-    bench.view(0).resize(120, 200);
-    chips->setStates({QStringLiteral("30 pinned elements of this object")});
+    chips->setStates({QStringLiteral("30 pinned elements of this object ").repeated(20)});
     QVERIFY(chips->height() >= 2 * chips->fontMetrics().height());
   }
 };

@@ -176,7 +176,7 @@ constexpr std::array areas{Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::
 
 bool fitsItsScreen(const QMainWindow& window) {
   const QSize frame = window.frameGeometry().size() - window.size();  // empty until the window manager has drawn it
-  const QSize least = window.minimumSizeHint() + (frame.isNull() ? roomOfFrame : frame);
+  const QSize least = window.minimumSizeHint() + (frame.isNull() && !window.isMaximized() ? roomOfFrame : frame);
   return least.boundedTo(window.screen()->availableSize()) == least;
 }
 
@@ -235,10 +235,10 @@ void moveDocks(QMainWindow& window, Layout layout) {
 }
 
 void gatherDocks(QMainWindow& window) {
-  for (auto area = areas.rbegin(); area != areas.rend() && !fitsItsScreen(window); ++area) {
+  const auto gather = [&window](const auto& isChosen) {
     QDockWidget* first = nullptr;
     for (QDockWidget* dock : docksOf(window)) {
-      if (window.dockWidgetArea(dock) != *area || dock->isHidden() || dock->isFloating()) {
+      if (dock->isHidden() || dock->isFloating() || !isChosen(dock)) {
         continue;
       }
       if (first != nullptr) {
@@ -247,6 +247,12 @@ void gatherDocks(QMainWindow& window) {
       first = first != nullptr ? first : dock;
     }
     window.layout()->invalidate();
+  };
+  for (auto area = areas.rbegin(); area != areas.rend() && !fitsItsScreen(window); ++area) {
+    gather([&](QDockWidget* dock) { return window.dockWidgetArea(dock) == *area; });
+  }
+  if (!fitsItsScreen(window)) {
+    gather([](QDockWidget* /*dock*/) { return true; });
   }
 }
 

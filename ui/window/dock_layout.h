@@ -13,8 +13,8 @@ Layout layoutOf(const QMainWindow& window, const Layout& before);
 /// proportion of the window's size to that in the layout, unless the window is larger.
 void moveDocks(QMainWindow& window, Layout layout);
 
-/// Puts the docks of an edge behind tabs, edge by edge, until the window is no larger than its screen: a larger screen
-/// may have shown more of them at once.
+/// Puts the docks of an edge behind tabs, edge by edge and at last all, until the window is no larger than its screen:
+/// a larger screen may have shown more of them at once.
 void gatherDocks(QMainWindow& window);
 
 /// Returns the parts of the screens that windows may use.

@@ -464,11 +464,11 @@ void MainWindow::resetLayout() {
 
 void MainWindow::restoreLayout() {
   const auto json = QJsonDocument::fromJson(QSettings().value(layoutKey).toString().toUtf8()).object();
-  const Layout wanted = layoutFrom(json, {}), kept = fitted(wanted, availableScreens());
+  const Layout kept = fitted(layoutFrom(json, {}), availableScreens());
   const QSize available = screen()->availableSize();
   const bool isSmall = usualSize.boundedTo(available - roomOfFrame) != usualSize;
   kept.window.isNull() ? resize(usualSize.boundedTo(available)) : setGeometry(kept.window);
-  if (kept.window.isNull() ? isSmall : kept.maximized || kept.window.size() != wanted.window.size()) {
+  if (kept.window.isNull() ? isSmall : kept.maximized) {
     setWindowState(Qt::WindowMaximized);  // else its frame would move its last lines out of the screen
   }
   bar_->setVisible(kept.toolBar);
@@ -478,8 +478,12 @@ void MainWindow::restoreLayout() {
   QTimer::singleShot(0, this, [this] {
     gatherDocks(*this);
     const QSize largest = screen()->availableSize() - (frameGeometry().size() - size());
-    if (!isMaximized() && !isFullScreen() && size().boundedTo(largest) != size()) {
-      resize(size().boundedTo(largest));
+    if (isMaximized() || isFullScreen()) {
+      return;
+    }
+    resize(size().boundedTo(largest));
+    if (const QRect there = screen()->availableGeometry(); !there.contains(QRect(pos(), size() + roomOfFrame))) {
+      move(there.topLeft());
     }
   });
 }

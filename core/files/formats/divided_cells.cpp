@@ -171,6 +171,7 @@ void add_prism_on(MeshParts& parts, std::span<const ElementId> v) {
 /// Divides each face around its middle, and the solid around its own.
 void add_pyramid19(MeshParts& parts, std::span<const ElementId> v) {
   std::vector<std::vector<ElementId>> sides;
+  sides.reserve(quadrangles_of_pyramid19.size() + 6 * faces_of_pyramid19.size());
   for (const auto& [a, b, c, d] : quadrangles_of_pyramid19) {
     sides.push_back({v[a], v[b], v[c], v[d]});
   }
