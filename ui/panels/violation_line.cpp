@@ -60,7 +60,7 @@ ViolationLine::ViolationLine() : number_(new QLabel), sentence_(new QLabel) {
   row->addWidget(sentence_, 1);
   number_->setObjectName(QStringLiteral("number"));
   number_->setTextFormat(Qt::PlainText);
-  number_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  number_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   number_->hide();
   sentence_->setObjectName(QStringLiteral("sentence"));
   sentence_->setTextFormat(Qt::PlainText);
