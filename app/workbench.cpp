@@ -123,8 +123,8 @@ int run(int argc, char** argv) {
     const bool first = true;
     // Qt does not keep the bytes of a name that is not UTF-8.
     const QString name = parser.positionalArguments().constFirst();
-    const auto isName = [&](const char* one) { return QString::fromLocal8Bit(one) == name; };
-    window.openFile(chainmail::pathOf(*std::find_if(argv + 1, argv + argc, isName)), first);
+    const auto is_name = [&](const char* one) { return QString::fromLocal8Bit(one) == name; };
+    window.openFile(chainmail::pathOf(*std::find_if(argv + 1, argv + argc, is_name)), first);
   } else {
     window.welcome();
   }

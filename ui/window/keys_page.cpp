@@ -29,7 +29,7 @@ struct MouseRow {
 constexpr std::array mouseRows{MouseRow{"Left button", "the tool: drag, cut, pin, measure, select"},
                                MouseRow{"Wheel", "zoom"},
                                MouseRow{"Middle button", "pan"},
-                               MouseRow{"Right button", "turn; a click on an element opens its menu"},
+                               MouseRow{"Right button", "turn"},
                                MouseRow{"Double click", "moves a point of the object to the middle"},
                                MouseRow{"R + wheel", "radius of the brush of Drag"},
                                MouseRow{"Shift in a drag", "rotates the handle"}};
