@@ -91,7 +91,7 @@ QString Autosave::keep() {
   if (isKept || !document_.isModified()) {
     return {};
   }
-  const QString why = handOver();
+  QString why = handOver();
   keeps_ = why.isEmpty();
   if (!keeps_) {  // the window may stay open
     closed_ = false;

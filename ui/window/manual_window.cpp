@@ -19,7 +19,7 @@
 namespace chainmail {
 namespace {
 
-constexpr QSize preferredSize(1100, 720);
+constexpr QSize preferredSize(1240, 720);
 constexpr int searchWidth = 220;
 constexpr int pageMargin = 18;
 constexpr int cellPadding = 4;
@@ -197,7 +197,7 @@ QToolButton* makeButton(const char* name, const char* picture, const QString& ti
 ManualWindow::ManualWindow(QWidget* parent) : QWidget(parent, Qt::Window), page_(new Page), search_(new QLineEdit) {
   setObjectName(QStringLiteral("manualWindow"));
   setWindowTitle(QStringLiteral("ChainMail manual"));
-  resize(preferredSize.boundedTo(screen()->availableSize() * 0.9));
+  resize(preferredSize.boundedTo(screen()->availableSize() - QSize(20, 60)));
   page_->setObjectName(QStringLiteral("manualPage"));
   page_->setAccessibleName(QStringLiteral("Page of the manual"));
   auto* column = new QVBoxLayout(this);
