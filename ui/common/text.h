@@ -2,6 +2,7 @@
 
 #include <QLocale>
 #include <QString>
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -20,12 +21,11 @@ inline QString counted(const QString& verb, std::size_t count, const QString& no
   return QStringLiteral("%1 %2").arg(verb, counted(count, noun));
 }
 
-/// Returns the first parts, which middle dots separate, that fit together; at least one. So no number is cut.
+/// Returns the first parts, which middle dots separate, that fit together, so that no number is cut.
 template <class Fits>
 QString wholeParts(QString parts, Fits fits) {
-  for (qsizetype dot = 0; dot >= 0 && !fits(parts);) {
-    dot = parts.lastIndexOf(QChar(0xb7));
-    parts = parts.left(dot).trimmed();  // all of it if there is no dot
+  while (!parts.isEmpty() && !fits(parts)) {
+    parts = parts.left(std::max<qsizetype>(0, parts.lastIndexOf(QChar(0xb7)))).trimmed();
   }
   return parts;
 }

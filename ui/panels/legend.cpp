@@ -149,7 +149,7 @@ void Legend::draw(QPainter& painter) const {
   const QString fitting =
       wholeParts(title(), [&](const QString& text) { return fontMetrics().horizontalAdvance(text) <= line.width(); });
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
-                   fontMetrics().elidedText(fitting, Qt::ElideRight, line.width()));
+                   fontMetrics().elidedText(fitting.isEmpty() ? title() : fitting, Qt::ElideRight, line.width()));
   line.translate(0, fontMetrics().height() + 2);
   if (!scale_.known()) {
     return;
