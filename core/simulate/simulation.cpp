@@ -480,7 +480,7 @@ void Simulation::carry_out(const commands::Relaxed& command) {
   }
   const std::uint32_t count = command.counts->slices_for(command.panel, algorithm_);
   for (std::uint32_t i = 0; i < count && statistics_.relaxing; ++i) {
-    progress_.report(i, count);
+    progress_.report(double(i) / double(count));  // a slice is long
     try_slice();
   }
 }

@@ -25,9 +25,12 @@ struct OldSetting {
   const char* name;
 };
 // Settings of earlier versions, which have no meaning any more. Those without a name go with another one.
-constexpr std::array oldSettings{OldSetting{"layout", "the layout of the docks"}, OldSetting{"geometry", nullptr},
-                                 OldSetting{"folds", nullptr}, OldSetting{"matcapShading", "matcap shading"},
-                                 OldSetting{"shortcuts", "keys of your own"}};
+constexpr std::array oldSettings{OldSetting{"layout", "the layout of the docks"},
+                                 OldSetting{"geometry", nullptr},
+                                 OldSetting{"folds", nullptr},
+                                 OldSetting{"matcapShading", "matcap shading"},
+                                 OldSetting{"shortcuts", "keys of your own"},
+                                 OldSetting{"systemTheme", "the theme of the desktop"}};
 
 bool isRunning(const QString& process) {
   const pid_t id = process.toInt();
