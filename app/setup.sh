@@ -18,7 +18,7 @@ test_packages=(librapidcheck-dev xvfb jwm ffmpeg clang-format doxygen python3 py
 check_packages=(clang-tidy python3)
 # The Python module, its tests and its pages.
 python_packages=(pybind11-dev python3-dev python3-numpy)
-python_test_packages=(python3-pytest python3-distributed mypy python3-sphinx)
+python_test_packages=(python3-pytest python3-distributed mypy)
 # For packages: made by tests/package/check, and checked.
 package_packages=(build-essential help2man dpkg-dev debhelper dh-python lintian desktop-file-utils appstream libxml2-utils debootstrap)
 mutant_packages=(python3)

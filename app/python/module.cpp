@@ -1,5 +1,7 @@
 #include "python/module.h"
 
+#include <pybind11/numpy.h>
+
 #include "python/errors.h"
 #include "python/pickling.h"
 
@@ -7,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace chainmail::python;  // NOLINT(google-build-using-namespace)
   module.doc() = "The compiled part of the package chainmail.";
   module.attr("__version__") = CHAINMAIL_VERSION;
+  pybind11::dtype::of<double>();  // loads NumPy now: a thread that did so later could be ended in the middle of it
   translate_errors();
   add_types(module);  // first: others use them as defaults
   add_mesh(module);

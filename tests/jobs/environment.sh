@@ -25,3 +25,7 @@ start_with() {
     with=(setarch -R)
   fi
 }
+
+# What the sanitizers run with every change: programs, and the labels of their tests.
+memory_programs=(test_core test_files test_faults test_documents test_threads chainmail_import)
+memory_tests='^(core|files|faults|documents|threads)$'

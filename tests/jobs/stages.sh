@@ -30,16 +30,36 @@ run_tests() {
   (cd "$root" && "${with[@]}" ctest --preset "$preset" --parallel "$(nproc)" "$@" 2>&1)
 }
 
-# Prints the lines of ctest, with the times and failures of all stages before its summary.
-# stages_before_summary NAME: these lines are a stage with that name, if it is not empty.
-stages_before_summary() {
-  local line summary= start=$SECONDS
+# Prints how many lines of sources the folders have.
+show_lines() {
+  local folder
+  for folder in app core ui tests; do
+    printf '%6d lines  %s\n' "$(cd "$root" && git ls-files -z "$folder" | grep -zE '[.](cpp|h|py|pyi|sh|vert|frag)$' |
+      xargs -0 cat | wc -l)" "$folder"
+  done
+}
+
+# Prints the seconds of all stages, and what failed.
+show_times() {
+  printf '%s\n' '' "${times[@]}" "$(printf '%6d s  %s' "$SECONDS" 'all stages')"
+  [[ ${#failures[@]} -eq 0 ]] || printf '%s\n' '' "${failures[@]}"
+}
+
+# Prints the lines of ctest. Before its summary: the times and failures of all stages, the ten slowest tests, and the
+# lines of sources. show_summary NAME: the lines of ctest are a stage with that name.
+show_summary() {
+  local line summary='' start=$SECONDS slow=()
   while IFS= read -r line; do
-    if [[ -z $summary && $line == *'% tests passed'* ]]; then
+    if [[ $line =~ Test\ +#[0-9]+:\ ([^ ]+)\ .*\ ([0-9.]+)\ sec ]]; then
+      slow+=("$(printf '%8.1f s  %s' "${BASH_REMATCH[2]}" "${BASH_REMATCH[1]}")")
+    elif [[ -z $summary && $line == *'% tests passed'* ]]; then
       summary=1
       [[ -z ${1:-} ]] || times+=("$(printf '%6d s  %s' $((SECONDS - start)) "$1")")
-      printf '%s\n' '' "${times[@]}" "$(printf '%6d s  %s' "$SECONDS" 'all stages')" ''
-      [[ ${#failures[@]} -eq 0 ]] || printf '%s\n' "${failures[@]}" ''
+      printf '\nThe slowest tests:\n'
+      printf '%s\n' "${slow[@]}" | sort -rn | sed 10q
+      show_times
+      show_lines
+      say
     fi
     printf '%s\n' "$line"
   done

@@ -575,7 +575,7 @@ void DocumentLifeTest::it_is_always_what_its_session_holds() {
     }
     life.look();
   };
-  constexpr int lives = 20;  // twice, of 50 steps on average
+  constexpr int lives = 10;  // twice, of 50 steps on average
   QVERIFY(check_property("a document is always what its session holds", holds, lives));
 }
 

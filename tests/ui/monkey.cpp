@@ -103,7 +103,7 @@ void Monkey::hover() {
   send(view, QEvent::MouseMove, anywhere(view), Qt::NoButton);
   if (once(3)) {
     // The element below the cursor is searched in idle time.
-    (void)QTest::qWaitFor([this] { return !bench_.refreshes(Workbench::shortly); }, 100);
+    (void)QTest::qWaitFor([this] { return bench_.timersOfUpdates(Workbench::shortly).isEmpty(); }, 100);
   } else if (once(3)) {
     QEvent leave(QEvent::Leave);
     QApplication::sendEvent(&view, &leave);

@@ -57,18 +57,18 @@ struct Workbench {
     QTRY_VERIFY_WITH_TIMEOUT(showsTheObject(), longestWait);
     awaitFrames();
     do {
-      QTRY_VERIFY(!refreshes(shortly));
+      QTRY_VERIFY(!hasten(shortly));
       awaitPaint();
-    } while (refreshes(shortly));
+    } while (!timersOfUpdates(shortly).isEmpty());
   }
 
   /// Like settle(), but also waits for figures, legends and colours, which are updated less often.
   void settleFigures() {
     do {
       settle();
-      QTRY_VERIFY(!refreshes(readably));
+      QTRY_VERIFY(!hasten(readably));
       awaitPaint();
-    } while (refreshes(readably));
+    } while (!timersOfUpdates(readably).isEmpty());
   }
 
   /// True if every panel has a frame of the object.
@@ -111,16 +111,31 @@ struct Workbench {
     QTRY_VERIFY(!swapped.isEmpty() || seen.isNull() || seen->visibleRegion().isEmpty());
   }
 
-  /// True if a widget will be updated within this time.
-  bool refreshes(int milliseconds) {
-    const auto waits = [milliseconds](const QTimer* timer) {
-      return timer->isActive() && timer->isSingleShot() && timer->interval() <= milliseconds;
-    };
-    const auto timers = window.findChildren<QTimer*>();
-    const auto ofColours = window.colouring().findChildren<QTimer*>(QString(), Qt::FindDirectChildrenOnly);
-    return std::any_of(timers.begin(), timers.end(), waits) ||
-           (milliseconds >= readably &&
-            std::any_of(ofColours.begin(), ofColours.end(), [](const QTimer* timer) { return timer->isActive(); }));
+  /// Returns the timers that will update a widget within this time.
+  QList<QPointer<QTimer>> timersOfUpdates(int milliseconds) {
+    QList<QPointer<QTimer>> found;
+    for (QTimer* timer : window.findChildren<QTimer*>()) {
+      const bool ofColours = milliseconds >= readably && timer->parent() == &window.colouring();
+      if (timer->isActive() && (ofColours || (timer->isSingleShot() && timer->interval() <= milliseconds))) {
+        found << timer;
+      }
+    }
+    return found;
+  }
+
+  /// Lets these timers fire at once. Returns whether there were any.
+  bool hasten(int milliseconds) {
+    const auto timers = timersOfUpdates(milliseconds);
+    for (const QPointer<QTimer>& timer : timers) {
+      if (timer.isNull()) {
+        continue;  // another one has closed its widget
+      }
+      if (timer->isSingleShot()) {
+        timer->stop();
+      }
+      QMetaObject::invokeMethod(timer, "timeout", Qt::DirectConnection);
+    }
+    return !timers.isEmpty();
   }
 
   Point position(int panel, ElementId element) { return view(panel).position(element); }

@@ -25,7 +25,7 @@ namespace chainmail::window_damaged {
 
 namespace {
 
-constexpr int fewFiles = 60;
+constexpr int fewFiles = 30;
 constexpr int betweenUndos = 10;
 constexpr qint64 longestOpening = 20'000;  // milliseconds for a small file, with sanitizers on a busy machine
 

@@ -66,8 +66,11 @@ class Page : public QTextBrowser {
 
  protected:
   void doSetSource(const QUrl& url, QTextDocument::ResourceType type) override {
+    // Else Qt lays the page out after each piece of Markdown, which takes seconds.
+    document()->setLayoutEnabled(false);
     QTextBrowser::doSetSource(url, type);
     format();
+    document()->setLayoutEnabled(true);
     if (!url.fragment().isEmpty()) {
       scrollToAnchor(url.fragment());
     }
