@@ -17,19 +17,18 @@ inline constexpr int default_explored = 50;
 
 /// Returns the parameters of the explored inputs: those in RapidCheck's own variable RC_PARAMS, else a random seed. To
 /// repeat a run, the number of successes must be the same too, because inputs grow with the share of them that is done.
-inline rc::detail::TestParams explored_parameters() {
-  static const rc::detail::TestParams once = [] {
-    rc::detail::Configuration drawn;
-    drawn.testParams.seed = std::random_device()();
-    drawn.testParams.maxSuccess = default_explored;
-    const char* given = std::getenv("RC_PARAMS");
-    const auto all = rc::detail::configFromString(given == nullptr ? "" : given, drawn);
-    // RapidCheck also reads the variable, and prints the seed that it finds there.
-    setenv("RC_PARAMS", rc::detail::configToString(all).c_str(), 1);
-    return all.testParams;
-  }();
-  return once;
+inline rc::detail::TestParams drawn_parameters() {
+  rc::detail::Configuration drawn;
+  drawn.testParams.seed = std::random_device()();
+  drawn.testParams.maxSuccess = default_explored;
+  const char* given = std::getenv("RC_PARAMS");
+  const auto all = rc::detail::configFromString(given == nullptr ? "" : given, drawn);
+  // RapidCheck also reads the variable, and prints the seed that it finds there.
+  setenv("RC_PARAMS", rc::detail::configToString(all).c_str(), 1);
+  return all.testParams;
 }
+/// Drawn before main: later, a thread of Qt Test reads the environment.
+inline const rc::detail::TestParams drawn_once = drawn_parameters();
 
 /// Checks a property, which uses RC_ASSERT, on random inputs: on the same 50 in every run, then on 50 new ones. The
 /// line above a result shows how to repeat the new ones. CHAINMAIL_EXPLORE=40 draws 40 times as many new ones, as the
@@ -39,7 +38,7 @@ bool check_property(const std::string& sentence, const Property& property, int i
   rc::detail::TestParams fixed;
   fixed.seed = 2004;
   fixed.maxSuccess = inputs;
-  rc::detail::TestParams explored = explored_parameters();
+  rc::detail::TestParams explored = drawn_once;
   if (explored.maxSuccess == default_explored) {
     const char* factor = std::getenv("CHAINMAIL_EXPLORE");
     explored.maxSuccess = std::min(inputs, default_explored) * (factor == nullptr ? 1 : std::max(std::atoi(factor), 1));

@@ -181,7 +181,7 @@ void ApiLifeTest::it_goes_on_as_a_new_one() {
   QFETCH(cm::Mesh, mesh);
   const char* given = std::getenv("CHAINMAIL_LIFE_STEPS");
   const int steps = given == nullptr ? 500 : std::atoi(given);
-  const auto seed = test::explored_parameters().seed;
+  const auto seed = test::drawn_once.seed;
   qInfo("%d steps, seed %llu", steps, static_cast<unsigned long long>(seed));
   Actions actions(mesh, seed);
   cm::Deformer lived(mesh, "natural-queue");

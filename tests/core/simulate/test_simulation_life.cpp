@@ -51,7 +51,7 @@ class SimulationLifeTest : public QObject {
 void SimulationLifeTest::it_goes_on_as_a_new_one() {
   const char* given = std::getenv("CHAINMAIL_LIFE_STEPS");
   const int steps = given == nullptr ? 2000 : std::atoi(given);
-  const auto seed = explored_parameters().seed;
+  const auto seed = drawn_once.seed;
   qInfo("%d steps, seed %llu", steps, static_cast<unsigned long long>(seed));
   AnyCommand any(seed, false, some_meshes(), 30, 60);
   Simulation lived(some_meshes()[0], Algorithm::natural_queue, Precision::double_precision);
