@@ -16,7 +16,7 @@ format_version=14
 window_packages=(libgl1-mesa-dri fonts-dejavu-core)
 test_packages=(librapidcheck-dev xvfb jwm ffmpeg clang-format doxygen python3 python3-jsonschema zsh fish)
 check_packages=(clang-tidy python3)
-# The Python module, its tests and its pages.
+# The Python module and its tests.
 python_packages=(pybind11-dev python3-dev python3-numpy)
 python_test_packages=(python3-pytest python3-distributed mypy)
 # For packages: made by tests/package/check, and checked.
