@@ -12,8 +12,16 @@ def test_examples_of_the_page(source):
     assert result.attempted > 25
 
 
+def text_of(name, documented):
+    """Returns a docstring without the signature, which pybind11 writes before it."""
+    doc = documented.__doc__ or ""
+    return doc.partition("\n")[2].strip() if doc.startswith(name + "(") else doc
+
+
 def test_every_public_name_has_a_docstring():
-    assert [name for name in chainmail.__all__ if name != "__version__" and not getattr(chainmail, name).__doc__] == []
+    assert text_of("bare", type("bare", (), {"__doc__": "bare(x: int) -> int\n"})) == ""
+    names = [name for name in chainmail.__all__ if name != "__version__"]
+    assert [name for name in names if not text_of(name, getattr(chainmail, name))] == []
 
 
 def test_softness_says_its_limits():
