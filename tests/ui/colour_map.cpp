@@ -7,6 +7,7 @@
 
 #include "colour_vision.h"
 #include "common/colours.h"
+#include "document/panel_colour.h"
 #include "drawing/colour_values.h"
 #include "mesh/generate.h"
 #include "program.h"
@@ -127,6 +128,28 @@ class ColourMap : public QObject {
     ColourScale scale{0.5F, 1.5F, 0.01F, 1, true};
     QVERIFY(scale.isNeutral(1.005F) && !scale.isNeutral(0) && !scale.isNeutral(1.02F));
     QCOMPARE(shareOf(1, scale), 0.5);
+  }
+
+  /// Also if the window adapts them to the ground, and for eyes without red or green cones. See the table of
+  /// algorithms.
+  void allEyesTellAlgorithmsApart() {
+    using colour_vision::distance, colour_vision::leastDistance;
+    double usual = 1000, any = 1000;
+    for (const Ground ground : {Ground::dark, Ground::light}) {
+      const auto all = every_algorithm();
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const QColor one = algorithmColour(all[i].algorithm).on(ground);
+          const QColor other = algorithmColour(all[j].algorithm).on(ground);
+          usual = std::min(usual, distance(one, other));
+          any = std::min(any, leastDistance(one, other));
+        }
+      }
+      QVERIFY(leastDistance(algorithmColour(Algorithm::generalized).on(ground),
+                            algorithmColour(Algorithm::linear_fem).on(ground)) >= 24);
+    }
+    QVERIFY2(usual >= 24, qPrintable(QString::number(usual)));
+    QVERIFY2(any >= 9.5, qPrintable(QString::number(any)));
   }
 };
 

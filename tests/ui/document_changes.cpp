@@ -9,6 +9,8 @@
 #include "document/document.h"
 #include "document/edits.h"
 #include "document/session_draft.h"
+#include "mesh/generate.h"
+#include "mesh/progress.h"
 #include "program.h"
 
 namespace chainmail::test_document_changes {
@@ -55,6 +57,7 @@ class DocumentChangesTest : public QObject {
   void a_change_ends_the_drag_in_the_solvers();
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
+  void a_panel_may_go_while_it_is_saved();
 
  private:
   const MeshPointer mesh_ = jittered_triangles(5, 4, 2);
@@ -137,6 +140,20 @@ void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
   edits::split(document, split_of(document.mesh()));
   edits::replaceMesh(document, mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
   QVERIFY(document.softness() == own);
+}
+
+/// The draft shares the solvers, and the panel is removed before its solver has reported its positions.
+void DocumentChangesTest::a_panel_may_go_while_it_is_saved() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  document.addPanel();
+  edits::replaceMesh(document, generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
+                     QStringLiteral("build"));
+  const SessionDraft draft(document, {});
+  document.removePanel();
+  JobState job;
+  const Session session = draft.finished(Progress(job));
+  QVERIFY(session.panels.size() == 2 || session.panels.size() == 3);
+  QCOMPARE(session.mesh, document.mesh());
 }
 
 CHAINMAIL_TEST(DocumentChangesTest)

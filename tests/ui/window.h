@@ -13,7 +13,6 @@
 #include <QWindow>
 #include <algorithm>
 #include <cstdlib>
-#include <future>
 #include <memory>
 
 #include "common/application.h"
@@ -25,14 +24,6 @@
 #include "window/startup.h"
 
 namespace chainmail {
-
-/// Settings of a solver that are not part of the object.
-struct SolverSettings {
-  commands::SetRelaxation relaxation;
-  ElasticOptions elastic;
-
-  bool operator==(const SolverSettings&) const = default;
-};
 
 /// A real workbench for a test.
 struct Workbench {
@@ -139,14 +130,6 @@ struct Workbench {
   }
 
   Point position(int panel, ElementId element) { return view(panel).position(element); }
-  /// Returns the settings that a panel's solver uses, as reported by the solver.
-  SolverSettings settings(int panel) {
-    std::promise<SolverSettings> settings;
-    document().solvers().ask(panel, [&settings](const Simulation& simulation) {
-      settings.set_value({simulation.relaxation(), simulation.elastic()});
-    });
-    return settings.get_future().get();
-  }
   QPoint place(int panel, ElementId element) { return view(panel).viewPosition(element).toPoint(); }
 
   /// Moves the mouse with the left button pressed, in small steps like a user; `release` ends the stroke.

@@ -6,7 +6,6 @@
 #include <QToolButton>
 #include <cmath>
 
-#include "colour_vision.h"
 #include "common/icons.h"
 #include "common/plot_painting.h"
 #include "common/theme.h"
@@ -90,28 +89,6 @@ class WindowComfort : public QObject {
         QVERIFY(contrastOf(mark.pixelColor(8, 8), palette.color(QPalette::Window)) >= ofMarks);
       }
     }
-  }
-
-  /// Also if the window adapts them to the ground, and for eyes without red or green cones. See the table of
-  /// algorithms.
-  void allEyesTellAlgorithmsApart() {
-    using colour_vision::distance, colour_vision::leastDistance;
-    double usual = 1000, any = 1000;
-    for (const Ground ground : {Ground::dark, Ground::light}) {
-      const auto all = every_algorithm();
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-          const QColor one = algorithmColour(all[i].algorithm).on(ground);
-          const QColor other = algorithmColour(all[j].algorithm).on(ground);
-          usual = std::min(usual, distance(one, other));
-          any = std::min(any, leastDistance(one, other));
-        }
-      }
-      QVERIFY(leastDistance(algorithmColour(Algorithm::generalized).on(ground),
-                            algorithmColour(Algorithm::linear_fem).on(ground)) >= 24);
-    }
-    QVERIFY2(usual >= 24, qPrintable(QString::number(usual)));
-    QVERIFY2(any >= 9.5, qPrintable(QString::number(any)));
   }
 
   void themeChangesAtOnceAndIsRemembered() {

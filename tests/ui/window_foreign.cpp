@@ -1,7 +1,6 @@
 // Tests what files of other people can do to a real window: layouts, cameras and texts of sessions, names of files.
 
 #include <QDir>
-#include <QDirIterator>
 #include <QDockWidget>
 #include <QFile>
 #include <QHelpEvent>
@@ -10,7 +9,6 @@
 #include <QJsonObject>
 #include <QLabel>
 #include <QMessageBox>
-#include <QRegularExpression>
 #include <QToolBar>
 #include <QToolButton>
 #include <QXmlStreamReader>
@@ -267,32 +265,6 @@ class WindowForeign : public QObject {
     }
     QVERIFY2(!xml.hasError(), qPrintable(xml.errorString()));
     QVERIFY(named);
-  }
-
-  /// Rich text is asked for by name, in these files. They show numbers and our own words, and escape the rest.
-  void richTextIsAskedForByName() {
-    const QStringList known{
-        "common/workbench_style.cpp", "common/workbench_style.h", "docks/frame_rate/rate_figures.cpp",
-        "docks/mesh_dock.cpp",        "docks/physics_dock.cpp",   "docks/propagation/propagation_column.cpp",
-        "docks/selected_links.cpp",   "panels/panel.cpp",         "tools/element_readout.cpp",
-        "window/keys_page.cpp",       "window/keys_page.h",       "window/lecture_mode.cpp",
-        "window/manual_window.h",     "window/manual_window.cpp"};
-    static const QRegularExpression rich(
-        QStringLiteral(R"(RichText\)|AutoText\)|MarkdownText|setHtml\(|setMarkdown\(|insertHtml\(|appendHtml\()"
-                       R"(|setWhatsThis\(|QWhatsThis|QTextBrowser|QTextEdit|QErrorMessage|convertFromPlainText)"));
-    QDirIterator files(sourceFile("ui"), {"*.cpp", "*.h"}, QDir::Files, QDirIterator::Subdirectories);
-    int checked = 0;
-    while (files.hasNext()) {
-      QFile file(files.next());
-      QVERIFY(file.open(QIODevice::ReadOnly));
-      const QString name = QDir(sourceFile("ui")).relativeFilePath(file.fileName());
-      if (!known.contains(name)) {
-        const auto found = rich.match(QString::fromUtf8(file.readAll()));
-        QVERIFY2(!found.hasMatch(), qPrintable(name + QStringLiteral(": ") + found.captured()));
-      }
-      ++checked;
-    }
-    QVERIFY(checked > 200);
   }
 
  private:

@@ -3,8 +3,6 @@
 #include <QToolButton>
 
 #include "document/edits.h"
-#include "document/session_draft.h"
-#include "mesh/progress.h"
 #include "panels/legend.h"
 #include "window.h"
 
@@ -97,44 +95,6 @@ class WindowPanels : public QObject {
     QVERIFY(!bench.find<QAction>("showPanelB")->isEnabled());  // the last visible panel cannot be hidden
     bench.trigger("showPanelA");
     QVERIFY(a.isVisible());
-  }
-
-  /// An undo step of a removed panel has no effect, and undo of the steps before it still works.
-  void stepsOfAPanelThatIsGoneAreUndone() {
-    Workbench bench;
-    edits::setPinned(bench.document(), {3}, true);
-    bench.trigger("addPanel");
-    bench.settle();
-    bench.choose(2, "Spiral");
-    bench.trigger("removePanel");
-    bench.settle();
-    const std::array before{bench.document().algorithm(0), bench.document().algorithm(1)};
-    bench.trigger("undo");
-    bench.settle();
-    QCOMPARE(bench.document().algorithm(0), before[0]);
-    QCOMPARE(bench.document().algorithm(1), before[1]);
-    QCOMPARE(bench.document().pins(), std::vector<ElementId>{3});
-    bench.trigger("undo");
-    bench.settle();
-    QVERIFY(bench.document().pins().empty());
-    bench.trigger("redo");
-    bench.trigger("redo");
-    bench.settle();
-    QCOMPARE(bench.document().panels(), 2);
-  }
-
-  void onePanelMayGoWhileItIsSaved() {
-    Workbench bench;
-    bench.trigger("addPanel");
-    // The draft shares the solvers, and the panel is removed before its solver has reported its positions.
-    edits::replaceMesh(bench.document(), generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),
-                       QStringLiteral("build"));
-    const SessionDraft draft(bench.document(), {});
-    bench.document().removePanel();
-    JobState job;
-    const Session session = draft.finished(Progress(job));
-    QVERIFY(session.panels.size() == 2 || session.panels.size() == 3);
-    QCOMPARE(session.mesh, bench.document().mesh());
   }
 };
 

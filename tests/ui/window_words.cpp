@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
 
 #include "document/edits.h"
@@ -71,7 +72,7 @@ class WindowWords : public QObject {
   void init() { failOnWarnings(); }
   void cleanup() { QSettings().remove(QStringLiteral("figures")); }
 
-  void violationIsASentence() {
+  void violationIsASentenceAndABar() {
     const auto of = [](double fraction, double largest) {
       return sentenceOf(statisticsOf(fraction, largest, true), {.hasMoved = true});
     };
@@ -81,12 +82,27 @@ class WindowWords : public QObject {
     QVERIFY(of(0.998, 12.3).startsWith(QStringLiteral("> 99 %")));
     QVERIFY(!of(0.5, std::numeric_limits<double>::infinity()).contains(QStringLiteral("inf")));
     QCOMPARE(of(0, 1e-7), QStringLiteral("All links are valid"));
-  }
-
-  void linksThatAreNotMeasuredYetAreSaidToBeMissing() {
+    // Links that are not measured yet are said to be missing.
     QCOMPARE(sentenceOf(statisticsOf(0.304, 2.84, false)),
              QStringLiteral("30 % of links violated so far, worst 2.8 × rest length"));
     QCOMPARE(sentenceOf(statisticsOf(0, 0, false)), QStringLiteral("All links are valid so far"));
+    // The bar weighs size and number: many small violations are less than a few large ones, as in a lesson in which FEM
+    // violates 92 % of the links.
+    Statistics many = statisticsOf(0.92, 0.1, true), few = statisticsOf(0.02, 3, true);
+    many.violation.rms = 0.03;
+    few.violation.rms = 0.4;
+    ViolationLine ofMany, ofFew;
+    ofMany.show(many, {.worst = 0.4});
+    ofFew.show(few, {.worst = 0.4});
+    QCOMPARE(ofFew.share(), 1.0);
+    QVERIFY(std::abs(ofMany.share() - 0.075) < 1e-9);
+    ofMany.show(many, {.worst = 0.03});
+    QVERIFY(std::abs(ofMany.share() - 0.3) < 1e-9);  // even in the worst panel: it is little
+    ofMany.show(many, {.hasMoved = false});
+    QCOMPARE(ofMany.share(), 0.0);
+    many.violation.rms = std::nan("");
+    ofMany.show(many, {.worst = 0.4});
+    QCOMPARE(ofMany.share(), 1.0);
   }
 
   /// The element of a link that has almost no length is pinned, and the other one is far away.
@@ -126,25 +142,6 @@ class WindowWords : public QObject {
     QCOMPARE(line->share(), violation.rms / ViolationLine::fullAt(worst));
     bench.document().undoStack().undo();
     QTRY_COMPARE(line->sentence(), QStringLiteral("All links are valid"));
-  }
-
-  /// Many small violations are less than a few large ones, as in a lesson in which FEM violates 92 % of the links.
-  void theBarWeighsSizeAndNumber() {
-    Statistics many = statisticsOf(0.92, 0.1, true), few = statisticsOf(0.02, 3, true);
-    many.violation.rms = 0.03;
-    few.violation.rms = 0.4;
-    ViolationLine ofMany, ofFew;
-    ofMany.show(many, {.worst = 0.4});
-    ofFew.show(few, {.worst = 0.4});
-    QCOMPARE(ofFew.share(), 1.0);
-    QVERIFY(std::abs(ofMany.share() - 0.075) < 1e-9);
-    ofMany.show(many, {.worst = 0.03});
-    QVERIFY(std::abs(ofMany.share() - 0.3) < 1e-9);  // even in the worst panel: it is little
-    ofMany.show(many, {.hasMoved = false});
-    QCOMPARE(ofMany.share(), 0.0);
-    many.violation.rms = std::nan("");
-    ofMany.show(many, {.worst = 0.4});
-    QCOMPARE(ofMany.share(), 1.0);
   }
 
   void aPanelWhoseSolverIsLateSaysSo() {
