@@ -26,7 +26,7 @@ class WindowAlgorithm : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void originalIsOfferedWhereItWorks() {
+  void originalIsOfferedWhereItWorksAndTheSelectorFollowsWhatRuns() {
     Workbench bench;
     QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
     edits::replaceMesh(bench.document(), cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));
@@ -37,10 +37,7 @@ class WindowAlgorithm : public QObject {
     }
     bench.document().undoStack().undo();
     QVERIFY(item(bench, 0, "3D ChainMail").isEnabled());
-  }
 
-  void theSelectorFollowsWhatRunsOnAnotherMesh() {
-    Workbench bench;
     bench.choose(0, "3D ChainMail");
     QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, Algorithm::chainmail_3d);
     edits::replaceMesh(bench.document(), cloth(), QStringLiteral("cloth"), QStringLiteral("build cloth"));

@@ -29,7 +29,7 @@ class WindowDocks : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void everyDockOfTheTableIsNamedAndDescribed() {
+  void everyDockOfTheTableIsDescribedAndIsInTheWindowAndInOneMenu() {
     QSet<QString> names;
     for (const DockEntry& entry : dockEntries()) {
       const QList<const char*> texts{entry.id, entry.action, entry.title, entry.tooltip, entry.icon};
@@ -38,9 +38,7 @@ class WindowDocks : public QObject {
       names << QLatin1String(entry.id) << QLatin1String(entry.action) << QLatin1String(entry.title);
     }
     QCOMPARE(names.size(), qsizetype(3 * dockEntries().size()));
-  }
 
-  void everyDockOfTheTableIsInTheWindow() {
     Workbench bench;
     QCOMPARE(bench.window.findChildren<QDockWidget*>().size(), qsizetype(dockEntries().size()));
     for (const DockEntry& entry : dockEntries()) {
@@ -55,10 +53,7 @@ class WindowDocks : public QObject {
       QVERIFY(!show->icon().isNull());
       QCOMPARE(show->shortcut(), entry.key);
     }
-  }
 
-  void menusListEveryDockOnce() {
-    Workbench bench;
     const QList<QAction*> actions = actionsOf(bench.window);
     for (const DockEntry& entry : dockEntries()) {
       QAction* show = bench.find<QDockWidget>(entry.id)->toggleViewAction();
@@ -69,8 +64,14 @@ class WindowDocks : public QObject {
     QCOMPARE(menu(bench, "Docks").size(), qsizetype(dockEntries().size()));
   }
 
-  void anIdThatIsNoneGetsAnAnswer() {
+  void theKeyOfTheElementDockClosesItAgainAndAnIdThatIsNoneGetsAnAnswer() {
     Workbench bench;
+    auto* dock = bench.find<QDockWidget>("elementDock");
+    QTest::keyClick(&bench.window, Qt::Key_E, Qt::ControlModifier);
+    QTRY_VERIFY(bench.find<QSpinBox>("elementId")->hasFocus());
+    QTest::keyClick(bench.find<QSpinBox>("elementId"), Qt::Key_E, Qt::ControlModifier);
+    QVERIFY(dock->isHidden());
+
     bench.trigger("showElement");
     auto* id = bench.find<QSpinBox>("elementId");
     const auto enter = [&](const char* digits) {
@@ -103,16 +104,7 @@ class WindowDocks : public QObject {
     QVERIFY(!answered());
   }
 
-  void theKeyOfTheElementDockClosesItAgain() {
-    Workbench bench;
-    auto* dock = bench.find<QDockWidget>("elementDock");
-    QTest::keyClick(&bench.window, Qt::Key_E, Qt::ControlModifier);
-    QTRY_VERIFY(bench.find<QSpinBox>("elementId")->hasFocus());
-    QTest::keyClick(bench.find<QSpinBox>("elementId"), Qt::Key_E, Qt::ControlModifier);
-    QVERIFY(dock->isHidden());
-  }
-
-  void aNumberOutsideItsRangeIsRefusedInWords() {
+  void aNumberOutsideItsRangeIsRefusedInWordsAndOneDragOfASliderIsOneStepOfUndo() {
     Workbench bench;
     auto* spin = bench.find<QDoubleSpinBox>("stretchSpin");
     const double before = spin->value();
@@ -132,6 +124,18 @@ class WindowDocks : public QObject {
     enter("1.5e1");
     QCOMPARE(spin->value(), 15.0);
     QCOMPARE(of(bench, "stretch"), 15.0);
+
+    bench.document().undo();
+    bench.document().undoStack().clear();
+    auto* slider = bench.find<QSlider>("stretchSlider");
+    slider->setSliderDown(true);
+    for (int at = 200; at <= 400; at += 20) {
+      slider->setValue(at);
+    }
+    slider->setSliderDown(false);
+    QCOMPARE(bench.document().undoStack().count(), 1);
+    bench.document().undoStack().undo();
+    QCOMPARE(bench.document().softness(), LinkSoftness());
   }
 
   void stiffness_data() {
@@ -199,12 +203,13 @@ class WindowDocks : public QObject {
 
   void theFrameOfRegions() {
     Workbench bench;
+    auto* field = bench.find<QComboBox>("frame");
+    QVERIFY(field->isEnabled());
     MeshParts parts;
     parts.rest = {{0, 0, 0}, {3, 4, 0}, {6, 8, 0}, {-0.8, 0.6, 0}};
     parts.links = {{0, 1}, {1, 2}, {0, 3}};
     edits::replaceMesh(bench.document(), build_mesh(std::move(parts)), QStringLiteral("leaning"),
                        QStringLiteral("open"));
-    auto* field = bench.find<QComboBox>("frame");
     auto* note = bench.find<QLabel>("frameNote");
     const auto choose = [&](AxesKind kind) {
       field->setCurrentIndex(field->findData(int(kind)));
@@ -232,21 +237,8 @@ class WindowDocks : public QObject {
     QVERIFY(now().kind() == AxesKind::object && !now().is_turned() && !note->isHidden());
     bench.trigger("resetStiffness");
     QVERIFY(now() == RegionAxes() && note->isHidden());
-  }
 
-  void theFrameOfRegionsIsChosenUnlessNothingCanBeTurned() {
-    Workbench bench;
-    const auto* field = bench.find<QComboBox>("frame");
-    QVERIFY(field->isEnabled());
-    edits::replaceMesh(bench.document(), generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
-                       QStringLiteral("open"));
-    QVERIFY(!field->isEnabled());
-  }
-
-  /// A rotation comes from a session or from moves.
-  void aRotationOfRegionsIsListedWhileItApplies() {
-    Workbench bench;
-    const auto* field = bench.find<QComboBox>("frame");
+    // A rotation comes from a session or from moves. It is listed while it applies.
     Change edit = bench.document().change(QStringLiteral("rotation"));
     Softness softness = *bench.document().wholeSoftness();
     softness.axes = RegionAxes(AxesKind::given, Point(0, 0, 0.5));
@@ -256,19 +248,11 @@ class WindowDocks : public QObject {
     bench.document().undo();
     QCOMPARE(field->currentText(), QStringLiteral("World's axes"));
     QCOMPARE(field->count(), 2);
-  }
 
-  void oneDragOfASliderIsOneStepOfUndo() {
-    Workbench bench;
-    auto* slider = bench.find<QSlider>("stretchSlider");
-    slider->setSliderDown(true);
-    for (int at = 200; at <= 400; at += 20) {
-      slider->setValue(at);
-    }
-    slider->setSliderDown(false);
-    QCOMPARE(bench.document().undoStack().count(), 1);
-    bench.document().undoStack().undo();
-    QCOMPARE(bench.document().softness(), LinkSoftness());
+    // Nothing of a line can be turned.
+    edits::replaceMesh(bench.document(), generate({MeshKind::line, {6, 1, 1}, 1, {}}), QStringLiteral("line"),
+                       QStringLiteral("open"));
+    QVERIFY(!field->isEnabled());
   }
 
   void stiffnessActsLiveOnADeformedObject() {
@@ -288,19 +272,25 @@ class WindowDocks : public QObject {
     QTest::addColumn<QString>("kind");
     QTest::addColumn<unsigned>("elements");
     QTest::addColumn<int>("space");
-    QTest::newRow("line") << QStringLiteral("Line") << 5U << 1;
-    QTest::newRow("grid") << QStringLiteral("Grid") << 20U << 2;
-    QTest::newRow("cloth") << QStringLiteral("Cloth") << 20U << 2;
-    QTest::newRow("block") << QStringLiteral("Block") << 60U << 3;
-    QTest::newRow("tetra") << QStringLiteral("Tetra") << 60U << 3;
+    QTest::addColumn<QString>("chosen");
+    QTest::newRow("line") << QStringLiteral("Line") << 5U << 1 << QString();
+    QTest::newRow("grid") << QStringLiteral("Grid") << 20U << 2 << QString();
+    QTest::newRow("cloth") << QStringLiteral("Cloth") << 20U << 2 << QString();
+    QTest::newRow("block") << QStringLiteral("Block") << 60U << 3 << QString();
+    QTest::newRow("tetra") << QStringLiteral("Tetra") << 60U << 3 << QString();
+    QTest::newRow("cloth in space") << QStringLiteral("Cloth") << 20U << 3 << QStringLiteral("3D");
   }
   void meshOfEveryKind() {
     QFETCH(QString, kind);
     QFETCH(unsigned, elements);
     QFETCH(int, space);
+    QFETCH(QString, chosen);
     Workbench bench;
     const MeshPointer before = bench.document().mesh();
     bench.find<QComboBox>("meshKind")->setCurrentText(kind);
+    if (!chosen.isEmpty()) {
+      bench.find<QComboBox>("spaceDimension")->setCurrentText(chosen);  // a flat mesh may lie in space
+    }
     bench.find<QSpinBox>("sizeW")->setValue(5);
     bench.find<QSpinBox>("sizeH")->setValue(4);
     bench.find<QSpinBox>("sizeD")->setValue(3);
@@ -331,28 +321,6 @@ class WindowDocks : public QObject {
     }
   }
 
-  void aFlatMeshMayLieInSpace() {
-    Workbench bench;
-    bench.find<QComboBox>("meshKind")->setCurrentText(QStringLiteral("Cloth"));
-    bench.find<QComboBox>("spaceDimension")->setCurrentText(QStringLiteral("3D"));
-    bench.find<QPushButton>("buildMesh")->click();
-    bench.settle();
-    QCOMPARE(bench.document().mesh()->space_dimension, 3);
-  }
-
-  void undoOfAMeshBringsTheDeformedObjectBack() {
-    Workbench bench;
-    const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(150, -150)});
-    const Point left = bench.position(0, 40), right = bench.position(1, 40);
-    bench.find<QPushButton>("buildMesh")->click();
-    bench.settle();
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.position(0, 40), left);
-    QCOMPARE(bench.position(1, 40), right);
-  }
-
   void relaxationRunsInIdleTimeAndSleeps() {
     Workbench bench;
     auto* on = bench.find<QCheckBox>("relaxationOn");
@@ -372,8 +340,8 @@ class WindowDocks : public QObject {
     QVERIFY(!bench.document().relaxation().on);
   }
 
-  void theSchemeOfRelaxationIsChosen() {
-    Workbench bench;
+  void theSchemeOfRelaxationIsChosenAndTheMaterialIsOneChoice() {
+    Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
     auto* scheme = bench.find<QComboBox>("relaxationScheme");
     QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::mean);
     scheme->setCurrentText(QStringLiteral("link"));
@@ -385,6 +353,22 @@ class WindowDocks : public QObject {
     QVERIFY(!bench.document().relaxation().on);
     QVERIFY(!bench.find<QCheckBox>("relaxationOn")->isChecked());
     bench.trigger("undo");
+    QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
+
+    bench.document().undoStack().clear();
+    const int steps = bench.document().undoStack().count();
+    scheme->setCurrentText(QStringLiteral("material"));
+    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    QVERIFY(bench.document().relaxation().on && bench.document().relaxation().scheme == RelaxationScheme::equilibrium);
+    QVERIFY(bench.document().wholeSoftness()->energy == EnergyKind::material);
+    QCOMPARE(bench.document().softness(), (LinkSoftness{0, 3, 2}));
+    QCOMPARE(bench.find<QComboBox>("preset")->currentText(), QStringLiteral("Open regions (material)"));
+    QCOMPARE(scheme->currentText(), QStringLiteral("material"));
+    edits::setSoftness(bench.document(), {0.5, 3, 2}, QStringLiteral("compression"));
+    QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
+    bench.trigger("undo");
+    bench.trigger("undo");
+    QVERIFY(!bench.document().relaxation().on);
     QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
   }
 
@@ -441,25 +425,6 @@ class WindowDocks : public QObject {
     QVERIFY(again.start == commands::Relaxed::Start::awake && again.counts->slices(0) > 1000);
     edits::setRelaxation(document, {false, 1, RelaxationScheme::link});
     QTRY_VERIFY(!words->isVisible());
-  }
-
-  void relaxationToTheMaterialIsOneChoice() {
-    Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
-    auto* scheme = bench.find<QComboBox>("relaxationScheme");
-    const int steps = bench.document().undoStack().count();
-    scheme->setCurrentText(QStringLiteral("material"));
-    QCOMPARE(bench.document().undoStack().count(), steps + 1);
-    QVERIFY(bench.document().relaxation().on && bench.document().relaxation().scheme == RelaxationScheme::equilibrium);
-    QVERIFY(bench.document().wholeSoftness()->energy == EnergyKind::material);
-    QCOMPARE(bench.document().softness(), (LinkSoftness{0, 3, 2}));
-    QCOMPARE(bench.find<QComboBox>("preset")->currentText(), QStringLiteral("Open regions (material)"));
-    QCOMPARE(scheme->currentText(), QStringLiteral("material"));
-    edits::setSoftness(bench.document(), {0.5, 3, 2}, QStringLiteral("compression"));
-    QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
-    bench.trigger("undo");
-    bench.trigger("undo");
-    QVERIFY(!bench.document().relaxation().on);
-    QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
   }
 
   void theTimeOfRelaxationIsBesideThatOfThePass() {

@@ -1,7 +1,6 @@
 // Tests dragging in a real window: a drag in one panel moves the object in both.
 
 #include <QWheelEvent>
-#include <future>
 
 #include "document/edits.h"
 #include "window.h"
@@ -14,9 +13,22 @@ class WindowDrag : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void hoverHighlightsInBothPanels() {
+  void theObjectIsDrawnAndHoverHighlightsItInBothPanels() {
     Workbench bench;
     QVERIFY(bench.shown);
+    const QColor background = bench.view(0).grabFramebuffer().pixelColor(3, 3);
+    const double ratio = bench.view(0).devicePixelRatioF();
+    for (int p = 0; p < 2; ++p) {
+      const QPoint at = (QPointF(bench.place(p, 31)) * ratio).toPoint();
+      const QImage picture = bench.view(p).grabFramebuffer();
+      bool drawn = false;
+      for (int dx = -2; dx <= 2; ++dx) {
+        for (int dy = -2; dy <= 2; ++dy) {
+          drawn = drawn || picture.pixelColor(at + QPoint(dx, dy)) != background;
+        }
+      }
+      QVERIFY(drawn);
+    }
     QTest::mouseMove(&bench.view(1), bench.place(1, 31) + QPoint(4, 3));
     QTRY_COMPARE(bench.document().highlight().marks().element, std::optional<ElementId>(31));
     QVERIFY(!bench.document().highlight().marks().grabbed);
@@ -63,38 +75,6 @@ class WindowDrag : public QObject {
     QVERIFY(!bench.document().highlight().marks().grabbed);
   }
 
-  void aMoveGoesToIdleSolversAtOnce() {
-    Workbench bench;
-    Document& document = bench.document();
-    document.handle().grab(31);
-    const auto finish = [&document] {
-      while (!document.solvers().idle()) {
-        QCoreApplication::processEvents();
-      }
-    };
-    for (int i = 1; i <= 5; ++i) {
-      finish();
-      const std::size_t recorded = document.moves().history().length();
-      document.handle().drag(Point(4, 3 + 0.1 * i, 0));
-      QCOMPARE(document.moves().history().length(), recorded + 1);
-    }
-    // While a solver is busy, only the newest move waits.
-    finish();
-    std::promise<void> busy;
-    document.solvers().ask(1, [end = busy.get_future().share()](const Simulation&) { end.wait(); });
-    const std::size_t recorded = document.moves().history().length();
-    for (int i = 1; i <= 200; ++i) {
-      document.handle().drag(Point(4, 4 + 0.01 * i, 0));
-    }
-    QCOMPARE(document.moves().history().length(), recorded);
-    busy.set_value();
-    finish();
-    bench.settle();
-    QCOMPARE(bench.position(1, 31), Point(4, 6, 0));
-    QCOMPARE(document.moves().history().length(), recorded + 1);
-    document.handle().release();
-  }
-
   void theViewsFollowAnObjectThatWasDraggedOutOfThem() {
     Workbench bench;
     bench.view(0).setFocus();
@@ -111,15 +91,11 @@ class WindowDrag : public QObject {
     QCOMPARE(bench.view(0).camera()->pose().height, height);  // the user has chosen the view
   }
 
-  void pressingBesideTheObjectMovesNothing() {
+  void besideTheObjectNothingMovesAndInsideTheRegionsTheGrabbedElementAlone() {
     Workbench bench;
     bench.stroke(0, {QPoint(5, 5), QPoint(80, 80)});
     QCOMPARE(bench.document().solvers().frame(0)->statistics.passes, 0U);
     QCOMPARE(bench.position(0, 0), bench.document().mesh()->rest_position(0));
-  }
-
-  void aMoveInsideTheRegionsMovesTheGrabbedElementAlone() {
-    Workbench bench;
     const QPoint from = bench.place(0, 31);
     const int link = bench.place(0, 32).x() - from.x();
     bench.stroke(0, {from, from + QPoint(link / 14, 0)});
@@ -141,9 +117,9 @@ class WindowDrag : public QObject {
     }
   }
 
-  void aBlockIsDraggedInTheViewPlaneAndOrbits() {
-    Workbench bench(generate({MeshKind::tetra, {4, 4, 4}, 1, {}}));
-    const ElementId element = 63;
+  void aBlockIsDraggedInTheViewPlaneAndTurnsTheWayTheMouseGoes() {
+    Workbench bench(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}));
+    const ElementId element = 124;
     const QPoint from = bench.place(0, element), to = from + QPoint(50, -70);
     bench.stroke(0, {from, to});
     QVERIFY((bench.place(0, element) - to).manhattanLength() <= 2);
@@ -157,16 +133,14 @@ class WindowDrag : public QObject {
     QApplication::sendEvent(&view, &move);
     QTest::mouseRelease(&view, Qt::RightButton, {}, QPoint(160, 130));
     QVERIFY((bench.place(1, 0) - before).manhattanLength() > 20);  // the cameras are linked
-  }
 
-  /// The near side turns with the mouse, as if the user held it.
-  void theObjectTurnsTheWayTheMouseGoes() {
-    Workbench bench(generate({MeshKind::tetra, {5, 5, 5}, 1, {}}));
+    // The near side turns with the mouse, as if the user held it.
+    bench.trigger("resetObject");
+    bench.settle();
     constexpr ElementId near = 12 + 4 * 25;  // the middle of the front
     const auto turn = [&](QPoint by) {
       bench.trigger("viewFront");
       const QPoint before = bench.place(0, near);
-      View& view = bench.view(0);
       const QPointF to = QPointF(100, 100) + by;
       QTest::mousePress(&view, Qt::RightButton, {}, QPoint(100, 100));
       QMouseEvent move(QEvent::MouseMove, to, view.mapToGlobal(to), Qt::NoButton, Qt::RightButton, Qt::NoModifier);
@@ -200,22 +174,6 @@ class WindowDrag : public QObject {
     QVERIFY(std::abs(link() - before) < 0.1);
   }
 
-  void resetObjectComesBackExactlyAndIsUndone() {
-    Workbench bench;
-    const QPoint from = bench.place(0, 31);
-    bench.stroke(0, {from, from + QPoint(0, -200)});
-    const Point left = bench.position(0, 40), right = bench.position(1, 40);
-    QVERIFY(right != bench.document().mesh()->rest_position(40));
-    bench.trigger("resetObject");
-    bench.settle();
-    QCOMPARE(bench.position(0, 31), bench.document().mesh()->rest_position(31));
-    QCOMPARE(bench.position(1, 40), bench.document().mesh()->rest_position(40));
-    bench.document().undoStack().undo();
-    bench.settle();
-    QCOMPARE(bench.position(0, 40), left);
-    QCOMPARE(bench.position(1, 40), right);
-  }
-
   void theSelectorChangesOnePanelsAlgorithm() {
     Workbench bench;
     auto& selector = bench.window.panel(0).selector();
@@ -227,23 +185,6 @@ class WindowDrag : public QObject {
     bench.stroke(0, {from, from + QPoint(120, -200)});
     for (ElementId e = 0; e < bench.document().mesh()->element_count(); ++e) {
       QCOMPARE(bench.position(0, e), bench.position(1, e));  // Spiral and Natural Queue have the same result
-    }
-  }
-
-  void theObjectIsDrawn() {
-    Workbench bench;
-    const QColor background = bench.view(0).grabFramebuffer().pixelColor(3, 3);
-    const double ratio = bench.view(0).devicePixelRatioF();
-    for (int p = 0; p < 2; ++p) {
-      const QPoint at = (QPointF(bench.place(p, 31)) * ratio).toPoint();
-      const QImage picture = bench.view(p).grabFramebuffer();
-      bool drawn = false;
-      for (int dx = -2; dx <= 2; ++dx) {
-        for (int dy = -2; dy <= 2; ++dy) {
-          drawn = drawn || picture.pixelColor(at + QPoint(dx, dy)) != background;
-        }
-      }
-      QVERIFY(drawn);
     }
   }
 };

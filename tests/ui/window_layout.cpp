@@ -176,8 +176,18 @@ class WindowLayout : public QObject {
             differing(before, before.pixelColor(3, 3)) / 2);
   }
 
-  void camerasAreLinkedUntilTheSwitchIsOff() {
+  void theMiddleButtonPansAndCamerasAreLinkedUntilTheSwitchIsOff() {
     Workbench bench;
+    {
+      const QPoint before = bench.place(0, 0);
+      View& view = bench.view(0);
+      QTest::mousePress(&view, Qt::MiddleButton, {}, QPoint(100, 100));
+      QMouseEvent move(QEvent::MouseMove, QPointF(130, 90), view.mapToGlobal(QPointF(130, 90)), Qt::NoButton,
+                       Qt::MiddleButton, Qt::NoModifier);
+      QApplication::sendEvent(&view, &move);
+      QTest::mouseRelease(&view, Qt::MiddleButton, {}, QPoint(130, 90));
+      QVERIFY(((bench.place(0, 0) - before) - QPoint(30, -10)).manhattanLength() <= 2);  // rounding of mouse positions
+    }
     const auto wheel = [&bench](int panel) {
       const QPointF at(bench.view(panel).rect().center());
       QWheelEvent event(at, bench.view(panel).mapToGlobal(at), {}, {0, 240}, Qt::NoButton, Qt::NoModifier,
@@ -196,18 +206,6 @@ class WindowLayout : public QObject {
       return bench.view(panel).viewPosition(ElementId(62)) - bench.view(panel).viewPosition(ElementId(0));
     };
     QVERIFY((across(1) - across(0)).manhattanLength() < 0.01);  // positions are in single precision
-  }
-
-  void theMiddleButtonPans() {
-    Workbench bench;
-    const QPoint before = bench.place(0, 0);
-    View& view = bench.view(0);
-    QTest::mousePress(&view, Qt::MiddleButton, {}, QPoint(100, 100));
-    QMouseEvent move(QEvent::MouseMove, QPointF(130, 90), view.mapToGlobal(QPointF(130, 90)), Qt::NoButton,
-                     Qt::MiddleButton, Qt::NoModifier);
-    QApplication::sendEvent(&view, &move);
-    QTest::mouseRelease(&view, Qt::MiddleButton, {}, QPoint(130, 90));
-    QVERIFY(((bench.place(0, 0) - before) - QPoint(30, -10)).manhattanLength() <= 2);  // rounding of mouse positions
   }
 
   void theLayoutIsRemembered() {

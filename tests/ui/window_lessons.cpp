@@ -144,29 +144,23 @@ class WindowLessons : public QObject {
   void eachLessonRunsToItsEndAndBack();
   void theBarShowsTheStep();
   void nextPlaysVisiblyAndASecondNextEndsIt();
-  void theViewsStayStillWhileAStepPlays();
-  void aViewThatTheUserChoseStays();
+  void theViewsStayStillWhileAStepPlaysAndAsTheUserChoseThem();
   void theHandleIsMarkedAfterItsDrag();
-  void figuresOfAWholePassSaySo();
-  void theEndLeadsToTheNextLesson();
-  void pageDownLeadsThroughAllLessons();
+  void theEndAndPageDownLeadThroughAllLessons();
   void theNameOfTheNextLessonFitsANarrowBar();
-  void undoMovesTheCaption();
-  void theBarKeepsItsHeight();
-  void aLongCaptionScrolls();
+  void undoAndRedoKeepTheLessonAndMoveTheCaption();
+  void theBarKeepsItsHeightAndALongCaptionScrolls();
   void theNextObjectHasTheColoursOfBefore();
   void aDragDuringAStepStopsIt();
   void relaxationAndPanelsOfTheUserAreTakenBack();
-  void theWaitingListIsShownStepByStep();
+  void theWaitingListIsShownStepByStepAndItsFiguresAreOfTheWholePass();
   void theLessonsShowTheirPoint();
   void aLessonReplacesNoWork();
   void aLessonAloneIsNoUnsavedWork();
   void unsavedWorkIsOfferedAgain();
-  void undoAndRedoKeepTheLesson();
   void savingKeepsTheCaptions();
   void aCutByTheUserStaysOutOfTheLesson();
-  void aDamagedLessonChangesNothing();
-  void unknownNamesAreReported();
+  void aDamagedLessonChangesNothingAndUnknownNamesAreReported();
   void closingHidesTheBar();
 
  private:
@@ -268,7 +262,7 @@ void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {
 }
 
 /// The views make room before the first move. The handle goes far beyond the object at rest.
-void WindowLessons::theViewsStayStillWhileAStepPlays() {
+void WindowLessons::theViewsStayStillWhileAStepPlaysAndAsTheUserChoseThem() {
   Workbench& bench = shared();
   open(bench, pathOf("physics.chainmail"));
   next(bench);
@@ -285,10 +279,8 @@ void WindowLessons::theViewsStayStillWhileAStepPlays() {
   bench.trigger("lessonNext");
   awaitStep(bench);
   QVERIFY(bench.window.area().showsAll());
-}
 
-void WindowLessons::aViewThatTheUserChoseStays() {
-  Workbench& bench = shared();
+  // A view that the user chose stays.
   open(bench, pathOf("order.chainmail"));
   bench.view(0).zoom(1.5);
   const double chosen = bench.view(0).camera()->pose().height;
@@ -329,29 +321,7 @@ void WindowLessons::theHandleIsMarkedAfterItsDrag() {
   QVERIFY(marked().empty());  // a cut
 }
 
-void WindowLessons::figuresOfAWholePassSaySo() {
-  Workbench& bench = shared();
-  open(bench, pathOf("waiting-list.chainmail"));
-  const auto sentence = [&] {
-    bench.settleFigures();
-    const auto* line = bench.find<ViolationLine>("violation0");
-    // The solver measures the whole mesh in idle time.
-    (void)QTest::qWaitFor([&] { return line->sentence().contains(QStringLiteral(" of links violated")); });
-    return line->sentence();
-  };
-  next(bench);
-  const QString early = sentence();
-  while (!player(bench).isLast()) {
-    next(bench);
-  }
-  const QString late = sentence();
-  QVERIFY2(late.startsWith(QStringLiteral("%1 % of links violated").arg(std::lround(100 * violated(bench, 0)))),
-           qPrintable(late));
-  QCOMPARE(QString(early).replace(QStringLiteral(" violated after the pass,"), QStringLiteral(" violated,")), late);
-  QVERIFY2(early != late, qPrintable(early));
-}
-
-void WindowLessons::theEndLeadsToTheNextLesson() {
+void WindowLessons::theEndAndPageDownLeadThroughAllLessons() {
   Workbench& bench = shared();
   const auto toEnd = [&] {
     while (!player(bench).isLast()) {
@@ -371,15 +341,7 @@ void WindowLessons::theEndLeadsToTheNextLesson() {
   bench.settle();
   QCOMPARE(player(bench).lesson().title, std::string("Cut an organ"));
   QCOMPARE(player(bench).step(), std::size_t{0});
-  open(bench, pathOf("physics.chainmail"));  // the last one
-  toEnd();
-  QVERIFY(!following->isVisible());
-  QTest::mouseClick(close, Qt::LeftButton);
-  QVERIFY(bench.window.lessons().bar().isHidden());
-}
 
-void WindowLessons::pageDownLeadsThroughAllLessons() {
-  Workbench& bench = shared();
   const auto title = [&] { return QString::fromStdString(player(bench).lesson().title); };
   const auto number = [&] { return bench.find<QLabel>("lessonStep")->text(); };
   const auto press = [&](Qt::Key key) {
@@ -390,9 +352,7 @@ void WindowLessons::pageDownLeadsThroughAllLessons() {
   bench.window.resize(1500, 600);  // the bar has room for it
   open(bench, pathOf("order.chainmail"));
   QVERIFY(!bench.find<QPushButton>("lessonBackButton")->isEnabled());  // it is the first lesson
-  while (!player(bench).isLast()) {
-    next(bench);
-  }
+  toEnd();
   QCOMPARE(number(), QStringLiteral("Step 4 of 4 · PgDown: next lesson"));
   press(Qt::Key_PageDown);
   QCOMPARE(title(), QStringLiteral("The waiting list, step by step"));
@@ -403,11 +363,12 @@ void WindowLessons::pageDownLeadsThroughAllLessons() {
   QVERIFY(player(bench).isLast());  // as if nothing but the last key had been pressed
   QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps.back().until);
   open(bench, pathOf("physics.chainmail"));  // the last one
-  while (!player(bench).isLast()) {
-    next(bench);
-  }
+  toEnd();
   QVERIFY(!number().contains(QStringLiteral("next lesson")));
   QVERIFY(!bench.find<QAction>("lessonNext")->isEnabled());
+  QVERIFY(!following->isVisible());
+  QTest::mouseClick(close, Qt::LeftButton);
+  QVERIFY(bench.window.lessons().bar().isHidden());
   bench.window.resize(900, 600);
 }
 
@@ -429,8 +390,23 @@ void WindowLessons::theNameOfTheNextLessonFitsANarrowBar() {
   QCOMPARE(bench.window.minimumSizeHint().width(), least);
 }
 
-void WindowLessons::undoMovesTheCaption() {
+void WindowLessons::undoAndRedoKeepTheLessonAndMoveTheCaption() {
   Workbench& bench = shared();
+  open(bench, pathOf("order.chainmail"));
+  next(bench);
+  const State state = stateOf(bench);
+  const int steps = bench.document().undoStack().index();
+  for (int i = 0; i < steps; ++i) {
+    bench.document().undo();
+  }
+  QVERIFY(!player(bench).isOpen());
+  for (int i = 0; i < steps; ++i) {
+    bench.document().redo();
+  }
+  QTRY_VERIFY(bench.document().solvers().idle());
+  QVERIFY(player(bench).isOpen());
+  QVERIFY(stateOf(bench) == state);
+
   const auto caption = [&] { return bench.find<QLabel>("lessonText")->text(); };
   const auto textOf = [&](std::size_t step) { return QString::fromStdString(player(bench).lesson().steps[step].text); };
   const auto undo = [&] {
@@ -461,7 +437,7 @@ void WindowLessons::undoMovesTheCaption() {
   QCOMPARE(bench.document().moves().history().position(), player(bench).lesson().steps[1].until);
 }
 
-void WindowLessons::theBarKeepsItsHeight() {
+void WindowLessons::theBarKeepsItsHeightAndALongCaptionScrolls() {
   Workbench& bench = shared();
   open(bench, pathOf("order.chainmail"));
   const LessonBar& bar = bench.window.lessons().bar();
@@ -474,11 +450,9 @@ void WindowLessons::theBarKeepsItsHeight() {
     const auto* text = bench.find<QLabel>("lessonText");
     QVERIFY(text->height() >= text->heightForWidth(text->width()));  // nothing is cut off
   }
-}
 
-void WindowLessons::aLongCaptionScrolls() {
+  // A long caption scrolls.
   const QTemporaryDir folder;
-  Workbench& bench = shared();
   const QSize size = bench.window.size();
   for (const QByteArray& text : {QByteArray(3900, 'x'), QByteArray("line\\n").repeated(700)}) {  // of at most 4,096
     open(bench, changed(folder, "order.chainmail", "Both panels show the same sheet.", text));
@@ -530,13 +504,22 @@ void WindowLessons::relaxationAndPanelsOfTheUserAreTakenBack() {
   QVERIFY(stateOf(bench) == state);
 }
 
-void WindowLessons::theWaitingListIsShownStepByStep() {
+void WindowLessons::theWaitingListIsShownStepByStepAndItsFiguresAreOfTheWholePass() {
   Workbench& bench = shared();
   open(bench, pathOf("waiting-list.chainmail"));
+  const auto sentence = [&] {
+    bench.settleFigures();
+    const auto* line = bench.find<ViolationLine>("violation0");
+    // The solver measures the whole mesh in idle time.
+    (void)QTest::qWaitFor([&] { return line->sentence().contains(QStringLiteral(" of links violated")); });
+    return line->sentence();
+  };
+  QString early;
   std::vector<std::vector<std::size_t>> moved;
   Snapshot whole;
   for (int step = 0; step < 3; ++step) {
     next(bench);
+    early = step == 0 ? sentence() : early;
     moved.push_back({shownAwayFromRest(bench, 0), shownAwayFromRest(bench, 1)});
     whole = bench.document().solvers().snapshots()[0].get();
   }
@@ -544,6 +527,11 @@ void WindowLessons::theWaitingListIsShownStepByStep() {
   QCOMPARE(moved, (std::vector<std::vector<std::size_t>>{{1, 1}, {2, 2}, {7, 7}}));
   next(bench);
   QVERIFY(player(bench).isLast());
+  const QString late = sentence();
+  QVERIFY2(late.startsWith(QStringLiteral("%1 % of links violated").arg(std::lround(100 * violated(bench, 0)))),
+           qPrintable(late));
+  QCOMPARE(QString(early).replace(QStringLiteral(" violated after the pass,"), QStringLiteral(" violated,")), late);
+  QVERIFY2(early != late, qPrintable(early));
   QVERIFY(shownAwayFromRest(bench, 0) > 7);
   QVERIFY(bench.document().solvers().snapshots()[0].get() == whole);  // the solvers have finished the pass in all steps
   back(bench);
@@ -627,24 +615,6 @@ void WindowLessons::unsavedWorkIsOfferedAgain() {
   QVERIFY(!again.document().moves().history().commands().empty());
 }
 
-void WindowLessons::undoAndRedoKeepTheLesson() {
-  Workbench& bench = shared();
-  open(bench, pathOf("order.chainmail"));
-  next(bench);
-  const State state = stateOf(bench);
-  const int steps = bench.document().undoStack().index();
-  for (int i = 0; i < steps; ++i) {
-    bench.document().undo();
-  }
-  QVERIFY(!player(bench).isOpen());
-  for (int i = 0; i < steps; ++i) {
-    bench.document().redo();
-  }
-  QTRY_VERIFY(bench.document().solvers().idle());
-  QVERIFY(player(bench).isOpen());
-  QVERIFY(stateOf(bench) == state);
-}
-
 void WindowLessons::savingKeepsTheCaptions() {
   const QTemporaryDir folder;
   const QString path = folder.filePath(QStringLiteral("saved.chainmail"));
@@ -695,7 +665,7 @@ void WindowLessons::aCutByTheUserStaysOutOfTheLesson() {
   QCOMPARE(bench.document().mesh(), whole);
 }
 
-void WindowLessons::aDamagedLessonChangesNothing() {
+void WindowLessons::aDamagedLessonChangesNothingAndUnknownNamesAreReported() {
   const QTemporaryDir folder;
   Workbench& bench = shared();
   disturb(bench);
@@ -710,11 +680,7 @@ void WindowLessons::aDamagedLessonChangesNothing() {
   QVERIFY2(bench.window.messages().sentence().contains(QStringLiteral("its mesh 'nowhere.dat' was not found; put ")),
            qPrintable(bench.window.messages().sentence()));
   QVERIFY(stateOf(bench) == work);
-}
 
-void WindowLessons::unknownNamesAreReported() {
-  const QTemporaryDir folder;
-  Workbench& bench = shared();
   open(bench, changed(folder, "order.chainmail", "\"colour\": \"violation\"", "\"colour\": \"violaton\""));
   QCOMPARE(bench.window.messages().sentence().section(QLatin1Char(':'), 0, 2),
            QStringLiteral("Why order matters: step 1: 'colour' is 'violaton', which is not known; use one of"));

@@ -4,22 +4,18 @@
 #include <unistd.h>
 
 #include <QAction>
-#include <QDateTime>
 #include <QDir>
 #include <QFile>
 #include <QLabel>
-#include <QLockFile>
 #include <QPushButton>
 #include <QThread>
 
-#include "docks/preset_store.h"
 #include "document/edits.h"
 #include "io/file_actions.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
-#include "mesh/error.h"
 #include "safe_bench.h"
 #include "window/message_bar.h"
 #include "window/show_menu.h"
@@ -29,17 +25,6 @@ namespace chainmail::window_lost {
 namespace {
 
 QStringList kept() { return QDir(unsaved_work::folder()).entryList({QStringLiteral("*.chainmail")}, QDir::Files); }
-
-void put(const QString& name, const QDateTime& changed) {
-  QFile file(QDir(unsaved_work::folder()).filePath(name));
-  QVERIFY(file.open(QIODevice::ReadWrite | QIODevice::Truncate) && file.write("{") == 1 && file.flush());
-  QVERIFY(file.setFileTime(changed, QFileDevice::FileModificationTime));
-}
-
-void writeText(const QString& path, const char* text) {
-  QFile file(path);
-  QVERIFY(file.open(QIODevice::WriteOnly) && file.write(text) > 0);
-}
 
 int modeOf(const QString& path) {
   struct stat status {};
@@ -56,7 +41,6 @@ class WindowLost : public QObject {
     failOnWarnings();
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     QSettings().clear();
-    QFile::remove(PresetStore::file());
   }
 
   void anotherObjectIsAnotherDocument_data() {
@@ -92,7 +76,13 @@ class WindowLost : public QObject {
     QCOMPARE(bench.document().files().session(), QString());
   }
 
+  void closingAsksIfWorkCannotBeKept_data() {
+    QTest::addColumn<bool>("isKeptLater");
+    QTest::newRow("and it is discarded") << false;
+    QTest::newRow("and it is kept later") << true;
+  }
   void closingAsksIfWorkCannotBeKept() {
+    QFETCH(bool, isKeptLater);
     auto bench = std::make_unique<SafeBench>();
     edits::setPinned(bench->document(), {3}, true);
     bench->settle();
@@ -107,29 +97,17 @@ class WindowLost : public QObject {
     drag(bench->document(), 31, {1, 0, 0});  // the solvers still work
     bench->settle();
     QVERIFY(bench->position(0, 31).x() > bench->document().mesh()->rest_position(31).x() + 0.9);
-    {
+    if (isKeptLater) {
+      disk.end();
+      QVERIFY(bench->window.close());
+    } else {
       const Answer discard(QStringLiteral("Discard"));
       QVERIFY(bench->window.close());
       QCOMPARE(discard.questions, 1);
+      disk.end();
     }
-    disk.end();
     bench.reset();
-    QVERIFY(kept().isEmpty());
-  }
-
-  void whatCouldNotBeKeptOnceIsKeptLater() {
-    {
-      SafeBench bench;
-      edits::setPinned(bench.document(), {3}, true);
-      bench.settle();
-      {
-        const FullDisk disk;
-        const Answer cancel(QStringLiteral("Cancel"));
-        QVERIFY(!bench.window.close());
-      }
-      QVERIFY(bench.window.close());
-    }
-    QCOMPARE(kept().size(), 1);
+    QCOMPARE(kept().size(), isKeptLater ? 1 : 0);
   }
 
   void savingGoesOnAfterAFailure() {
@@ -149,43 +127,6 @@ class WindowLost : public QObject {
     bench.save();
     QTRY_VERIFY(!bench.window.messages().isVisible());
     QCOMPARE(kept().size(), 1);
-  }
-
-  /// The clock does not say which work is new.
-  void aClockThatGoesBackDeletesNothingNew() {
-    const QDateTime future = QDateTime::currentDateTime().addDays(3);
-    for (int i = 1; i <= unsaved_work::maxClosed; ++i) {
-      put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), future.addSecs(-i));
-    }
-    {
-      SafeBench bench;
-      edits::setPinned(bench.document(), {42}, true);
-      bench.settle();
-      QVERIFY(bench.window.close());
-    }
-    QCOMPARE(kept().size(), unsaved_work::maxClosed);
-    QVERIFY(!kept().contains(QStringLiteral("1-a.closed-1.chainmail")));
-    SafeBench again;
-    again.find<QPushButton>("restoreWork")->click();
-    again.settle();
-    QCOMPARE(again.document().pins(), std::vector<ElementId>{42});
-  }
-
-  void whatAnotherWindowOffersIsNotDeleted() {
-    for (int i = 1; i <= unsaved_work::maxClosed; ++i) {
-      put(QStringLiteral("%1-a.closed-%1.chainmail").arg(i), QDateTime::currentDateTime());
-    }
-    const QString oldest = QDir(unsaved_work::folder()).filePath(QStringLiteral("1-a.closed-1.chainmail"));
-    auto offered = unsaved_work::lock(oldest);
-    QVERIFY(offered);
-    unsaved_work::discardOldest();
-    put(QStringLiteral("99-a.closed-99.chainmail"), QDateTime::currentDateTime());
-    unsaved_work::discardOldest();
-    QVERIFY(QFile::exists(oldest));
-    offered.reset();
-    unsaved_work::discardOldest();
-    QVERIFY(!QFile::exists(oldest));
-    QCOMPARE(kept().size(), unsaved_work::maxClosed);
   }
 
   void restoredWorkStaysUntilItIsSavedElsewhere() {
@@ -262,32 +203,6 @@ class WindowLost : public QObject {
     bench.settle();
     QCOMPARE(bench.window.messages().sentence(),
              QStringLiteral("'Calibrating softness' ended without a result, because 'Opening torus.obj' began"));
-  }
-
-  void presetsThatCannotBeReadAreKept() {
-    const char* const damaged = "{\"presets\": [";
-    writeText(PresetStore::file(), damaged);
-    PresetStore store;
-    QVERIFY_EXCEPTION_THROWN(store.load(), Error);
-    store.save({"felt", {0.5, 1.5, 0.2}});
-    QFile kept(PresetStore::file() + QStringLiteral(".damaged"));
-    QVERIFY(kept.open(QIODevice::ReadOnly) && kept.readAll() == damaged);
-    store.load();
-    QCOMPARE(store.own().size(), std::size_t{1});
-  }
-
-  void presetsOfEarlierVersionsAreTakenOver() {
-    QSettings().setValue(
-        QStringLiteral("softnessPresets"),
-        QStringLiteral("{\"version\": 1, \"presets\": [{\"name\": \"felt\", \"compression\": 0.5, \"stretch\": 1.5, "
-                       "\"shear\": 0.2}]}"));
-    PresetStore store;
-    store.load();
-    QCOMPARE(store.own().size(), std::size_t{1});
-    store.save({"cloth", {0.9, 1.1, 0.1}});
-    QSettings().clear();
-    store.load();
-    QCOMPARE(store.own().size(), std::size_t{2});
   }
 
   void unsavedWorkIsPrivate() {

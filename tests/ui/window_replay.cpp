@@ -234,25 +234,6 @@ class WindowReplay : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  void aReplayGivesIdenticalBits() {
-    Workbench bench;
-    work(bench);
-    const Shapes live = shapes(bench);
-    const std::size_t length = bench.document().moves().history().length();
-    QCOMPARE(bench.document().moves().history().position(), length);
-    go(bench, "replayFirst");
-    const std::vector<float> rest(bench.document().mesh()->rest.begin(), bench.document().mesh()->rest.end());
-    QVERIFY(shapes(bench) == (Shapes{rest, rest}));
-    QCOMPARE(bench.document().cuts().count(), 0U);
-    QVERIFY(bench.document().pins().empty());
-    QVERIFY(*bench.document().wholeSoftness() == standard_softness());  // as the object was when it was new
-    QCOMPARE(bench.document().moves().history().length(), length);
-    go(bench, "replayLast");
-    QVERIFY(shapes(bench) == live);
-    QCOMPARE(bench.document().cuts().count(), 3U);
-    QCOMPARE(bench.document().pins(), std::vector<ElementId>{0});
-  }
-
   /// A position in the recorded commands gives the same result however it is reached, and moving the slider is one undo
   /// step in all.
   void aSliderGoesThereAndBack() {
@@ -281,24 +262,6 @@ class WindowReplay : public QObject {
     QCOMPARE(bench.document().undoStack().count(), steps + 1);
     bench.trigger("undo");
     bench.settle();
-    QVERIFY(shapes(bench) == live);
-  }
-
-  void fromAPlaceInTheMiddleTheHandGoesOn() {
-    Workbench bench;
-    work(bench);
-    go(bench, "replayFirst");
-    bench.trigger("replayForward");
-    QTRY_VERIFY(bench.document().moves().history().position() > 0);
-    bench.settle();
-    const auto place = bench.document().moves().history().position();
-    QVERIFY(place > 0 && place < bench.document().moves().history().length());
-    const QPoint from = bench.place(0, 5);
-    bench.stroke(0, {from, from + QPoint(-50, 70)});
-    QCOMPARE(bench.document().moves().history().position(), bench.document().moves().history().length());
-    const Shapes live = shapes(bench);
-    go(bench, "replayFirst");
-    go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
   }
 
@@ -339,7 +302,7 @@ class WindowReplay : public QObject {
     QVERIFY(!bench.find<QAction>("replayBack")->isEnabled());  // this is the beginning
   }
 
-  void savedMovesAreAScriptOfIdenticalBits() {
+  void savedMovesAreAScriptOfIdenticalBitsAndThoseOfAnotherMeshAreRefused() {
     Workbench bench;
     work(bench);
     QTemporaryDir folder;
@@ -359,25 +322,19 @@ class WindowReplay : public QObject {
     QCOMPARE(bench.document().cuts().count(), 0U);
     go(bench, "replayLast");
     QVERIFY(shapes(bench) == live);
-  }
 
-  void anotherMeshsMovesAreRefusedWithASentence() {
-    Workbench bench;
-    work(bench);
-    const Shapes live = shapes(bench);
-    QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("other.json"));
-    QFile file(path);
+    const QString other = folder.filePath(QStringLiteral("other.json"));
+    QFile file(other);
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(R"({"version": 1, "commands": [{"do": "grab", "element": 99999}]})");
     file.close();
-    dock(bench)->openMoves(path);
+    dock(bench)->openMoves(other);
     bench.settle();
     QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("command 0: there is no element 99999")));
     QVERIFY(shapes(bench) == live);
   }
 
-  void theWindowStaysAtWorkWhileALargeFileIsOpened() {
+  void theWindowStaysAtWorkWhileALargeFileIsOpenedAlsoForAnotherObject() {
     Workbench bench;
     QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("large.json"));
@@ -396,14 +353,8 @@ class WindowReplay : public QObject {
     QCOMPARE(bench.document().moves().history().length(), std::size_t{200'001});
     QCOMPARE(bench.document().moves().history().position(), std::size_t{0});
     QCOMPARE(bench.document().undoStack().count(), 2);
-  }
 
-  /// The moves were checked for a mesh that is replaced meanwhile.
-  void movesThatWereReadForAnotherObjectAreNotTaken() {
-    Workbench bench;
-    QTemporaryDir folder;
-    const QString path = folder.filePath(QStringLiteral("large.json"));
-    writeDrags(path, 200'000);
+    // The moves are checked for a mesh that is replaced meanwhile.
     dock(bench)->openMoves(path);
     edits::replaceMesh(bench.document(), generate({MeshKind::line, {3, 1, 1}, 1, {}}), QStringLiteral("line"),
                        QStringLiteral("build line"));
@@ -426,15 +377,16 @@ class WindowReplay : public QObject {
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
   }
 
-  void aFilmShowsEveryMove() {
+  void aFilmShowsEveryMoveAndHasAFile() {
+    RawFilms films;
     Workbench bench;
     workInFewMoves(bench);
+    QCOMPARE(askedBy(bench, "exportFilm"), QStringLiteral("Export film"));
     const std::vector<QImage> shown = shownAfterEachMove(bench);
     QCOMPARE(shown.size(), std::size_t{7});
     for (std::size_t i = 1; i <= 5; ++i) {
       QVERIFY(shown[i] != shown[i - 1]);  // so that a picture that is too early or too late is noticed
     }
-    RawFilms films;
     const std::vector<QImage> pictures = films.save(bench);
     QCOMPARE(pictures.size(), shown.size());
     for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -502,13 +454,6 @@ class WindowReplay : public QObject {
     QVERIFY(films.files().isEmpty());
     QVERIFY(shapes(bench) == live);
     QCOMPARE(bench.document().pins().size(), isCancelled ? 1U : 2U);
-  }
-
-  void aFilmHasAFile() {
-    RawFilms films;
-    Workbench bench;
-    workInFewMoves(bench);
-    QCOMPARE(askedBy(bench, "exportFilm"), QStringLiteral("Export film"));
   }
 
   void aVideoShowsEveryMoveInItsOrder() {

@@ -79,7 +79,7 @@ class WindowReport : public QObject {
     QCOMPARE(bench.table().rowCount(), 0);
   }
 
-  void savingWritesThreeFilesThatParse() {
+  void savingWritesThreeFilesThatParseAsksBeforeItReplacesAndSavesNoHalves() {
     ReportBench bench;
     bench.run();
     QTemporaryDir folder;
@@ -95,37 +95,31 @@ class WindowReport : public QObject {
       QCOMPARE(row.count(','), rows.first().count(','));
     }
     QVERIFY(read(folder, "report.html").contains("</html>"));
-  }
 
-  void savingAsksBeforeItReplacesAReport() {
-    ReportBench bench;
-    bench.run();
-    const QTemporaryDir folder;
-    bench.results().askAndSaveTo(folder.path());  // without a question
-    QFile old(folder.filePath(QStringLiteral("report.csv")));
+    // It asks before it replaces a report.
+    const QTemporaryDir target;
+    bench.results().askAndSaveTo(target.path());  // without a question
+    QFile old(target.filePath(QStringLiteral("report.csv")));
     QVERIFY(old.open(QIODevice::WriteOnly) && old.write("mine") == 4 && old.flush());
     {
       const Answer cancel(QStringLiteral("Cancel"));
-      bench.results().askAndSaveTo(folder.path());
+      bench.results().askAndSaveTo(target.path());
       QCOMPARE(cancel.questions, 1);
       QVERIFY2(cancel.said.contains(QStringLiteral("report.html, report.json, report.csv")), qPrintable(cancel.said));
-      QCOMPARE(read(folder, "report.csv"), QByteArray("mine"));
+      QCOMPARE(read(target, "report.csv"), QByteArray("mine"));
     }
     const Answer replace(QStringLiteral("Replace"));
-    bench.results().askAndSaveTo(folder.path());
-    QVERIFY(read(folder, "report.csv").size() > 100);
-  }
+    bench.results().askAndSaveTo(target.path());
+    QVERIFY(read(target, "report.csv").size() > 100);
 
-  void aReportThatCannotBeSavedIsNotSavedByHalves() {
-    ReportBench bench;
-    bench.run();
-    QTemporaryDir folder;
-    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("report.csv")));  // a folder with the name of a file
-    bench.results().saveTo(folder.path());
+    // A report that cannot be saved is not saved by halves.
+    const QTemporaryDir full;
+    QVERIFY(QDir(full.path()).mkdir(QStringLiteral("report.csv")));  // a folder with the name of a file
+    bench.results().saveTo(full.path());
     QVERIFY(bench.window.messages().isVisible());
-    QVERIFY(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).isEmpty());
+    QVERIFY(QDir(full.path()).entryList(QDir::Files | QDir::Hidden).isEmpty());
     bench.window.messages().hide();
-    bench.results().saveTo(folder.filePath(QStringLiteral("missing")));
+    bench.results().saveTo(full.filePath(QStringLiteral("missing")));
     QVERIFY(bench.window.messages().isVisible());
   }
 

@@ -150,7 +150,7 @@ class WindowSection : public QObject {
     QCOMPARE(bench.picture(), whole);  // the dock has closed, too
   }
 
-  void whatIsNotSeenIsNotPicked() {
+  void whatIsNotSeenIsNeitherPickedNorCut() {
     SectionBench bench;
     bench.trigger("viewRight");  // along x: every layer is visible
     bench.settle();
@@ -165,11 +165,7 @@ class WindowSection : public QObject {
          bench.view(0).search().elementsWhere(QRectF(bench.view(0).rect()), [](QPointF) { return true; })) {
       QVERIFY(bench.document().mesh()->rest_position(e).z() <= 2);
     }
-  }
-
-  void aKnifeCutsNothingThatIsTakenAway() {
-    SectionBench bench;
-    bench.trigger("section");
+    bench.trigger("viewFront");
     bench.settle();
     const QPointF at = bench.view(0).viewPosition(inLayer(2));
     const auto crossed = bench.view(0).search().linksCrossing(QLineF(at - QPointF(40, 33), at + QPointF(40, 35)));

@@ -107,7 +107,7 @@ class WindowSelect : public QObject {
     QCOMPARE(bench.document().selection().elements(), square);
   }
 
-  void setIsOneStepOfUndoAndBackToGlobalAnother() {
+  void ownSoftnessIsOneStepOfUndoAndStaysUnderTheSlidersOfAllLinks() {
     Workbench bench;
     setSquare(bench, 0.3);
     const auto own = [&bench] { return bench.document().wholeSoftness()->links; };
@@ -128,11 +128,8 @@ class WindowSelect : public QObject {
     QVERIFY(!bench.find<QPushButton>("selectedToGlobal")->isEnabled());
     bench.document().undoStack().undo();
     QCOMPARE(own().size(), squareLinks);
-  }
 
-  void theRowsShowWhatTheSelectionHasInCommon() {
-    Workbench bench;
-    setSquare(bench, 0.3);
+    // The rows show what the selection has in common.
     auto* spin = bench.find<QDoubleSpinBox>("selected-compressionSpin");
     bench.document().selection().set({0, 1});
     QCOMPARE(spin->value(), 0.8);
@@ -141,11 +138,8 @@ class WindowSelect : public QObject {
     bench.document().selection().set({9, 10, 11});  // links with and without their own softness
     QCOMPARE(spin->value(), 0.8);
     QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
-  }
 
-  void aSliderOfAllLinksKeepsTheirOwnAndIsOneStep() {
-    Workbench bench;
-    setSquare(bench, 0.3);
+    // A slider of all links keeps their own, and is one step.
     auto* slider = bench.find<QSlider>("stretchSlider");
     slider->setSliderDown(true);
     for (int at = 200; at <= 400; at += 20) {
