@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,20 +13,6 @@
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-/// A method of elasticity: a model of the static answer of an object to a handle.
-enum class ElasticMethod {
-  linear_fem,
-  neo_hookean,
-  boundary,
-  free_form,
-  corotational,
-  arap,
-  xpbd,
-  projective,
-  quasi_newton,
-  neo_hookean_xpbd
-};
 
 /// An object and its pins.
 struct ElasticProblem {
@@ -97,16 +82,14 @@ class ElasticSolver {
   virtual void move_control_point(std::size_t /*point*/, std::span<const double> /*position*/) {}
 };
 
-/// True if a method works on objects of this kind and size. Cheap: cells are not checked.
-bool fits(ElasticMethod method, const Mesh& mesh);
-/// Throws Error, with the reason and a remedy, if it does not.
-void check(ElasticMethod method, const Mesh& mesh);
-/// Returns the largest number of elements of a solid in space that a method works on; none if there is no limit.
-std::optional<std::uint64_t> max_solid_elements(ElasticMethod method);
-
-/// Makes a solver. Throws Error if the problem has no answer with this method: flat or inverted cells, parts without
-/// enough pins, an open surface, options out of range. Throws Cancelled.
-std::unique_ptr<ElasticSolver> make_elastic(ElasticMethod method, const ElasticProblem& problem,
-                                            const Progress& progress = {});
+/// A method of elasticity: a model of the static answer of an object to a handle. See methods.h.
+struct ElasticMethod {
+  std::uint64_t most_in_solids = 0;  // the largest number of elements of a solid in space that it accepts; 0: any
+  /// Throws Error if it does not work on objects of this kind and size. Cheap: cells are not checked.
+  void (*check)(const Mesh& mesh);
+  /// Makes a solver. Throws Error if the problem has no answer with this method: flat or inverted cells, parts without
+  /// enough pins, an open surface. Throws Cancelled.
+  std::unique_ptr<ElasticSolver> (*make)(const ElasticProblem& problem, const Progress& progress);
+};
 
 }  // namespace chainmail

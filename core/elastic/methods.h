@@ -1,13 +1,28 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "elastic/elastic.h"
 
 namespace chainmail {
 
-// Makers of the methods, for the table in elastic.cpp. make_elastic has checked options, kind and size of the object.
+/// Largest number of elements by space dimension, for acceptable time and memory of a factorization (measured).
+using SizeLimits = std::array<std::uint64_t, 4>;
+inline constexpr SizeLimits linear_limit{0, 1'000'000, 150'000, 30'000};
+inline constexpr SizeLimits nonlinear_limit{0, 100'000, 20'000, 6'000};
+inline constexpr SizeLimits edge_limit{0, 1'000'000, 150'000, 100'000};
+inline constexpr std::uint64_t boundary_inner_limit = 5'000;  // elements of volumes; takes 3 s more for each new handle
+
+// Checks of the kind and size of an object: see ElasticMethod::check.
+void check_fem(const std::string& where, const Mesh& mesh, const SizeLimits& limits);
+/// For methods that work on the edges of cells or faces, of surfaces in space as well.
+void check_cells(const std::string& where, const Mesh& mesh);
+void check_boundary(const Mesh& mesh);
+
+// Makers: see ElasticMethod::make. Options, kind and size of the object have been checked.
 // make_neo_hookean and make_corotational are in nonlinear_fem.cpp.
 std::unique_ptr<ElasticSolver> make_linear_fem(const ElasticProblem& problem, const Progress& progress);
 std::unique_ptr<ElasticSolver> make_neo_hookean(const ElasticProblem& problem, const Progress& progress);

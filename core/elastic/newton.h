@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elastic/cholesky.h"
+#include "elastic/stiffening.h"
 #include "elastic/stiffness.h"
 #include "mesh/progress.h"
 
@@ -16,7 +17,7 @@ class Newton {
  public:
   /// `simplices` must outlive this object. `order` is the order of the unknowns, as in Unknowns.
   Newton(const Simplices& simplices, const Lame& lame, ElementId elements, std::span<const ElementId> order,
-         std::span<const ElementId> prescribed, SimplexModel model = neo_hookean);
+         std::span<const ElementId> prescribed, SimplexModel model = model_of({}));
 
   /// Starts from displacements in equilibrium (n coordinates per element), moves the prescribed elements by `increment`
   /// (n coordinates per element; 0 for the others) and finds the new equilibrium. Returns false if it does not

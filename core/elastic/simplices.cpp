@@ -1,6 +1,5 @@
 #include "elastic/simplices.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "mesh/cells.h"
 #include "mesh/error.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
@@ -159,9 +159,8 @@ class Builder {
     }
   }
 
-  Eigen::Map<const Eigen::VectorXd> rest(ElementId element) const {
-    return {mesh_.rest.data() + std::size_t{element} * static_cast<std::size_t>(mesh_.space_dimension),
-            mesh_.space_dimension};
+  double rest(ElementId element, int axis) const {
+    return mesh_.rest[std::size_t{element} * static_cast<std::size_t>(mesh_.space_dimension) + std::size_t(axis)];
   }
 
   void find_shapes() {
@@ -180,22 +179,32 @@ class Builder {
     const std::span<ElementId> corners =
         std::span(simplices_.corners)
             .subspan(simplex * static_cast<std::size_t>(n + 1), static_cast<std::size_t>(n) + 1);
-    SmallMatrix edges(n, n);
+    auto edges = FixedMatrix<double, 3, 3>::Identity();  // those that exist, one per column
     double longest = 0;
     for (int i = 0; i < n; ++i) {
-      edges.col(i) = rest(corners[static_cast<std::size_t>(i) + 1]) - rest(corners[0]);
-      longest = std::max(longest, edges.col(i).norm());
+      double squared = 0;
+      for (int k = 0; k < n; ++k) {
+        edges(k, i) = rest(corners[static_cast<std::size_t>(i) + 1], k) - rest(corners[0], k);
+        squared += edges(k, i) * edges(k, i);
+      }
+      longest = std::max(longest, std::sqrt(squared));
     }
-    const double volume = edges.determinant() / (n == 3 ? 6 : n), scale = std::pow(longest, n);
+    const FixedMatrix<double, 3, 3> adjoint = adjugate(edges);
+    const double product = determinant(edges, adjoint);
+    const double volume = product / (n == 3 ? 6 : n), scale = std::pow(longest, n);
     if (cells_ != nullptr && !(std::abs(volume) > flat_below * scale)) {
       simplices_.volumes.push_back(0);
       return;
     }
     check_shape(corners, volume, scale);
-    Eigen::Map<Eigen::MatrixXd> gradients(simplices_.gradients.data() + simplex * static_cast<std::size_t>(n * (n + 1)),
-                                          n, n + 1);
-    gradients.rightCols(n) = edges.inverse().transpose();
-    gradients.col(0) = -gradients.rightCols(n).rowwise().sum();
+    double* gradients = simplices_.gradients.data() + simplex * static_cast<std::size_t>(n * (n + 1));
+    for (int k = 0; k < n; ++k) {
+      gradients[k] = 0;
+      for (int i = 0; i < n; ++i) {
+        gradients[(i + 1) * n + k] = adjoint(i, k) / product;
+        gradients[k] -= adjoint(i, k) / product;
+      }
+    }
     simplices_.volumes.push_back(std::abs(volume));
   }
 

@@ -1,6 +1,5 @@
 #include "elastic/stiffening.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@ namespace chainmail {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr int most_turns = 60;  // far more than Newton needs for a convex function of one unknown
 constexpr int longest_search =
     200;  // turns; bisection alone reaches the rounding of a double in 60, from a bound found in as many
 
@@ -99,51 +99,34 @@ class FreeStretch {
   Range range_;
 };
 
-SimplexEnergy stiffening_energy(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
-                                const Lame& lame, Want want, const StrainLaw& law) {
-  const int n = simplices.dimension;
-  const auto rest_gradients = simplices.gradients_of(simplex);
-  const double volume = simplices.volumes[simplex];
-  const SmallMatrix strain = at * rest_gradients.transpose();  // F − 1
-  const SmallMatrix deformation = SmallMatrix::Identity(n, n) + strain;
-  SimplexEnergy result;
-  const double determinant = deformation.determinant();
-  result.inverted = !(determinant > 0);
-  if (result.inverted) {
-    return result;
-  }
-  const StiffeningTerm term =
-      stiffening_term(2 * strain.trace() + strain.squaredNorm(), std::log(determinant), law, lame, n);
-  result.inverted = term.infinite;
-  if (result.inverted) {
-    return result;
-  }
-  result.energy = volume * term.value;
-  result.magnitude = volume * term.magnitude;
-  if (want == Want::energy) {
-    return result;
-  }
-  const CornerDisplacements by_volume = deformation.inverse().transpose() * rest_gradients;  // derivatives of L
-  const CornerDisplacements by_shape = 2 * deformation * rest_gradients;                     // of S
-  const CornerDisplacements forces = volume * (term.slope_s * by_shape + term.slope_l * by_volume);
-  result.gradient = Eigen::Map<const CornerVector>(forces.data(), forces.size());
-  if (want == Want::gradient) {
-    return result;
-  }
-  const Eigen::Map<const CornerVector> l(by_volume.data(), by_volume.size()), s(by_shape.data(), by_shape.size());
-  result.hessian = volume * (term.curvature_ss * s * s.transpose() + term.curvature_ll * l * l.transpose() +
-                             term.curvature_sl * (s * l.transpose() + l * s.transpose()));
-  for (int a = 0; a <= n; ++a) {
-    for (int b = 0; b <= n; ++b) {
-      auto block = result.hessian.block(n * a, n * b, n, n);
-      block -= volume * term.slope_l * by_volume.col(b) * by_volume.col(a).transpose();
-      block.diagonal().array() += 2 * volume * term.slope_s * rest_gradients.col(a).dot(rest_gradients.col(b));
+/// For the neo-Hookean material Newton starts to the right of the root of a convex function, so it does not overshoot.
+double neo_hookean_stretch(double l, const Lame& lame, int axes) {
+  double a = -lame.lambda * l / (2 * lame.mu + axes * lame.lambda);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const double squared = std::exp(2 * a);
+    const double step =
+        (lame.mu * (squared - 1) + lame.lambda * (l + axes * a)) / (2 * lame.mu * squared + axes * lame.lambda);
+    a -= step;
+    if (std::abs(step) <= 1e-15 * (1 + std::abs(a))) {
+      break;
     }
   }
-  if (want == Want::convex) {
-    result.hessian = convex_part(result.hessian);
-  }
-  return result;
+  return a;
+}
+
+/// The term of the neo-Hookean material at any strain.
+StiffeningTerm neo_hookean_term(double s, double l, const Lame& lame, int axes) {
+  const auto [mu, lambda] = lame;
+  const double a = axes == 0 ? 0 : neo_hookean_stretch(l, lame, axes);
+  const double squared = std::exp(2 * a), whole = l + axes * a;
+  const double shape = mu / 2 * s, volume = mu / 2 * axes * std::expm1(2 * a) - mu * whole + lambda / 2 * whole * whole;
+  StiffeningTerm term;
+  term.value = shape + volume;
+  term.magnitude = std::abs(shape) + std::abs(volume);
+  term.slope_s = mu / 2;
+  term.slope_l = lambda * whole - mu;
+  term.curvature_ll = lambda * 2 * mu * squared / (2 * mu * squared + axes * lambda);
+  return term;
 }
 
 StiffeningTerm term_of(double s, double l, const StrainLaw& law, const Lame& lame, int dimension, Range range) {
@@ -179,7 +162,8 @@ StiffeningTerm term_of(double s, double l, const StrainLaw& law, const Lame& lam
 }  // namespace
 
 StiffeningTerm stiffening_term(double s, double l, const StrainLaw& law, const Lame& lame, int dimension) {
-  return term_of(s, l, law, lame, dimension, Range::physical);
+  return law.kind == StrainLaw::Kind::neo_hookean ? neo_hookean_term(s, l, lame, 3 - dimension)
+                                                  : term_of(s, l, law, lame, dimension, Range::physical);
 }
 
 ExtendedDensity::ExtendedDensity(const StrainLaw& law, const Lame& lame, int dimension, bool free_axes)
@@ -209,11 +193,8 @@ ExtendedDensity::Curvature ExtendedDensity::curvature_at(double s, double j) con
 }
 
 SimplexModel model_of(const StrainLaw& law) {
-  if (law.kind == StrainLaw::Kind::neo_hookean) {
-    return neo_hookean;
-  }
   return [law](const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at, const Lame& lame,
-               Want want) { return stiffening_energy(simplices, simplex, at, lame, want, law); };
+               Want want) { return energy_of_law(simplices, simplex, at, law, lame, want); };
 }
 
 }  // namespace chainmail

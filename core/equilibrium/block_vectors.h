@@ -1,17 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "equilibrium/shared_loop.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
 /// One vector per element.
 template <class Scalar, int Dimension>
-using BlockVectors = std::vector<Eigen::Matrix<Scalar, Dimension, 1>>;
+using BlockVectors = std::vector<FixedMatrix<Scalar, Dimension>>;
 
 template <class Scalar, int Dimension>
 double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, Dimension>& b,
@@ -19,7 +19,7 @@ double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, 
   return blocks.sum(a.size(), [&](std::size_t first, std::size_t last) {
     double sum = 0;
     for (std::size_t i = first; i < last; ++i) {
-      sum += a[i].dot(b[i]);
+      sum += double(a[i].dot(b[i]));
     }
     return sum;
   });
@@ -42,7 +42,7 @@ void add(BlockVectors<Scalar, Dimension>& sum, double factor, const BlockVectors
          const SharedLoop& blocks = {}) {
   blocks.run(sum.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      sum[i] += factor * other[i];
+      sum[i] += Scalar(factor) * other[i];
     }
   });
 }

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "equilibrium/shared_loop.h"
 #include "exact/block_rows.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
 /// The matrix of a coarse level, which multiplies several columns at once.
 template <int Rows, int Columns = 1>
 struct CoarseMatrix {
-  using Square = Eigen::Matrix<float, Rows, Rows>;
-  using Vector = Eigen::Matrix<float, Rows, Columns>;
+  using Square = FixedMatrix<float, Rows, Rows>;
+  using Vector = FixedMatrix<float, Rows, Columns>;
   using Vectors = std::vector<Vector>;
 
   std::uint32_t size() const { return rows.size(); }
@@ -24,9 +24,9 @@ struct CoarseMatrix {
       for (std::size_t i = first; i < last; ++i) {
         const auto columns = rows.columns(static_cast<std::uint32_t>(i));
         const auto blocks = rows.blocks(static_cast<std::uint32_t>(i));
-        Vector sum = Vector::Zero();
+        Vector sum;
         for (std::size_t k = 0; k < columns.size(); ++k) {
-          sum.noalias() += blocks[k] * x[columns[k]];
+          add_product(sum, blocks[k], x[columns[k]]);
         }
         product[i] = sum;
       }
@@ -61,7 +61,7 @@ class RowSum {
     std::uint32_t& place = places_[column];
     if (place == 0) {
       columns.push_back(column);
-      blocks.push_back(Block::Zero());
+      blocks.emplace_back();
       place = static_cast<std::uint32_t>(columns.size());
     }
     return blocks[place - 1];

@@ -1,61 +1,72 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "equilibrium/link_matrix.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
 
 /// Turns a rotation to the one R closest to a matrix, which minimises Σ |d − R r|² if the matrix is Σ d rᵀ: the
 /// rotation in its polar decomposition. On a line it is 1.
-inline void turn_toward(const Eigen::Matrix<double, 1, 1>& /*sum*/, Eigen::Matrix<double, 1, 1>& rotation) {
-  rotation.setOnes();
+inline void turn_toward(const FixedMatrix<double, 1, 1>& /*sum*/, FixedMatrix<double, 1, 1>& rotation) {
+  rotation[0] = 1;
 }
 
-inline void turn_toward(const Eigen::Matrix2d& sum, Eigen::Matrix2d& rotation) {
+inline void turn_toward(const FixedMatrix<double, 2, 2>& sum, FixedMatrix<double, 2, 2>& rotation) {
   const double cosine = sum(0, 0) + sum(1, 1), sine = sum(1, 0) - sum(0, 1),
                size = std::sqrt(cosine * cosine + sine * sine);
   if (size > 0) {
-    rotation << cosine / size, -sine / size, sine / size, cosine / size;
+    rotation(0, 0) = rotation(1, 1) = cosine / size;
+    rotation(1, 0) = sine / size;
+    rotation(0, 1) = -sine / size;
   }
 }
 
-/// Solves a symmetric system by Cramer's rule. Returns false if the matrix is not positive definite.
-inline bool solve_positive(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right, Eigen::Vector3d& solution) {
-  Eigen::Matrix3d adjugate;
-  adjugate.col(0) = matrix.col(1).cross(matrix.col(2));
-  adjugate.col(1) = matrix.col(2).cross(matrix.col(0));
-  adjugate.col(2) = matrix.col(0).cross(matrix.col(1));
-  const double determinant = matrix.col(0).dot(adjugate.col(0));
-  if (!(matrix(0, 0) > 0 && adjugate(2, 2) > 0 && determinant > 0)) {
-    return false;
-  }
-  solution = adjugate * right / determinant;
-  return true;
+/// Returns the rotation of the quaternion 1 + i x/2 + j y/2 + k z/2: a turn by a small angle (x, y, z), but for the
+/// third order.
+inline FixedMatrix<double, 3, 3> rotation_by(const FixedMatrix<double, 3>& turn) {
+  const double x = turn[0] / 2, y = turn[1] / 2, z = turn[2] / 2, twice = 2 / (1 + x * x + y * y + z * z);
+  FixedMatrix<double, 3, 3> rotation;
+  rotation(0, 0) = 1 - twice * (y * y + z * z);
+  rotation(1, 1) = 1 - twice * (x * x + z * z);
+  rotation(2, 2) = 1 - twice * (x * x + y * y);
+  rotation(0, 1) = twice * (x * y - z);
+  rotation(1, 0) = twice * (x * y + z);
+  rotation(0, 2) = twice * (x * z + y);
+  rotation(2, 0) = twice * (x * z - y);
+  rotation(1, 2) = twice * (y * z - x);
+  rotation(2, 1) = twice * (y * z + x);
+  return rotation;
 }
 
 /// In space, by Newton's method from the present rotation on. Far from the answer, it takes the step of
 /// Müller, Bender, Chentanez and Macklin (2016), which always turns toward the answer.
-inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
+inline void turn_toward(const FixedMatrix<double, 3, 3>& sum, FixedMatrix<double, 3, 3>& rotation) {
   constexpr int max_steps = 50;
   constexpr double enough = 1e-7;  // radians; the error after a step of Newton's method is the square of the step
   for (int i = 0; i < max_steps; ++i) {
-    const Eigen::Matrix3d product = sum * rotation.transpose();
-    const Eigen::Vector3d torque(product(2, 1) - product(1, 2), product(0, 2) - product(2, 0),
-                                 product(1, 0) - product(0, 1));
-    const double trace = product.trace();
-    const Eigen::Matrix3d curvature = trace * Eigen::Matrix3d::Identity() - (product + product.transpose()) / 2;
-    Eigen::Vector3d turn;
-    if (!solve_positive(curvature, torque, turn) || !(turn.squaredNorm() < 1)) {
-      turn = trace != 0 ? Eigen::Vector3d(torque / std::abs(trace)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const FixedMatrix<double, 3, 3> product = sum * transposed(rotation);
+    FixedMatrix<double, 3> torque;
+    for (int k = 0; k < 3; ++k) {
+      torque[k] = product((k + 2) % 3, (k + 1) % 3) - product((k + 1) % 3, (k + 2) % 3);
     }
-    // Differs from a turn by this angle in the third order only.
-    rotation = Eigen::Quaterniond(1, turn[0] / 2, turn[1] / 2, turn[2] / 2).normalized().toRotationMatrix() * rotation;
+    const double trace = product.trace();
+    const FixedMatrix<double, 3, 3> curvature =
+        trace * FixedMatrix<double, 3, 3>::Identity() - (product + transposed(product)) / 2;
+    const FixedMatrix<double, 3, 3> adjoint = adjugate(curvature);
+    const double size = determinant(curvature, adjoint);
+    const bool is_convex = curvature(0, 0) > 0 && adjoint(2, 2) > 0 && size > 0;
+    FixedMatrix<double, 3> turn;
+    if (is_convex) {
+      turn = adjoint * torque / size;
+    }
+    if (!is_convex || !(turn.squaredNorm() < 1)) {
+      turn = trace != 0 ? torque / std::abs(trace) : FixedMatrix<double, 3>();
+    }
+    rotation = rotation_by(turn) * rotation;
     if (turn.squaredNorm() < enough * enough) {
       return;
     }
@@ -73,8 +84,8 @@ inline void turn_toward(const Eigen::Matrix3d& sum, Eigen::Matrix3d& rotation) {
 template <int Dimension>
 class CorotatedEnergy {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
-  using Square = Eigen::Matrix<double, Dimension, Dimension>;
+  using Vector = FixedMatrix<double, Dimension>;
+  using Square = FixedMatrix<double, Dimension, Dimension>;
   using Vectors = std::vector<Vector>;
 
   /// Forgets the rotations, for another state of the object.
@@ -93,7 +104,7 @@ class CorotatedEnergy {
   double evaluate(const Mesh& mesh, LinkOf link_of, const Vectors& displacements, Vectors* force) {
     find_rotations(mesh, link_of, displacements);
     if (force != nullptr) {
-      force->assign(displacements.size(), Vector::Zero());
+      force->assign(displacements.size(), {});
     }
     double energy = 0;
     for (LinkId l = 0; l < mesh.link_count(); ++l) {
@@ -131,11 +142,11 @@ class CorotatedEnergy {
       rotations_.assign(displacements.size(), Square::Identity());
     }
     if constexpr (Dimension > 1) {
-      sums_.assign(displacements.size(), Square::Zero());
+      sums_.assign(displacements.size(), {});
       for (LinkId l = 0; l < mesh.link_count(); ++l) {
         const auto [i, j] = mesh.links[l];
         const Vector rest = rest_vector(mesh, i, j), apart = rest + (displacements[j] - displacements[i]);
-        const Square product = link_of(l).lateral * apart * rest.transpose();
+        const Square product = outer_product(link_of(l).lateral * apart, rest);
         sums_[i] += product;
         sums_[j] += product;
       }
@@ -143,7 +154,7 @@ class CorotatedEnergy {
         turn_toward(sums_[e], rotations_[e]);
       }
       for (const ElementId element : held_) {
-        rotations_[element].setIdentity();
+        rotations_[element] = Square::Identity();
       }
     }
   }

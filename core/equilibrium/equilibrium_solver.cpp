@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "body/body_view.h"
+#include "equilibrium/block_vectors.h"
 #include "equilibrium/conjugate_gradients.h"
 #include "equilibrium/corotated.h"
 #include "equilibrium/link_energy.h"
@@ -55,8 +56,8 @@ struct Displacements {
 template <int D>
 class Equilibrator final : public EquilibriumSolver {
  public:
-  using Vector = Eigen::Matrix<double, D, 1>;
-  using Vectors = std::vector<Vector>;
+  using Vectors = BlockVectors<double, D>;
+  using Vector = typename Vectors::value_type;
   using Projection = ValidProjection<Displacements<D>>;
 
   explicit Equilibrator(bool uses_regions) : uses_regions_(uses_regions) {}
@@ -163,7 +164,7 @@ class Equilibrator final : public EquilibriumSolver {
     energy_ = LinkMatrix<double, D>(mesh_);
     newton_.forget();
     fixed_.assign(mesh_->element_count(), 0);
-    jump_.assign(mesh_->element_count(), Vector::Zero());
+    jump_.assign(mesh_->element_count(), Vector());
     material_ = make_minimum<D>(*mesh_);
     scale_ = 0;
     free_.reset();
@@ -212,10 +213,9 @@ class Equilibrator final : public EquilibriumSolver {
     const Vector r = rest_vector(link);
     const double length = r.norm();
     if (!(length > 0) && weights.lateral == 0) {
-      return {Vector::Zero(), 1};  // its region leaves no room for a deflection, so any stiffness will do
+      return {Vector(), 1};  // its region leaves no room for a deflection, so any stiffness will do
     }
-    return {length > 0 ? Vector(r / length * std::sqrt(weights.axial / scale_)) : Vector(Vector::Zero()),
-            weights.lateral / scale_};
+    return {length > 0 ? r / length * std::sqrt(weights.axial / scale_) : Vector(), weights.lateral / scale_};
   }
 
   /// Returns the mean over the links of their stiffness: it keeps the numbers in float near 1.
@@ -256,7 +256,7 @@ class Equilibrator final : public EquilibriumSolver {
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const LinkBlock<double, D> block = block_of(body, link);
       const LinkBlock<double, D>& present = energy_.link(link);
-      if (block.along != present.along || block.across != present.across) {
+      if (!(block.along == present.along) || block.across != present.across) {
         energy_.set_link(link, block);
         if (penalised_matrix_) {
           penalised_matrix_->set_link(link, with_penalty(block));
@@ -285,7 +285,7 @@ class Equilibrator final : public EquilibriumSolver {
   LinkBlock<double, D> with_penalty(LinkBlock<double, D> block) const {
     const double all = stiffness_of(block);
     if (kind_ == EnergyKind::corotated) {  // a bound of the curvature, whatever the rotations are
-      return {Vector::Zero(), (1 + regions_.penalty()) * all};
+      return {Vector(), (1 + regions_.penalty()) * all};
     }
     block.across += regions_.penalty() * all;
     return block;
@@ -361,7 +361,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// Moves the fixed elements of the iterate to where they are.
   void hold_fixed() {
     for (std::size_t e = 0; e < fixed_.size(); ++e) {
-      if (fixed_[e] != 0 && iterate_[e] != vector_of(shown_.positions[e])) {
+      if (fixed_[e] != 0 && !(iterate_[e] == vector_of(shown_.positions[e]))) {
         if (uses_material()) {
           jump_[e] += vector_of(shown_.positions[e]) - iterate_[e];
           has_jump_ = true;
@@ -437,7 +437,7 @@ class Equilibrator final : public EquilibriumSolver {
         iterate_[e] -= jump_[e];
       }
       material_->extend(jump_, iterate_);
-      std::ranges::fill(jump_, Vector::Zero());
+      std::ranges::fill(jump_, Vector());
     }
     if (std::exchange(is_start_, false) && material_->is_inverted(iterate_)) {
       try_rest();
@@ -446,7 +446,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// Starts at rest, apart from what is fixed, if the energy is less there.
   void try_rest() {
-    Vectors rest(iterate_.size(), Vector::Zero()), from_rest(iterate_.size(), Vector::Zero());
+    Vectors rest(iterate_.size(), Vector()), from_rest(iterate_.size(), Vector());
     for (ElementId e = 0; e < fixed_.size(); ++e) {
       if (fixed_[e] != 0) {
         from_rest[e] = iterate_[e];
@@ -517,7 +517,7 @@ class Equilibrator final : public EquilibriumSolver {
   }
 
   double linear_gradient(const Vectors& at, Vectors& rest) const {
-    rest.assign(at.size(), Vector::Zero());
+    rest.assign(at.size(), Vector());
     double energy = 0;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const auto [i, j] = mesh_->links[link];
@@ -553,7 +553,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// preconditioner does not matter, and all levels stay when the penalty changes.
   void update_penalised(const Progress& progress) {
     const auto without_penalty = [](const LinkBlock<double, D>& block) {
-      return LinkBlock<double, D>{Vector::Zero(), stiffness_of(block)};
+      return LinkBlock<double, D>{Vector(), stiffness_of(block)};
     };
     const bool is_built = kind_ == EnergyKind::corotated
                               ? penalised_.update(mesh_, energy_, without_penalty, progress)
@@ -686,7 +686,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// Lagrange's dual function), relative to the energy.
   double relative_gap() {
     const Vectors& at = iterate_;
-    Vectors rest(at.size(), Vector::Zero());
+    Vectors rest(at.size(), Vector());
     double energy = 0, bound = 0;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
       const auto [i, j] = mesh_->links[link];

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "equilibrium/block_vectors.h"
 #include "equilibrium/multigrid.h"
 
 namespace chainmail {
@@ -15,7 +16,7 @@ namespace chainmail {
 template <int D>
 class LaplacianPreconditioner {
  public:
-  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
+  using Vectors = BlockVectors<double, D>;
 
   void begin(MeshPointer mesh) {
     matrix_ = finest_ = Matrix(std::move(mesh));
@@ -74,7 +75,7 @@ class LaplacianPreconditioner {
     const double largest = shared.largest(right.size(), [&](std::size_t first, std::size_t last) {
       double most = 0;
       for (std::size_t i = first; i < last; ++i) {
-        most = std::max(most, right[i].cwiseAbs().maxCoeff());
+        most = std::max(most, right[i].largest());
       }
       return most;
     });
@@ -82,15 +83,18 @@ class LaplacianPreconditioner {
     right_.resize(right.size());
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        right_[i].setZero();
-        right_[i].template head<D>() = (right[i] * scale).transpose().template cast<float>();
+        for (int k = 0; k < D; ++k) {
+          right_[i][k] = float(right[i][k] * scale);
+        }
       }
     });
     grid_.cycle(finest_, right_, result_, shared);
     result.resize(right.size());
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        result[i] = result_[i].template head<D>().transpose().template cast<double>() / scale;
+        for (int k = 0; k < D; ++k) {
+          result[i][k] = double(result_[i][k]) / scale;
+        }
       }
     });
   }

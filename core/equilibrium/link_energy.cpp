@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elastic/surface_cells.h"
+#include "equilibrium/block_vectors.h"
 #include "equilibrium/corotated.h"
 
 namespace chainmail {
@@ -20,7 +21,7 @@ double power_of(double length, double p) {
 
 template <int Dimension>
 double corotated_energy_in(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
-  std::vector<Eigen::Matrix<double, Dimension, 1>> displacements(mesh.element_count());
+  BlockVectors<double, Dimension> displacements(mesh.element_count());
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     for (int k = 0; k < Dimension; ++k) {
       displacements[e][k] = position(e, k) - mesh.rest[std::size_t{e} * Dimension + std::size_t(k)];

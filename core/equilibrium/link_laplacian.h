@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "equilibrium/shared_loop.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -18,8 +18,8 @@ template <int Columns>
 class LinkLaplacian {
  public:
   static constexpr int rows = 1, columns = Columns, dimension = 1;
-  using Square = Eigen::Matrix<float, 1, 1>;
-  using Vector = Eigen::Matrix<float, 1, Columns>;
+  using Square = FixedMatrix<float, 1, 1>;
+  using Vector = FixedMatrix<float, 1, Columns>;
   using Vectors = std::vector<Vector>;
 
   LinkLaplacian() = default;
@@ -53,7 +53,7 @@ class LinkLaplacian {
     product.resize(x.size());
     blocks.run(x.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t e = first; e < last; ++e) {
-        product[e] = fixed_[e] != 0 ? Vector(Vector::Zero()) : row_times(static_cast<ElementId>(e), x);
+        product[e] = fixed_[e] != 0 ? Vector() : row_times(static_cast<ElementId>(e), x);
       }
     });
   }
@@ -66,10 +66,10 @@ class LinkLaplacian {
     }
     for (EntryId entry = mesh_->first_entry[row]; entry < mesh_->first_entry[row + 1]; ++entry) {
       if (!is_fixed(mesh_->neighbours[entry]) && weights_[entry] != 0) {
-        visit(mesh_->neighbours[entry], Square(-weights_[entry]));
+        visit(mesh_->neighbours[entry], -weights_[entry] * Square::Identity());
       }
     }
-    visit(row, Square(float(sums_[row])));
+    visit(row, float(sums_[row]) * Square::Identity());
   }
 
  private:

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "equilibrium/shared_loop.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -19,16 +19,24 @@ inline constexpr int rigid_modes = Dimension*(Dimension + 1) / 2;
 /// displacements of its two ends. All numbers of a cut link are 0.
 template <class Scalar, int Dimension>
 struct LinkBlock {
-  using Vector = Eigen::Matrix<Scalar, Dimension, 1>;
-  using Square = Eigen::Matrix<Scalar, Dimension, Dimension>;
+  using Vector = FixedMatrix<Scalar, Dimension>;
+  using Square = FixedMatrix<Scalar, Dimension, Dimension>;
 
-  Vector along = Vector::Zero();  // g: the link's direction times the root of its axial stiffness
-  Scalar across = 0;              // c: its lateral stiffness
+  Vector along;       // g: the link's direction times the root of its axial stiffness
+  Scalar across = 0;  // c: its lateral stiffness
 
   /// Returns the force in the link, if its deflection is `apart`.
   Vector times(const Vector& apart) const { return along * along.dot(apart) + across * apart; }
-  Square block() const { return along * along.transpose() + across * Square::Identity(); }
-  bool is_zero() const { return across == 0 && along.isZero(0); }
+  Square block() const {
+    Square result;
+    for (int i = 0; i < Dimension; ++i) {
+      for (int j = 0; j < Dimension; ++j) {
+        result(i, j) = along[i] * along[j] + (i == j ? across : 0);
+      }
+    }
+    return result;
+  }
+  bool is_zero() const { return across == 0 && along.isZero(); }
 };
 
 /// The matrix of an energy of links: one row of blocks per element, one block per link. Rows and columns of fixed
@@ -55,7 +63,7 @@ class LinkMatrix {
 
   /// Returns the product with a vector, which is 0 at fixed elements.
   void apply(const Vectors& x, Vectors& product, const SharedLoop& /*links scatter*/ = {}) const {
-    product.assign(x.size(), Vector::Zero());
+    product.assign(x.size(), {});
     const auto* ends = mesh_->links.data();
     for (std::size_t l = 0; l < links_.size(); ++l) {
       const auto [i, j] = ends[l];
@@ -69,7 +77,7 @@ class LinkMatrix {
   void clear_fixed(Vectors& x) const {
     for (std::size_t e = 0; e < x.size(); ++e) {
       if (fixed_[e] != 0) {
-        x[e].setZero();
+        x[e] = {};
       }
     }
   }
@@ -80,13 +88,13 @@ class LinkMatrix {
     if (is_fixed(row)) {
       return;
     }
-    Square diagonal = Square::Zero();
+    Square diagonal;
     for (EntryId entry = mesh_->first_entry[row]; entry < mesh_->first_entry[row + 1]; ++entry) {
       const Block& link = links_[mesh_->entry_link[entry]];
       const Square block = link.block();
       diagonal += block;
       if (!is_fixed(mesh_->neighbours[entry]) && !link.is_zero()) {
-        visit(mesh_->neighbours[entry], Square(-block));
+        visit(mesh_->neighbours[entry], -block);
       }
     }
     visit(row, diagonal);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "mesh/cuts.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -17,7 +17,7 @@ namespace chainmail {
 template <int Dimension>
 class LooseLinks {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vector = FixedMatrix<double, Dimension>;
   using Vectors = std::vector<Vector>;
   static constexpr double stiffness = 1e-6;
 

@@ -292,7 +292,7 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
   if (force != nullptr) {
     force->resize(displacements.size());
     shared.run(force->size(), [&](std::size_t first, std::size_t last) {
-      std::fill(force->begin() + std::ptrdiff_t(first), force->begin() + std::ptrdiff_t(last), Vector::Zero());
+      std::fill(force->begin() + std::ptrdiff_t(first), force->begin() + std::ptrdiff_t(last), Vector());
       for (const Part& part : parts_) {
         for (std::size_t e = std::max<std::size_t>(first, part.low); e < std::min<std::size_t>(last, part.high); ++e) {
           (*force)[e] += part.force[e - part.low];
@@ -306,7 +306,7 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
 template <int D>
 void MaterialEnergy<D>::evaluate(Part& part, const Vectors& displacements, bool wants_force) const {
   if (wants_force) {
-    part.force.assign(part.high > part.low ? part.high - part.low : 0, Vector::Zero());
+    part.force.assign(part.high > part.low ? part.high - part.low : 0, Vector());
   }
   part.energy = 0;
   Lanes least = Lanes::Ones();

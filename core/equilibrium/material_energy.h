@@ -13,6 +13,7 @@
 #include "equilibrium/loose_links.h"
 #include "equilibrium/shared_loop.h"
 #include "mesh/cuts.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -27,7 +28,7 @@ namespace chainmail {
 template <int Dimension>
 class MaterialEnergy {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vector = FixedMatrix<double, Dimension>;
   using Square = Eigen::Matrix<double, Dimension, Dimension>;
   using Vectors = std::vector<Vector>;
 

@@ -71,9 +71,9 @@ void MaterialMinimum<D, Steps>::forget() {
 template <int D, class Steps>
 void MaterialMinimum<D, Steps>::extend(const Vectors& jump, Vectors& at) {
   const Mesh& mesh = preconditioner_.mesh();
-  pull_.assign(at.size(), Vectors::value_type::Zero());
+  pull_.assign(at.size(), typename Vectors::value_type());
   for (ElementId e = 0; e < at.size(); ++e) {
-    if (jump[e].isZero(0)) {
+    if (jump[e].isZero()) {
       continue;
     }
     at[e] += jump[e];
@@ -124,7 +124,7 @@ void MaterialMinimum<D, Steps>::clear_fixed(Vectors& force, const SharedLoop& sh
   shared.run(force.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t e = first; e < last; ++e) {
       if (preconditioner_.is_fixed(static_cast<ElementId>(e))) {
-        force[e].setZero();
+        force[e] = {};
       }
     }
   });

@@ -116,8 +116,11 @@ class Multigrid<Matrix>::Levels {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
     for (std::uint32_t row = 0; row < coarsest.size(); ++row) {
       coarsest.for_each_in_row(row, [&](std::uint32_t column, const typename Coarse::Square& block) {
-        dense.block<modes, modes>(Eigen::Index{row} * modes, Eigen::Index{column} * modes) =
-            block.template cast<double>();
+        for (int i = 0; i < modes; ++i) {
+          for (int j = 0; j < modes; ++j) {
+            dense(Eigen::Index{row} * modes + i, Eigen::Index{column} * modes + j) = block(i, j);
+          }
+        }
       });
     }
     // The matrix may be singular: free parts, and aggregates of elements in a row or of fixed elements.
@@ -141,13 +144,19 @@ class Multigrid<Matrix>::Levels {
   void solve_directly(Level& level) {
     const Eigen::Index size = Eigen::Index(level.right.size()) * modes;
     level.x.resize(level.right.size());
-    // A row of several columns is stored row by row.
-    using Numbers = Eigen::Matrix<float, Eigen::Dynamic, columns, columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    Eigen::MatrixXd numbers(size, Eigen::Index{columns});
+    const auto for_each = [&](auto visit) {
+      for (Eigen::Index i = 0; i < size; ++i) {
+        for (int k = 0; k < columns; ++k) {
+          visit(std::size_t(i / modes), int(i % modes), k, numbers(i, k));
+        }
+      }
+    };
+    for_each([&](std::size_t row, int i, int k, double& number) { number = double(level.right[row](i, k)); });
     if (size > 0) {
-      const Eigen::Map<const Numbers> right(level.right.front().data(), size, columns);
-      Eigen::Map<Numbers>(level.x.front().data(), size, columns) =
-          direct_.solve(right.template cast<double>()).template cast<float>();
+      numbers = direct_.solve(numbers);
     }
+    for_each([&](std::size_t row, int i, int k, double number) { level.x[row](i, k) = float(number); });
   }
 
   MultigridStage<Matrix::rows, Dimension, columns> finest_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "equilibrium/coarse_matrix.h"
 #include "equilibrium/rigid_frame.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -22,10 +22,10 @@ template <int Rows, int Dimension, int Columns = 1>
 class MultigridStage {
  public:
   static constexpr int modes = rigid_modes<Dimension>;
-  using Square = Eigen::Matrix<float, Rows, Rows>;
-  using Vector = Eigen::Matrix<float, Rows, Columns>;
+  using Square = FixedMatrix<float, Rows, Rows>;
+  using Vector = FixedMatrix<float, Rows, Columns>;
   using Vectors = std::vector<Vector>;
-  using Transfer = Eigen::Matrix<float, Rows, modes>;
+  using Transfer = FixedMatrix<float, Rows, modes>;
   using Frames = std::vector<RigidFrame<Dimension>>;
   using Coarse = CoarseMatrix<modes, Columns>;
 
@@ -84,9 +84,8 @@ class MultigridStage {
     step_.resize(right.size());
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        step_[i].noalias() = inverse_[i] * (from_zero ? right[i] : Vector(right[i] - product_[i]));
-        step_[i] /= middle;
-        x[i] = from_zero ? step_[i] : Vector(x[i] + step_[i]);
+        step_[i] = inverse_[i] * (from_zero ? right[i] : right[i] - product_[i]) / middle;
+        x[i] = from_zero ? step_[i] : x[i] + step_[i];
       }
     });
     const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
@@ -127,7 +126,7 @@ class MultigridStage {
         const auto columns = transfer_.columns(static_cast<std::uint32_t>(row));
         const auto blocks = transfer_.blocks(static_cast<std::uint32_t>(row));
         for (std::size_t k = 0; k < columns.size(); ++k) {
-          x[row].noalias() += blocks[k] * coarse[columns[k]];
+          add_product(x[row], blocks[k], coarse[columns[k]]);
         }
       }
     });
@@ -142,7 +141,7 @@ class MultigridStage {
         members_[aggregate_.back()].push_back(static_cast<std::uint32_t>(aggregate_.size() - 1));
       }
     }
-    inverse_.resize(aggregate_.size(), Square::Zero());
+    inverse_.resize(aggregate_.size());
     transfer_.resize(static_cast<std::uint32_t>(aggregate_.size()));
     products_.resize(keeps_products ? transfer_.size() : 0);
   }
@@ -150,7 +149,7 @@ class MultigridStage {
   /// Updates the smoother after a row of the matrix changed.
   template <class Matrix>
   void update_inverse(const Matrix& matrix, std::uint32_t row) {
-    Square diagonal = Square::Zero();
+    Square diagonal;
     matrix.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
       if (column == row) {
         diagonal = block;
@@ -211,13 +210,13 @@ class MultigridStage {
   /// Writes the coarse right-hand side of the residual in these rows.
   void restrict_rows(std::size_t first, std::size_t last, const Vectors& right,
                      typename Coarse::Vectors& coarse_right) const {
-    coarse_right.assign(members_.size(), Coarse::Vector::Zero());
+    coarse_right.assign(members_.size(), {});
     for (std::size_t row = first; row < last; ++row) {
       const Vector residual = right[row] - product_[row];
       const auto columns = transfer_.columns(static_cast<std::uint32_t>(row));
       const auto blocks = transfer_.blocks(static_cast<std::uint32_t>(row));
       for (std::size_t k = 0; k < columns.size(); ++k) {
-        coarse_right[columns[k]].noalias() += blocks[k].transpose() * residual;
+        add_transposed_product(coarse_right[columns[k]], blocks[k], residual);
       }
     }
   }
@@ -226,10 +225,9 @@ class MultigridStage {
   static Square safe_inverse(const Square& block) {
     const float mean = block.trace() / float(Rows);
     if (!(mean > std::numeric_limits<float>::min())) {
-      return Square::Zero();
+      return {};
     }
-    const Square lifted = block / mean + 1e-5F * Square::Identity();
-    return lifted.inverse() / mean;
+    return inverse_of_positive(block / mean + 1e-5F * Square::Identity()) / mean;
   }
 
   static void make_unique(std::vector<std::uint32_t>& ids) {
@@ -292,14 +290,14 @@ class MultigridStage {
     std::vector<std::vector<std::uint32_t>> parts(1);
     std::vector<std::uint32_t> left;
     for (const std::uint32_t row : members_[aggregate]) {
-      (inverse_[row].isZero(0) ? parts[0] : left).push_back(row);
+      (inverse_[row].isZero() ? parts[0] : left).push_back(row);
     }
     while (!left.empty()) {
       std::vector<std::uint32_t> part{left.back()};
       left.pop_back();
       for (std::size_t i = 0; i < part.size(); ++i) {
         matrix.for_each_in_row(part[i], [&](std::uint32_t column, const Square& block) {
-          const auto found = block.isZero(0) ? left.end() : std::ranges::find(left, column);
+          const auto found = block.isZero() ? left.end() : std::ranges::find(left, column);
           if (found != left.end()) {
             part.push_back(column);
             left.erase(found);
@@ -453,7 +451,7 @@ class MultigridStage {
         const Transfer motion = rigid(column);
         const Square damped = (-4.0F / 3 / radius_) * (inverse_[row] * block);
         Transfer& sum = transfer_sum_.at(aggregate_[column]);
-        sum.noalias() += damped * motion;
+        add_product(sum, damped, motion);
         if (column == row) {
           sum += motion;
         }
@@ -470,7 +468,7 @@ class MultigridStage {
       const auto columns = transfer_.columns(column);
       const auto blocks = transfer_.blocks(column);
       for (std::size_t k = 0; k < columns.size(); ++k) {
-        product_sum_.at(columns[k]).noalias() += block * blocks[k];
+        add_product(product_sum_.at(columns[k]), block, blocks[k]);
       }
     });
     products_.set_row(row, product_sum_.columns, product_sum_.blocks);
@@ -505,7 +503,7 @@ class MultigridStage {
         const auto blocks = products_.blocks(row);
         const Transfer& transfer = transfer_.blocks(row)[k];
         for (std::size_t c = 0; c < columns.size(); ++c) {
-          coarse_sum_.at(columns[c]).noalias() += transfer.transpose() * blocks[c];
+          add_transposed_product(coarse_sum_.at(columns[c]), transfer, blocks[c]);
         }
       }
       coarse.rows.set_row(wanted[i], coarse_sum_.columns, coarse_sum_.blocks);

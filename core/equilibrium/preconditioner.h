@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "equilibrium/block_vectors.h"
 #include "equilibrium/multigrid.h"
 
 namespace chainmail {
@@ -47,30 +48,30 @@ class Preconditioner {
   void apply(const Vectors& right, Vectors& result, const SharedLoop& /*shared*/ = {}) {
     double largest = 0;
     for (const auto& one : right) {
-      largest = std::max(largest, one.cwiseAbs().maxCoeff());
+      largest = std::max(largest, one.largest());
     }
     const double scale = largest > 0 ? 1 / largest : 1;
     right_.resize(right.size());
     for (std::size_t i = 0; i < right.size(); ++i) {
-      right_[i] = (right[i] * scale).template cast<float>();
+      right_[i] = rounded<float>(right[i] * scale);
     }
     grid_.cycle(matrix_, right_, result_);
     result.resize(right.size());
     for (std::size_t i = 0; i < right.size(); ++i) {
-      result[i] = result_[i].template cast<double>() / scale;
+      result[i] = rounded<double>(result_[i]) / scale;
     }
   }
 
  private:
-  static LinkBlock<float, D> rounded(const LinkBlock<double, D>& block) {
-    return {block.along.template cast<float>(), static_cast<float>(block.across)};
+  static LinkBlock<float, D> in_float(const LinkBlock<double, D>& block) {
+    return {rounded<float>(block.along), static_cast<float>(block.across)};
   }
 
   template <class Change>
   void build(const MeshPointer& mesh, const Matrix& matrix, Change change, const Progress& progress) {
     matrix_ = LinkMatrix<float, D>(mesh);
     for (LinkId link = 0; link < mesh->link_count(); ++link) {
-      matrix_.set_link(link, rounded(change(matrix.link(link))));
+      matrix_.set_link(link, in_float(change(matrix.link(link))));
     }
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
       matrix_.set_fixed(e, matrix.is_fixed(e));
@@ -83,7 +84,7 @@ class Preconditioner {
     const Mesh& mesh = matrix.mesh();
     matrix_.set_fixed(row, matrix.is_fixed(row));
     for (EntryId entry = mesh.first_entry[row]; entry < mesh.first_entry[row + 1]; ++entry) {
-      matrix_.set_link(mesh.entry_link[entry], rounded(change(matrix.link(mesh.entry_link[entry]))));
+      matrix_.set_link(mesh.entry_link[entry], in_float(change(matrix.link(mesh.entry_link[entry]))));
     }
   }
 
@@ -91,7 +92,7 @@ class Preconditioner {
   Multigrid<LinkMatrix<float, D>> grid_;
   std::vector<ElementId> outdated_;
   bool cut_ = false;
-  std::vector<Eigen::Matrix<float, D, 1>> right_, result_;
+  BlockVectors<float, D> right_, result_;
 };
 
 }  // namespace chainmail

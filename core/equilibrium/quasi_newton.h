@@ -14,7 +14,7 @@ namespace chainmail {
 template <int D>
 class QuasiNewton {
  public:
-  using Vectors = std::vector<Eigen::Matrix<double, D, 1>>;
+  using Vectors = BlockVectors<double, D>;
 
   void forget() { pairs_.clear(); }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "body/region.h"
+#include "mesh/fixed_matrix.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -19,7 +19,7 @@ namespace chainmail {
 template <int Dimension>
 class RegionMultipliers {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vector = FixedMatrix<double, Dimension>;
   using Vectors = std::vector<Vector>;
 
   /// Stiffness against the distance between a link and its copy, as a multiple of the link's own stiffness.
@@ -28,7 +28,7 @@ class RegionMultipliers {
   /// Begins without forces, from these displacements.
   template <class Links>
   void begin(LinkId link_count, Links links, const Vectors& at) {
-    multiplier_.assign(link_count, Vector::Zero());
+    multiplier_.assign(link_count, Vector());
     inside_.resize(link_count);
     links([&](LinkId link, ElementId i, ElementId j, const auto& region, double) {
       inside_[link] = clamped_to(region, at[j] - at[i]);
@@ -44,8 +44,8 @@ class RegionMultipliers {
 
   /// Forgets the force of a cut link.
   void drop(LinkId link) {
-    multiplier_[link].setZero();
-    inside_[link].setZero();
+    multiplier_[link] = {};
+    inside_[link] = {};
   }
 
   /// Adds the forces that pull the links to their copies.
@@ -80,7 +80,7 @@ class RegionMultipliers {
       result.outside += weight * (apart - inside_[link]).squaredNorm();
       result.stepped += weight * (before - inside_[link]).squaredNorm();
       result.size += weight * apart.squaredNorm();
-      result.forced = result.forced || !multiplier_[link].isZero(0);
+      result.forced = result.forced || !multiplier_[link].isZero();
     });
     return result;
   }

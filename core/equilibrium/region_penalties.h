@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "equilibrium/region_multipliers.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -16,7 +16,7 @@ namespace chainmail {
 template <int Dimension>
 class RegionPenalties {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vector = FixedMatrix<double, Dimension>;
   using Vectors = std::vector<Vector>;
   /// Stiffness of the springs, as a multiple of the link's own stiffness.
   static constexpr double penalty = 4;
@@ -63,7 +63,7 @@ class RegionPenalties {
     Update result;
     std::vector<Active> next;
     links([&](LinkId link, ElementId i, ElementId j, const Region<double, Dimension>& region, double stiffness) {
-      Active one{link, i, j, region, penalty * stiffness, Vector::Zero()};
+      Active one{link, i, j, region, penalty * stiffness, Vector()};
       const Vector apart = at[j] - at[i];
       const bool was = place_[link] != none;
       if (was) {
@@ -72,7 +72,7 @@ class RegionPenalties {
       const Vector wanted = apart + one.multiplier;
       const Vector outside = wanted - RegionMultipliers<Dimension>::clamped_to(region, wanted);
       result.error += stiffness * (outside - one.multiplier).squaredNorm();
-      const bool is = !outside.isZero(0);
+      const bool is = !outside.isZero();
       if (moves) {
         one.multiplier = outside;
       }

@@ -1,6 +1,5 @@
 #include "equilibrium/relaxation.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "body/body_view.h"
 #include "equilibrium/corotated.h"
 #include "equilibrium/small_quadratic.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
@@ -43,7 +43,7 @@ class Relaxation::Slice {
  private:
   using Coordinates = std::array<Scalar, Dimension>;
   using RegionId = typename RegionTable<Scalar, Dimension>::Id;
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
+  using Vector = FixedMatrix<double, Dimension>;
 
   static constexpr int lanes = Position<Scalar, Dimension>::lanes;
   /// The coordinates of a position, which the processor computes at once.
@@ -225,15 +225,13 @@ class Relaxation::Slice {
   /// along this direction and in all. Corotated energy turns the rest vector.
   struct Deflection {
     LinkWeights weights;
-    Vector direction = Vector::Zero();
+    Vector direction = {};
     double along = 0;
-    Vector all = Vector::Zero();
+    Vector all = {};
   };
 
   Vector rest_vector(ElementId element, ElementId neighbour) const {
-    using Rest = Eigen::Map<const Vector>;
-    const double* rest = body_.mesh->rest.data();
-    return Rest(rest + std::size_t{neighbour} * Dimension) - Rest(rest + std::size_t{element} * Dimension);
+    return CorotatedEnergy<Dimension>::rest_vector(*body_.mesh, element, neighbour);
   }
 
   /// Returns the deflection of a link from its rest vector, without rotation.
@@ -251,27 +249,40 @@ class Relaxation::Slice {
     return link;
   }
 
-  using Square = Eigen::Matrix<double, Dimension, Dimension>;
+  using Square = FixedMatrix<double, Dimension, Dimension>;
 
   /// Returns the rotation of an element's neighbourhood: the one found last since the object was woken, or a new one.
-  auto rotation_of(ElementId element) const {
+  Square rotation_of(ElementId element) const {
     if (relaxation_.turned_[element] != relaxation_.wakes_) {
       find_rotation(element);
     }
-    return relaxation_.rotations_[element].topLeftCorner<Dimension, Dimension>();
+    return present_rotation(element);
+  }
+
+  Square present_rotation(ElementId element) const {
+    Square rotation;
+    for (int row = 0; row < Dimension; ++row) {
+      for (int column = 0; column < Dimension; ++column) {
+        rotation(row, column) = relaxation_.rotations_[element](row, column);
+      }
+    }
+    return rotation;
   }
 
   void find_rotation(ElementId element) const {
-    Square sum = Square::Zero();
+    Square sum;
     body_.for_each_neighbour(element, [&](ElementId neighbour, EntryId entry) {
       const Deflection link = deflection(element, neighbour, entry);
       const Vector rest = rest_vector(element, neighbour);
-      sum += link.weights.lateral * (rest + link.all) * rest.transpose();
+      sum += outer_product(link.weights.lateral * (rest + link.all), rest);
     });
-    auto present = relaxation_.rotations_[element].template topLeftCorner<Dimension, Dimension>();
-    Square rotation = present;
+    Square rotation = present_rotation(element);
     turn_toward(sum, rotation);
-    present = rotation;
+    for (int row = 0; row < Dimension; ++row) {
+      for (int column = 0; column < Dimension; ++column) {
+        relaxation_.rotations_[element](row, column) = rotation(row, column);
+      }
+    }
     relaxation_.turned_[element] = relaxation_.wakes_;
   }
 
@@ -280,7 +291,7 @@ class Relaxation::Slice {
     const Vector rest = rest_vector(element, neighbour), vector = rest + link.all;
     const Square mean = (rotation_of(element) + rotation_of(neighbour)) / 2;
     const double size = vector.norm();
-    link.direction = size > 0 && link.weights.axial > 0 ? Vector(vector / size) : Vector(Vector::Zero());
+    link.direction = size > 0 && link.weights.axial > 0 ? vector / size : Vector();
     link.along = size - rest.norm();
     link.all = vector - mean * rest;
   }
@@ -422,7 +433,7 @@ void Relaxation::follow_energy(const Body& body) {
     }
   }
   if (energy_of_sweeps(body) == EnergyKind::corotated && rotations_.empty()) {
-    rotations_.assign(body.mesh().element_count(), Eigen::Matrix3d::Identity());
+    rotations_.assign(body.mesh().element_count(), FixedMatrix<double, 3, 3>::Identity());
     turned_.assign(body.mesh().element_count(), 0);
   }
 }

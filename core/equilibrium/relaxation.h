@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "body/body.h"
 #include "equilibrium/link_energy.h"
 #include "equilibrium/relaxation_result.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -148,7 +148,7 @@ class Relaxation {
   std::uint64_t energy_ = 0;          // revision of the energy that the weights belong to
   /// For corotated energy, of each element: the rotation of its neighbourhood, and when it was found. Passes move
   /// elements, so rotations of before the last call of wake count no more.
-  std::vector<Eigen::Matrix3d> rotations_;
+  std::vector<FixedMatrix<double, 3, 3>> rotations_;
   std::vector<std::uint32_t> turned_;
   std::uint32_t wakes_ = 1;
   ActiveSet current_;  // to be visited in this sweep

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <limits>
+
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -13,13 +15,12 @@ namespace chainmail {
 template <int Dimension>
 class SmallQuadratic {
  public:
-  using Vector = Eigen::Matrix<double, Dimension, 1>;
-  using Matrix = Eigen::Matrix<double, Dimension, Dimension>;
+  using Vector = FixedMatrix<double, Dimension>;
+  using Matrix = FixedMatrix<double, Dimension, Dimension>;
 
   /// Adds ½ axial (direction · d − along)² + ½ lateral |d − all|², less a constant.
   void add(double axial, const Vector& direction, double along, double lateral, const Vector& all) {
-    matrix_ += axial * direction * direction.transpose();
-    matrix_.diagonal().array() += lateral;
+    matrix_ += outer_product(axial * direction, direction) + lateral * Matrix::Identity();
     force_ += axial * along * direction + lateral * all;
   }
 
@@ -27,7 +28,10 @@ class SmallQuadratic {
   /// directions in which the function is constant, unless the box requires otherwise.
   Vector least_inside(const Vector& low, const Vector& high) const {
     const Vector free = solved(matrix_, force_);
-    const bool is_inside = (low.array() <= free.array()).all() && (free.array() <= high.array()).all();
+    bool is_inside = true;
+    for (int k = 0; k < Dimension; ++k) {
+      is_inside = is_inside && low[k] <= free[k] && free[k] <= high[k];
+    }
     return is_inside ? free : least_on_side(free, low, high);
   }
 
@@ -36,19 +40,33 @@ class SmallQuadratic {
   static Vector solved(const Matrix& matrix, const Vector& right) {
     const double size = matrix.trace() / Dimension;
     if (!(size > 0)) {
-      return Vector::Zero();
+      return {};
     }
-    const Matrix scaled = matrix / size;
-    if (scaled.determinant() > 1e-6) {
-      return scaled.inverse() * (right / size);
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix> parts(scaled);
-    Vector along = parts.eigenvectors().transpose() * (right / size);
+    const Matrix scaled = matrix / size, adjoint = adjugate(scaled);
+    const double product = determinant(scaled, adjoint);
+    return product > 1e-6 ? adjoint / product * (right / size) : solved_in_range(scaled, right / size);
+  }
+  /// By eigenvalues, those of a matrix of three rows: axes beyond the dimension have 0.
+  static Vector solved_in_range(const Matrix& matrix, const Vector& right) {
+    Eigen::Matrix3d all = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d given = Eigen::Vector3d::Zero();
     for (int k = 0; k < Dimension; ++k) {
-      const double value = parts.eigenvalues()[k];
-      along[k] = value > singular ? along[k] / value : 0;
+      given[k] = right[k];
+      for (int l = 0; l < Dimension; ++l) {
+        all(k, l) = matrix(k, l);
+      }
     }
-    return parts.eigenvectors() * along;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(all);
+    Vector result;
+    for (int k = 0; k < 3; ++k) {
+      if (const double value = parts.eigenvalues()[k]; value > singular) {
+        const Eigen::Vector3d mode = parts.eigenvectors().col(k);
+        for (int l = 0; l < Dimension; ++l) {
+          result[l] += mode.dot(given) / value * mode[l];
+        }
+      }
+    }
+    return result;
   }
 
   /// Returns the best of the minimisers over the sides, edges and corners of the box: on each axis the displacement is
@@ -58,7 +76,7 @@ class SmallQuadratic {
     if (Vector displacement = least_on(nearest, low, high); is_least(displacement, nearest)) {
       return displacement;
     }
-    Vector best = Vector::Zero();
+    Vector best;
     double least = std::numeric_limits<double>::infinity();
     constexpr int sides = Dimension == 1 ? 3 : Dimension == 2 ? 9 : 27;
     for (int side = 0; side < sides; ++side) {
@@ -84,9 +102,10 @@ class SmallQuadratic {
   /// (the conditions of Karush, Kuhn and Tucker).
   bool is_least(const Vector& displacement, int side) const {
     const Vector slope = matrix_ * displacement - force_;
-    bool rises = !displacement.hasNaN();
+    bool rises = true;
     for (int k = 0; k < Dimension; ++k, side /= 3) {
-      rises = rises && (side % 3 == 0 || (side % 3 == 1 ? slope[k] >= 0 : slope[k] <= 0));
+      rises =
+          rises && !std::isnan(displacement[k]) && (side % 3 == 0 || (side % 3 == 1 ? slope[k] >= 0 : slope[k] <= 0));
     }
     return rises;
   }
@@ -94,7 +113,7 @@ class SmallQuadratic {
   /// Returns the minimiser on one side, whose digits to base 3 are 0 for an axis that is free, 1 for the lower and 2
   /// for the upper bound; not a number if it is outside the box or if another side is the same.
   Vector least_on(int side, const Vector& low, const Vector& high) const {
-    Vector displacement = Vector::Zero();
+    Vector displacement;
     std::array<bool, Dimension> is_free{};
     for (int k = 0; k < Dimension; ++k, side /= 3) {
       const bool is_empty = low[k] > high[k];
@@ -104,8 +123,10 @@ class SmallQuadratic {
       is_free[k] = side % 3 == 0 && !is_empty;
       displacement[k] = side % 3 == 0 ? 0 : side % 3 == 1 ? low[k] : high[k];
     }
-    if (!displacement.allFinite()) {
-      return nowhere();
+    for (int k = 0; k < Dimension; ++k) {
+      if (!std::isfinite(displacement[k])) {
+        return nowhere();
+      }
     }
     Vector found = with_fixed(displacement, is_free);
     for (int k = 0; k < Dimension; ++k) {
@@ -123,8 +144,9 @@ class SmallQuadratic {
     const double size = matrix_.trace() / Dimension;
     for (int k = 0; k < Dimension; ++k) {
       if (!is_free[k]) {
-        matrix.row(k).setZero();
-        matrix.col(k).setZero();
+        for (int l = 0; l < Dimension; ++l) {
+          matrix(k, l) = matrix(l, k) = 0;
+        }
         matrix(k, k) = size;
         right[k] = 0;
       }
@@ -132,13 +154,19 @@ class SmallQuadratic {
     return displacement + solved(matrix, right);
   }
 
-  static Vector nowhere() { return Vector::Constant(std::numeric_limits<double>::quiet_NaN()); }
+  static Vector nowhere() {
+    Vector result;
+    for (int k = 0; k < Dimension; ++k) {
+      result[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return result;
+  }
 
   /// Eigenvalues below this share of the mean one count as 0.
   static constexpr double singular = 1e-10;
 
-  Matrix matrix_ = Matrix::Zero();
-  Vector force_ = Vector::Zero();
+  Matrix matrix_;
+  Vector force_;
 };
 
 }  // namespace chainmail

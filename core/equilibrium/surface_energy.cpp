@@ -55,7 +55,7 @@ void SurfaceEnergy::build(MeshPointer mesh, const Progress& progress) {
   turns_.assign(cells_.hinges.size(), {});
   turned_.assign(cells_.hinges.size(), 0);
   rest_turn_.assign(cells_.hinges.size(), 0);
-  const Vectors none(mesh_->element_count(), Vector::Zero());
+  const Vectors none(mesh_->element_count());
   for (std::size_t h = 0; h < cells_.hinges.size(); ++h) {
     Turn one;
     turn(h, none, one, false);
@@ -218,7 +218,7 @@ double SurfaceEnergy::evaluate(const Vectors& displacements, Vectors* force, con
         for (std::uint32_t i = first_pull_[e]; i < first_pull_[e + 1]; ++i) {
           sum += pull_[pulls_[i]];
         }
-        (*force)[e] = sum;
+        Eigen::Map<Vector>((*force)[e].data()) = sum;
       }
     });
   }
@@ -255,8 +255,8 @@ double SurfaceEnergy::bend(const Vectors& displacements, bool wants_force, const
 auto SurfaceEnergy::stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const -> Frame {
   const auto& [i, j, k] = cells_.triangles[triangle];
   const Rest& rest = rest_[triangle];
-  strain = (displacements[j] - displacements[i]) * rest.gradients.col(1).transpose() +
-           (displacements[k] - displacements[i]) * rest.gradients.col(2).transpose();
+  const auto from_first = [&](ElementId e) { return Vector((displacements[e] - displacements[i]).data()); };
+  strain = from_first(j) * rest.gradients.col(1).transpose() + from_first(k) * rest.gradients.col(2).transpose();
   return rest.frame + strain;
 }
 

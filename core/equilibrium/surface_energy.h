@@ -9,6 +9,7 @@
 #include "elastic/stiffening.h"
 #include "elastic/surface_cells.h"
 #include "equilibrium/bending_moments.h"
+#include "equilibrium/block_vectors.h"
 #include "equilibrium/loose_links.h"
 #include "equilibrium/shared_loop.h"
 #include "mesh/cuts.h"
@@ -28,7 +29,7 @@ double thickness_of(const Mesh& mesh, const ElasticOptions& elastic);
 class SurfaceEnergy {
  public:
   using Vector = Eigen::Vector3d;
-  using Vectors = std::vector<Vector>;
+  using Vectors = BlockVectors<double, 3>;
 
   /// Makes the triangles of a mesh, none cut. Throws Cancelled.
   void build(MeshPointer mesh, const Progress& progress = {});
@@ -83,7 +84,8 @@ class SurfaceEnergy {
   double bending() const;  // stiffness of the plate per thickness and Young's modulus, divided by the scale
   double stiffness_around(LinkId link) const;
   Vector position(ElementId e, const Vectors& displacements) const {
-    return Eigen::Map<const Vector>(mesh_->rest.data() + 3 * std::size_t{e}) + displacements[e];
+    return Eigen::Map<const Vector>(mesh_->rest.data() + 3 * std::size_t{e}) +
+           Eigen::Map<const Vector>(displacements[e].data());
   }
   Frame stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const;
   double stretch(std::uint32_t triangle, const Vectors& displacements, bool wants_force);

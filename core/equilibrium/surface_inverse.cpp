@@ -178,12 +178,12 @@ void SurfaceInverse::factor(const SurfaceEnergy& energy, const RegionPenalties<3
 void SurfaceInverse::apply(const Vectors& right, Vectors& result, const SharedLoop& /*shared*/) const {
   Eigen::MatrixXd all(Eigen::Index(3 * order_.size()), 1);
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    all.block<3, 1>(Eigen::Index(3 * i), 0) = right[order_[i]];
+    all.block<3, 1>(Eigen::Index(3 * i), 0) = Eigen::Map<const Eigen::Vector3d>(right[order_[i]].data());
   }
   all = factor_.solve(std::move(all));
   result.resize(right.size());
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    result[order_[i]] = all.block<3, 1>(Eigen::Index(3 * i), 0);
+    Eigen::Map<Eigen::Vector3d>(result[order_[i]].data()) = all.block<3, 1>(Eigen::Index(3 * i), 0);
   }
 }
 

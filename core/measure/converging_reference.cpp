@@ -14,6 +14,7 @@
 #include "mesh/cells.h"
 #include "mesh/error.h"
 #include "mesh/refine.h"
+#include "solver/algorithms.h"
 #include "solver/elastic_deformation.h"
 
 namespace chainmail {
@@ -109,13 +110,13 @@ Point rotation_of(const RigidMotion& motion) {
 std::unique_ptr<ElasticSolver> solver_of_own_cells(const ElasticProblem& problem, const ConvergingOptions& options,
                                                    const Progress& progress) {
   const Mesh& mesh = *problem.mesh;
-  const std::uint64_t usual = max_solid_elements(ElasticMethod::neo_hookean).value_or(0);
+  const std::uint64_t usual = max_solid_elements(Algorithm::neo_hookean).value_or(0);
   if (options.every_level && mesh.has_cells() && mesh.element_count() > usual &&
       mesh.element_count() <= options.max_elements.back()) {
     check(problem.options);
     return make_neo_hookean(problem, progress);
   }
-  return make_elastic(ElasticMethod::neo_hookean, problem, progress);
+  return make_elastic(Algorithm::neo_hookean, problem, progress);
 }
 
 }  // namespace

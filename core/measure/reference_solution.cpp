@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 
@@ -12,7 +13,7 @@ ReferenceSolver::ReferenceSolver(const ElasticProblem& problem, const Progress& 
     : mesh_(problem.mesh),
       law_(problem.options.law),
       pins_(problem.pins),
-      solver_(make_elastic(ElasticMethod::neo_hookean, problem, progress)) {}
+      solver_(make_elastic(Algorithm::neo_hookean, problem, progress)) {}
 
 ReferenceSolution ReferenceSolver::at(ElementId handle, const Point& target, const Progress& progress) {
   std::vector<double> displacement;

@@ -7,6 +7,7 @@
 #include "chainmail/direction_lists.h"
 #include "chainmail/follow_pass.h"
 #include "chainmail/list_method.h"
+#include "elastic/methods.h"
 #include "exact/exact_method.h"
 #include "mesh/error.h"
 #include "solver/elastic_deformation.h"
@@ -80,8 +81,9 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Bro-Nielsen and Cotin 1996",
        .summary = "linear elasticity on the cells, for small deformations",
        .style = {"M-1.2-.55H1.2V.55H-1.2Z", "#07935b"},  // bar
-       .make = make_elastic_method<ElasticMethod::linear_fem>,
-       .elastic = ElasticMethod::linear_fem,
+       .make = make_elastic_method<Algorithm::linear_fem>,
+       .elastic = ElasticMethod{linear_limit[3], [](const Mesh& mesh) { check_fem("linear FEM", mesh, linear_limit); },
+                                make_linear_fem},
        .needs_pins = true},
       {.algorithm = Algorithm::neo_hookean,
        .name = "neo-hookean",
@@ -90,8 +92,10 @@ std::vector<AlgorithmInfo> make_table() {
        .summary = "nonlinear elasticity on the cells: the reference solution",
        .style = {"M0-1.4L.35-.45L1.33-.43L.56.17L.82 1.13L0 .58L-.82 1.13L-.56.17L-1.33-.43L-.35-.45Z",
                  "#b99445"},  // star
-       .make = make_elastic_method<ElasticMethod::neo_hookean>,
-       .elastic = ElasticMethod::neo_hookean,
+       .make = make_elastic_method<Algorithm::neo_hookean>,
+       .elastic = ElasticMethod{nonlinear_limit[3],
+                                [](const Mesh& mesh) { check_fem("neo-Hookean FEM", mesh, nonlinear_limit); },
+                                make_neo_hookean},
        .needs_pins = true},
       {.algorithm = Algorithm::boundary_elements,
        .name = "bem",
@@ -100,8 +104,8 @@ std::vector<AlgorithmInfo> make_table() {
        .summary = "linear elasticity on a closed surface of triangles",
        .style = {"M-1.1-.65L-.65-1.1L0-.45L.65-1.1L1.1-.65L.45 0L1.1.65L.65 1.1L0 .45L-.65 1.1L-1.1.65L-.45 0Z",
                  "#803d71"},  // diagonal cross
-       .make = make_elastic_method<ElasticMethod::boundary>,
-       .elastic = ElasticMethod::boundary,
+       .make = make_elastic_method<Algorithm::boundary_elements>,
+       .elastic = ElasticMethod{boundary_inner_limit, check_boundary, make_boundary_elements},
        .needs_pins = true},
       {.algorithm = Algorithm::free_form,
        .name = "ffd",
@@ -109,16 +113,18 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Sederberg and Parry 1986; Hsu et al. 1992",
        .summary = "a lattice of control points deforms space",
        .style = {"M-.6-1.05H.6L1.2 0L.6 1.05H-.6L-1.2 0Z", "#c559ff"},  // hexagon
-       .make = make_elastic_method<ElasticMethod::free_form>,
-       .elastic = ElasticMethod::free_form},
+       .make = make_elastic_method<Algorithm::free_form>,
+       .elastic = ElasticMethod{0, [](const Mesh&) {}, make_free_form}},
       {.algorithm = Algorithm::corotational,
        .name = "corotational",
        .label = "Corotational FEM",
        .source = "Mueller and Gross 2004; Sifakis and Barbic 2012",
        .summary = "linear elasticity on the cells, in frames that turn with them",
        .style = {"M-.9-.9H.3V-.3H.9V.9H-.3V.3H-.9Z", "#de3867"},  // two squares that overlap
-       .make = make_elastic_method<ElasticMethod::corotational>,
-       .elastic = ElasticMethod::corotational,
+       .make = make_elastic_method<Algorithm::corotational>,
+       .elastic = ElasticMethod{nonlinear_limit[3],
+                                [](const Mesh& mesh) { check_fem("corotational FEM", mesh, nonlinear_limit); },
+                                make_corotational},
        .needs_pins = true,
        .obeys_iterations = true},
       {.algorithm = Algorithm::arap,
@@ -127,8 +133,8 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Sorkine and Alexa 2007; Chao et al. 2010",
        .summary = "every part turns as a rigid body would, as far as the others let it",
        .style = {"M0-1.2L1.15-.35L.7 1H-.7L-1.15-.35Z", "#7f3826"},  // pentagon
-       .make = make_elastic_method<ElasticMethod::arap>,
-       .elastic = ElasticMethod::arap,
+       .make = make_elastic_method<Algorithm::arap>,
+       .elastic = ElasticMethod{edge_limit[3], [](const Mesh& mesh) { check_cells("ARAP", mesh); }, make_arap},
        .needs_pins = true,
        .obeys_iterations = true},
       {.algorithm = Algorithm::xpbd,
@@ -137,8 +143,8 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Macklin et al. 2016, 2019",
        .summary = "springs and volumes as constraints that give way, in small steps of time",
        .style = {"M-1.2-.9H1.2L.35.9H-.35Z", "#ea00e2"},  // trapezium
-       .make = make_elastic_method<ElasticMethod::xpbd>,
-       .elastic = ElasticMethod::xpbd,
+       .make = make_elastic_method<Algorithm::xpbd>,
+       .elastic = ElasticMethod{edge_limit[3], [](const Mesh& mesh) { check_cells("XPBD", mesh); }, make_xpbd},
        .needs_pins = true,
        .obeys_iterations = true},
       {.algorithm = Algorithm::projective,
@@ -147,8 +153,9 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Bouaziz et al. 2014",
        .summary = "springs and turning cells, with one matrix for all iterations",
        .style = {"M-1 1V-1L1 1Z", "#399f00"},  // right triangle
-       .make = make_elastic_method<ElasticMethod::projective>,
-       .elastic = ElasticMethod::projective,
+       .make = make_elastic_method<Algorithm::projective>,
+       .elastic = ElasticMethod{edge_limit[3], [](const Mesh& mesh) { check_cells("Projective Dynamics", mesh); },
+                                make_projective},
        .needs_pins = true,
        .obeys_iterations = true},
       {.algorithm = Algorithm::quasi_newton,
@@ -157,8 +164,10 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Liu et al. 2017; Smith et al. 2018",
        .summary = "stable neo-Hookean cells, by L-BFGS with one matrix for all iterations",
        .style = {"M-1.1-.35H-.35V-1.1H.35V1.1H-.35V.35H-1.1Z", "#94b9ff"},  // a T that lies
-       .make = make_elastic_method<ElasticMethod::quasi_newton>,
-       .elastic = ElasticMethod::quasi_newton,
+       .make = make_elastic_method<Algorithm::quasi_newton>,
+       .elastic =
+           ElasticMethod{linear_limit[3], [](const Mesh& mesh) { check_fem("quasi-Newton FEM", mesh, linear_limit); },
+                         make_quasi_newton},
        .needs_pins = true,
        .obeys_iterations = true},
       {.algorithm = Algorithm::neo_hookean_xpbd,
@@ -167,8 +176,10 @@ std::vector<AlgorithmInfo> make_table() {
        .source = "Macklin and Mueller 2021; Ton-That et al. 2023",
        .summary = "stable neo-Hookean cells as constraints that give way, in small steps of time",
        .style = {"M-1-1.1H1L-1 1.1H1Z", "#702890"},  // hourglass
-       .make = make_elastic_method<ElasticMethod::neo_hookean_xpbd>,
-       .elastic = ElasticMethod::neo_hookean_xpbd,
+       .make = make_elastic_method<Algorithm::neo_hookean_xpbd>,
+       .elastic =
+           ElasticMethod{edge_limit[3], [](const Mesh& mesh) { check_fem("neo-Hookean XPBD", mesh, edge_limit); },
+                         make_neo_hookean_xpbd},
        .needs_pins = true,
        .obeys_iterations = true},
   };
@@ -219,8 +230,12 @@ WaitingHistory waiting_history(const RecordedPass& pass) {
 }
 
 bool fits(Algorithm algorithm, const Mesh& mesh) {
-  const AlgorithmInfo& entry = info(algorithm);
-  return (!entry.needs_grid || mesh.is_grid) && (!entry.elastic || fits(*entry.elastic, mesh));
+  try {
+    check(algorithm, mesh);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 void check(Algorithm algorithm, const Mesh& mesh) {
@@ -230,8 +245,19 @@ void check(Algorithm algorithm, const Mesh& mesh) {
                 "choose another algorithm, or generate a grid or a block");
   }
   if (entry.elastic) {
-    check(*entry.elastic, mesh);
+    entry.elastic->check(mesh);
   }
+}
+
+std::optional<std::uint64_t> max_solid_elements(Algorithm method) {
+  const std::uint64_t most = info(method).elastic.value().most_in_solids;
+  return most > 0 ? std::optional(most) : std::nullopt;
+}
+
+std::unique_ptr<ElasticSolver> make_elastic(Algorithm method, const ElasticProblem& problem, const Progress& progress) {
+  check(problem.options);
+  check(method, *problem.mesh);
+  return info(method).elastic.value().make(problem, progress);
 }
 
 Algorithm add_algorithm(AlgorithmInfo entry) {

@@ -39,7 +39,7 @@ struct AlgorithmInfo {
   WaitingHistory (*history)(const RecordedPass& pass) = nullptr;
   std::optional<ElasticMethod> elastic = {};  // of the methods of elasticity
 
-  // What the object needs. Methods of elasticity also need cells or faces: see check(ElasticMethod, Mesh).
+  // What the object needs. Methods of elasticity also need cells or faces: see ElasticMethod::check.
   bool needs_grid = false;  // links along the axes only
   bool needs_pins = false;
 
@@ -85,6 +85,14 @@ WaitingHistory waiting_history(const RecordedPass& pass);
 bool fits(Algorithm algorithm, const Mesh& mesh);
 /// Throws Error, with the reason, if the algorithm does not work on the mesh.
 void check(Algorithm algorithm, const Mesh& mesh);
+
+/// Returns the largest number of elements of a solid in space that a method of elasticity works on; none if there is no
+/// limit.
+std::optional<std::uint64_t> max_solid_elements(Algorithm method);
+/// Makes a solver of a method of elasticity. Throws Error if the method does not work on the object or if options are
+/// out of range, and as ElasticMethod::make.
+std::unique_ptr<ElasticSolver> make_elastic(Algorithm method, const ElasticProblem& problem,
+                                            const Progress& progress = {});
 
 /// Adds an entry to the table for good, in its family, and returns its new number; that of `entry` is ignored. No other
 /// thread may read the table meanwhile, and references to entries become invalid.

@@ -8,6 +8,7 @@
 #include "body/body_view.h"
 #include "elastic/cut_update.h"
 #include "mesh/error.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "body/algorithm.h"
 #include "body/method.h"
 #include "elastic/elastic.h"
 
@@ -12,7 +13,7 @@ namespace chainmail {
 /// Deforms a body with a method of elasticity. Keeps its preparation until links, pins or the material change.
 class ElasticDeformation final : public Method {
  public:
-  explicit ElasticDeformation(ElasticMethod method) : method_(method) {}
+  explicit ElasticDeformation(Algorithm method) : method_(method) {}
 
   PassCount move(Body& body, HandleMove& move, PassOutput output) override;
   std::string remark() const override { return solver_ ? solver_->remark() : std::string(); }
@@ -27,7 +28,7 @@ class ElasticDeformation final : public Method {
   void check_answer(const Body& body);
   PassCount take_answer(Body& body, std::span<const ElementId> handle, std::vector<ElementId>& moved) const;
 
-  ElasticMethod method_;
+  Algorithm method_;
   std::unique_ptr<ElasticSolver> solver_;
   Revisions made_for_;
   std::uint64_t positions_ = 0;  // revisions of the positions that the solver knows
@@ -46,7 +47,7 @@ class ElasticDeformation final : public Method {
 ElasticMotion elastic_motion(const Mesh& mesh, const RigidMotion& motion);
 
 /// Makes the method of an entry of the algorithm table.
-template <ElasticMethod Which>
+template <Algorithm Which>
 std::unique_ptr<Method> make_elastic_method(Precision /*precision*/, int /*dimension*/) {
   return std::make_unique<ElasticDeformation>(Which);
 }

@@ -6,12 +6,12 @@
 #include <map>
 #include <string>
 
-#include "elastic/elastic.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "report/run/physics_contestant.h"
 #include "report/run/preparing.h"
 #include "report/run/suite_experiments.h"
 #include "simulate/simulation.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::bench {
 namespace {
@@ -28,7 +28,7 @@ class WarmStarts {
         handle_(report::grabbed_by(drag)),
         open_(report::softness_of({.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true},
                                   object.softness)),
-        linear_(make_elastic(ElasticMethod::linear_fem, report::elastic_problem(object))),
+        linear_(make_elastic(Algorithm::linear_fem, report::elastic_problem(object))),
         minimum_(mesh_.rest) {
     for (const auto& [name, algorithm] :
          {std::pair{"pass of Natural Queue", Algorithm::natural_queue}, std::pair{"pass of Exact", Algorithm::exact}}) {

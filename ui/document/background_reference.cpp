@@ -6,6 +6,7 @@
 #include "document/element_facts.h"
 #include "measure/physical_error.h"
 #include "mesh/error.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 namespace {
@@ -167,7 +168,7 @@ std::string BackgroundReference::whyNot() const {
                : "the handle that was dragged last is back at rest";
   }
   try {
-    check(ElasticMethod::neo_hookean, *document_.mesh());
+    check(Algorithm::neo_hookean, *document_.mesh());
   } catch (const Error& error) {
     return error.problem();
   }

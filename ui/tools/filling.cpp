@@ -44,13 +44,13 @@ double enclosedVolume(const Mesh& mesh) {
 }
 
 /// Largest number of elements of a solid that linear FEM takes.
-double femLimit() { return double(max_solid_elements(ElasticMethod::linear_fem).value_or(element_limit)); }
+double femLimit() { return double(max_solid_elements(Algorithm::linear_fem).value_or(element_limit)); }
 
 /// Returns 'BEM (5,000), ARAP, XPBD (100,000)': the methods whose limits are (not) below a number of elements.
 QString methodsWithLimits(double elements, bool exceeded) {
   std::map<std::uint64_t, QStringList> byLimit;
   for (const AlgorithmInfo& one : elastic_algorithms()) {
-    const auto most = max_solid_elements(*one.elastic);
+    const auto most = max_solid_elements(one.algorithm);
     if (most && (elements > double(*most)) == exceeded) {
       byLimit[*most] << text(one.label);
     }

@@ -168,11 +168,10 @@ class Contest::Participant {
     if (found != preparations.end()) {
       return found->second;
     }
-    const auto method = info(*contestant_.algorithm).elastic;
+    const Algorithm method = *contestant_.algorithm;
     return preparations
-        .emplace_back(shared, method
-                                  ? PreparingTimes(object_, *method, clocks_)
-                                  : PreparingTimes(object_, *contestant_.algorithm, contestant_.equilibrium, options_))
+        .emplace_back(shared, info(method).elastic ? PreparingTimes(object_, method, clocks_)
+                                                   : PreparingTimes(object_, method, contestant_.equilibrium, options_))
         .second;
   }
 

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <utility>
 
-#include "elastic/elastic.h"
 #include "measure/converging_reference.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "report/run/preparing.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::report {
 namespace {
@@ -101,7 +101,7 @@ std::vector<LinkId> links_through(const Case& object, ElementId handle, const Cu
 /// hinge.
 bool stays_held(const Case& object, const std::vector<LinkId>& links) {
   try {
-    make_elastic(ElasticMethod::linear_fem, elastic_problem(object, links));
+    make_elastic(Algorithm::linear_fem, elastic_problem(object, links));
     return true;
   } catch (const Error&) {
     return false;

@@ -6,6 +6,7 @@
 #include "mesh/error.h"
 #include "report/run/clocks.h"
 #include "report/run/runner.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::report {
 namespace {
@@ -61,7 +62,7 @@ RecordedMoves short_drag_of_another(const Case& object) {
 
 }  // namespace
 
-PreparingTimes::PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks) {
+PreparingTimes::PreparingTimes(const Case& object, Algorithm method, const Clocks& clocks) {
   const ElasticProblem problem = elastic_problem(object);
   const std::vector<ElementId> handles = handles_of(object);
   const double start = clocks.wall();

@@ -13,7 +13,7 @@ class PreparingTimes {
   PreparingTimes() = default;
   /// Of a method of elasticity. Repeats the preparation for about a second, and does it at least once. Throws Error if
   /// the method has no solution.
-  PreparingTimes(const Case& object, ElasticMethod method, const Clocks& clocks = machine_clocks());
+  PreparingTimes(const Case& object, Algorithm method, const Clocks& clocks = machine_clocks());
   /// Of ChainMail, which prepares in the first move after a grab: a move that repeats the last one takes so much less.
   /// Between two handles it grabs another element, so that it keeps nothing of the last drag. Throws Error if the
   /// object does not fit the algorithm.

@@ -283,9 +283,8 @@ void HandleTest::elastic_answers_are_those_of_displaced_pins_data() {
   for (const int dimension : {2, 3}) {
     for (const bool deformed : {false, true}) {
       const char* state = deformed ? "pins displaced" : "from rest";
-      QTest::addRow("linear FEM, %dD, %s", dimension, state) << int(ElasticMethod::linear_fem) << dimension << deformed;
-      QTest::addRow("neo-Hookean, %dD, %s", dimension, state)
-          << int(ElasticMethod::neo_hookean) << dimension << deformed;
+      QTest::addRow("linear FEM, %dD, %s", dimension, state) << int(Algorithm::linear_fem) << dimension << deformed;
+      QTest::addRow("neo-Hookean, %dD, %s", dimension, state) << int(Algorithm::neo_hookean) << dimension << deformed;
     }
   }
 }
@@ -317,7 +316,7 @@ void HandleTest::elastic_answers_are_those_of_displaced_pins() {
       handle.arms.push_back((at + shape(at) - pivot)[int(k)]);
     }
   }
-  const auto moved = make_elastic(ElasticMethod(method), pinned(mesh, pins, of_pins, 0.3));
+  const auto moved = make_elastic(Algorithm(method), pinned(mesh, pins, of_pins, 0.3));
   moved->hold(handle);
   const ElasticMotion motion{turn.topLeftCorner(dimension, dimension), by.head(dimension)};
   moved->move(ElasticMotion{motion.turn / 2, motion.translation / 2});
@@ -332,7 +331,7 @@ void HandleTest::elastic_answers_are_those_of_displaced_pins() {
     const Point arm = at + shape(at) - pivot;
     return is_pin ? of_pins(at) : Point(shape(at) + turn * arm + by);
   };
-  const auto pinned_there = make_elastic(ElasticMethod(method), pinned(mesh, all, field, 0.3));
+  const auto pinned_there = make_elastic(Algorithm(method), pinned(mesh, all, field, 0.3));
   QVERIFY(largest_step(moved->displacements(), pinned_there->displacements()) < 1e-9);
   QVERIFY(largest_coordinate(moved->displacements()) > 0.2);
 }
@@ -341,9 +340,9 @@ void HandleTest::elastic_answers_are_those_of_displaced_pins() {
 void HandleTest::boundary_elements_follow_a_translation() {
   const auto mesh = make_mesh(MeshKind::tetra, {4, 4, 4});
   const Point by(0.1, -0.2, 0.3);
-  const auto solver = make_elastic(
-      ElasticMethod::boundary, pinned(
-                                   mesh, layer(*mesh, *find_side("bottom")), [&](const Point&) { return by; }, 0.3));
+  const auto solver = make_elastic(Algorithm::boundary_elements, pinned(
+                                                                     mesh, layer(*mesh, *find_side("bottom")),
+                                                                     [&](const Point&) { return by; }, 0.3));
   const auto top = layer(*mesh, *find_side("top"));
   ElasticHandle handle{top, {}, {}};
   for (const ElementId element : top) {
@@ -372,7 +371,7 @@ void HandleTest::free_form_fits_the_handle_and_the_pins() {
   const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
   ElasticProblem problem = pinned(mesh, {0, 8});
   problem.options.lattice = {4, 3, 2};
-  const auto solver = make_elastic(ElasticMethod::free_form, problem);
+  const auto solver = make_elastic(Algorithm::free_form, problem);
   ElasticHandle handle{{30, 31, 40, 50, 62}, {}, {}};
   for (const ElementId element : handle.elements) {
     handle.displacements.insert(handle.displacements.end(), {0.01 * element, 0.1});

@@ -8,6 +8,7 @@
 #include "elastic/elastic.h"
 #include "elastic/simplices.h"
 #include "mesh/layers.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::test {
 

@@ -105,7 +105,7 @@ void ArapCgalTest::a_surface_is_that_of_cgal() {
   const MeshPointer mesh = curved_sheet();
   const std::vector<ElementId> pins = layer(*mesh, *find_side("left"));
   const ElementId handle = mesh->element_count() - 1;
-  const auto solver = make_elastic(ElasticMethod::arap, pinned(mesh, pins));
+  const auto solver = make_elastic(Algorithm::arap, pinned(mesh, pins));
   solver->hold(ElasticHandle::of(handle));
   solver->move(ElasticMotion::by(std::span(by.data(), 3)));
   QVERIFY2(solver->remark().empty(), solver->remark().c_str());

@@ -20,7 +20,7 @@ QString told(const std::function<void()>& act) { return QString::fromStdString(r
 QString refused(const MeshPointer& mesh, const std::vector<ElementId>& pins, const Cuts& cuts = {}) {
   ElasticProblem problem = pinned(mesh, pins);
   problem.cuts = cuts;
-  return told([&] { make_elastic(ElasticMethod::boundary, problem); });
+  return told([&] { make_elastic(Algorithm::boundary_elements, problem); });
 }
 
 }  // namespace
@@ -82,9 +82,10 @@ void BoundaryElementsTest::a_cavity_belongs_to_the_innermost_solid() {
 void BoundaryElementsTest::the_hand_and_the_pins_are_where_they_are() {
   const auto mesh = octahedral_sphere(4);
   const auto pins = layer(*mesh, *find_side("bottom"));
-  const auto solver = make_elastic(
-      ElasticMethod::boundary, pinned(
-                                   mesh, pins, [](const Point& at) { return Point(0, 0.1, 0.05 * at.x()); }, poisson));
+  const auto solver =
+      make_elastic(Algorithm::boundary_elements,
+                   pinned(
+                       mesh, pins, [](const Point& at) { return Point(0, 0.1, 0.05 * at.x()); }, poisson));
   const auto rest = solver->displacements();
   const auto top = layer(*mesh, *find_side("top"));
   std::vector<std::vector<double>> answers;
@@ -157,7 +158,7 @@ void BoundaryElementsTest::pins_that_move_alike_take_the_solid_along() {
   }
   QCOMPARE(pins.size(), std::size_t(6));
   const Field shift = [&](const Point&) { return by; };
-  const auto solver = make_elastic(ElasticMethod::boundary, pinned(mesh, pins, shift, poisson));
+  const auto solver = make_elastic(Algorithm::boundary_elements, pinned(mesh, pins, shift, poisson));
   QVERIFY(furthest_from(*mesh, solver->displacements(), shift) < 1e-10);
 }
 
@@ -191,9 +192,9 @@ void BoundaryElementsTest::a_corner_of_two_solids_is_halfway_between_them() {
     }
   }
   const auto mesh = build_mesh(ball);
-  const auto left = make_elastic(ElasticMethod::boundary, pinned(mesh, of_left, pulled, poisson)),
-             right = make_elastic(ElasticMethod::boundary, pinned(mesh, of_right, pulled, poisson)),
-             joined = make_elastic(ElasticMethod::boundary, pinned(build_mesh(both), of_both, pulled, poisson));
+  const auto left = make_elastic(Algorithm::boundary_elements, pinned(mesh, of_left, pulled, poisson)),
+             right = make_elastic(Algorithm::boundary_elements, pinned(mesh, of_right, pulled, poisson)),
+             joined = make_elastic(Algorithm::boundary_elements, pinned(build_mesh(both), of_both, pulled, poisson));
   for (std::size_t k = 0; k < 3; ++k) {
     const double one = left->displacements()[3 * touching + k], other = right->displacements()[3 * of_second + k];
     QVERIFY(std::abs(one - other) > 0.01);
@@ -206,7 +207,7 @@ void BoundaryElementsTest::the_hand_does_what_pins_would() {
   const auto mesh = octahedral_sphere(4);
   const auto bottom = layer(*mesh, *find_side("bottom"));
   const ElementId top = layer(*mesh, *find_side("top")).front();
-  const auto held = make_elastic(ElasticMethod::boundary, pinned(mesh, bottom));
+  const auto held = make_elastic(Algorithm::boundary_elements, pinned(mesh, bottom));
   held->hold(ElasticHandle::of(top));
   held->move(ElasticMotion::by(std::array{0.1, 0.3, -0.2}));
   std::vector<ElementId> pins(mesh->neighbours_of(top).begin(), mesh->neighbours_of(top).end());
@@ -214,7 +215,7 @@ void BoundaryElementsTest::the_hand_does_what_pins_would() {
   pins.insert(pins.end(), bottom.begin(), bottom.end());
   std::ranges::sort(pins);
   const auto prescribed = make_elastic(
-      ElasticMethod::boundary,
+      Algorithm::boundary_elements,
       pinned(
           mesh, pins, [](const Point& at) { return at.y() > 0 ? Point(0.1, 0.3, -0.2) : Point(Point::Zero()); },
           poisson));
@@ -236,7 +237,7 @@ void BoundaryElementsTest::the_hand_wins_over_pins() {
       equator.push_back(e);
     }
   }
-  const auto solver = make_elastic(ElasticMethod::boundary, pinned(octahedron, equator));
+  const auto solver = make_elastic(Algorithm::boundary_elements, pinned(octahedron, equator));
   solver->hold(ElasticHandle::of(top));
   solver->move(ElasticMotion::by(std::array{0.0, 0.5, 0.0}));
   QCOMPARE(solver->displacements()[3 * top + 1], 0.5);
@@ -258,8 +259,8 @@ void BoundaryElementsTest::parts_move_by_themselves() {
   pins.erase(std::unique(pins.begin(), pins.end()), pins.end());
   std::vector<ElementId> both = pins;
   std::ranges::transform(pins, std::back_inserter(both), [&](ElementId e) { return e + count; });
-  const auto alone = make_elastic(ElasticMethod::boundary, pinned(one, pins));
-  const auto beside = make_elastic(ElasticMethod::boundary, pinned(two, both));
+  const auto alone = make_elastic(Algorithm::boundary_elements, pinned(one, pins));
+  const auto beside = make_elastic(Algorithm::boundary_elements, pinned(two, both));
   const ElementId top = layer(*one, *find_side("top")).front();
   const std::array<double, 3> to{0.2, 0.1, 0.3};
   alone->hold(ElasticHandle::of(top));
@@ -286,8 +287,8 @@ void BoundaryElementsTest::it_agrees_with_finite_elements() {
   for (const std::uint32_t parts : {3U, 6U}) {
     const auto mesh = make_mesh(MeshKind::tetra, {parts + 1, parts + 1, parts + 1}, {}, 1.0 / parts);
     const auto problem = pinned(mesh, both_ends(*mesh), plates, poisson);
-    const auto fem = make_elastic(ElasticMethod::linear_fem, problem),
-               bem = make_elastic(ElasticMethod::boundary, problem);
+    const auto fem = make_elastic(Algorithm::linear_fem, problem),
+               bem = make_elastic(Algorithm::boundary_elements, problem);
     ElementId e = 0;
     sizes.push_back(1.0 / parts);
     errors.push_back(rms_from(*mesh, bem->displacements(),
@@ -307,7 +308,7 @@ void BoundaryElementsTest::it_can_be_cancelled() {
   JobState job;
   job.cancelled = true;
   QVERIFY_EXCEPTION_THROWN(
-      make_elastic(ElasticMethod::boundary, pinned(octahedral_sphere(4), {0, 1, 2, 3}), Progress(job)), Cancelled);
+      make_elastic(Algorithm::boundary_elements, pinned(octahedral_sphere(4), {0, 1, 2, 3}), Progress(job)), Cancelled);
 }
 
 void BoundaryElementsTest::wrong_surfaces_are_refused() {
@@ -317,7 +318,7 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
   MeshParts open = sphere_parts(3), three = sphere_parts(3), flat = sphere_parts(3);
   open.triangles.erase(open.triangles.begin());
   QVERIFY(refused(build_mesh(open), pins).startsWith("BEM: the surface is open along the edge between the elements "));
-  QVERIFY(!fits(ElasticMethod::boundary, *build_mesh(open)) && fits(ElasticMethod::boundary, *ball));
+  QVERIFY(!fits(Algorithm::boundary_elements, *build_mesh(open)) && fits(Algorithm::boundary_elements, *ball));
   three.rest.emplace_back(3, 3, 3);
   three.triangles.push_back({three.triangles[0][0], three.triangles[0][1], ElementId(three.rest.size() - 1)});
   QVERIFY(refused(build_mesh(three), pins).contains("3 triangles meet at the edge between the elements "));
@@ -337,8 +338,8 @@ void BoundaryElementsTest::wrong_surfaces_are_refused() {
                          {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
   add_links_along_edges(one_sided);
   QVERIFY(refused(build_mesh(one_sided), pins).contains("has only one side"));
-  QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::cloth, {4, 4, 1})));
-  QVERIFY(!fits(ElasticMethod::boundary, *make_mesh(MeshKind::tetra, {40, 40, 40})));
+  QVERIFY(!fits(Algorithm::boundary_elements, *make_mesh(MeshKind::cloth, {4, 4, 1})));
+  QVERIFY(!fits(Algorithm::boundary_elements, *make_mesh(MeshKind::tetra, {40, 40, 40})));
   QVERIFY(refused(octahedral_sphere(30), pins)
               .contains("triangles on the surface, and this object has 7200; use a coarser mesh"));
 }
@@ -354,7 +355,7 @@ void BoundaryElementsTest::loose_parts_are_refused() {
   const auto block = make_mesh(MeshKind::tetra, {4, 3, 3});
   auto pins = layer(*block, *find_side("left"));
   const ElementId behind = 1 + 4 * (1 + 3 * 1), inside = behind + 1;
-  const auto solver = make_elastic(ElasticMethod::boundary, pinned(block, pins));
+  const auto solver = make_elastic(Algorithm::boundary_elements, pinned(block, pins));
   QVERIFY(told([&] {
             solver->hold(ElasticHandle::of(inside));
           }).startsWith(QString("BEM: element %1 lies inside").arg(inside)));

@@ -138,7 +138,7 @@ void ElasticTest::cuts_update_linear_fem() {
     return solver.displacements();
   };
   std::mt19937_64 random(4);
-  auto solver = make_elastic(ElasticMethod::linear_fem, problem);
+  auto solver = make_elastic(Algorithm::linear_fem, problem);
   const std::vector<double> whole = answer(*solver);
   int different = 0;
   for (int step = 0; step < 24; ++step) {
@@ -152,11 +152,11 @@ void ElasticTest::cuts_update_linear_fem() {
     }
     std::unique_ptr<ElasticSolver> anew;
     try {
-      anew = make_elastic(ElasticMethod::linear_fem, problem);
+      anew = make_elastic(Algorithm::linear_fem, problem);
     } catch (const Error&) {
       QVERIFY_THROWS_EXCEPTION(Error, dynamic_cast<CutUpdate&>(*solver).recut(problem.cuts, {}));
       problem.cuts = Cuts(mesh);
-      solver = make_elastic(ElasticMethod::linear_fem, problem);
+      solver = make_elastic(Algorithm::linear_fem, problem);
       continue;
     }
     QVERIFY(dynamic_cast<CutUpdate&>(*solver).recut(problem.cuts, {}));
@@ -178,7 +178,7 @@ void ElasticTest::linear_fem_is_made_anew_where_no_update_is_possible() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {4, 4, 1});
   ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")));
   problem.cuts.cut(0);
-  const auto solver = make_elastic(ElasticMethod::linear_fem, problem);
+  const auto solver = make_elastic(Algorithm::linear_fem, problem);
   auto& update = dynamic_cast<CutUpdate&>(*solver);
   Cuts all(mesh);
   for (LinkId link = 0; link < mesh->link_count(); ++link) {
@@ -203,7 +203,7 @@ void ElasticTest::uniform_strain_is_exact_data() {
   QTest::addColumn<int>("dimension");
   QTest::addColumn<int>("method");
   for (const int dimension : {1, 2, 3}) {
-    for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean}) {
+    for (const Algorithm method : {Algorithm::linear_fem, Algorithm::neo_hookean}) {
       QTest::addRow("%dD, method %d", dimension, int(method)) << dimension << int(method);
     }
   }
@@ -217,7 +217,7 @@ void ElasticTest::uniform_strain_is_exact() {
   Eigen::Matrix3d strain;
   strain << 0.2, -0.05, 0.1, 0.15, -0.1, 0.02, -0.07, 0.03, 0.12;
   const Field field = [&](const Point& at) { return Point(strain * at); };
-  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, boundary(*mesh), field, 0.35));
+  const auto solver = make_elastic(Algorithm(method), pinned(mesh, boundary(*mesh), field, 0.35));
   // Newton's method stops after a step below 1e-9 cells, and that step leaves a quadratically smaller error.
   const Field flat = [&](const Point& at) {
     Point to = field(at);
@@ -296,15 +296,15 @@ void ElasticTest::derivatives_are_those_of_differences() {
     for (int trial = 0; trial < 20; ++trial) {
       const std::size_t s = std::size_t(trial) % simplices.count();
       const CornerDisplacements at = some_corners(dimension, random);
-      const SimplexEnergy here = neo_hookean(simplices, s, at, material, Want::hessian);
+      const SimplexEnergy here = energy_of_law(simplices, s, at, {}, material, Want::hessian);
       QVERIFY(!here.inverted);
       constexpr double step = 1e-6;  // the error of central differences is step² and rounding / step: 1e-10
       for (int i = 0; i < dimension * (dimension + 1); ++i) {
         CornerDisplacements forward = at, back = at;
         forward.reshaped()[i] += step;
         back.reshaped()[i] -= step;
-        const auto ahead = neo_hookean(simplices, s, forward, material, Want::gradient);
-        const auto behind = neo_hookean(simplices, s, back, material, Want::gradient);
+        const auto ahead = energy_of_law(simplices, s, forward, {}, material, Want::gradient);
+        const auto behind = energy_of_law(simplices, s, back, {}, material, Want::gradient);
         QVERIFY(std::abs((ahead.energy - behind.energy) / (2 * step) - here.gradient[i]) < 1e-8);
         const CornerVector column = (ahead.gradient - behind.gradient) / (2 * step);
         QVERIFY((column - here.hessian.col(i)).norm() < 1e-7 * (1 + here.hessian.norm()));
@@ -463,7 +463,7 @@ void ElasticTest::the_limit_of_strain_is_kept() {
                                           std::tuple(gent, 2.0, true), std::tuple(fung, 2.0, true)}) {
     ElasticProblem problem = pinned(bar, layer(*bar, *find_side("left")), 0.45);
     problem.options.law = law;
-    const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
+    const auto solver = make_elastic(Algorithm::neo_hookean, problem);
     const std::vector<ElementId> end = layer(*bar, *find_side("right"));
     const std::vector<double> none(3 * end.size(), 0.0);
     solver->hold({end, none, none});
@@ -507,7 +507,7 @@ void ElasticTest::a_bent_sheet_converges() {
   std::vector<double> sizes, errors;
   for (const std::uint32_t parts : {2U, 4U, 8U}) {
     const auto mesh = make_mesh(MeshKind::cloth, {4 * parts + 1, parts + 1, 1}, {}, height / parts);
-    const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
+    const auto solver = make_elastic(Algorithm::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
     sizes.push_back(height / parts);
     errors.push_back(furthest_from(*mesh, solver->displacements(), field));
   }
@@ -525,7 +525,7 @@ void ElasticTest::a_bent_solid_converges() {
   std::vector<double> sizes, errors;
   for (const std::uint32_t parts : {4U, 8U}) {
     const auto mesh = make_mesh(MeshKind::tetra, {2 * parts + 1, parts + 1, parts + 1}, {}, 2.0 / parts);
-    const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
+    const auto solver = make_elastic(Algorithm::linear_fem, pinned(mesh, both_ends(*mesh), field, poisson));
     sizes.push_back(2.0 / parts);
     errors.push_back(rms_from(*mesh, solver->displacements(), field));
   }
@@ -539,7 +539,7 @@ void ElasticTest::a_cantilever_bends_as_beams_do() {
   constexpr std::uint32_t parts = 8;
   constexpr double height = 1, length = 10, poisson = 0.3;
   const auto mesh = make_mesh(MeshKind::cloth, {10 * parts + 1, parts + 1, 1}, {}, height / parts);
-  const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, layer(*mesh, *find_side("left")), poisson));
+  const auto solver = make_elastic(Algorithm::linear_fem, pinned(mesh, layer(*mesh, *find_side("left")), poisson));
   const ElementId middle_row = parts / 2 * (10 * parts + 1);
   solver->hold(ElasticHandle::of(middle_row + 10 * parts));
   solver->move(ElasticMotion::by(std::array{0.0, 0.1}));
@@ -561,8 +561,8 @@ void ElasticTest::small_moves_are_linear() {
   for (const int dimension : {2, 3}) {
     const MeshPointer mesh = of_dimension(dimension);
     const ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")));
-    const auto linear = make_elastic(ElasticMethod::linear_fem, problem);
-    const auto whole = make_elastic(ElasticMethod::neo_hookean, problem);
+    const auto linear = make_elastic(Algorithm::linear_fem, problem);
+    const auto whole = make_elastic(Algorithm::neo_hookean, problem);
     std::vector<double> apart;
     for (const double way : {0.02, 0.01}) {
       const std::vector<double> to{0.3 * way, way, 0.5 * way};
@@ -582,7 +582,7 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
   const MeshPointer mesh = of_dimension(3);
   const auto left = layer(*mesh, *find_side("left"));
   const ElasticProblem problem = pinned(mesh, left);
-  for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::free_form}) {
+  for (const Algorithm method : {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::free_form}) {
     const auto solver = make_elastic(method, problem);
     const std::array<double, 3> first{0.4, 0.3, -0.2}, second{-0.3, 0.1, 0.6};
     for (const auto& [element, to] : {std::pair{mesh->element_count() - 1, first}, std::pair{ElementId{23}, second}}) {
@@ -603,7 +603,7 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
 /// The edge between them has no length then, and so no direction in which it could push.
 void ElasticTest::a_hand_may_lie_on_a_pin() {
   const MeshPointer mesh = make_mesh(MeshKind::line, {4, 1, 1});
-  const auto solver = make_elastic(ElasticMethod::xpbd, pinned(mesh, {0}));
+  const auto solver = make_elastic(Algorithm::xpbd, pinned(mesh, {0}));
   solver->hold(ElasticHandle::of(1));
   solver->move(ElasticMotion::by(std::array{-1.0}));
   QCOMPARE(solver->remark(), std::string());
@@ -616,7 +616,7 @@ void ElasticTest::a_hand_may_lie_on_a_pin() {
 /// The check refuses a solid above the limit that the table states, and names that limit.
 void ElasticTest::limits_of_solids_are_those_of_the_checks() {
   const auto small = make_mesh(MeshKind::tetra, {3, 3, 3}), large = make_mesh(MeshKind::tetra, {47, 47, 46});
-  const auto sentence = [&](ElasticMethod method) {
+  const auto sentence = [&](Algorithm method) {
     try {
       check(method, *large);
     } catch (const Error& error) {
@@ -624,13 +624,12 @@ void ElasticTest::limits_of_solids_are_those_of_the_checks() {
     }
     return std::string();
   };
-  for (const auto method :
-       {ElasticMethod::linear_fem, ElasticMethod::neo_hookean, ElasticMethod::boundary, ElasticMethod::corotational,
-        ElasticMethod::arap, ElasticMethod::xpbd, ElasticMethod::projective, ElasticMethod::quasi_newton,
-        ElasticMethod::neo_hookean_xpbd, ElasticMethod::free_form}) {
+  for (const auto method : {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::boundary_elements,
+                            Algorithm::corotational, Algorithm::arap, Algorithm::xpbd, Algorithm::projective,
+                            Algorithm::quasi_newton, Algorithm::neo_hookean_xpbd, Algorithm::free_form}) {
     check(method, *small);
     const auto most = max_solid_elements(method);
-    QCOMPARE(most.has_value(), method != ElasticMethod::free_form);
+    QCOMPARE(most.has_value(), method != Algorithm::free_form);
     QCOMPARE(sentence(method).find("it is limited to " + std::to_string(most.value_or(0)) + " elements") !=
                  std::string::npos,
              most.has_value());

@@ -76,13 +76,13 @@ void ElasticObjectsTest::hexahedra_have_cells() {
   }
   const MeshPointer mesh = build_mesh(std::move(parts));
   const Field field = [](const Point& at) { return Point(0.1 * at.x() + 0.2 * at.y(), 0.05 * at.z(), -0.1 * at.x()); };
-  const auto solver = make_elastic(ElasticMethod::linear_fem, pinned(mesh, boundary(*mesh), field, 0.3));
+  const auto solver = make_elastic(Algorithm::linear_fem, pinned(mesh, boundary(*mesh), field, 0.3));
   QCOMPARE(boundary(*mesh).size(), std::size_t(64 - 8));
   QVERIFY(furthest_from(*mesh, solver->displacements(), field) < 1e-12);
 }
 
 void ElasticObjectsTest::wrong_objects_are_refused() {
-  const auto refusal = [](const ElasticProblem& problem, ElasticMethod method = ElasticMethod::linear_fem) {
+  const auto refusal = [](const ElasticProblem& problem, Algorithm method = Algorithm::linear_fem) {
     return sentence([&] { make_elastic(method, problem); });
   };
   const auto tetra = make_mesh(MeshKind::tetra, {3, 3, 3});
@@ -99,7 +99,7 @@ void ElasticObjectsTest::wrong_objects_are_refused() {
   soft.options.material.young = 0;
   QVERIFY(refusal(soft).startsWith("young: Young's modulus 0 is out of range; use a number above 0"));
   const auto cloth_in_space = make_mesh(MeshKind::cloth, {4, 4, 1}, 3);
-  for (const ElasticMethod method : {ElasticMethod::linear_fem, ElasticMethod::neo_hookean}) {
+  for (const Algorithm method : {Algorithm::linear_fem, Algorithm::neo_hookean}) {
     QVERIFY(!fits(method, *cloth_in_space));
     QVERIFY(refusal(pinned(cloth_in_space, {0, 1, 4}), method).contains("no tetrahedra or hexahedra"));
   }
@@ -127,8 +127,7 @@ void ElasticObjectsTest::a_cut_part_is_named() {
       problem.cuts.cut(link);
     }
   }
-  QVERIFY(
-      sentence([&] { make_elastic(ElasticMethod::linear_fem, problem); }).startsWith("the part of element 3: fewer"));
+  QVERIFY(sentence([&] { make_elastic(Algorithm::linear_fem, problem); }).startsWith("the part of element 3: fewer"));
 }
 
 namespace {
@@ -168,7 +167,7 @@ MeshPointer hung_on_almost_nothing() {
 void ElasticObjectsTest::cells_that_are_too_small_to_hold_are_told() {
   const MeshPointer mesh = hung_on_almost_nothing();
   for (const auto& [method, name] :
-       {std::pair(ElasticMethod::arap, "ARAP"), std::pair(ElasticMethod::projective, "Projective Dynamics")}) {
+       {std::pair(Algorithm::arap, "ARAP"), std::pair(Algorithm::projective, "Projective Dynamics")}) {
     const QString told = sentence([&, method = method] {
       make_elastic(method, pinned(mesh, {0, 1, 2, 3}))->hold(ElasticHandle::of(mesh->element_count() - 1));
     });
@@ -180,7 +179,7 @@ void ElasticObjectsTest::cells_that_are_too_small_to_hold_are_told() {
 /// The handle is pushed through the wall that holds the object. Cells cannot follow without inverting.
 void ElasticObjectsTest::what_does_not_converge_is_told() {
   const auto mesh = make_mesh(MeshKind::tetra, {4, 3, 3});
-  const auto solver = make_elastic(ElasticMethod::neo_hookean, pinned(mesh, boundary(*mesh)));
+  const auto solver = make_elastic(Algorithm::neo_hookean, pinned(mesh, boundary(*mesh)));
   const ElementId middle = 1 + 4 * (1 + 3 * 1);
   solver->hold(ElasticHandle::of(middle));
   solver->move(ElasticMotion::by(std::array{-3.0, 0.0, 0.0}));

@@ -46,7 +46,7 @@ void FreeFormTest::control_points_carry_affine_maps() {
   const Point shift(1, -2, 3);
   for (const MeshPointer& mesh : some_meshes()) {
     const auto n = static_cast<std::size_t>(mesh->space_dimension);
-    const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 3, 5}));
+    const auto solver = make_elastic(Algorithm::free_form, with_lattice(mesh, {4, 3, 5}));
     const std::vector<double> rest(solver->control_points().begin(), solver->control_points().end());
     const std::vector<std::size_t> counts{4, 4 * 3, 4 * 3 * 5};
     QCOMPARE(rest.size(), n * counts[n - 1]);
@@ -72,7 +72,7 @@ void FreeFormTest::control_points_carry_affine_maps() {
 /// element.
 void FreeFormTest::elements_follow_the_hand_by_least_squares() {
   const auto mesh = make_mesh(MeshKind::cloth, {9, 9, 1});
-  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {3, 3, 2}));
+  const auto solver = make_elastic(Algorithm::free_form, with_lattice(mesh, {3, 3, 2}));
   const std::vector<double> before(solver->control_points().begin(), solver->control_points().end());
   solver->hold(ElasticHandle::of(40));  // the middle: weights (1, 2, 1) / 4 along each axis
   solver->move(ElasticMotion::by(std::array{0.5, -1.0}));
@@ -97,7 +97,7 @@ void FreeFormTest::elements_follow_the_hand_by_least_squares() {
 void FreeFormTest::pins_hold_as_well_as_the_lattice_can() {
   const auto mesh = make_mesh(MeshKind::cloth, {9, 5, 1});
   const auto left = layer(*mesh, *find_side("left"));
-  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 4, 2}, left));
+  const auto solver = make_elastic(Algorithm::free_form, with_lattice(mesh, {4, 4, 2}, left));
   solver->hold(ElasticHandle::of(mesh->element_count() - 1));
   solver->move(ElasticMotion::by(std::array{2.0, 1.0}));
   for (const ElementId pin : left) {
@@ -111,7 +111,7 @@ void FreeFormTest::pins_hold_as_well_as_the_lattice_can() {
 
 void FreeFormTest::goes_on_from_where_others_put_it() {
   const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
-  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, 4, 2}));
+  const auto solver = make_elastic(Algorithm::free_form, with_lattice(mesh, {4, 4, 2}));
   std::vector<double> bent;
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     const Point at = mesh->rest_position(e);
@@ -136,14 +136,14 @@ void FreeFormTest::the_drag_goes_on_from_there_too() {
     bent.push_back(0.2 * at.y());
     bent.push_back(0.1 * at.x() * at.x());
   }
-  const auto dragged = make_elastic(ElasticMethod::free_form, problem);
+  const auto dragged = make_elastic(Algorithm::free_form, problem);
   dragged->hold(ElasticHandle::of(14));
   dragged->move(ElasticMotion::by(std::array{3.0, -2.0}));
   dragged->start_from(bent);
   dragged->move(ElasticMotion::by(std::array{bent[2 * 14], bent[2 * 14 + 1]}));  // to its current position
   QVERIFY(largest_step(dragged->displacements(), bent) < 1e-12);
   dragged->move(ElasticMotion::by(std::array{1.0, 0.5}));
-  const auto fresh = make_elastic(ElasticMethod::free_form, problem);
+  const auto fresh = make_elastic(Algorithm::free_form, problem);
   fresh->start_from(bent);
   fresh->hold(ElasticHandle::of(14));
   fresh->move(ElasticMotion::by(std::array{1.0, 0.5}));
@@ -153,7 +153,7 @@ void FreeFormTest::the_drag_goes_on_from_there_too() {
 /// The counts of control points are along x, y and z, also for an upright sheet, which has no y.
 void FreeFormTest::a_lattice_lies_along_the_axes_of_the_object() {
   MeshParts parts = placed(*make_mesh(MeshKind::cloth, {6, 4, 1}), [](const Point& p) { return Point(p[0], 2, p[1]); });
-  const auto solver = make_elastic(ElasticMethod::free_form, with_lattice(build_mesh(std::move(parts)), {4, 8, 3}));
+  const auto solver = make_elastic(Algorithm::free_form, with_lattice(build_mesh(std::move(parts)), {4, 8, 3}));
   std::vector<double> expected;
   for (const double z : {0.0, 1.5, 3.0}) {
     for (const double x : {0.0, 5.0 / 3, 10.0 / 3, 5.0}) {
@@ -168,7 +168,7 @@ void FreeFormTest::a_lattice_lies_along_the_axes_of_the_object() {
 void FreeFormTest::lattices_have_bounds() {
   const auto mesh = make_mesh(MeshKind::cloth, {6, 6, 1});
   for (const std::uint32_t count : {0U, 1U, 9U}) {
-    QVERIFY_THROWS_EXCEPTION(Error, make_elastic(ElasticMethod::free_form, with_lattice(mesh, {4, count, 4})));
+    QVERIFY_THROWS_EXCEPTION(Error, make_elastic(Algorithm::free_form, with_lattice(mesh, {4, count, 4})));
   }
 }
 

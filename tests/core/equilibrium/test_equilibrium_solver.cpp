@@ -352,7 +352,8 @@ using PlaneMatrix = LinkMatrix<float, 2>;
 /// Returns the block of a link that is stiff along itself and soft across.
 PlaneMatrix::Block block_of(const Mesh& mesh, LinkId link) {
   const auto [a, b] = mesh.links[link];
-  return {(mesh.rest_position(b) - mesh.rest_position(a)).normalized().head<2>().cast<float>(), 0.01F};
+  const Point along = (mesh.rest_position(b) - mesh.rest_position(a)).normalized();
+  return {{along.x(), along.y()}, 0.01F};
 }
 
 PlaneMatrix matrix_of(const MeshPointer& mesh) {
@@ -372,7 +373,7 @@ double energy_in(const PlaneMatrix& matrix, const PlaneMatrix::Vectors& displace
 /// Returns the iterations of conjugate gradients until an error has only a share of 1e-8 of its energy; most: 200.
 int iterations_of(Multigrid<LinkMatrix<float, 2>>& grid, const PlaneMatrix& matrix, PlaneMatrix::Vectors error) {
   const double enough = 1e-8 * energy_in(matrix, error);
-  PlaneMatrix::Vectors forces, step, direction(error.size(), Eigen::Vector2f::Zero());
+  PlaneMatrix::Vectors forces, step, direction(error.size());
   double before = 1;
   int iterations = 0;
   for (; iterations < 200 && energy_in(matrix, error) > enough; ++iterations) {
@@ -393,7 +394,7 @@ PlaneMatrix::Vectors halves_apart(const Mesh& mesh, double slit) {
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
     const Point at = mesh.rest_position(e) / slit;
     const double side = at.y() > 1 ? 1 : -1;
-    result.emplace_back(float(side * std::sin(at.x())), float(side * std::cos(at.y())));
+    result.emplace_back(side * std::sin(at.x()), side * std::cos(at.y()));
   }
   return result;
 }

@@ -215,11 +215,12 @@ void RelaxationTest::the_rest_shape_stays() {
 
 /// Without a link that has stiffness, an element stays, or goes to the nearest position of its box.
 void RelaxationTest::an_energy_of_nothing_leaves_the_box_alone() {
+  using Vector = FixedMatrix<double, 2>;
   const SmallQuadratic<2> nothing;
-  const Eigen::Vector2d low(-1, -2), high(3, 1);
-  QCOMPARE(nothing.least_inside(low, high), Eigen::Vector2d(0, 0));
-  QCOMPARE(nothing.least_inside({1, -2}, high), Eigen::Vector2d(1, 0));
-  QCOMPARE(nothing.least_inside(low, {-0.5, -0.25}), Eigen::Vector2d(-0.5, -0.25));
+  const Vector low(-1, -2), high(3, 1);
+  QCOMPARE(nothing.least_inside(low, high), Vector(0, 0));
+  QCOMPARE(nothing.least_inside({1, -2}, high), Vector(1, 0));
+  QCOMPARE(nothing.least_inside(low, {-0.5, -0.25}), Vector(-0.5, -0.25));
 }
 
 void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {

@@ -5,7 +5,6 @@
 
 #include "core/scenarios.h"
 #include "core/spheres.h"
-#include "elastic/elastic.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/surface_energy.h"
 #include "measure/violation.h"
@@ -14,6 +13,7 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::test_surface_material {
 
@@ -50,7 +50,7 @@ class SurfaceMaterialTest : public QObject {
 namespace {
 
 using Vectors = SurfaceEnergy::Vectors;
-using Vector = SurfaceEnergy::Vector;
+using Vector = Vectors::value_type;
 
 /// A square sheet of width 1 in space: a lattice, cloth, or cloth with elements moved at random in its plane.
 MeshPointer sheet(std::uint32_t n, MeshKind kind = MeshKind::grid, double jitter = 0, double unit = 1) {
@@ -164,7 +164,8 @@ double slope_error(SurfaceEnergy& energy, const Vectors& at, const Vectors& alon
 Vectors displaced(const Mesh& mesh, const std::function<Point(const Point&)>& to) {
   Vectors at(mesh.element_count());
   for (ElementId e = 0; e < at.size(); ++e) {
-    at[e] = to(mesh.rest_position(e)) - mesh.rest_position(e);
+    const Point by = to(mesh.rest_position(e)) - mesh.rest_position(e);
+    at[e] = {by.x(), by.y(), by.z()};
   }
   return at;
 }
@@ -399,7 +400,7 @@ void SurfaceMaterialTest::a_flat_sheet_finds_the_minimum_of_finite_elements() {
   const MeshPointer plane = generate({.kind = MeshKind::grid, .size = {n, n}, .spacing = 1.0 / (n - 1)});
   ElasticProblem problem{plane, Cuts(plane), scene.pins, std::vector<double>(2 * scene.pins.size(), 0.0),
                          scene.elastic};
-  const auto solver = make_elastic(ElasticMethod::neo_hookean, problem);
+  const auto solver = make_elastic(Algorithm::neo_hookean, problem);
   ElasticHandle held;
   held.elements = scene.handle;
   held.arms.assign(8, 0);
@@ -591,7 +592,7 @@ void SurfaceMaterialTest::random_surfaces_have_the_slope_and_symmetry_of_an_ener
         // A mirror image of a flat surface has the same energy.
         if (mesh->box[1].z() == mesh->box[0].z()) {
           Vectors mirrored = at;
-          std::ranges::for_each(mirrored, [](Vector& moved) { moved.z() *= -1; });
+          std::ranges::for_each(mirrored, [](Vector& moved) { moved[2] *= -1; });
           RC_ASSERT(std::abs(at_thickness(0.2, mirrored) - two) < 1e-12 * two);
         }
       },

@@ -63,8 +63,8 @@ class ContestantsTest : public QObject {
 
 namespace {
 
-constexpr std::array methods{ElasticMethod::corotational, ElasticMethod::arap,         ElasticMethod::xpbd,
-                             ElasticMethod::projective,   ElasticMethod::quasi_newton, ElasticMethod::neo_hookean_xpbd};
+constexpr std::array methods{Algorithm::corotational, Algorithm::arap,         Algorithm::xpbd,
+                             Algorithm::projective,   Algorithm::quasi_newton, Algorithm::neo_hookean_xpbd};
 
 enum class Object { sheet, solid, surface };
 
@@ -276,9 +276,9 @@ void ContestantsTest::dimensions() {
 void ContestantsTest::objects(bool wrinkles) {
   QTest::addColumn<int>("method");
   QTest::addColumn<int>("object");
-  for (const ElasticMethod method : methods) {
+  for (const Algorithm method : methods) {
     for (const Object object : {Object::sheet, Object::solid, Object::surface}) {
-      const bool is_cloth = object == Object::surface && method != ElasticMethod::arap;
+      const bool is_cloth = object == Object::surface && method != Algorithm::arap;
       if (fits(method, *make(object)) && (wrinkles || !is_cloth)) {
         QTest::addRow("method %d, object %d", int(method), int(object)) << int(method) << int(object);
       }
@@ -293,7 +293,7 @@ void ContestantsTest::corotational_is_at_the_least_energy() {
   constexpr double poisson = 0.35;
   const auto [mu, lambda] = moduli(*mesh, 3, poisson);
   const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
-  const auto solver = make_elastic(ElasticMethod::corotational, problem);
+  const auto solver = make_elastic(Algorithm::corotational, problem);
   drag(*solver, *mesh, far);
   QVERIFY2(solver->remark().empty(), solver->remark().c_str());
   const auto energy = [&, mu = mu, lambda = lambda](const std::vector<double>& displacements) {
@@ -314,7 +314,7 @@ void ContestantsTest::quasi_newton_is_at_the_least_energy() {
   const MeshPointer mesh = make(Object(object));
   for (const double poisson : {0.0, 0.4}) {
     const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
-    const auto solver = make_elastic(ElasticMethod::quasi_newton, problem);
+    const auto solver = make_elastic(Algorithm::quasi_newton, problem);
     drag(*solver, *mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     const auto exact = least(*mesh, problem, far, stable_neo_hookean(*mesh, poisson));
@@ -331,7 +331,7 @@ void ContestantsTest::projective_is_at_the_least_energy() {
     const auto [mu, lambda] = moduli(*mesh, 3, poisson);
     const double of_springs = std::min(lambda, 0.75 * mu), of_cells = mu - of_springs;
     const ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
-    const auto solver = make_elastic(ElasticMethod::projective, problem);
+    const auto solver = make_elastic(Algorithm::projective, problem);
     drag(*solver, *mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     const auto energy = [&](const std::vector<double>& displacements) {
@@ -404,7 +404,7 @@ void ContestantsTest::xpbd_comes_to_rest() {
   for (const double poisson : {0.3, 0.45}) {
     ElasticProblem problem = pinned(mesh, first_column(*mesh), poisson);
     problem.options.iterations = 20'000;
-    const auto solver = make_elastic(ElasticMethod::xpbd, problem);
+    const auto solver = make_elastic(Algorithm::xpbd, problem);
     drag(*solver, *mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     for (const double displacement : solver->displacements()) {
@@ -484,7 +484,7 @@ void ContestantsTest::neo_hookean_xpbd_survives_far_moves() {
   const MeshPointer mesh = make(Object(object));
   const double width = mesh->box[1].x() - mesh->box[0].x();
   for (const Point& direction : {Point(-1, 0, 0), Point(0, -1, 0), Point(1, 0, 0), Point(-0.6, -0.8, 0)}) {
-    const auto solver = make_elastic(ElasticMethod::neo_hookean_xpbd, pinned(mesh, first_column(*mesh), 0.45));
+    const auto solver = make_elastic(Algorithm::neo_hookean_xpbd, pinned(mesh, first_column(*mesh), 0.45));
     drag(*solver, *mesh, width / 2 * direction);
     const std::string& remark = solver->remark();
     QVERIFY2(remark.empty() || remark.starts_with("it did not converge") || remark.starts_with("it diverged"),
@@ -502,7 +502,7 @@ void ContestantsTest::neo_hookean_xpbd_survives_far_moves() {
 
 void ContestantsTest::neo_hookean_xpbd_refuses_surfaces_in_space() {
   try {
-    check(ElasticMethod::neo_hookean_xpbd, *make(Object::surface));
+    check(Algorithm::neo_hookean_xpbd, *make(Object::surface));
     QFAIL("it accepts a surface in space");
   } catch (const Error& error) {
     QVERIFY2(QString(error.what()).contains("the object has no tetrahedra or hexahedra, so it is not a solid"),
@@ -512,12 +512,12 @@ void ContestantsTest::neo_hookean_xpbd_refuses_surfaces_in_space() {
 
 void ContestantsTest::too_few_iterations_are_told_data() {
   QTest::addColumn<int>("method");
-  QTest::newRow("corotational FEM") << int(ElasticMethod::corotational);
-  QTest::newRow("ARAP") << int(ElasticMethod::arap);
-  QTest::newRow("XPBD") << int(ElasticMethod::xpbd);
-  QTest::newRow("quasi-Newton FEM") << int(ElasticMethod::quasi_newton);
-  QTest::newRow("neo-Hookean XPBD") << int(ElasticMethod::neo_hookean_xpbd);
-  QTest::newRow("Projective Dynamics") << int(ElasticMethod::projective);
+  QTest::newRow("corotational FEM") << int(Algorithm::corotational);
+  QTest::newRow("ARAP") << int(Algorithm::arap);
+  QTest::newRow("XPBD") << int(Algorithm::xpbd);
+  QTest::newRow("quasi-Newton FEM") << int(Algorithm::quasi_newton);
+  QTest::newRow("neo-Hookean XPBD") << int(Algorithm::neo_hookean_xpbd);
+  QTest::newRow("Projective Dynamics") << int(Algorithm::projective);
 }
 
 /// The handle and the pins are at their positions all the same, and the next move goes on from there.
@@ -526,7 +526,7 @@ void ContestantsTest::too_few_iterations_are_told() {
   const MeshPointer mesh = make(Object::solid);
   ElasticProblem problem = pinned(mesh, first_column(*mesh));
   problem.options.iterations = 3;
-  const auto solver = make_elastic(ElasticMethod(method), problem);
+  const auto solver = make_elastic(Algorithm(method), problem);
   drag(*solver, *mesh, far);
   QVERIFY2(QString::fromStdString(solver->remark()).startsWith("it did not converge in 3 iterations: elements still"),
            solver->remark().c_str());
@@ -539,14 +539,14 @@ void ContestantsTest::too_few_iterations_are_told() {
     drag(*solver, *mesh, far);
   }
   QVERIFY(solver->remark().empty());
-  const auto patient = make_elastic(ElasticMethod(method), pinned(mesh, problem.pins));
+  const auto patient = make_elastic(Algorithm(method), pinned(mesh, problem.pins));
   drag(*patient, *mesh, far);
   QVERIFY(largest_step(solver->displacements(), patient->displacements()) < 1e-6);
 }
 
 void ContestantsTest::what_has_no_cells_is_refused() {
   const MeshPointer chain = make_mesh(MeshKind::line, {9, 1, 1}, 3), solid = make(Object::solid);
-  for (const ElasticMethod method : {ElasticMethod::arap, ElasticMethod::xpbd, ElasticMethod::projective}) {
+  for (const Algorithm method : {Algorithm::arap, Algorithm::xpbd, Algorithm::projective}) {
     QVERIFY(!fits(method, *chain));
     try {
       check(method, *chain);
@@ -564,7 +564,7 @@ void ContestantsTest::a_turned_object_gives_the_turned_answer() {
   QFETCH(const int, method);
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
-  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)));
   Point by = far;
   by.tail(3 - mesh->space_dimension).setZero();
   drag(*solver, *mesh, by);
@@ -572,7 +572,7 @@ void ContestantsTest::a_turned_object_gives_the_turned_answer() {
   for (const double degrees : {45.0, 90.0}) {
     const Eigen::Matrix3d turn = turn_by(degrees, *mesh);
     const MeshPointer other = turned(*mesh, turn);
-    const auto of_turned = make_elastic(ElasticMethod(method), pinned(other, pins_of(*mesh)));
+    const auto of_turned = make_elastic(Algorithm(method), pinned(other, pins_of(*mesh)));
     drag(*of_turned, *other, turn * by);
     QVERIFY(of_turned->remark().empty());
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -592,7 +592,7 @@ void ContestantsTest::a_rigid_motion_strains_nothing() {
     Point by(1, -2, 0.5);
     by.tail(3 - mesh->space_dimension).setZero();
     const Field field = [&](const Point& at) { return Point(turn * at + by - at); };
-    const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh), field, 0.3));
+    const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh), field, 0.3));
     const double of_pins = furthest_from(*mesh, solver->displacements(), field);
     QVERIFY2(of_pins < 1e-7, qPrintable(QString("%1 at %2 degrees").arg(of_pins).arg(degrees)));
     drag(*solver, *mesh, field(mesh->rest_position(mesh->element_count() - 1)));
@@ -607,7 +607,7 @@ void ContestantsTest::a_handle_of_many_turns_the_object() {
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
   const auto n = std::size_t(mesh->space_dimension);
-  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)));
   ElasticHandle handle;
   for (ElementId e = mesh->element_count(); handle.elements.size() < 3; --e) {
     if (!std::ranges::binary_search(pins_of(*mesh), e - 1)) {
@@ -655,9 +655,9 @@ void ContestantsTest::a_cut_removes_its_cells() {
   std::erase_if(parts.triangles, has_link);
   std::erase_if(parts.tetrahedra, has_link);
   const MeshPointer without = build_mesh(std::move(parts));
-  const auto cut = make_elastic(ElasticMethod(method), problem);
-  const auto expected = make_elastic(ElasticMethod(method), pinned(without, problem.pins));
-  const auto whole = make_elastic(ElasticMethod(method), pinned(mesh, problem.pins));
+  const auto cut = make_elastic(Algorithm(method), problem);
+  const auto expected = make_elastic(Algorithm(method), pinned(without, problem.pins));
+  const auto whole = make_elastic(Algorithm(method), pinned(mesh, problem.pins));
   for (ElasticSolver* one : {cut.get(), expected.get(), whole.get()}) {
     drag(*one, *mesh, far);
   }
@@ -670,9 +670,9 @@ void ContestantsTest::the_answer_does_not_depend_on_the_start() {
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
   const ElasticProblem problem = pinned(mesh, pins_of(*mesh));
-  const auto fresh = make_elastic(ElasticMethod(method), problem);
+  const auto fresh = make_elastic(Algorithm(method), problem);
   drag(*fresh, *mesh, far);
-  const auto other = make_elastic(ElasticMethod(method), problem);
+  const auto other = make_elastic(Algorithm(method), problem);
   std::mt19937_64 random(5);
   std::vector<double> from(mesh->rest.size());
   for (double& one : from) {
@@ -688,7 +688,7 @@ void ContestantsTest::cancelling_keeps_the_last_answer() {
   QFETCH(const int, method);
   QFETCH(const int, object);
   const MeshPointer mesh = make(Object(object));
-  const auto solver = make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)));
+  const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)));
   drag(*solver, *mesh, far);
   const std::vector<double> answer = solver->displacements();
   JobState job;
@@ -696,7 +696,7 @@ void ContestantsTest::cancelling_keeps_the_last_answer() {
   const auto n = std::size_t(mesh->space_dimension);
   QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), Progress(job)));
   QVERIFY(solver->displacements() == answer);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(ElasticMethod(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
 }
 
 CHAINMAIL_TEST(ContestantsTest)
