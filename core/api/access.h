@@ -17,7 +17,7 @@
 #include "measure/reference_solution.h"
 #include "mesh/error.h"
 #include "mesh/progress.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail::api {
 
@@ -48,9 +48,7 @@ struct Snapshot::Impl {
 /// A body is the body of a solver, so that a Deformer need not copy it. Without a Deformer, the solver is idle.
 struct Body::Impl {
   Mesh mesh;
-  std::unique_ptr<Solver> solver;
-  std::vector<ElementId> handle;  // of the last move since positions were set
-  bool is_held = false;           // the handle was not released
+  std::unique_ptr<inner::Deformer> solver;
 
   inner::Body& body() { return solver->body(); }
   const inner::Body& body() const { return solver->body(); }
@@ -64,8 +62,8 @@ struct Body::Impl {
   }
   /// Call this after positions were set.
   void forget_handle() {
-    handle.clear();
-    is_held = false;
+    solver->release();
+    solver->set_last_handle({});
   }
 };
 

@@ -110,7 +110,7 @@ Body::Body(const Mesh& mesh, Precision precision) {
   check_precision(*Access::pointer(mesh), precision_of(precision));
   impl_ = guarded([&] {
     return std::make_unique<Impl>(
-        Impl{mesh, make_solver(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision)), {}, false});
+        Impl{mesh, std::make_unique<inner::Deformer>(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision))});
   });
   Softness softness = standard_softness();
   softness.links = Access::impl(mesh).softness;
@@ -130,8 +130,8 @@ Body::Body(const Body& other) : Body(other.mesh(), other.precision()) {
     body.restore(snapshot_of(from), every_block(body.mesh()));
   }
   body.reach() = from.reach();
-  impl_->handle = other.impl_->handle;
-  impl_->is_held = other.impl_->is_held;
+  impl_->solver->set_last_handle(other.impl_->solver->last_handle());
+  impl_->solver->hold(other.impl_->solver->held());
 }
 Body::Body(Body&& other) noexcept = default;
 Body& Body::operator=(const Body& other) {
@@ -224,12 +224,7 @@ void Body::restore(const Snapshot& snapshot) {
 }
 
 void Body::cut(const std::vector<LinkId>& links) {
-  inner::Body& body = impl_->body();
-  check_link_ids(body.mesh(), links);
-  body.cut(links);
-  for (const LinkId link : links) {
-    impl_->solver->wake(body.mesh().links[link]);
-  }
+  guarded([&] { impl_->solver->cut(links); });
 }
 
 void Body::cut(ElementId a, ElementId b) {
@@ -242,12 +237,7 @@ void Body::cut(ElementId a, ElementId b) {
 }
 
 void Body::uncut(const std::vector<LinkId>& links) {
-  inner::Body& body = impl_->body();
-  check_link_ids(body.mesh(), links);
-  body.uncut(links);
-  for (const LinkId link : links) {
-    impl_->solver->wake(body.mesh().links[link]);
-  }
+  guarded([&] { impl_->solver->uncut(links); });
 }
 
 std::vector<LinkId> Body::cuts() const { return impl_->body().cuts().links(); }
@@ -258,14 +248,11 @@ bool Body::is_cut(LinkId link) const {
 }
 
 void Body::pin(const std::vector<ElementId>& elements) {
-  check_ids(impl_->body().mesh(), elements);
-  impl_->body().pin(elements);
+  guarded([&] { impl_->solver->pin(elements); });
 }
 
 void Body::unpin(const std::vector<ElementId>& elements) {
-  check_ids(impl_->body().mesh(), elements);
-  impl_->body().unpin(elements);
-  impl_->solver->wake(elements);
+  guarded([&] { impl_->solver->unpin(elements); });
 }
 
 std::span<const ElementId> Body::pins() const { return impl_->body().pins(); }

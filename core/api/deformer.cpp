@@ -7,15 +7,10 @@
 #include "mesh/parameters.h"
 
 namespace chainmail::api {
-namespace {
 
 static_assert(no_sponsor == no_element);
 static_assert(RelaxOptions().step == parameters::relax_step.default_value);
 static_assert(RelaxOptions().until == parameters::relax_until.default_value);
-
-constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which a job may cancel
-
-}  // namespace
 
 struct Deformer::Impl {
   Body body;
@@ -25,15 +20,14 @@ struct Deformer::Impl {
   Trace traced = {};
   std::vector<TraceStep> trace = {};
 
-  Solver& solver() { return *Access::impl(body).solver; }
-  const Solver& solver() const { return *Access::impl(body).solver; }
+  inner::Deformer& solver() { return *Access::impl(body).solver; }
+  const inner::Deformer& solver() const { return *Access::impl(body).solver; }
   void set_algorithm(Algorithm next) {
     solver().set_algorithm(next);
     algorithm = next;
   }
   template <class Move>
   MoveResult run(Move move);
-  RelaxationResult sweep(double step, const Progress& progress);
 };
 
 template <class Move>
@@ -46,22 +40,6 @@ MoveResult Deformer::Impl::run(Move move) {
     trace.push_back({row.element, row.sponsor, row.moved});
   }
   return {count.checked, count.moved, count.stopped, {}, solver().remark()};
-}
-
-/// Runs one sweep, in slices, or one iteration.
-RelaxationResult Deformer::Impl::sweep(double step, const Progress& progress) {
-  const auto& impl = Access::impl(body);
-  std::uint64_t visited = 0;
-  while (true) {
-    progress.report(std::min(1.0, double(visited) / body.mesh().element_count()));
-    const auto held = impl.is_held ? std::span(impl.handle) : std::span<const ElementId>();
-    RelaxationResult slice = solver().relax(step, elements_between_checks, held);
-    visited += slice.visited;
-    if (slice.sweep_ended) {
-      slice.visited = visited;
-      return slice;
-    }
-  }
 }
 
 Deformer::Deformer(Body body, std::string_view method) {
@@ -105,8 +83,6 @@ MoveResult Deformer::move(Handle& handle, const Pose& target) {
   guarded([&] { check(rotation_of(target.rotation), mesh); });
   const inner::Pose pose{point_of(target.pivot), rotation_of(target.rotation).vector()};
   MoveResult result = impl_->run([&](Trace* trace) { return body.solver->move(held.handle, pose, trace); });
-  body.handle.assign(handle.elements().begin(), handle.elements().end());
-  body.is_held = true;
   result.reached = handle.pose();
   return result;
 }
@@ -116,49 +92,18 @@ MoveResult Deformer::move(ElementId element, const Vector3& target) {
   check_id(body.body().mesh(), element);
   check_coordinates(body.body().mesh(), "target", target, false);
   MoveResult result = impl_->run([&](Trace* trace) { return body.solver->move(element, point_of(target), trace); });
-  body.handle.assign(1, element);
-  body.is_held = true;
   result.reached.pivot = impl_->body.position(element);
   return result;
 }
 
 std::span<const ElementId> Deformer::moved() const { return impl_->solver().moved(); }
 
-void Deformer::release() { Access::impl(impl_->body).is_held = false; }
+void Deformer::release() { impl_->solver().release(); }
 
 int Deformer::relax(int sweeps, const RelaxOptions& options) {
-  if (sweeps < 0) {
-    throw Error("sweeps", "the number is below 0", "use a number from 0");
-  }
   return guarded([&] {
-    check(parameters::relax_step, options.step);
-    check(parameters::relax_until, options.until);
-    if (!info(impl_->algorithm).relaxes()) {
-      return 0;
-    }
-    Solver& solver = impl_->solver();
-    solver.set_relaxation(scheme_of(options.scheme));
-    if (!inner::info(solver.relaxation()).sweeps) {
-      solver.wake_all();
-    } else if (const auto& handle = Access::impl(impl_->body).handle; !handle.empty()) {
-      solver.wake(handle);
-      solver.wake(solver.moved());
-    }
-    const Progress progress = Access::progress(impl_->job);
-    solver.set_progress(progress);
-    int run = 0;
-    while (run < sweeps) {
-      const RelaxationResult result =
-          impl_->sweep(options.step, progress.part(double(run) / sweeps, (run + 1.0) / sweeps));
-      if (result.visited == 0) {
-        break;
-      }
-      ++run;
-      if (result.residual && *result.residual <= options.until) {
-        break;
-      }
-    }
-    return run;
+    impl_->solver().set_progress(Access::progress(impl_->job));
+    return impl_->solver().relax(sweeps, {options.step, scheme_of(options.scheme), options.until}).sweeps;
   });
 }
 

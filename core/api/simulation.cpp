@@ -85,7 +85,7 @@ void Simulation::Impl::pass(const commands::Drag& drag) {
     }
     traces.push_back(std::move(trace));
   }
-  simulation.relax(most_relaxation, relaxation.step, relaxation.until);
+  simulation.relax(most_relaxation, {relaxation.step, simulation.relaxation().scheme, relaxation.until});
   if (watcher) {
     watcher();
   }

@@ -67,6 +67,7 @@ class Equilibrator final : public EquilibriumSolver {
     prepared_ = false;
     follow(body, held);
     step(progress);
+    last_iterations_ = 1;
     show(body);
   }
 
@@ -75,9 +76,11 @@ class Equilibrator final : public EquilibriumSolver {
     prepared_ = false;
     follow(body, held);
     bool reached = false;
-    for (int i = 0; i < max_iterations && !reached; ++i) {
-      progress.report(double(i) / max_iterations);
+    last_iterations_ = 0;
+    while (last_iterations_ < max_iterations && !reached) {
+      progress.report(double(last_iterations_) / max_iterations);
       step(progress);
+      ++last_iterations_;
       reached = residual_ <= tolerance;
     }
     show(body);
@@ -86,6 +89,7 @@ class Equilibrator final : public EquilibriumSolver {
 
   void set_threads(int threads) override { threads_ = threads; }
   double residual() const override { return residual_; }
+  int iterations() const override { return last_iterations_; }
   bool has_prepared() const override { return prepared_; }
   std::span<const ElementId> moved() const override { return moved_; }
   double largest_step() const override { return largest_step_; }
@@ -757,6 +761,7 @@ class Equilibrator final : public EquilibriumSolver {
   double residual_ = 0;
   double frees_below_ = frees_below;  // falls each time in one problem
   int iterations_ = 0;
+  int last_iterations_ = 0;  // of the last call
 
   std::unique_ptr<EnergyMinimum<D>> material_;
   bool has_material_ = false, has_cuts_ = false, has_fixed_ = false;  // it knows the body's

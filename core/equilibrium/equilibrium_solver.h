@@ -55,6 +55,8 @@ class EquilibriumSolver {
   virtual void set_threads(int threads) = 0;
   /// Estimated distance of the last iterate from the equilibrium: see EquilibriumCertificate.
   virtual double residual() const = 0;
+  /// Number of iterations of the last call.
+  virtual int iterations() const = 0;
   /// True if the last call built a multigrid, which takes as long as tens of iterations.
   virtual bool has_prepared() const = 0;
   /// The elements that the last call moved, ascending, and the length of the largest step (mesh units).

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "mesh/mesh.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "measure/reference_solution.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -10,7 +10,7 @@
 #include "mesh/cuts.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -285,6 +285,12 @@ void check_element(const Mesh& mesh, ElementId element) {
   }
 }
 
+void check_elements(const Mesh& mesh, std::span<const ElementId> elements) {
+  for (const ElementId element : elements) {
+    check_element(mesh, element);
+  }
+}
+
 void check_links(const Mesh& mesh, std::span<const LinkId> links) {
   for (const LinkId link : links) {
     if (link >= mesh.link_count()) {

@@ -129,6 +129,7 @@ using MeshPointer = std::shared_ptr<const Mesh>;
 
 /// Throw Error if there is no such element or link.
 void check_element(const Mesh& mesh, ElementId element);
+void check_elements(const Mesh& mesh, std::span<const ElementId> elements);
 void check_links(const Mesh& mesh, std::span<const LinkId> links);
 
 inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }

@@ -13,7 +13,7 @@
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/split.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -35,7 +35,7 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
     : mesh_(std::move(mesh)),
       algorithm_(algorithm),
       precision_(precision),
-      solver_(make_solver(mesh_, algorithm, precision)),
+      deformer_(std::make_unique<Deformer>(mesh_, algorithm, precision)),
       changed_(mesh_->element_count()),
       unmeasured_(mesh_->element_count()),
       away_(mesh_->element_count()),
@@ -46,17 +46,17 @@ Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precisio
 
 void Simulation::set_progress(const Progress& progress) {
   progress_ = progress;
-  solver_->set_progress(progress);
+  deformer_->set_progress(progress);
 }
 
 void Simulation::set_threads(int threads) {
   threads_ = threads;
-  solver_->set_threads(threads);
+  deformer_->set_threads(threads);
 }
 
 void Simulation::prepare(ElementId element) {
   if (!grabbed_ && element < mesh_->element_count() && !body().is_pinned(element)) {
-    solver_->prepare(element);
+    deformer_->prepare(element);
   }
 }
 
@@ -66,12 +66,15 @@ void Simulation::apply(const Command& command) {
 
 void Simulation::pass(const std::shared_ptr<Handle>& handle, const Pose& target) {
   const bool was_valid = valid_;
-  time_pass([&] { return solver_->move(*handle, target, trace_); });
+  time_pass([&] { return deformer_->move(*handle, target, trace_); });
   last_handle_ = handle;
+  if (!grabbed_) {
+    deformer_->release();  // a pass that follows an edit
+  }
   // Links inside a handle of many stay as they are. A rotation may violate them.
   valid_ =
       info(algorithm_).holds_links && (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
-  for (const auto& moved : {handle->elements(), solver_->moved()}) {
+  for (const auto& moved : {handle->elements(), deformer_->moved()}) {
     mark(moved);
     wake(moved);
   }
@@ -96,7 +99,7 @@ void Simulation::time_pass(Move move) {
   statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
-  statistics_.remark = solver_->remark();
+  statistics_.remark = deformer_->remark();
   relaxation_fails_ = false;
 }
 
@@ -171,8 +174,8 @@ bool Simulation::run_slice() {
   const auto turned = softness().energy == EnergyKind::material ? inverted_cells(*mesh_, body().positions()) : 0;
   if ((!has_settled || turned.value_or(0) > 0) && !std::exchange(has_begun_again_, true)) {
     closest_sweep_ = 0;  // another start may find a way out
-    solver_->forget_relaxation();
-    solver_->wake_all();
+    deformer_->forget_relaxation();
+    deformer_->wake_all();
     return false;
   }
   if (!has_settled) {
@@ -196,15 +199,19 @@ bool Simulation::comes_closer(double distance) {
 /// Begins relaxation as if it had done nothing before, with all elements or with none.
 void Simulation::begin_relaxation(bool awake) {
   fall_asleep();
-  solver_->forget_relaxation();
+  deformer_->forget_relaxation();
   if (awake && info(algorithm_).relaxes()) {
-    solver_->wake_all();
+    deformer_->wake_all();
     wake({});
   }
 }
 
 RelaxationResult Simulation::relax_slice(double step) {
-  return take_relaxed([&] { return solver_->relax(step, elements_per_slice, grabbed()); });
+  return take_relaxed([&] {
+    const RelaxationResult slice = deformer_->relax_slice(step, elements_per_slice, grabbed());
+    mark(deformer_->relaxed());
+    return slice;
+  });
 }
 
 /// Takes over the result of some relaxation.
@@ -212,7 +219,6 @@ template <class Relax>
 RelaxationResult Simulation::take_relaxed(Relax relax) {
   try {
     const RelaxationResult slice = relax();
-    mark(solver_->relaxed());
     statistics_.residual = slice.residual;  // sweeps have none
     if (slice.residual && std::exchange(relaxation_fails_, false)) {
       statistics_.remark.clear();
@@ -235,33 +241,12 @@ void Simulation::refuse_relaxation(const std::string& reason) {
   fall_asleep();
 }
 
-void Simulation::relax(int count, double step, double until) {
-  if (count == 0 || !info(algorithm_).relaxes()) {
-    return;
-  }
-  if (!info(solver_->relaxation()).sweeps) {
-    take_relaxed([&] { return solver_->solve(until, count, grabbed(), progress_); });
-    return;
-  }
-  if (last_handle_) {
-    solver_->wake(last_handle_->elements());
-    solver_->wake(solver_->moved());
-  }
-  for (int i = 0; i < count && sweep(step, progress_.part(double(i) / count, double(i + 1) / count)) > 0; ++i) {
-  }
-}
-
-/// Runs one sweep, in slices, and can be cancelled between them. Returns the number of visited elements.
-std::uint64_t Simulation::sweep(double step, const Progress& progress) {
-  std::uint64_t visited = 0;
-  while (true) {
-    progress.report(std::min(1.0, double(visited) / mesh_->element_count()));
-    const RelaxationResult slice = relax_slice(step);
-    visited += slice.visited;
-    if (slice.sweep_ended) {
-      return visited;
-    }
-  }
+void Simulation::relax(int count, const RelaxOptions& options) {
+  take_relaxed([&] {
+    RelaxationResult result;
+    result.residual = deformer_->relax(count, options, [this] { mark(deformer_->relaxed()); }).residual;
+    return result;
+  });
 }
 
 bool Simulation::measure() {
@@ -284,12 +269,12 @@ void Simulation::measure_all() {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  auto solver = make_solver(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
+  auto solver = std::make_unique<Deformer>(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
   solver->body().set_elastic(elastic());
-  solver_ = std::move(solver);
-  solver_->set_relaxation(relaxation_scheme_);
-  solver_->set_progress(progress_);
-  solver_->set_threads(threads_);
+  deformer_ = std::move(solver);
+  deformer_->set_relaxation(relaxation_scheme_);
+  deformer_->set_progress(progress_);
+  deformer_->set_threads(threads_);
   algorithm_ = statistics_.algorithm = algorithm;
   mesh_ = std::move(mesh);
   away_ = changed_ = unkept_ = unmeasured_ = ElementBlocks(mesh_->element_count());
@@ -297,11 +282,22 @@ void Simulation::take_mesh(MeshPointer mesh) {
   statistics_.violation = {};
   last_kept_ = {};
   changed_.insert_all();
-  grabbed_.reset();
-  last_handle_.reset();
+  let_go();
   valid_ = true;
   forget_passes();
   fall_asleep();
+}
+
+/// Call this after positions were set: no handle was moved since.
+void Simulation::let_go() {
+  grabbed_.reset();
+  set_last_handle(nullptr);
+  deformer_->release();
+}
+
+void Simulation::set_last_handle(std::shared_ptr<Handle> handle) {
+  last_handle_ = std::move(handle);
+  deformer_->set_last_handle(elements_of(last_handle_));
 }
 
 /// Clears the statistics of passes of another object or algorithm.
@@ -318,7 +314,7 @@ void Simulation::forget_passes() {
 
 void Simulation::wake(std::span<const ElementId> elements) {
   if (relaxation_on_ && info(algorithm_).relaxes()) {
-    solver_->wake(elements);
+    deformer_->wake(elements);
     woken_ = true;
     statistics_.relaxing = true;
     has_begun_again_ = false;
@@ -327,16 +323,8 @@ void Simulation::wake(std::span<const ElementId> elements) {
   }
 }
 
-void Simulation::wake_ends(const std::vector<LinkId>& links) {
-  // Needed even if relaxation in idle time is off, because sweeps may be requested.
-  for (const LinkId link : links) {
-    solver_->wake(mesh_->links[link]);
-  }
-  wake({});
-}
-
 void Simulation::fall_asleep() {
-  solver_->sleep();
+  deformer_->sleep();
   statistics_.relaxing = false;
 }
 
@@ -344,6 +332,7 @@ void Simulation::fall_asleep() {
 
 void Simulation::carry_out(const commands::Grab& command) {
   grabbed_ = std::make_shared<Handle>(body(), command.elements);
+  deformer_->hold(grabbed());
 }
 
 void Simulation::carry_out(const commands::Drag& command) {
@@ -358,10 +347,11 @@ void Simulation::carry_out(const commands::Drag& command) {
 void Simulation::carry_out(const commands::Release&) {
   if (grabbed_) {
     // The released elements may follow their neighbours, in idle time or in requested sweeps.
-    solver_->wake(grabbed());
+    deformer_->wake(grabbed());
     wake({});
   }
   grabbed_.reset();
+  deformer_->release();
   if (std::exchange(statistics_.last_pass.stopped, false)) {
     statistics_.remark.clear();  // the handle no longer pulls
   }
@@ -384,7 +374,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
     }
   }
   if (new_energy && last_handle_) {  // otherwise all elements are at rest, where every energy is least
-    solver_->wake_all();
+    deformer_->wake_all();
     wake({});
   }
   if (!info(relaxation_scheme_).sweeps && last_handle_) {
@@ -396,7 +386,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
     const RegionAxes before = body().region_axes();
-    solver_->body().set_softness(softness);
+    deformer_->body().set_softness(softness);
     meter_.forget_all();
     note_axes(before);
   }
@@ -446,7 +436,7 @@ void Simulation::answer() {
 void Simulation::carry_out(const commands::SetElastic& command) {
   check(command.options);
   if (command.options != elastic()) {
-    solver_->body().set_elastic(command.options);
+    deformer_->body().set_elastic(command.options);
     if (info(algorithm_).family() == Family::elastic) {
       answer();
     }
@@ -457,16 +447,7 @@ void Simulation::carry_out(const commands::SetElastic& command) {
 }
 
 void Simulation::carry_out(const commands::Relax& command) {
-  check(parameters::relax_step, command.step);
-  check(parameters::relax_until, command.until);
-  solver_->set_relaxation(command.scheme);
-  try {
-    relax(static_cast<int>(command.sweeps), command.step, command.until);
-  } catch (...) {  // cancelled, or out of memory
-    solver_->set_relaxation(relaxation_scheme_);
-    throw;
-  }
-  solver_->set_relaxation(relaxation_scheme_);
+  relax(static_cast<int>(command.sweeps), {command.step, command.scheme, command.until});
 }
 
 void Simulation::carry_out(const commands::Relaxed& command) {
@@ -474,7 +455,7 @@ void Simulation::carry_out(const commands::Relaxed& command) {
   relaxation_on_ = repeats_slices_ = true;
   relaxation_step_ = command.step;
   relaxation_scheme_ = command.scheme;
-  solver_->set_relaxation(command.scheme);
+  deformer_->set_relaxation(command.scheme);
   if (command.start != commands::Relaxed::Start::goes_on) {
     begin_relaxation(command.start == commands::Relaxed::Start::awake);
   }
@@ -492,7 +473,7 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   const bool was_on = std::exchange(relaxation_on_, command.on);
   const bool is_other = std::exchange(relaxation_scheme_, command.scheme) != command.scheme;
   relaxation_step_ = command.step;
-  solver_->set_relaxation(command.scheme);
+  deformer_->set_relaxation(command.scheme);
   if (is_other) {
     statistics_.residual.reset();
   }
@@ -507,7 +488,7 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   const RegionAxes axes = body().region_axes();
   const bool stored_displacements = body().stores_displacements();
-  solver_->set_algorithm(command.algorithm);
+  deformer_->set_algorithm(command.algorithm);
   note_axes(axes);
   const Algorithm before = std::exchange(algorithm_, command.algorithm);
   if (before == algorithm_) {
@@ -527,45 +508,38 @@ void Simulation::carry_out(const commands::SetAlgorithm& command) {
 }
 
 void Simulation::carry_out(const commands::Cut& command) {
-  check_links(*mesh_, command.links);
-  solver_->body().cut(command.links);
+  deformer_->cut(command.links);
   meter_.forget(command.links);
-  wake_ends(command.links);
+  wake({});
 }
 
 void Simulation::carry_out(const commands::Uncut& command) {
-  check_links(*mesh_, command.links);
-  solver_->body().uncut(command.links);
+  deformer_->uncut(command.links);
   meter_.forget(command.links);
   valid_ = false;  // the ends may have moved too far apart while the link was cut
-  wake_ends(command.links);
+  wake({});
 }
 
 void Simulation::carry_out(const commands::Pin& command) {
   for (const ElementId element : command.elements) {
-    check_element(*mesh_, element);
     if (grabbed_ && grabbed_->contains(element)) {
       throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
   }
-  solver_->body().pin(command.elements);
+  deformer_->pin(command.elements);
 }
 
 void Simulation::carry_out(const commands::Unpin& command) {
-  for (const ElementId element : command.elements) {
-    check_element(*mesh_, element);
-  }
-  solver_->body().unpin(command.elements);
-  solver_->wake(command.elements);
+  deformer_->unpin(command.elements);
   wake({});
 }
 
 void Simulation::carry_out(const commands::Reset&) {
-  solver_->body().reset(away_);
+  deformer_->body().reset(away_);
   note_change(away_);
   unkept_.insert(away_);
   away_.clear();
-  last_handle_.reset();
+  set_last_handle(nullptr);
   if (grabbed_) {  // at rest now
     grabbed_ = std::make_shared<Handle>(body(), std::vector<ElementId>(grabbed().begin(), grabbed().end()));
   }
@@ -600,10 +574,10 @@ void Simulation::carry_out(const commands::Split& command) {
   take_state(state);
   if (handle && std::ranges::none_of(handle->elements(), [this](ElementId one) { return body().is_pinned(one); })) {
     const auto elements = handle->elements();
-    last_handle_ = std::make_shared<Handle>(body(), std::vector<ElementId>(elements.begin(), elements.end()));
+    set_last_handle(std::make_shared<Handle>(body(), std::vector<ElementId>(elements.begin(), elements.end())));
   }
   if (was_relaxing) {
-    solver_->wake_all();
+    deformer_->wake_all();
   }
   wake_new(split.before->element_count());
 }
@@ -611,8 +585,8 @@ void Simulation::carry_out(const commands::Split& command) {
 /// Wakes the elements from this one on, and their neighbours.
 void Simulation::wake_new(ElementId first) {
   for (ElementId e = first; e < mesh_->element_count(); ++e) {
-    solver_->wake(std::span(&e, 1));
-    solver_->wake(mesh_->neighbours_of(e));
+    deformer_->wake(std::span(&e, 1));
+    deformer_->wake(mesh_->neighbours_of(e));
   }
   wake({});
 }
@@ -639,14 +613,13 @@ void Simulation::carry_out(const commands::SetPositions& command) {
   check(*command.snapshot, *mesh_, precision_);
   ElementBlocks away = command.snapshot->away(*mesh_), changed = away_;
   changed.insert(away);
-  solver_->body().restore(*command.snapshot, changed);
+  deformer_->body().restore(*command.snapshot, changed);
   note_change(changed);
   unkept_.insert(changed);
   away_ = std::move(away);
   valid_ = command.snapshot->is_at_rest();
   forget_passes();
-  grabbed_.reset();
-  last_handle_.reset();
+  let_go();
   begin_relaxation(false);
 }
 
@@ -667,13 +640,14 @@ SimulationState Simulation::hand_over() {
 
 void Simulation::take(const SimulationState& state, Algorithm algorithm) {
   algorithm_ = algorithm;
-  solver_->body().set_elastic(state.elastic);
+  deformer_->body().set_elastic(state.elastic);
   take_mesh(state.object.mesh);
   take_state(state.object);
   kept_ = state.kept;
   carry_out(state.relaxation);
   grabbed_ = state.grabbed ? std::make_shared<Handle>(*state.grabbed) : nullptr;
-  last_handle_ = state.last_handle ? std::make_shared<Handle>(*state.last_handle) : nullptr;
+  deformer_->hold(grabbed());
+  set_last_handle(state.last_handle ? std::make_shared<Handle>(*state.last_handle) : nullptr);
 }
 
 Simulation::State Simulation::current_state() {
@@ -702,14 +676,13 @@ void Simulation::take_state(const State& state) {
   set_softness(state.softness);
   take_cuts(state.cuts);
   if (!std::ranges::equal(state.pins, body().pins())) {
-    solver_->body().unpin(std::vector<ElementId>(body().pins().begin(), body().pins().end()));
-    solver_->body().pin(state.pins);
+    deformer_->body().unpin(std::vector<ElementId>(body().pins().begin(), body().pins().end()));
+    deformer_->body().pin(state.pins);
   }
   take_positions(state.positions);
   valid_ = state.valid;
   forget_passes();
-  grabbed_.reset();
-  last_handle_.reset();
+  let_go();
   begin_relaxation(false);
 }
 
@@ -720,11 +693,11 @@ void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
   std::ranges::set_difference(cuts, present, std::back_inserter(missing));
   // Makes only the calls that change something: a method of elasticity prepares again after each of them.
   if (!excess.empty()) {
-    solver_->body().uncut(excess);
+    deformer_->body().uncut(excess);
     meter_.forget(excess);
   }
   if (!missing.empty()) {
-    solver_->body().cut(missing);
+    deformer_->body().cut(missing);
     meter_.forget(missing);
   }
 }
@@ -741,7 +714,7 @@ void Simulation::take_positions(const Snapshot& positions) {
       away_.insert_block(block);
     }
   }
-  solver_->body().restore(positions, unkept_);
+  deformer_->body().restore(positions, unkept_);
   note_change(unkept_);
   last_kept_ = positions;
   unkept_.clear();

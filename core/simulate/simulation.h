@@ -12,7 +12,7 @@
 #include "mesh/progress.h"
 #include "simulate/command.h"
 #include "simulate/simulation_state.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 
@@ -64,23 +64,21 @@ class Simulation {
   /// Sets the progress of long work, which throws Cancelled when it is cancelled. A cancelled pass of a method of
   /// elasticity moves nothing. Sweeps of relaxation end within some milliseconds and keep the positions reached.
   void set_progress(const Progress& progress);
-  /// Sets the number of threads that a pass may use: see Solver::set_threads.
+  /// Sets the number of threads that a pass may use: see Deformer::set_threads.
   void set_threads(int threads);
-  /// Prepares a drag of an element, in idle time: see Solver::prepare. Nothing happens while something is grabbed.
+  /// Prepares a drag of an element, in idle time: see Deformer::prepare. Nothing happens while something is grabbed.
   void prepare(ElementId element);
   /// Sets the trace that receives every candidate that a pass processes; null: none.
   void set_trace(Trace* trace) { trace_ = trace; }
-  /// Runs sweeps or iterations of relaxation at once, with the scheme last set, even if relaxation is off: `count` of
-  /// them, or until nothing moves or, with the scheme `equilibrium`, the residual is at most `until`. Throws Error if
-  /// pins contradict each other and the scheme is `equilibrium`.
-  void relax(int count, double step, double until = 0);
+  /// Runs sweeps or iterations of relaxation at once, even if relaxation is off: see Deformer::relax.
+  void relax(int count, const RelaxOptions& options);
   /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it.
-  std::optional<EquilibriumCertificate> certificate() { return solver_->certificate(); }
+  std::optional<EquilibriumCertificate> certificate() { return deformer_->certificate(); }
 
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
-  const Solver& solver() const { return *solver_; }
-  const Body& body() const { return solver_->body(); }
+  const Deformer& solver() const { return *deformer_; }
+  const Body& body() const { return deformer_->body(); }
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }
   /// Returns the relaxation that was set last.
@@ -141,7 +139,6 @@ class Simulation {
   template <class Relax>
   RelaxationResult take_relaxed(Relax relax);
   void refuse_relaxation(const std::string& reason);
-  std::uint64_t sweep(double step, const Progress& progress);
   void answer();
   void forget_passes();
   void set_softness(const std::shared_ptr<const Softness>& softness);
@@ -151,6 +148,8 @@ class Simulation {
     return handle ? handle->elements() : std::span<const ElementId>();
   }
   void pass(const std::shared_ptr<Handle>& handle, const Pose& target);
+  void let_go();
+  void set_last_handle(std::shared_ptr<Handle> handle);
   template <class Move>
   void time_pass(Move move);
   void note_change(const ElementBlocks& blocks);
@@ -159,7 +158,6 @@ class Simulation {
   State& kept(commands::StateId state);
   void take_mesh(MeshPointer mesh);
   void wake(std::span<const ElementId> elements);
-  void wake_ends(const std::vector<LinkId>& links);
   void wake_new(ElementId first);
   void fall_asleep();
   State current_state();
@@ -171,7 +169,7 @@ class Simulation {
   MeshPointer mesh_;
   Algorithm algorithm_;
   Precision precision_;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<Deformer> deformer_;
   ElementBlocks changed_;                // changed blocks since forget_changes()
   ElementBlocks unmeasured_;             // changed blocks since the violation was measured
   ElementBlocks away_;                   // all elements outside these blocks are at rest

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulate/command.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -57,7 +57,7 @@ class BySolver : public Dragged {
   BySolver(const Task& task, Algorithm algorithm)
       : mesh_(task.scene.mesh),
         handle_(task.handle),
-        solver_(make_solver(mesh_, algorithm, Precision::double_precision)) {
+        solver_(std::make_unique<Deformer>(mesh_, algorithm, Precision::double_precision)) {
     solver_->body().pin(task.pins);
   }
   void frame(const Point& handle) override { solver_->move(handle_, handle); }
@@ -66,7 +66,7 @@ class BySolver : public Dragged {
  private:
   MeshPointer mesh_;
   ElementId handle_;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<Deformer> solver_;
 };
 
 /// Returns the links in random order, as Bullet's own helpers do. In the mesh's order, one iteration spreads the pull

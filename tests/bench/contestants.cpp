@@ -33,12 +33,12 @@ bool is_without_memory(const std::string& algorithm) {
   return algorithm == names::without_replay || algorithm == names::exact_anew || algorithm == names::exact_anew_threads;
 }
 
-std::unique_ptr<Solver> make(const MeshPointer& mesh, const std::string& algorithm) {
+std::unique_ptr<Deformer> make(const MeshPointer& mesh, const std::string& algorithm) {
   const bool is_shared = algorithm == names::exact_threads || algorithm == names::exact_anew_threads;
   const auto which = algorithm == names::without_replay            ? Algorithm::natural_queue
                      : algorithm == names::exact_anew || is_shared ? Algorithm::exact
                                                                    : find_algorithm(algorithm).value();
-  auto solver = make_solver(mesh, which, Precision::single_precision);
+  auto solver = std::make_unique<Deformer>(mesh, which, Precision::single_precision);
   solver->set_threads(is_shared ? 2 : 1);
   return solver;
 }
@@ -62,7 +62,7 @@ void check_whole(std::uint64_t moved, const Mesh& mesh) {
 
 /// Throws if the solver and the textbook version differ after the same drag.
 void check_textbook(const MeshPointer& mesh, Textbook<float, 2>& textbook) {
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
   solver->body().set_softness({stiff, {}});
   const DragPath path = path_of(Drag::whole_body, *mesh);
   for (const Point& target : path.targets) {
@@ -100,7 +100,7 @@ struct Copy {
 }  // namespace
 
 Contestant dragged(const Scene& scene, const std::string& algorithm, Drag drag) {
-  const std::shared_ptr<Solver> solver = make(scene.mesh, algorithm);
+  const std::shared_ptr<Deformer> solver = make(scene.mesh, algorithm);
   solver->body().set_softness(softness(drag, *scene.mesh));
   const auto round = std::make_shared<Round>(Round{path_of(drag, *scene.mesh)});
   const auto pass = [solver, round, drag, mesh = scene.mesh, anew = is_without_memory(algorithm)] {
@@ -164,7 +164,7 @@ Contestant streamed(const Scene& scene, const std::string& algorithm) {
 double sweep_nanoseconds(const Scene& scene) {
   using Clock = std::chrono::steady_clock;
   constexpr int measured_sweeps = 9;
-  const std::unique_ptr<Solver> solver = make(scene.mesh, names::natural_queue);
+  const std::unique_ptr<Deformer> solver = make(scene.mesh, names::natural_queue);
   Softness soft;
   soft.energy = EnergyKind::isotropic;
   solver->body().set_softness(soft);
@@ -176,7 +176,7 @@ double sweep_nanoseconds(const Scene& scene) {
   for (int i = 0; i < measured_sweeps; ++i) {
     solver->wake_all();
     const auto begin = Clock::now();
-    const std::uint64_t visited = solver->relax(1, std::numeric_limits<std::uint64_t>::max(), {}).visited;
+    const std::uint64_t visited = solver->relax_slice(1, std::numeric_limits<std::uint64_t>::max(), {}).visited;
     nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / double(visited));
   }
   return median(nanoseconds);
@@ -184,7 +184,7 @@ double sweep_nanoseconds(const Scene& scene) {
 
 HandLike hand_like_drags(const Scene& scene, const std::string& algorithm) {
   using Clock = std::chrono::steady_clock;
-  const std::unique_ptr<Solver> solver = make(scene.mesh, algorithm);
+  const std::unique_ptr<Deformer> solver = make(scene.mesh, algorithm);
   std::vector<double> ms;
   double sum = 0;
   std::uint64_t moved = 0;

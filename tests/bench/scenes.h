@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail::bench {
 

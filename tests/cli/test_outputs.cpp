@@ -81,7 +81,7 @@ void OutputsCommandTest::positions_read_back_bit_for_bit() {
     const Point target(at(14, 0) + 0.7, at(14, 1) + 0.3, 0);
     simulation.apply(Command(commands::Grab{14}));
     simulation.apply(Command(commands::Drag{target}));
-    simulation.relax(5, 1);
+    simulation.relax(5, {1, simulation.relaxation().scheme});
     const auto rows = rows_of(program_->read("a.csv"));
     QCOMPARE(rows.size(), 30);
     for (ElementId e = 0; e < 30; ++e) {

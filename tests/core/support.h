@@ -13,7 +13,7 @@
 
 #include "body/region.h"
 #include "mesh/generate.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 
@@ -32,7 +32,7 @@ inline MeshPointer make_mesh(MeshKind kind, std::array<std::uint32_t, 3> size, s
 }
 
 /// Returns all coordinates that exist, element by element. Float converts to double exactly.
-inline std::vector<double> positions_of(const Solver& solver, const Mesh& mesh) {
+inline std::vector<double> positions_of(const Deformer& solver, const Mesh& mesh) {
   std::vector<double> positions(mesh.rest.size());
   solver.body().copy_positions(std::span(positions));
   return positions;
@@ -44,7 +44,7 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
   });
 }
 
-inline Point position_of(const Solver& solver, const Mesh& mesh, ElementId element) {
+inline Point position_of(const Deformer& solver, const Mesh& mesh, ElementId element) {
   std::array<double, 3> coordinates{};
   for (int k = 0; k < mesh.space_dimension; ++k) {
     coordinates[k] = solver.body().positions()(element, k);

@@ -123,7 +123,7 @@ std::vector<Point> answer(const Scene& scene) {
     simulation.apply(commands::Uncut{ids_of(*mesh, scene.cuts)});
     simulation.apply(commands::SetSoftness{Softness{{0.5, 2, 1}, {}}});
     drag_by(simulation, mesh->element_count() - 2, Point(1, 2, 0));
-    simulation.relax(2, 1);
+    simulation.relax(2, {1, simulation.relaxation().scheme});
     simulation.apply(commands::RestoreState{1});
   }
   for (const RelaxationScheme scheme : scene.schemes) {
@@ -134,7 +134,7 @@ std::vector<Point> answer(const Scene& scene) {
     const Point way = turn_of(scene.turned) * Point(-2.3, 1.4, 0) * share;
     simulation.apply(commands::Drag{way, Rotation{Point::UnitZ(), scene.degrees * share}, true});
   }
-  simulation.relax(scene.sweeps, 0.75);
+  simulation.relax(scene.sweeps, {0.75, simulation.relaxation().scheme});
   std::vector<Point> positions;
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
     positions.push_back(turn_of(-scene.turned) * position_of(simulation, e));

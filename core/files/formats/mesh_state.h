@@ -3,7 +3,7 @@
 #include "body/softness.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "mesh/mesh.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

@@ -15,7 +15,7 @@
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail {
 

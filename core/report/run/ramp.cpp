@@ -30,10 +30,10 @@ class RampSize {
   const MeshPointer& mesh() const { return mesh_; }
 
   /// Returns the solver for an algorithm, with the mesh at rest.
-  Solver& solver(Algorithm algorithm) {
+  Deformer& solver(Algorithm algorithm) {
     auto& solver = algorithm == Algorithm::exact ? exact_ : by_lists_;
     if (!solver) {
-      solver = make_solver(mesh_, algorithm, options_.precision);
+      solver = std::make_unique<Deformer>(mesh_, algorithm, options_.precision);
       solver->body().set_softness({options_.softness, {}});
     }
     solver->set_algorithm(algorithm);
@@ -44,7 +44,7 @@ class RampSize {
  private:
   const RampOptions& options_;
   MeshPointer mesh_;
-  std::unique_ptr<Solver> by_lists_, exact_;
+  std::unique_ptr<Deformer> by_lists_, exact_;
 };
 
 class RampRun {
@@ -130,7 +130,7 @@ class RampRun {
     return found;
   }
 
-  RampPasses make(Solver& solver, const ScriptedDrag& drag) const {
+  RampPasses make(Deformer& solver, const ScriptedDrag& drag) const {
     RampPasses passes;
     for (const Point& target : drag.targets) {
       if (stop_.stop_requested()) {

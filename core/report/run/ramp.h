@@ -9,7 +9,7 @@
 
 #include "report/run/clocks.h"
 #include "report/run/growth.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail::report {
 

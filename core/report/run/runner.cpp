@@ -80,7 +80,7 @@ void Runner::relax(Relaxing relaxing) {
     simulation_.apply(commands::Relax{std::uint32_t(relaxing.iterations), relax_step_, RelaxationScheme::equilibrium,
                                       relaxing.until});
   } else {
-    simulation_.relax(relaxing.sweeps, relax_step_);
+    simulation_.relax(relaxing.sweeps, {relax_step_, simulation_.relaxation().scheme});
   }
 }
 

@@ -5,14 +5,14 @@
 #include "mesh/generate.h"
 #include "program.h"
 #include "simulate/simulation.h"
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 namespace chainmail::test_api_moves {
 
 namespace {
 
 /// The positions of a solver, x, y, z for each element.
-std::vector<double> positions_of(const Solver& solver) {
+std::vector<double> positions_of(const Deformer& solver) {
   std::vector<double> all;
   for (chainmail::ElementId e = 0; e < solver.body().mesh().element_count(); ++e) {
     const Point point = point_of(solver.body().mesh(), solver.body().positions(), e);
@@ -75,7 +75,7 @@ void ApiMovesTest::moves_equal_those_of_the_solver() {
   const bool is_grid = chainmail::info(algorithm).needs_grid;
   const MeshPointer mesh = is_grid ? generate({MeshKind::block, {5, 4, 3}}) : generate({MeshKind::tetra, {5, 4, 3}});
   const auto solver =
-      make_solver(mesh, algorithm,
+      std::make_unique<Deformer>(mesh, algorithm,
                   precision == cm::Precision::single_precision ? chainmail::Precision::single_precision
                                                                : chainmail::Precision::double_precision);
   cm::Deformer deformer(is_grid ? cm::make_block(5, 4, 3) : cm::make_tetra(5, 4, 3), method, precision);
@@ -127,13 +127,13 @@ void ApiMovesTest::relaxation_equals_that_of_a_simulation() {
       deformer.move(0, {x, -2, 0});
       QCOMPARE(deformer.relax(3, {.step = 0.8, .scheme = scheme}), 3);
       simulation.apply(chainmail::commands::Drag{Point(x, -2, 0)});
-      simulation.relax(3, 0.8);
+      simulation.relax(3, {0.8, simulation.relaxation().scheme});
       QVERIFY(same_numbers(deformer.body().positions(), positions_of(simulation.solver())));
     }
     deformer.release();
     simulation.apply(chainmail::commands::Release{});
     QVERIFY(deformer.relax(5, {.scheme = scheme}) > 0);
-    simulation.relax(5, 1);
+    simulation.relax(5, {1, simulation.relaxation().scheme});
     QVERIFY(same_numbers(deformer.body().positions(), positions_of(simulation.solver())));
     QVERIFY((deformer.body().position(0) != cm::Vector3{-4, -2, 0}));  // it was released
     deformer.body().reset();
@@ -148,7 +148,7 @@ void ApiMovesTest::moves_are_traced() {
   deformer.move(0, {-2, 0, 0});
   QVERIFY(deformer.trace().empty());
   deformer.set_tracing(true);
-  const auto solver = make_solver(generate({MeshKind::grid, {4, 4, 1}}), Algorithm::natural_queue,
+  const auto solver = std::make_unique<Deformer>(generate({MeshKind::grid, {4, 4, 1}}), Algorithm::natural_queue,
                                   chainmail::Precision::double_precision);
   solver->move(0, Point(-2, 0, 0));
   chainmail::Trace trace;

@@ -39,7 +39,7 @@ void PinsTest::pins_stay() {
       if (std::find(pins.begin(), pins.end(), drag_step.of(*mesh)) == pins.end()) {
         drag_by(simulation, drag_step.of(*mesh), drag_step.by());
         carry_out(simulation, commands::Release{});
-        simulation.relax(2, 1);
+        simulation.relax(2, {1, simulation.relaxation().scheme});
       }
     }
     for (const ElementId pin : pins) {
@@ -60,7 +60,7 @@ void PinsTest::lists_go_round_a_pin() {
     if (one.algorithm == Algorithm::exact) {
       continue;
     }
-    const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::double_precision);
     const ElementId pin = 3;
     solver->body().pin(std::span(&pin, 1));
     const PassCount count = solver->move(0, Point(-9, 0, 0));
@@ -75,7 +75,7 @@ void PinsTest::lists_go_round_a_pin() {
 void PinsTest::everything_pinned() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
-    const auto solver = make_solver(mesh, one.algorithm, Precision::single_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::single_precision);
     for (ElementId e = 1; e < 16; ++e) {
       solver->body().pin(std::span(&e, 1));
     }
@@ -90,7 +90,7 @@ void PinsTest::everything_pinned() {
 void PinsTest::a_pinned_element_is_not_moved() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
   for (const AlgorithmInfo& one : algorithms_for(*mesh)) {
-    const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::double_precision);
     const ElementId pin = 5;
     solver->body().pin(std::span(&pin, 1));
     const std::string sentence = refusal([&] { solver->move(5, Point(2, 2, 0)); });

@@ -170,7 +170,7 @@ void SoftnessRegionTest::softness_of_a_link_goes_before_the_global_one() {
   QVERIFY(softness.of(2) == (LinkSoftness{1, 1, 0}));
   // The stiff link 2–3 moves as a whole; the others stretch.
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness(softness);
   solver->move(0, Point(-4, 0, 0));
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-4, -2.5, -1, 0, 1.5}));

@@ -35,9 +35,9 @@ Algorithm bullet() {
 }
 
 /// A solver that runs as many frames as it needs.
-Solver patient(const MeshPointer& mesh, const std::vector<ElementId>& pins,
+Deformer patient(const MeshPointer& mesh, const std::vector<ElementId>& pins,
                Precision precision = Precision::double_precision) {
-  Solver solver(mesh, bullet(), precision);
+  Deformer solver(mesh, bullet(), precision);
   ElasticOptions options;
   options.iterations = 100'000;
   solver.body().set_elastic(options);
@@ -55,7 +55,7 @@ std::vector<ElementId> first_column(const Mesh& mesh) {
   return column;
 }
 
-std::vector<double> lengths_of(const Solver& solver, const Mesh& mesh) {
+std::vector<double> lengths_of(const Deformer& solver, const Mesh& mesh) {
   std::vector<double> lengths;
   for (const auto& [a, b] : mesh.links) {
     lengths.push_back((position_of(solver, mesh, b) - position_of(solver, mesh, a)).norm());
@@ -115,7 +115,7 @@ void BulletTest::a_taut_chain_has_the_lengths_that_cancel() {
   QFETCH(const int, precision);
   for (const std::uint32_t count : {3U, 4U, 8U}) {
     const MeshPointer mesh = make_mesh(MeshKind::line, {count, 1, 1}, space);
-    Solver solver = patient(mesh, {0}, Precision(precision));
+    Deformer solver = patient(mesh, {0}, Precision(precision));
     const double way = 0.004;
     move_by(solver, *mesh, count - 1, Point((count - 2) * way, 0, 0));
     QVERIFY2(solver.remark().empty(), solver.remark().c_str());
@@ -134,7 +134,7 @@ void BulletTest::two_taut_links_have_the_lengths_of_bullets_formula() {
   const MeshPointer mesh = make_mesh(MeshKind::line, {3, 1, 1});
   const auto corrected = [](double length) { return 2 * length / (1 + length * length); };
   for (const double whole : {2.2, 3.0, 5.0}) {
-    Solver solver = patient(mesh, {0});
+    Deformer solver = patient(mesh, {0});
     solver.move(2, Point(whole, 0, 0));
     double last = whole / 2;
     for (int i = 0; i < 1000; ++i) {
@@ -150,7 +150,7 @@ void BulletTest::the_answer_is_repeated_bit_for_bit() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {10, 8, 1});
   std::vector<std::vector<double>> answers;
   for (int turn = 0; turn < 3; ++turn) {
-    Solver solver = patient(mesh, first_column(*mesh));
+    Deformer solver = patient(mesh, first_column(*mesh));
     for (const Point& by : {Point(0.5, 1, 0), Point(-1, 1, 0)}) {
       move_by(solver, *mesh, 79, by);
     }
@@ -166,7 +166,7 @@ void BulletTest::pins_and_handle_are_exactly_in_place() {
   QFETCH(const int, space);
   QFETCH(const int, precision);
   const MeshPointer mesh = object_in(space);
-  Solver solver = patient(mesh, {}, Precision(precision));
+  Deformer solver = patient(mesh, {}, Precision(precision));
   const ElementId last = mesh->element_count() - 1, pin = last / 2;
   move_by(solver, *mesh, pin, in_space({0.1, 0.3, 1. / 7}, space));
   std::vector<ElementId> pins = first_column(*mesh);
@@ -198,7 +198,7 @@ void BulletTest::pins_and_handle_are_exactly_in_place() {
 
 void BulletTest::a_handle_of_many_turns_as_a_rigid_body() {
   const MeshPointer mesh = make_mesh(MeshKind::tetra, {6, 3, 3});
-  Solver solver = patient(mesh, first_column(*mesh));
+  Deformer solver = patient(mesh, first_column(*mesh));
   std::vector<ElementId> grabbed;
   for (ElementId e = 5; e < mesh->element_count(); e += 6) {
     grabbed.push_back(e);
@@ -219,7 +219,7 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
   const auto holds = [] {
     const MeshPointer mesh = draw_family().mesh;
     const Precision precision = *any_precision();
-    Solver solver(mesh, bullet(), precision);
+    Deformer solver(mesh, bullet(), precision);
     ElasticOptions few;
     few.iterations = 20;
     solver.body().set_elastic(few);
@@ -252,7 +252,7 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
       if (body.is_pinned(drag_step.of(*mesh))) {
         continue;
       }
-      Solver fresh(mesh, bullet(), precision);
+      Deformer fresh(mesh, bullet(), precision);
       fresh.body().set_elastic(few);
       fresh.body().set_positions(positions_of(solver, *mesh));
       fresh.body().cut(body.cuts().links());
@@ -270,7 +270,7 @@ void BulletTest::each_move_is_that_of_a_new_solver() {
 /// What lies behind the cut stays, and follows again when the links are restored.
 void BulletTest::cut_links_are_not_followed() {
   const MeshPointer mesh = make_mesh(MeshKind::line, {9, 1, 1}, 2);
-  Solver solver = patient(mesh, {0});
+  Deformer solver = patient(mesh, {0});
   const LinkId link = *find_link(*mesh, 4, 5);
   const auto moved = [&] {
     move_by(solver, *mesh, 8, {0.5, 0.5, 0});
@@ -288,7 +288,7 @@ void BulletTest::cut_links_are_not_followed() {
 /// Frames that follow in later moves lead on to the same place.
 void BulletTest::the_limit_of_iterations_is_told() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {6, 5, 1});
-  Solver solver = patient(mesh, first_column(*mesh)), other = patient(mesh, first_column(*mesh));
+  Deformer solver = patient(mesh, first_column(*mesh)), other = patient(mesh, first_column(*mesh));
   ElasticOptions few;
   few.iterations = 3;
   solver.body().set_elastic(few);
@@ -311,7 +311,7 @@ void BulletTest::the_limit_of_iterations_is_told() {
 
 void BulletTest::a_cancelled_move_moves_nothing() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {10, 8, 1});
-  Solver solver = patient(mesh, first_column(*mesh));
+  Deformer solver = patient(mesh, first_column(*mesh));
   JobState job;
   job.cancelled = true;
   for (int turn = 0; turn < 2; ++turn) {
@@ -322,7 +322,7 @@ void BulletTest::a_cancelled_move_moves_nothing() {
     solver.set_progress({});
     move_by(solver, *mesh, 79, {0.5, 1, 0});
   }
-  Solver other = patient(mesh, first_column(*mesh));
+  Deformer other = patient(mesh, first_column(*mesh));
   move_by(other, *mesh, 79, {0.5, 1, 0});
   move_by(other, *mesh, 79, {0.5, 1, 0});
   QVERIFY(same_bits(positions_of(solver, *mesh), positions_of(other, *mesh)));
@@ -331,7 +331,7 @@ void BulletTest::a_cancelled_move_moves_nothing() {
 /// The squares of distances exceed Bullet's single precision.
 void BulletTest::a_target_out_of_range_moves_nothing() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {5, 4, 1});
-  Solver solver = patient(mesh, first_column(*mesh));
+  Deformer solver = patient(mesh, first_column(*mesh));
   move_by(solver, *mesh, 19, {0.5, 1, 0});
   const std::vector<double> before = positions_of(solver, *mesh);
   for (const double size : {1e20, 1e60, 1e300, std::numeric_limits<double>::quiet_NaN()}) {

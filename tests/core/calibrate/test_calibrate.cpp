@@ -169,7 +169,7 @@ void CalibrateTest::the_residuals_are_those_of_the_result() {
       for (const Command& command : drag.moves.commands) {
         simulation.apply(command);
         if (std::holds_alternative<commands::Drag>(command)) {
-          simulation.relax(sweeps, 1);
+          simulation.relax(sweeps, {1, simulation.relaxation().scheme});
         }
       }
       return measure_physical_error(*sheet, simulation.body().positions(), drag.reference);

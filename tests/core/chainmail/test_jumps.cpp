@@ -126,7 +126,7 @@ void JumpsTest::nothing_outruns_the_hand_however_often_it_relaxes() {
     Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
     carry_out(simulation, commands::SetSoftness{{*any_link_softness(), {}}});
     for (const DragStep& drag_step : *any_drag_steps()) {
-      simulation.relax(*rc::gen::inRange(0, 5), *rc::gen::inRange(1, 101) / 100.0);
+      simulation.relax(*rc::gen::inRange(0, 5), {*rc::gen::inRange(1, 101) / 100.0, simulation.relaxation().scheme});
       const auto before = positions_of(simulation);
       drag_by(simulation, drag_step.of(*mesh), drag_step.by());
       const auto after = positions_of(simulation);

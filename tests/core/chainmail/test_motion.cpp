@@ -36,7 +36,7 @@ struct ValidState {
       : mesh(draw_family().mesh),
         precision(*any_precision()),
         softness(draw_softness(*mesh)),
-        solver(make_solver(mesh, *any_algorithm(), precision)) {
+        solver(std::make_unique<Deformer>(mesh, *any_algorithm(), precision)) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     solver->body().set_softness(softness);
     solver->body().set_positions(random_valid_state(*mesh, softness, reach, random));
@@ -45,7 +45,7 @@ struct ValidState {
   MeshPointer mesh;
   Precision precision;
   Softness softness;
-  std::unique_ptr<Solver> solver;
+  std::unique_ptr<Deformer> solver;
 };
 
 /// Returns the unit in the last place of the precision, relative to 1.
@@ -62,7 +62,7 @@ double rounding_of_a_pass(Precision precision, const std::vector<double>& positi
 void MotionTest::at_rest_a_zero_move_moves_nothing() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, *any_algorithm(), Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, *any_algorithm(), Precision::double_precision);
     // Any softness except rigid, because then the rest shape has no slack for rounding.
     solver->body().set_softness({{*rc::gen::inRange(0, 100) / 100.0, *rc::gen::inRange(101, 300) / 100.0, 0.01}, {}});
     const ElementId element = (*any_drag_step()).of(*mesh);
@@ -91,7 +91,7 @@ void MotionTest::after_a_drag_a_zero_move_anywhere_moves_nothing() {
   // Softness and moves are in eighths, so every sum is exact and nothing at all may move.
   const auto holds = [] {
     const auto mesh = make_mesh(MeshKind::grid, {9, 7, 1});
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, *any_precision());
     solver->body().set_softness({{0.75, 1.25, 0.125}, {}});
     for (const DragStep& drag_step : *any_drag_steps()) {
       move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
@@ -149,7 +149,7 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
   const auto holds = [] {
     const auto mesh = draw_grid();
     const auto precision = *any_precision();
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, precision);
     solver->body().set_softness({*any_link_softness(), {}});
     double rounding = 0;  // an earlier pass leaves its rounding in the state
     for (const DragStep& drag_step : *any_drag_steps()) {
@@ -169,7 +169,7 @@ void MotionTest::on_uncut_grids_natural_queue_never_outruns_the_hand() {
 void MotionTest::on_uncut_grids_natural_queue_stays_valid() {
   const auto holds = [] {
     const auto mesh = draw_grid();
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
     const Softness softness{*any_link_softness(), {}};
     solver->body().set_softness(softness);
     for (const DragStep& drag_step : *any_drag_steps()) {
@@ -193,8 +193,8 @@ void MotionTest::the_mirror_image_of_a_drag_gives_the_mirror_image() {
     const auto image = build_mesh(std::move(parts));
     const auto algorithm = *any_algorithm();
     const auto precision = *any_precision();
-    const auto one = make_solver(family.mesh, algorithm, precision);
-    const auto other = make_solver(image, algorithm, precision);
+    const auto one = std::make_unique<Deformer>(family.mesh, algorithm, precision);
+    const auto other = std::make_unique<Deformer>(image, algorithm, precision);
     for (const DragStep& drag_step : *any_drag_steps()) {
       move_by(*one, mesh, drag_step.of(mesh), drag_step.by());
       move_by(*other, *image, drag_step.of(mesh), -drag_step.by());
@@ -213,9 +213,9 @@ void MotionTest::a_translated_object_deforms_alike() {
   const Point way(64, -32, 0);
   const auto moved = build_mesh(placed(*grid, [&](const Point& p) { return p + way; }));
   for (const AlgorithmInfo& info : algorithms_for(*moved)) {
-    const auto here = make_solver(grid, info.algorithm, Precision::single_precision);
-    const auto there = make_solver(moved, info.algorithm, Precision::single_precision);
-    for (Solver* solver : {here.get(), there.get()}) {
+    const auto here = std::make_unique<Deformer>(grid, info.algorithm, Precision::single_precision);
+    const auto there = std::make_unique<Deformer>(moved, info.algorithm, Precision::single_precision);
+    for (Deformer* solver : {here.get(), there.get()}) {
       solver->body().set_softness({{0.75, 1.25, 0.125}, {}});
     }
     move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
@@ -228,7 +228,7 @@ void MotionTest::a_translated_object_deforms_alike() {
 
 void MotionTest::nothing_moves_on_an_axis_without_motion_in_1d() {
   const auto mesh = make_mesh(MeshKind::line, {9, 1, 1}, 2);
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   move_by(*solver, *mesh, 4, Point(5, 0, 0));
   for (ElementId e = 0; e < 9; ++e) {
     QCOMPARE(solver->body().positions()(e, 1), 0.0);
@@ -237,7 +237,7 @@ void MotionTest::nothing_moves_on_an_axis_without_motion_in_1d() {
 
 void MotionTest::a_target_that_is_no_number_is_refused() {
   const auto mesh = make_mesh(MeshKind::grid, {4, 4, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
   const auto before = positions_of(*solver, *mesh);
   for (const double bad : {std::nan(""), HUGE_VAL, 1e300}) {  // the last one is infinite in float
     QVERIFY_EXCEPTION_THROWN(solver->move(5, Point(1, bad, 0)), Error);

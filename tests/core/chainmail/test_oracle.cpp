@@ -47,7 +47,7 @@ class SideBySide {
         random_(seed),
         softness_(mixed_softness(*mesh, random_)),
         algorithm_(algorithm),
-        solver_(make_solver(mesh, algorithm, precision_of<Scalar>)),
+        solver_(std::make_unique<Deformer>(mesh, algorithm, precision_of<Scalar>)),
         object_(mesh, factors_of(mesh, softness_)) {
     solver_->body().set_softness(softness_);
   }
@@ -161,7 +161,7 @@ class SideBySide {
   std::mt19937_64 random_;
   Softness softness_;
   Algorithm algorithm_;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<Deformer> solver_;
   reference::Object<Scalar> object_;
   std::optional<Handle> handle_;
 };
@@ -221,8 +221,8 @@ void OracleTest::spiral_ends_where_natural_queue_does() {
   std::mt19937_64 random(5);
   for (const MeshFamily& family : families()) {
     for (const Precision precision : precisions) {
-      const auto spiral = make_solver(family.mesh, Algorithm::spiral, precision);
-      const auto queue = make_solver(family.mesh, Algorithm::natural_queue, precision);
+      const auto spiral = std::make_unique<Deformer>(family.mesh, Algorithm::spiral, precision);
+      const auto queue = std::make_unique<Deformer>(family.mesh, Algorithm::natural_queue, precision);
       const Softness softness = mixed_softness(*family.mesh, random);
       spiral->body().set_softness(softness);
       queue->body().set_softness(softness);

@@ -41,7 +41,7 @@ Trace all_moved(const std::vector<std::array<ElementId, 2>>& element_and_sponsor
 
 /// Drags a rigid grid far, so that every candidate moves.
 Trace drag_rigid(const MeshPointer& mesh, Algorithm algorithm, ElementId element) {
-  const auto solver = make_solver(mesh, algorithm, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, algorithm, Precision::double_precision);
   solver->body().set_softness({rigid, {}});
   Trace trace;
   move_by(*solver, *mesh, element, Point(8, 4, 0), &trace);
@@ -107,7 +107,7 @@ void PropagationTest::only_elements_that_moved_pass_it_on() {
   // is more than 0.2, so they stay.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
   for (const AlgorithmInfo& one : algorithms()) {
-    const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::double_precision);
     solver->body().set_softness({{0.875, 1.125, 0.25}, {}});
     Trace trace;
     const PassCount count = move_by(*solver, *mesh, 4, Point(-0.2, 0, 0), &trace);
@@ -125,7 +125,7 @@ void PropagationTest::a_chain_follows_link_by_link() {
   // 0 moves 2 to the left. Links stretch to 1.25, one after another, until the slack has used up the move.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   for (const AlgorithmInfo& one : algorithms()) {
-    const auto solver = make_solver(mesh, one.algorithm, Precision::single_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::single_precision);
     solver->body().set_softness({{0.75, 1.25, 0}, {}});
     const PassCount count = solver->move(0, Point(-2, 0, 0));
     const std::vector<double> expected{-2, -0.75, 0.5, 1.75, 3, 4.25, 5.5, 6.75, 8, 9, 10, 11};
@@ -141,7 +141,7 @@ void PropagationTest::a_second_pass_to_the_same_target_moves_nothing() {
   // to other sponsors further away, so it may not end at once.
   const auto mesh = make_mesh(MeshKind::grid, {9, 9, 1});
   for (const Algorithm algorithm : {Algorithm::spiral, Algorithm::natural_queue}) {
-    const auto solver = make_solver(mesh, algorithm, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, algorithm, Precision::double_precision);
     move_by(*solver, *mesh, 40, Point(3, 2, 0));
     const auto before = positions_of(*solver, *mesh);
     const PassCount again = move_by(*solver, *mesh, 40, Point(0, 0, 0));
@@ -155,7 +155,7 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
-    const auto solver = make_solver(mesh, *any_algorithm(), precision);
+    const auto solver = std::make_unique<Deformer>(mesh, *any_algorithm(), precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->body().cut(draw_links(*mesh));
@@ -180,7 +180,7 @@ void PropagationTest::an_updated_elements_link_to_its_sponsor_is_valid() {
 void PropagationTest::no_element_is_updated_twice() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, *any_algorithm(), *any_precision());
     solver->body().set_softness(draw_softness(*mesh));
     for (const DragStep& drag_step : *any_drag_steps()) {
       Trace trace;
@@ -198,7 +198,7 @@ void PropagationTest::no_element_is_updated_twice() {
 void PropagationTest::counts_agree_with_the_trace() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, *any_algorithm(), *any_precision());
     const auto drag_step = *any_drag_step();
     Trace trace;
     const PassCount count = move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by(), &trace);

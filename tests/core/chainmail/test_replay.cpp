@@ -19,7 +19,7 @@ class Drag {
       : mesh_(std::move(mesh)),
         algorithm_(algorithm),
         precision_(precision),
-        solver_(make_solver(mesh_, algorithm, precision)) {}
+        solver_(std::make_unique<Deformer>(mesh_, algorithm, precision)) {}
 
   void happen(Event event, std::uint32_t which, const Point& by) {
     const LinkId link = which % mesh_->link_count();
@@ -49,7 +49,7 @@ class Drag {
 
  private:
   void move(const Point& target) {
-    const auto fresh = make_solver(mesh_, algorithm_, precision_);
+    const auto fresh = std::make_unique<Deformer>(mesh_, algorithm_, precision_);
     fresh->body().set_softness(softness_);
     fresh->body().cut(solver_->body().cuts().links());
     fresh->body().pin(solver_->body().pins());
@@ -68,7 +68,7 @@ class Drag {
   MeshPointer mesh_;
   Algorithm algorithm_;
   Precision precision_;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<Deformer> solver_;
   Softness softness_;
   ElementId hand_ = 0;
 };
@@ -105,8 +105,8 @@ void ReplayTest::a_drag_goes_as_without_memory() {
 
 void ReplayTest::an_algorithm_finds_nothing_of_another() {
   const auto mesh = make_mesh(MeshKind::grid, {9, 9, 1});
-  const auto one = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  const auto other = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto one = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto other = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   const auto both = [&](int x) {
     one->move(0, Point(x, x, 0));
     other->move(0, Point(x, x, 0));

@@ -45,7 +45,7 @@ class EquilibriumSolverTest : public QObject {
 
 namespace {
 
-std::vector<double> displacements_of(const Solver& solver) {
+std::vector<double> displacements_of(const Deformer& solver) {
   const Mesh& mesh = solver.body().mesh();
   std::vector<double> result = positions_of(solver, mesh);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -56,12 +56,12 @@ std::vector<double> displacements_of(const Solver& solver) {
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) { return largest_step(a, b); }
 
-double fraction_violated(const Solver& solver) {
+double fraction_violated(const Deformer& solver) {
   const Body& body = solver.body();
   return measure_violation(body.mesh(), body.softness(), body.cuts(), body.positions()).fraction;
 }
 
-double energy_of(const Solver& solver) {
+double energy_of(const Deformer& solver) {
   const Body& body = solver.body();
   return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions());
 }
@@ -88,7 +88,7 @@ struct Dragged {
   bool solve(double residual, int most = 5000) { return equilibrium->solve(solver.body(), held, residual, most); }
 
   MeshPointer mesh;
-  Solver solver;
+  Deformer solver;
   std::vector<ElementId> held;
   std::unique_ptr<EquilibriumSolver> equilibrium;
 };
@@ -255,7 +255,7 @@ void EquilibriumSolverTest::an_invalid_state_is_made_valid() {
 
 void EquilibriumSolverTest::pins_that_contradict_each_other_are_named() {
   const auto mesh = make_mesh(MeshKind::line, {5, 1, 1});
-  Solver solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  Deformer solver(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver.body().set_positions(std::vector<double>{0, 1, 2, 3, 9});
   solver.body().pin(std::vector<ElementId>{0, 4});
   const auto before = positions_of(solver, *mesh);
@@ -565,7 +565,7 @@ void EquilibriumSolverTest::the_corotated_energy_is_least() {
 
 void EquilibriumSolverTest::the_corotated_energy_ignores_rotations() {
   for (const MeshPointer& mesh : {jittered_triangles(7, 6, 13), make_mesh(MeshKind::tetra, {4, 4, 3})}) {
-    Solver solver(mesh, Algorithm::exact, Precision::double_precision);
+    Deformer solver(mesh, Algorithm::exact, Precision::double_precision);
     solver.body().set_softness(softness_of(EnergyKind::corotated, 1, wide));
     const auto turned = [&](double stretch) {
       std::vector<double> positions = mesh->rest;

@@ -14,9 +14,9 @@ namespace {
 constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
 constexpr LinkSoftness wide{0, 100, 100};  // regions have no effect
 
-std::unique_ptr<Solver> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
+std::unique_ptr<Deformer> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
   auto solver =
-      make_solver(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+      std::make_unique<Deformer>(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness({wide, {}});
   solver->set_relaxation(RelaxationScheme::link);
   solver->body().set_positions(positions);
@@ -26,7 +26,7 @@ std::unique_ptr<Solver> stretched_chain(std::uint32_t length, const std::vector<
   return solver;
 }
 
-std::vector<double> positions_of_chain(const Solver& solver, std::uint32_t length) {
+std::vector<double> positions_of_chain(const Deformer& solver, std::uint32_t length) {
   return positions_of(solver, *make_mesh(MeshKind::line, {length, 1, 1}));
 }
 
@@ -49,28 +49,28 @@ class LinkRelaxationTest : public QObject {
 
 void LinkRelaxationTest::two_ends_share_the_deflection() {
   const auto solver = stretched_chain(2, {0, 3});
-  solver->relax(1, no_limit, {});
+  solver->relax_slice(1, no_limit, {});
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{1, 2}));
 }
 
 void LinkRelaxationTest::a_step_is_that_share_of_the_way() {
   const auto solver = stretched_chain(2, {0, 3});
-  solver->relax(0.5, no_limit, {});
+  solver->relax_slice(0.5, no_limit, {});
   // Half steps: the first end moves a quarter of the way to 2, the second a quarter of the way to 1.
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0.5, 2.5}));
 }
 
 void LinkRelaxationTest::a_held_end_leaves_its_half_to_the_next_sweep() {
   const auto solver = stretched_chain(2, {0, 3});
-  solver->relax(1, no_limit, std::array{ElementId{0}});
+  solver->relax_slice(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 2}));
-  solver->relax(1, no_limit, std::array{ElementId{0}});
+  solver->relax_slice(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of_chain(*solver, 2), (std::vector<double>{0, 1.5}));
 }
 
 void LinkRelaxationTest::links_come_in_their_order() {
   const auto solver = stretched_chain(3, {0, 3, 4});
-  solver->relax(1, no_limit, {});
+  solver->relax_slice(1, no_limit, {});
   // Link 0-1 moves its ends to 1 and 2. Link 1-2 is then 2 long and moves its ends to 2.5 and 3.5.
   QCOMPARE(positions_of_chain(*solver, 3), (std::vector<double>{1, 2.5, 3.5}));
 }
@@ -78,7 +78,7 @@ void LinkRelaxationTest::links_come_in_their_order() {
 void LinkRelaxationTest::a_free_chain_comes_to_rest_in_its_shape() {
   const auto solver = stretched_chain(5, {0, 4, 4.5, 6, 9});
   int sweeps = 0;
-  while (solver->relax(1, no_limit, {}).visited != 0 && ++sweeps < 10'000) {
+  while (solver->relax_slice(1, no_limit, {}).visited != 0 && ++sweeps < 10'000) {
   }
   QVERIFY(sweeps < 10'000);
   const auto x = positions_of_chain(*solver, 5);
@@ -93,7 +93,7 @@ void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
   const std::vector<ElementId> ends{0, 4};
   solver->body().pin(ends);
   for (int i = 0; i < 2000; ++i) {
-    solver->relax(0.1, no_limit, {});
+    solver->relax_slice(0.1, no_limit, {});
   }
   const auto x = positions_of_chain(*solver, 5);
   QCOMPARE(x[0], 0.0);
@@ -107,7 +107,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto solver =
-        make_solver(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact), Precision::double_precision);
+        std::make_unique<Deformer>(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact), Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->set_relaxation(RelaxationScheme::link);
@@ -117,7 +117,7 @@ void LinkRelaxationTest::valid_links_stay_valid() {
     std::iota(all.begin(), all.end(), ElementId{0});
     solver->wake(all);
     for (int i = 0; i < 5; ++i) {
-      solver->relax(*rc::gen::inRange(1, 101) / 100.0, no_limit, std::array{(*any_drag_step()).of(*mesh)});
+      solver->relax_slice(*rc::gen::inRange(1, 101) / 100.0, no_limit, std::array{(*any_drag_step()).of(*mesh)});
       // In rest lengths: only rounding.
       RC_ASSERT(measure_violation(*mesh, softness, solver->body().cuts(), solver->body().positions()).max <= 1e-9);
     }
@@ -131,16 +131,16 @@ void LinkRelaxationTest::displacements_relax_like_positions() {
     const auto mesh = jittered_triangles(8, 8, 4);
     std::mt19937_64 random(9);
     const auto state = random_valid_state(*mesh, {}, 0.9, random);
-    const auto absolute = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-    const auto from_rest = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+    const auto absolute = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto from_rest = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
     std::vector<ElementId> all(mesh->element_count());
     std::iota(all.begin(), all.end(), ElementId{0});
-    for (Solver* solver : {absolute.get(), from_rest.get()}) {
+    for (Deformer* solver : {absolute.get(), from_rest.get()}) {
       solver->set_relaxation(scheme);
       solver->body().set_positions(state);
       solver->wake(all);
       for (int i = 0; i < 5; ++i) {
-        solver->relax(0.8, no_limit, std::array{ElementId{20}});
+        solver->relax_slice(0.8, no_limit, std::array{ElementId{20}});
       }
     }
     QVERIFY(largest_step(state, positions_of(*absolute, *mesh)) > 0.01);

@@ -44,7 +44,7 @@ namespace {
 
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-void wake_all(Solver& solver, const Mesh& mesh) {
+void wake_all(Deformer& solver, const Mesh& mesh) {
   std::vector<ElementId> all(mesh.element_count());
   std::iota(all.begin(), all.end(), ElementId{0});
   solver.wake(all);
@@ -54,11 +54,11 @@ void wake_all(Solver& solver, const Mesh& mesh) {
 std::vector<double> sweep_chain(const MeshPointer& mesh, Softness softness, const std::vector<double>& positions,
                                 double step, ElementId held) {
   softness.energy = EnergyKind::isotropic;
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness(softness);
   solver->body().set_positions(positions);
   wake_all(*solver, *mesh);
-  solver->relax(step, no_limit, std::array{held});
+  solver->relax_slice(step, no_limit, std::array{held});
   return positions_of(*solver, *mesh);
 }
 
@@ -84,7 +84,7 @@ Softness draw_energy(const Mesh& mesh) {
 
 /// Returns the largest derivative of the energy by a coordinate of an element that is neither held nor pinned, by
 /// central differences.
-double largest_slope(Solver& solver, const Mesh& mesh, const Softness& softness, ElementId held) {
+double largest_slope(Deformer& solver, const Mesh& mesh, const Softness& softness, ElementId held) {
   const double h = 1e-4;
   const std::vector<double> positions = positions_of(solver, mesh);
   const auto energy_at = [&](std::size_t i, double by) {
@@ -117,7 +117,7 @@ MeshPointer without_faces(const Mesh& mesh) {
 struct ActiveState {
   ActiveState() : mesh(draw_family().mesh), softness(draw_energy(*mesh)), step(*rc::gen::inRange(1, 101) / 100.0) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-    solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->body().set_softness(softness);
     solver->body().set_positions(random_valid_state(*mesh, softness, 0.99, random));
     wake_all(*solver, *mesh);
@@ -133,7 +133,7 @@ struct ActiveState {
   Softness softness;
   double step;
   ElementId held = 0;
-  std::unique_ptr<Solver> solver;
+  std::unique_ptr<Deformer> solver;
 };
 
 const LinkSoftness soft{0.5, 1.5, 0.5};
@@ -176,12 +176,12 @@ void RelaxationTest::where_the_intersection_is_empty_it_stays_on_that_axis() {
 
 void RelaxationTest::a_cut_link_does_not_pull() {
   const auto mesh = make_mesh(MeshKind::line, {3, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   const LinkId right = *find_link(*mesh, 1, 2);
   solver->body().cut(std::span(&right, 1));
   solver->body().set_positions(std::vector<double>{0, 1.25, 9});
   wake_all(*solver, *mesh);
-  solver->relax(1, no_limit, std::array{ElementId{0}});
+  solver->relax_slice(1, no_limit, std::array{ElementId{0}});
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{0, 1, 9}));
 }
 
@@ -190,7 +190,7 @@ void RelaxationTest::the_held_element_stays() {
     const ActiveState state;
     const Point before = position_of(*state.solver, *state.mesh, state.held);
     for (int sweep = 0; sweep < 5; ++sweep) {
-      state.solver->relax(state.step, no_limit, std::array{state.held});
+      state.solver->relax_slice(state.step, no_limit, std::array{state.held});
     }
     RC_ASSERT(position_of(*state.solver, *state.mesh, state.held) == before);
   };
@@ -200,15 +200,15 @@ void RelaxationTest::the_held_element_stays() {
 void RelaxationTest::the_rest_shape_stays() {
   for (const MeshFamily& family : families()) {
     for (const Precision precision : precisions) {
-      const auto solver = make_solver(family.mesh, Algorithm::natural_queue, precision);
+      const auto solver = std::make_unique<Deformer>(family.mesh, Algorithm::natural_queue, precision);
       const auto before = positions_of(*solver, *family.mesh);
       wake_all(*solver, *family.mesh);
-      const RelaxationResult result = solver->relax(1, no_limit, {});
+      const RelaxationResult result = solver->relax_slice(1, no_limit, {});
       QVERIFY(result.sweep_ended);
       QCOMPARE(result.visited, std::uint64_t{family.mesh->element_count()});
       QCOMPARE(result.largest_step, 0.0);
       QVERIFY(same_bits(before, positions_of(*solver, *family.mesh)));
-      QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});
+      QCOMPARE(solver->relax_slice(1, no_limit, {}).visited, std::uint64_t{0});
     }
   }
 }
@@ -241,7 +241,7 @@ void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {
     const auto drag_steps = *any_drag_steps(10);
     const double step = *rc::gen::element(1.0, 0.6);
     const auto relaxed = [&](const Softness& softness) {
-      const auto solver = make_solver(mesh, algorithm, precision);
+      const auto solver = std::make_unique<Deformer>(mesh, algorithm, precision);
       solver->body().set_softness(softness);
       solver->body().cut(cuts);
       std::vector<double> positions;
@@ -250,7 +250,7 @@ void RelaxationTest::one_region_per_rest_vector_or_per_link_is_the_same() {
         move_by(*solver, *mesh, held, drag_step.by());
         solver->wake_all();
         for (int sweep = 0; sweep < 3; ++sweep) {
-          solver->relax(step, no_limit, std::array{held});
+          solver->relax_slice(step, no_limit, std::array{held});
           const auto now = positions_of(*solver, *mesh);
           positions.insert(positions.end(), now.begin(), now.end());
         }
@@ -269,7 +269,7 @@ void RelaxationTest::from_a_valid_state_every_link_stays_valid() {
     // below 1e-11 per sweep.
     RC_ASSERT(state.violation() <= 1e-10);
     for (int sweep = 0; sweep < 10; ++sweep) {
-      state.solver->relax(state.step, no_limit, std::array{state.held});
+      state.solver->relax_slice(state.step, no_limit, std::array{state.held});
       RC_ASSERT(state.violation() <= 1e-10);
     }
   };
@@ -281,7 +281,7 @@ void RelaxationTest::from_a_valid_state_the_energy_never_rises() {
     const ActiveState state;
     double before = state.energy();
     for (int visit = 0; visit < 300; ++visit) {
-      state.solver->relax(state.step, 1, std::array{state.held});
+      state.solver->relax_slice(state.step, 1, std::array{state.held});
       const double after = state.energy();
       // E is a sum of some 100 squares of differences. Each difference has an error of an ulp of a coordinate (1e-14),
       // which changes E by that times a deflection: 1e-12 of E, and less than 1e-20 if E is almost 0.
@@ -301,13 +301,13 @@ void RelaxationTest::axial_energy_by_hand() {
   const auto mesh = build_mesh(std::move(parts));
   const LinkSoftness loose{0, 100, 100, 0.25};
   const auto after = [&](const Softness& softness) {
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->body().set_softness(softness);
     solver->body().set_positions(std::vector<double>{0, 0, 1, 0, 2, 2});
     const std::array<ElementId, 2> ends{0, 2};
     solver->body().pin(ends);
     wake_all(*solver, *mesh);
-    solver->relax(1, no_limit, {});
+    solver->relax_slice(1, no_limit, {});
     const auto all = positions_of(*solver, *mesh);
     return Point(all[2], all[3], 0);
   };
@@ -330,13 +330,13 @@ void RelaxationTest::inside_a_region_it_takes_the_least_energy() {
   tight.compression = tight.stretch = 1;
   tight.shear = 0.5;  // x of element 1 is exactly 1 less than that of element 2; y within 0.5
   const Softness softness{loose, {{1, tight}}, EnergyKind::axial};
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness(softness);
   solver->body().set_positions(std::vector<double>{0, 0, 1.5, 1, 2.5, 1});
   const std::array<ElementId, 2> ends{0, 2};
   solver->body().pin(ends);
   wake_all(*solver, *mesh);
-  solver->relax(1, no_limit, {});
+  solver->relax_slice(1, no_limit, {});
   const auto all = positions_of(*solver, *mesh);
   QCOMPARE(all[2], 1.5);
   // The derivative by y is ½(0.5 + y) + 0.1 y + 0.1 y, with y from rest.
@@ -346,13 +346,13 @@ void RelaxationTest::inside_a_region_it_takes_the_least_energy() {
 void RelaxationTest::without_lateral_stiffness_a_chain_stays_across() {
   for (const Precision precision : precisions) {
     const auto mesh = make_mesh(MeshKind::line, {3, 1, 1}, 2);
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, precision);
     solver->body().set_softness(Softness{{0, 100, 100, 0}, {}, EnergyKind::axial});
     solver->body().set_positions(std::vector<double>{0, 0, 1.5, 0.75, 2, 0});
     const std::array<ElementId, 2> ends{0, 2};
     solver->body().pin(ends);
     wake_all(*solver, *mesh);
-    solver->relax(1, no_limit, {});
+    solver->relax_slice(1, no_limit, {});
     QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{0, 0, 1, 0.75, 2, 0}));
   }
 }
@@ -362,7 +362,7 @@ void RelaxationTest::it_ends_where_the_energy_has_no_slope() {
        {jittered_triangles(6, 5, 3), make_mesh(MeshKind::grid, {5, 4, 1}), make_mesh(MeshKind::tetra, {3, 3, 3})}) {
     for (const EnergyKind kind : {EnergyKind::isotropic, EnergyKind::axial}) {
       const Softness softness{{0, 100, 100, 0.2, 2, -1.5}, {{1, {0, 100, 100, 0.4, 5, 1}}}, kind};
-      const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
       solver->body().set_softness(softness);
       const std::array<ElementId, 3> pins{0, 1, mesh->element_count() - 1};
       solver->body().pin(pins);
@@ -372,7 +372,7 @@ void RelaxationTest::it_ends_where_the_energy_has_no_slope() {
       solver->body().set_positions(positions);
       wake_all(*solver, *mesh);
       int sweeps = 0;
-      while (solver->relax(1, no_limit, std::array{ElementId{7}}).visited != 0 && ++sweeps < 20'000) {
+      while (solver->relax_slice(1, no_limit, std::array{ElementId{7}}).visited != 0 && ++sweeps < 20'000) {
       }
       QVERIFY(sweeps > 10 && sweeps < 20'000);
       QVERIFY(elastic_energy(*mesh, softness, solver->body().cuts(), solver->body().positions()) > 0.01);
@@ -388,7 +388,7 @@ void RelaxationTest::isotropic_energy_is_axial_with_much_lateral_stiffness() {
     std::vector<std::vector<double>> ends;
     for (const Softness& softness : {Softness{{0, 100, 100}, {}, EnergyKind::isotropic},
                                      Softness{{0, 100, 100, 1e9, 1, 0}, {}, EnergyKind::axial}}) {
-      const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
       solver->set_relaxation(scheme);
       solver->body().set_softness(softness);
       move_by(*solver, *mesh, 7, Point(0.5, -0.25, 0));
@@ -397,7 +397,7 @@ void RelaxationTest::isotropic_energy_is_axial_with_much_lateral_stiffness() {
       solver->body().set_positions(positions);
       wake_all(*solver, *mesh);
       for (int sweep = 0; sweep < 5; ++sweep) {
-        solver->relax(0.75, no_limit, std::array{ElementId{7}});
+        solver->relax_slice(0.75, no_limit, std::array{ElementId{7}});
       }
       ends.push_back(positions_of(*solver, *mesh));
     }
@@ -419,14 +419,14 @@ void RelaxationTest::a_turned_object_has_no_corotated_energy_left() {
     }
     for (const EnergyKind kind : {EnergyKind::axial, EnergyKind::corotated}) {
       for (const RelaxationScheme scheme : {RelaxationScheme::mean, RelaxationScheme::link}) {
-        const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+        const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
         const Softness softness{{0, 100, 100}, {}, kind};
         solver->body().set_softness(softness);
         solver->set_relaxation(scheme);
         solver->body().set_positions(turned);
         const double energy = elastic_energy(*mesh, softness, solver->body().cuts(), solver->body().positions());
         wake_all(*solver, *mesh);
-        solver->relax(1, no_limit, {});
+        solver->relax_slice(1, no_limit, {});
         const double step = largest_step(turned, positions_of(*solver, *mesh));
         QVERIFY2(kind == EnergyKind::corotated ? energy < 1e-18 && step < 1e-8 : energy > 0.1 && step > 0.01,
                  qPrintable(QString("%1 %2").arg(energy).arg(step)));
@@ -438,13 +438,13 @@ void RelaxationTest::a_turned_object_has_no_corotated_energy_left() {
 void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
   // If no region limits it, the equilibrium about one held element is the rest shape, moved along.
   for (const auto& mesh : {make_mesh(MeshKind::cloth, {5, 5, 1}), make_mesh(MeshKind::tetra, {3, 3, 3})}) {
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->body().set_softness(Softness{{}, {}, EnergyKind::isotropic});
     const Point way(0.125, -0.0625, mesh->space_dimension == 3 ? 0.125 : 0);
     move_by(*solver, *mesh, 7, way);
     wake_all(*solver, *mesh);
     int sweeps = 0;
-    while (solver->relax(1, no_limit, std::array{ElementId{7}}).visited != 0 && ++sweeps < 10'000) {
+    while (solver->relax_slice(1, no_limit, std::array{ElementId{7}}).visited != 0 && ++sweeps < 10'000) {
     }
     QVERIFY(sweeps < 10'000);
     for (ElementId e = 0; e < mesh->element_count(); ++e) {
@@ -456,42 +456,42 @@ void RelaxationTest::it_ends_at_the_rest_shape_about_the_held_element() {
 
 void RelaxationTest::a_local_move_wakes_few() {
   const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
   const ElementId centre = 100 * 200 + 100;
   QCOMPARE(move_by(*solver, *mesh, centre, Point(0.05, 0, 0)).moved, std::uint64_t{0});
   solver->wake(std::span(&centre, 1));
-  const RelaxationResult first = solver->relax(1, no_limit, std::array{centre});
+  const RelaxationResult first = solver->relax_slice(1, no_limit, std::array{centre});
   QVERIFY(first.visited >= 5);    // the element and its four neighbours
   QVERIFY(first.visited <= 400);  // of 40,000
 }
 
 void RelaxationTest::it_sleeps_when_nothing_moves() {
   const auto mesh = make_mesh(MeshKind::grid, {5, 5, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  QCOMPARE(solver->relax(1, no_limit, {}).visited, std::uint64_t{0});  // nothing is active at first
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
+  QCOMPARE(solver->relax_slice(1, no_limit, {}).visited, std::uint64_t{0});  // nothing is active at first
   move_by(*solver, *mesh, 0, Point(-3, -2, 0));
   wake_all(*solver, *mesh);
   solver->sleep();
-  const RelaxationResult asleep = solver->relax(1, no_limit, {});
+  const RelaxationResult asleep = solver->relax_slice(1, no_limit, {});
   QCOMPARE(asleep.visited, std::uint64_t{0});
   QVERIFY(asleep.sweep_ended);
 }
 
 void RelaxationTest::a_slice_goes_on_where_the_last_one_stopped() {
   const auto mesh = jittered_triangles(8, 8, 6);
-  const auto whole = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  const auto sliced = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
-  for (Solver* solver : {whole.get(), sliced.get()}) {
+  const auto whole = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto sliced = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
+  for (Deformer* solver : {whole.get(), sliced.get()}) {
     move_by(*solver, *mesh, 20, Point(3, 1, 0));
     wake_all(*solver, *mesh);
   }
   for (int sweep = 0; sweep < 10; ++sweep) {
-    const RelaxationResult at_once = whole->relax(0.7, no_limit, std::array{ElementId{20}});
-    RelaxationResult slice = sliced->relax(0.7, 7, std::array{ElementId{20}});
+    const RelaxationResult at_once = whole->relax_slice(0.7, no_limit, std::array{ElementId{20}});
+    RelaxationResult slice = sliced->relax_slice(0.7, 7, std::array{ElementId{20}});
     std::uint64_t visited = slice.visited;
     while (!slice.sweep_ended) {
       QVERIFY(slice.visited <= 7);
-      slice = sliced->relax(0.7, 7, std::array{ElementId{20}});
+      slice = sliced->relax_slice(0.7, 7, std::array{ElementId{20}});
       visited += slice.visited;
     }
     QCOMPARE(visited, at_once.visited);

@@ -116,7 +116,7 @@ void ExactTest::agrees_with_bellman_and_ford() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
-    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->body().cut(draw_links(*mesh));
@@ -145,7 +145,7 @@ void ExactTest::links_hold() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
-    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     double size = 0;
@@ -184,7 +184,7 @@ void ExactTest::visits_are_bounded() {
     const auto& mesh = draw_family().mesh;
     const Softness softness = draw_softness(*mesh);
     const auto drag_steps = *any_drag_steps(40);
-    const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, *any_precision());
     solver->body().set_softness(softness);
     for (const DragStep& drag_step : drag_steps) {
       const PassCount count = move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
@@ -199,7 +199,7 @@ void ExactTest::visits_are_bounded() {
 void ExactTest::from_its_own_states_a_zero_move_moves_nothing() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, Algorithm::exact, *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, *any_precision());
     solver->body().set_softness(draw_softness(*mesh));
     for (const DragStep& drag_step : *any_drag_steps(40)) {
       move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
@@ -216,7 +216,7 @@ void ExactTest::the_trace_names_the_binding_neighbour() {
   // A grid is dragged to the right at its middle: 4 pushes 5 and pulls 3. The corners follow both of their neighbours
   // equally, and the trace names the one with the lower id.
   const auto mesh = make_mesh(MeshKind::grid, {3, 3, 1});
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.25, 0.25}, {}});
   Trace trace;
   move_by(*solver, *mesh, 4, Point(1, 0, 0), &trace);
@@ -232,7 +232,7 @@ void ExactTest::the_trace_names_the_binding_neighbour() {
 void ExactTest::drags_there_and_back_do_not_drift() {
   // After the first round the object does not get any looser. Every further round must be the same to 2 ulp.
   const auto mesh = jittered_triangles(8, 8, 2);
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::single_precision);
   const ElementId middle = 27;
   const Point home = position_of(*solver, *mesh, middle);
   const auto round = [&] {
@@ -255,8 +255,8 @@ void ExactTest::a_far_origin_costs_no_digits() {
   const auto grid = make_mesh(MeshKind::grid, {8, 8, 1});
   const Point way(16777216, -16777216, 0);
   const auto far = build_mesh(placed(*grid, [&](const Point& p) { return Point(p + way); }));
-  const auto here = make_solver(grid, Algorithm::exact, Precision::single_precision);
-  const auto there = make_solver(far, Algorithm::exact, Precision::single_precision);
+  const auto here = std::make_unique<Deformer>(grid, Algorithm::exact, Precision::single_precision);
+  const auto there = std::make_unique<Deformer>(far, Algorithm::exact, Precision::single_precision);
   move_by(*here, *grid, 27, Point(3.5, -2.25, 0));
   move_by(*there, *far, 27, Point(3.5, -2.25, 0));
   for (ElementId e = 0; e < grid->element_count(); ++e) {

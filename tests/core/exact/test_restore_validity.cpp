@@ -33,7 +33,7 @@ void RestoreValidityTest::a_start_that_is_not_valid_is_repaired() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
     const auto precision = *any_precision();
-    const auto solver = make_solver(mesh, Algorithm::generalized, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::generalized, precision);
     for (const DragStep& drag_step : *any_drag_steps()) {
       move_by(*solver, *mesh, drag_step.of(*mesh), drag_step.by());
     }
@@ -64,7 +64,7 @@ void RestoreValidityTest::a_repair_leaves_what_is_valid() {
   // A valid state that was set from outside is not known to be valid. It must not change.
   std::mt19937_64 random(3);
   for (const MeshFamily& family : families()) {
-    const auto solver = make_solver(family.mesh, Algorithm::exact, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(family.mesh, Algorithm::exact, Precision::double_precision);
     const auto state = random_valid_state(*family.mesh, {}, 0.5, random);
     solver->body().set_positions(state);
     const PassCount count = move_by(*solver, *family.mesh, 0, Point(0, 0, 0));
@@ -78,14 +78,14 @@ void RestoreValidityTest::a_repair_halves_between_the_envelopes() {
   // 0 is held, and links are 0.75 to 1.25 long. Clamped to what the handle allows, 1 stays at 1 and 2 moves to 2.5.
   // They are 1.5 apart. The greatest valid answer below has 2 at 2.25, the least one above has 1 at 1.25.
   const auto chain = make_mesh(MeshKind::line, {3, 1, 1});
-  const auto solver = make_solver(chain, Algorithm::exact, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(chain, Algorithm::exact, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.25, 0}, {}});
   solver->body().set_positions(std::vector<double>{0, 1, 4});
   solver->move(0, Point(0, 0, 0));
   QCOMPARE(positions_of(*solver, *chain), (std::vector<double>{0, 1.125, 2.375}));
   // Far from the handle there is no anchor: 10 and 11 are 2 apart, and 1.5 is the limit.
   const auto longer = make_mesh(MeshKind::line, {12, 1, 1});
-  const auto free = make_solver(longer, Algorithm::exact, Precision::double_precision);
+  const auto free = std::make_unique<Deformer>(longer, Algorithm::exact, Precision::double_precision);
   free->body().set_softness({{0.5, 1.5, 0}, {}});
   auto state = longer->rest;
   state[11] = 12;
@@ -102,7 +102,7 @@ void RestoreValidityTest::states_from_outside_are_looked_at() {
   ElementBlocks all(4);
   all.insert_all();
   for (const bool kept : {false, true}) {
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
     solver->body().set_positions(std::vector<double>{0, 5, 2, 3});
     const Snapshot positions = solver->body().snapshot(all);
     solver->body().reset();
@@ -115,7 +115,7 @@ void RestoreValidityTest::states_from_outside_are_looked_at() {
 
 void RestoreValidityTest::a_repair_and_its_pass_count_once() {
   const auto mesh = make_mesh(MeshKind::line, {9, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.3, 0}, {}});
   const ElementId pin = 0;
   solver->body().pin(std::span(&pin, 1));
@@ -141,7 +141,7 @@ void RestoreValidityTest::a_repair_of_huge_displacements_stays_finite() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
   for (const Precision precision : precisions) {
     const double far = precision == Precision::single_precision ? 2e37 : 1e307;
-    const auto solver = make_solver(mesh, Algorithm::exact, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
     solver->body().cut(std::span(&middle, 1));
     solver->move(0, Point(far, 0, 0));
@@ -157,7 +157,7 @@ void RestoreValidityTest::back_from_far_away_every_link_holds() {
   // Far away, links are valid to the ulp of large coordinates. Near the origin again, they must be valid to a small
   // ulp.
   const auto mesh = make_mesh(MeshKind::grid, {20, 20, 1});
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::single_precision);
   solver->move(210, Point(1e7, 1e7, 0));
   solver->move(210, Point(10, 10, 0));
   solver->move(210, Point(11, 10, 0));
@@ -168,7 +168,7 @@ void RestoreValidityTest::relaxation_that_moves_nothing_leaves_the_rest_shape() 
   // 2^24 and multiples of 0.37 do not fit into float. Exact must use the rest shape of the mesh.
   const auto line = make_mesh(MeshKind::line, {9, 1, 1}, {}, 0.37);
   const auto mesh = build_mesh(placed(*line, [](const Point& p) { return Point(p + Point(16777216, 0, 0)); }));
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
   solver->relax(1, 1000, {});
   solver->set_algorithm(Algorithm::exact);
   QVERIFY(same_bits(positions_of(*solver, *mesh), mesh->rest));
@@ -179,7 +179,7 @@ void RestoreValidityTest::what_exact_leaves_needs_no_repair() {
   const auto mesh = make_mesh(MeshKind::grid, {200, 200, 1});
   for (const Precision precision : precisions) {
     for (const double far : {30.0, 100.0}) {
-      const auto solver = make_solver(mesh, Algorithm::exact, precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, precision);
       const Point to = mesh->rest_position(20100) + Point(far, far / 3, 0);
       solver->move(20100, to);
       const LinkId corner = 0;
@@ -194,7 +194,7 @@ void RestoreValidityTest::pins_on_what_exact_leaves_contradict_nobody() {
   // Ten elements in a row are pinned just behind the front of a long drag, and the handle comes back near them.
   const auto mesh = make_mesh(MeshKind::line, {3000, 1, 1});
   for (const double far : {25.0, 70.0, 400.0}) {
-    const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::single_precision);
     const std::size_t front = solver->move(0, Point(-far, 0, 0)).moved;
     std::vector<ElementId> pins(10);
     std::iota(pins.begin(), pins.end(), ElementId(front - 11));
@@ -208,7 +208,7 @@ void RestoreValidityTest::pins_on_what_exact_leaves_contradict_nobody() {
 
 void RestoreValidityTest::an_uncut_link_is_mended() {
   const auto mesh = make_mesh(MeshKind::line, {4, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
   solver->body().set_softness({{0.75, 1.25, 0}, {}});
   const LinkId middle = *find_link(*mesh, 1, 2);
   solver->body().cut(std::span(&middle, 1));

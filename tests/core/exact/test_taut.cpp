@@ -57,7 +57,7 @@ void TautTest::a_taut_chain_stays_as_it_is() {
 void TautTest::the_hand_is_free_along_the_other_axis() {
   // The left column of a grid is pinned. The handle, at the right end of the middle row, moves right and up.
   const auto mesh = make_mesh(MeshKind::grid, {5, 3, 1});
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
   const std::vector<ElementId> column{0, 5, 10};
   solver->body().set_softness({{0.75, 1.25, 0.5}, {}});
   solver->body().pin(column);
@@ -70,7 +70,7 @@ void TautTest::the_hand_is_free_along_the_other_axis() {
 void TautTest::exact_holds_every_link_between_pins() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, Algorithm::exact, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     const auto pins =
@@ -97,7 +97,7 @@ void TautTest::exact_holds_every_link_between_pins() {
 void TautTest::pins_that_contradict_are_named() {
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
   for (const Precision precision : precisions) {
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, precision);
     solver->move(11, Point(13, 0, 0));
     const std::vector<ElementId> pins{2, 11};
     solver->body().pin(pins);
@@ -116,7 +116,7 @@ void TautTest::pins_that_contradict_are_named() {
 void TautTest::the_pair_that_contradicts_is_named() {
   // Of four pins, only the last two are too far apart.
   const auto mesh = make_mesh(MeshKind::line, {12, 1, 1});
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   const std::vector<ElementId> first{0, 3, 8};
   solver->body().pin(first);
   solver->move(11, Point(15, 0, 0));
@@ -135,7 +135,7 @@ void TautTest::rounding_is_no_contradiction() {
   const auto mesh = make_mesh(MeshKind::line, {500, 1, 1}, {}, 0.1);
   for (const double far : {-1e3, 1e3}) {
     for (const Precision precision : precisions) {
-      const auto solver = make_solver(mesh, Algorithm::exact, precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, precision);
       solver->body().set_softness({{0.9, 1.2, 0}, {}});
       const std::vector<ElementId> ends{0, 499};
       solver->body().pin(std::span(ends).first(1));

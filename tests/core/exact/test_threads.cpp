@@ -59,7 +59,7 @@ Outcome passes(const MeshPointer& mesh, const Softness& softness, const std::vec
 
 /// A drag of a large object with some threads: of one element, then of some, which also turn.
 std::vector<double> large_drag(const MeshPointer& mesh, const Softness& softness, int threads, bool pinned) {
-  const auto solver = make_solver(mesh, Algorithm::exact, Precision::single_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::single_precision);
   solver->set_threads(threads);
   solver->body().set_softness(softness);
   if (pinned) {

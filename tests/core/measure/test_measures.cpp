@@ -27,9 +27,9 @@ class MeasuresTest : public QObject {
 
 namespace {
 
-std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions,
+std::unique_ptr<Deformer> at(const MeshPointer& mesh, const std::vector<double>& positions,
                            Precision precision = Precision::double_precision) {
-  auto solver = make_solver(mesh, Algorithm::natural_queue, precision);
+  auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, precision);
   solver->body().set_positions(positions);
   return solver;
 }

@@ -42,8 +42,8 @@ namespace {
 constexpr double rounding = 1e-14;
 
 /// Returns a solver with given positions.
-std::unique_ptr<Solver> at(const MeshPointer& mesh, const std::vector<double>& positions) {
-  auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+std::unique_ptr<Deformer> at(const MeshPointer& mesh, const std::vector<double>& positions) {
+  auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_positions(positions);
   return solver;
 }

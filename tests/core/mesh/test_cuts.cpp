@@ -24,7 +24,7 @@ namespace {
 
 /// Makes the same moves in two solvers. Returns true if they give the same bits, and the same candidates in the same
 /// order.
-bool move_alike(Solver& one, Solver& other, const Mesh& mesh, const std::vector<DragStep>& drag_steps) {
+bool move_alike(Deformer& one, Deformer& other, const Mesh& mesh, const std::vector<DragStep>& drag_steps) {
   for (const DragStep& drag_step : drag_steps) {
     const Point target = position_of(one, mesh, drag_step.of(mesh)) + drag_step.by();
     Trace first, second;
@@ -86,8 +86,8 @@ void CutsTest::cut_and_uncut_is_the_identity() {
     const auto& mesh = draw_family().mesh;
     const auto algorithm = *any_algorithm();
     const auto precision = *any_precision();
-    const auto untouched = make_solver(mesh, algorithm, precision);
-    const auto mended = make_solver(mesh, algorithm, precision);
+    const auto untouched = std::make_unique<Deformer>(mesh, algorithm, precision);
+    const auto mended = std::make_unique<Deformer>(mesh, algorithm, precision);
     const auto drag_steps = *any_drag_steps();
     RC_ASSERT(move_alike(*untouched, *mended, *mesh, drag_steps));
     const auto links = draw_links(*mesh);
@@ -106,7 +106,7 @@ void CutsTest::a_cut_link_carries_nothing() {
     if (one.algorithm == Algorithm::exact) {
       continue;  // it repairs the link between the parts after uncutting: another test covers this
     }
-    const auto solver = make_solver(mesh, one.algorithm, Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, one.algorithm, Precision::double_precision);
     const LinkId middle = *find_link(*mesh, 1, 2);
     solver->body().cut(std::span(&middle, 1));
     solver->move(0, Point(-5, 0, 0));
@@ -122,7 +122,7 @@ void CutsTest::a_cut_link_carries_nothing() {
 void CutsTest::disconnected_parts_do_not_move() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver = make_solver(mesh, *any_algorithm(), *any_precision());
+    const auto solver = std::make_unique<Deformer>(mesh, *any_algorithm(), *any_precision());
     solver->body().cut(draw_links(*mesh));
     const auto drag_step = *any_drag_step(80);
     const auto before = positions_of(*solver, *mesh);

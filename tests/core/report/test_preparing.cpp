@@ -19,8 +19,8 @@ std::vector<ElementId> sorted(std::span<const ElementId> elements) {
   return result;
 }
 
-std::unique_ptr<Solver> solver_of(const MeshPointer& mesh, Algorithm algorithm, const Softness& softness) {
-  auto solver = make_solver(mesh, algorithm, Precision::single_precision);
+std::unique_ptr<Deformer> solver_of(const MeshPointer& mesh, Algorithm algorithm, const Softness& softness) {
+  auto solver = std::make_unique<Deformer>(mesh, algorithm, Precision::single_precision);
   solver->body().set_softness(softness);
   return solver;
 }

@@ -70,7 +70,7 @@ void SimulationTest::a_drag_is_one_pass() {
   auto simulation = grid_simulation();
   Trace trace, expected;
   simulation.set_trace(&trace);
-  const auto solver = make_solver(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
   drag_by(simulation, 7, Point(2, 1, 0));
   drag_by(simulation, 7, Point(-1, 3, 0));
   solver->move(7, Point(3, 2, 0), &expected);
@@ -119,7 +119,7 @@ void SimulationTest::the_algorithm_may_change_midway() {
   carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
   QVERIFY(same_bits(before, positions_of(simulation)));
   QVERIFY(simulation.statistics().algorithm == Algorithm::natural_queue);
-  const auto solver = make_solver(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_positions(before);
   drag_by(simulation, 7, Point(1, 1, 0));
   solver->move(7, position_of(simulation, 7));
@@ -352,7 +352,7 @@ void SimulationTest::sweeps_at_once_need_no_switch() {
   QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.5, 1}));
   // 1 moves to the mean of −2 + 1 and 1 − 1, which is where it is. 2 moves to −0.5 + 1. Then 1 moves to −0.75, 2 to
   // 0.25.
-  simulation.relax(2, 1);
+  simulation.relax(2, {1, simulation.relaxation().scheme});
   QCOMPARE(positions_of(simulation), (std::vector<double>{-2, -0.75, 0.25}));
   QVERIFY(!simulation.statistics().relaxing);
 }
@@ -361,12 +361,12 @@ void SimulationTest::sweeps_at_once_need_no_switch() {
 void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
   const auto mesh = make_mesh(MeshKind::grid, {250, 200, 1});
   Simulation simulation(mesh, Algorithm::natural_queue, Precision::double_precision);
-  const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   drag_by(simulation, 0, Point(-90, -70, 0));
   solver->move(0, mesh->rest_position(0) + Point(-90, -70, 0));
   carry_out(simulation, commands::SetRelaxation{true, 0.5, RelaxationScheme::mean});  // wakes all
   solver->wake_all();
-  simulation.relax(3, 0.5);
+  simulation.relax(3, {0.5, simulation.relaxation().scheme});
   for (int i = 0; i < 3; ++i) {
     solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), std::array{ElementId{0}});
   }

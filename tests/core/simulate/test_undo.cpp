@@ -94,7 +94,7 @@ void UndoTest::any_change_is_undone() {
       carry_out(simulation, commands::Uncut{draw_links(simulation.mesh())});
       const auto drag_step = *any_drag_step();
       drag_by(simulation, drag_step.of(simulation.mesh()), drag_step.by());
-      simulation.relax(*rc::gen::inRange(0, 3), 1);
+      simulation.relax(*rc::gen::inRange(0, 3), {1, simulation.relaxation().scheme});
     };
     work();
     const SavedState before(simulation);

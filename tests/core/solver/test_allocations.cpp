@@ -44,11 +44,11 @@ std::uint64_t taken_around(double radius, Move move) {
   return allocations - before;
 }
 
-std::uint64_t taken_by_drag(Solver& solver, const Mesh& mesh, ElementId element, double radius) {
+std::uint64_t taken_by_drag(Deformer& solver, const Mesh& mesh, ElementId element, double radius) {
   return taken_around(radius, [&](const Point& way) { solver.move(element, mesh.rest_position(element) + way); });
 }
 
-std::uint64_t taken_by_handle(Solver& solver, const std::vector<ElementId>& elements, double radius) {
+std::uint64_t taken_by_handle(Deformer& solver, const std::vector<ElementId>& elements, double radius) {
   Handle handle(solver.body(), elements);
   return taken_around(radius, [&](const Point& way) {
     solver.move(handle, {handle.grabbed().pivot + way, Point::Zero()});
@@ -82,7 +82,7 @@ class TestAllocations : public QObject {
     QFETCH(bool, jittered);
     const MeshPointer mesh = jittered ? jittered_triangles(24, 24, 3) : make_mesh(MeshKind::grid, {24, 24, 1});
     for (const Precision precision : precisions) {
-      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm(algorithm), precision);
       QCOMPARE(taken_by_drag(*solver, *mesh, 12 * 24 + 12, 2), std::uint64_t{0});
       solver->body().reset();
       solver->body().set_softness({stiff, {}});
@@ -96,7 +96,7 @@ class TestAllocations : public QObject {
     QFETCH(bool, jittered);
     const MeshPointer mesh = jittered ? jittered_triangles(24, 24, 3) : make_mesh(MeshKind::grid, {24, 24, 1});
     for (const Precision precision : precisions) {
-      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm(algorithm), precision);
       QCOMPARE(taken_by_handle(*solver, {299, 300, 301, 324}, 2), std::uint64_t{0});
     }
   }
@@ -111,7 +111,7 @@ class TestAllocations : public QObject {
     QFETCH(int, algorithm);
     const MeshPointer mesh = make_mesh(MeshKind::tetra, {5, 5, 5});
     for (const Precision precision : precisions) {
-      const auto solver = make_solver(mesh, Algorithm(algorithm), precision);
+      const auto solver = std::make_unique<Deformer>(mesh, Algorithm(algorithm), precision);
       solver->body().pin(layer(*mesh, *find_side("bottom")));
       QCOMPARE(taken_by_drag(*solver, *mesh, 124, 0.5), std::uint64_t{0});
       QCOMPARE(taken_by_handle(*solver, layer(*mesh, *find_side("top")), 0.5), std::uint64_t{0});
@@ -126,14 +126,14 @@ class TestAllocations : public QObject {
   void relaxationTakesNothing() {
     QFETCH(int, scheme);
     const auto mesh = make_mesh(MeshKind::grid, {24, 24, 1});
-    const auto solver = make_solver(mesh, Algorithm::natural_queue, Precision::single_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
     solver->set_relaxation(RelaxationScheme(scheme));
     const ElementId element = 12 * 24 + 12;
     const auto drag_and_relax = [&](double by) {
       solver->move(element, mesh->rest_position(element) + Point(by, 0, 0));
       solver->wake(solver->moved());
       for (int sweep = 0; sweep < 5; ++sweep) {
-        solver->relax(1, 200, std::array{element});
+        solver->relax_slice(1, 200, std::array{element});
       }
     };
     drag_and_relax(3);

@@ -123,7 +123,7 @@ class LongLife {
 
   /// Moves the handle, and rotates one of many (degrees).
   void move(const Point& by, double degrees) {
-    Solver fresh(mesh_, algorithm_, precision_);
+    Deformer fresh(mesh_, algorithm_, precision_);
     copy_state(solver_.body(), fresh.body());
     if (!held_ || !std::ranges::equal(held_->elements(), handle_)) {
       held_.emplace(solver_.body(), handle_);
@@ -192,9 +192,9 @@ class LongLife {
 
   /// True if a new solver that starts from these positions, and moves the handle by little, moves all elements by
   /// little.
-  bool stays(Solver& solver) {
+  bool stays(Deformer& solver) {
     constexpr double little = 1e-3;
-    Solver again(mesh_, algorithm_, precision_);
+    Deformer again(mesh_, algorithm_, precision_);
     copy_state(solver.body(), again.body());
     Handle handle(again.body(), handle_);
     (void)again.move(handle, {handle.pose().pivot + Point(little, 0, 0), handle.pose().rotation});
@@ -202,7 +202,7 @@ class LongLife {
   }
 
   /// Moves the handle. Returns the numbers of the pass, or the sentence of a refusal.
-  std::string answer(Solver& solver, Handle& handle, const Pose& target) {
+  std::string answer(Deformer& solver, Handle& handle, const Pose& target) {
     try {
       const PassCount count = solver.move(handle, target);
       return info(algorithm_).history == nullptr ? "moved"
@@ -217,7 +217,7 @@ class LongLife {
   Algorithm algorithm_;
   Precision precision_;
   ElementBlocks blocks_;
-  Solver solver_;
+  Deformer solver_;
   Snapshot kept_;
   std::vector<ElementId> handle_{0};  // ascending
   std::optional<Handle> held_;

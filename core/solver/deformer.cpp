@@ -1,4 +1,4 @@
-#include "solver/solver.h"
+#include "solver/deformer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,26 +7,47 @@
 
 #include "exact/thread_team.h"
 #include "mesh/error.h"
+#include "mesh/parameters.h"
 
 namespace chainmail {
+namespace {
+
+constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which sweeps may be cancelled
+
+/// Relaxes with a scheme until the end of a block.
+class SchemeForNow {
+ public:
+  SchemeForNow(Deformer& deformer, RelaxationScheme scheme) : deformer_(deformer), before_(deformer.relaxation()) {
+    deformer_.set_relaxation(scheme);
+  }
+  SchemeForNow(const SchemeForNow&) = delete;
+  SchemeForNow& operator=(const SchemeForNow&) = delete;
+  ~SchemeForNow() { deformer_.set_relaxation(before_); }
+
+ private:
+  Deformer& deformer_;
+  RelaxationScheme before_;
+};
+
+}  // namespace
 
 bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body) {
   return algorithm.from_rest || (body.precision() == Precision::single_precision && is_far(body.mesh()));
 }
 
-Solver::Solver(MeshPointer mesh, Algorithm algorithm, Precision precision)
+Deformer::Deformer(MeshPointer mesh, Algorithm algorithm, Precision precision)
     : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
   store_for(algorithm_);
 }
 
 /// Stores positions as the algorithm needs them. Valid regions lie along their own axes: so does the ChainMail
 /// family. All others have no such axes, or have their own.
-void Solver::store_for(const AlgorithmInfo& algorithm) {
+void Deformer::store_for(const AlgorithmInfo& algorithm) {
   body_.work_in_axes(algorithm.family() == Family::chainmail);
   body_.store_displacements(stores_displacements(algorithm, body_));
 }
 
-void Solver::set_algorithm(Algorithm algorithm) {
+void Deformer::set_algorithm(Algorithm algorithm) {
   check(algorithm, body_.mesh());
   store_for(info(algorithm));  // also for the same algorithm: a copied body may store positions the other way
   if (algorithm == algorithm_.algorithm) {
@@ -36,7 +57,7 @@ void Solver::set_algorithm(Algorithm algorithm) {
   method_.reset();
 }
 
-Method& Solver::method() {
+Method& Deformer::method() {
   if (!method_) {
     method_ = algorithm_.make(body_.precision(), body_.mesh().space_dimension);
   }
@@ -45,7 +66,7 @@ Method& Solver::method() {
 
 /// Runs a pass. If it fails in the middle, for lack of memory for example, the next pass uses nothing of it.
 template <class Pass>
-PassCount Solver::run(Pass pass) {
+PassCount Deformer::run(Pass pass) {
   const RunningPass running;
   try {
     const PassCount count = pass(method());
@@ -63,7 +84,7 @@ PassCount Solver::run(Pass pass) {
   }
 }
 
-PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
+PassCount Deformer::move(Handle& handle, const Pose& target, Trace* trace) {
   check_free(body_, handle.elements());
   if (body_.region_axes().is_turned()) {
     return move_along_axes(handle, target, trace);
@@ -73,11 +94,12 @@ PassCount Solver::move(Handle& handle, const Pose& target, Trace* trace) {
     return method.move(body_, move, {moved_, trace, threads_, progress_});
   });
   handle.set_pose(move.pose);
+  note_handle(handle);
   return count;
 }
 
 /// The same in the coordinates of the body's axes. A target that is reached, and a pose that is kept, are not rounded.
-PassCount Solver::move_along_axes(Handle& handle, const Pose& target, Trace* trace) {
+PassCount Deformer::move_along_axes(Handle& handle, const Pose& target, Trace* trace) {
   const RegionAxes& axes = body_.region_axes();
   const Handle turned = handle.in_axes(axes);
   const ElementId first = handle.elements()[0];
@@ -90,17 +112,52 @@ PassCount Solver::move_along_axes(Handle& handle, const Pose& target, Trace* tra
     return method.move(body_, move, {moved_, trace, threads_, progress_});
   });
   handle.set_pose(move.pose == to ? target : move.pose == turned.pose() ? handle.pose() : into_world(axes, move.pose));
+  note_handle(handle);
   return count;
 }
 
-PassCount Solver::move(ElementId element, const Point& target, Trace* trace) {
+void Deformer::note_handle(const Handle& handle) {
+  set_last_handle(handle.elements());
+  hold(handle.elements());
+}
+
+PassCount Deformer::move(ElementId element, const Point& target, Trace* trace) {
   if (!single_ || single_->elements()[0] != element) {
     single_.emplace(body_, std::vector<ElementId>{element});
   }
   return move(*single_, {target, Point::Zero()}, trace);
 }
 
-void Solver::prepare(ElementId element) {
+void Deformer::cut(std::span<const LinkId> links) {
+  check_links(body_.mesh(), links);
+  body_.cut(links);
+  wake_ends(links);
+}
+
+void Deformer::uncut(std::span<const LinkId> links) {
+  check_links(body_.mesh(), links);
+  body_.uncut(links);
+  wake_ends(links);
+}
+
+void Deformer::wake_ends(std::span<const LinkId> links) {
+  for (const LinkId link : links) {
+    wake(body_.mesh().links[link]);
+  }
+}
+
+void Deformer::pin(std::span<const ElementId> elements) {
+  check_elements(body_.mesh(), elements);
+  body_.pin(elements);
+}
+
+void Deformer::unpin(std::span<const ElementId> elements) {
+  check_elements(body_.mesh(), elements);
+  body_.unpin(elements);
+  wake(elements);
+}
+
+void Deformer::prepare(ElementId element) {
   if (body_.is_pinned(element)) {
     return;
   }
@@ -114,35 +171,35 @@ void Solver::prepare(ElementId element) {
   }
 }
 
-void Solver::wake(std::span<const ElementId> elements) {
+void Deformer::wake(std::span<const ElementId> elements) {
   relaxation_.wake(body_, elements);
   awake_at_ = body_.revisions().positions;
 }
 
-void Solver::wake_all() {
+void Deformer::wake_all() {
   relaxation_.wake_all(body_);
   awake_at_ = body_.revisions().positions;
 }
 
-void Solver::sleep() {
+void Deformer::sleep() {
   relaxation_.sleep();
   awake_at_.reset();
 }
 
-void Solver::forget_relaxation() {
+void Deformer::forget_relaxation() {
   relaxation_.forget();
   equilibrium_.reset();
   awake_at_.reset();
 }
 
-void Solver::set_relaxation(RelaxationScheme scheme) {
+void Deformer::set_relaxation(RelaxationScheme scheme) {
   scheme_ = scheme;
   if (info(scheme).sweeps) {
     relaxation_.set_scheme(scheme);
   }
 }
 
-RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<const ElementId> held) {
+RelaxationResult Deformer::relax_slice(double step, std::uint64_t budget, std::span<const ElementId> held) {
   const RunningPass running;
   if (info(scheme_).sweeps) {
     return relaxation_.sweep(body_, step, budget, held);
@@ -153,15 +210,56 @@ RelaxationResult Solver::relax(double step, std::uint64_t budget, std::span<cons
   return equilibrate([&] { equilibrium_->iterate(body_, held, progress_); });
 }
 
-RelaxationResult Solver::solve(double tolerance, int max_iterations, std::span<const ElementId> held,
-                               const Progress& progress) {
-  const RunningPass running;
-  return equilibrate([&] { equilibrium_->solve(body_, held, tolerance, max_iterations, progress); });
+Deformer::Relaxed Deformer::relax(int most, const RelaxOptions& options, const std::function<void()>& after_slice) {
+  if (most < 0) {
+    throw Error("sweeps", "the number is below 0", "use a number from 0");
+  }
+  check(parameters::relax_step, options.step);
+  check(parameters::relax_until, options.until);
+  if (most == 0 || !algorithm_.relaxes()) {
+    return {};
+  }
+  const SchemeForNow scheme(*this, options.scheme);
+  Relaxed done;
+  if (!info(options.scheme).sweeps) {
+    const RunningPass running;
+    done.residual = equilibrate([&] { equilibrium_->solve(body_, held_, options.until, most, progress_); }).residual;
+    done.sweeps = equilibrium_->iterations();
+    if (after_slice) {
+      after_slice();
+    }
+    return done;
+  }
+  if (!last_handle_.empty()) {
+    wake(last_handle_);
+    wake(moved_);
+  }
+  while (done.sweeps < most && sweep(options.step, progress_.part(double(done.sweeps) / most, (done.sweeps + 1.0) / most),
+                                     after_slice) > 0) {
+    ++done.sweeps;
+  }
+  return done;
+}
+
+/// Runs one sweep, in slices between which it can be cancelled. Returns the number of visited elements.
+std::uint64_t Deformer::sweep(double step, const Progress& progress, const std::function<void()>& after_slice) {
+  std::uint64_t visited = 0;
+  while (true) {
+    progress.report(std::min(1.0, double(visited) / body_.mesh().element_count()));
+    const RelaxationResult slice = relax_slice(step, elements_between_checks, held_);
+    visited += slice.visited;
+    if (after_slice) {
+      after_slice();
+    }
+    if (slice.sweep_ended) {
+      return visited;
+    }
+  }
 }
 
 /// Runs iterations toward the equilibrium. If they fail in the middle, the next ones use nothing of them.
 template <class Solve>
-RelaxationResult Solver::equilibrate(Solve solve) {
+RelaxationResult Deformer::equilibrate(Solve solve) {
   try {
     if (!equilibrium_) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
@@ -181,19 +279,15 @@ RelaxationResult Solver::equilibrate(Solve solve) {
           equilibrium_->has_prepared()};
 }
 
-std::span<const ElementId> Solver::relaxed() const {
+std::span<const ElementId> Deformer::relaxed() const {
   if (info(scheme_).sweeps) {
     return relaxation_.moved();
   }
   return equilibrium_ ? equilibrium_->moved() : std::span<const ElementId>();
 }
 
-std::optional<EquilibriumCertificate> Solver::certificate() {
+std::optional<EquilibriumCertificate> Deformer::certificate() {
   return equilibrium_ ? equilibrium_->certificate(body_) : std::nullopt;
-}
-
-std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision) {
-  return std::make_unique<Solver>(mesh, algorithm, precision);
 }
 
 }  // namespace chainmail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,16 +22,34 @@ namespace chainmail {
 /// the object lies far from the origin, where positions are too coarse.
 bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
 
-/// Deforms one object with one algorithm: a body, the method that answers its moves, and relaxation. The algorithm may
-/// change between passes and continues from the current positions.
-class Solver {
- public:
-  /// Throws Error if the algorithm does not work on the mesh.
-  Solver(MeshPointer mesh, Algorithm algorithm, Precision precision);
+/// Options of relaxation that runs at once.
+struct RelaxOptions {
+  double step = 1;  // share of the way that an element moves per sweep: above 0, to 1
+  RelaxationScheme scheme = RelaxationScheme::mean;
+  /// With the scheme `equilibrium`: the residual at which it ends, see EquilibriumCertificate; 0 to 1. With 0, all
+  /// iterations run.
+  double until = 1e-3;
+};
 
-  /// The object: its cuts, pins, softness and positions may be changed between passes.
+/// Deforms one object with one algorithm: a body, the method that answers its moves, and relaxation. The algorithm may
+/// change between passes and continues from the current positions. It is the only class that changes an object: window,
+/// command line, Python and comparisons use it. One thread at a time may use it.
+class Deformer {
+ public:
+  /// Takes an object at rest. Throws Error if the algorithm does not work on the mesh.
+  Deformer(MeshPointer mesh, Algorithm algorithm, Precision precision = Precision::double_precision);
+
+  /// The object. It may be changed between passes; the functions below also wake what a change concerns.
   Body& body() { return body_; }
   const Body& body() const { return body_; }
+  Algorithm algorithm() const { return algorithm_.algorithm; }
+
+  /// Cut or restore links (ids), pin or release elements (ids), and wake these elements for relaxation. They throw
+  /// Error for an id that does not exist; nothing has changed then.
+  void cut(std::span<const LinkId> links);
+  void uncut(std::span<const LinkId> links);
+  void pin(std::span<const ElementId> elements);
+  void unpin(std::span<const ElementId> elements);
 
   /// Throws Error if the algorithm does not work on the mesh; nothing has changed then.
   void set_algorithm(Algorithm algorithm);
@@ -54,6 +73,31 @@ class Solver {
   /// The elements that the last pass moved, in order of update, without the handle.
   std::span<const ElementId> moved() const { return moved_; }
 
+  /// Holds elements (ids, ascending) in place while relaxation runs, until release() or the next handle: so does a move
+  /// with the elements of its handle.
+  void hold(std::span<const ElementId> elements) { held_.assign(elements.begin(), elements.end()); }
+  void release() { held_.clear(); }
+  std::span<const ElementId> held() const { return held_; }
+  /// The elements of the last handle, about which relaxation begins; none since the positions were set.
+  std::span<const ElementId> last_handle() const { return last_handle_; }
+  /// Call this with the elements of another handle, or with none, after positions were set.
+  void set_last_handle(std::span<const ElementId> elements) { last_handle_.assign(elements.begin(), elements.end()); }
+
+  /// What relaxation that runs at once has done.
+  struct Relaxed {
+    int sweeps = 0;  // or iterations, with the scheme `equilibrium`
+    std::optional<double> residual = {};  // after iterations
+  };
+  /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or `most` have run. The scheme
+  /// `equilibrium` runs iterations for the whole object instead, until the residual is small, and moves the elements
+  /// once, at the end. What is held, and pins, stay; each element stays in the valid regions of its neighbours. Does
+  /// nothing for methods of elasticity, whose answers are equilibria. `after_slice`, if given, is called after elements
+  /// have moved, see relaxed(). Throws Error for options out of their range or a number below 0, and if pins contradict
+  /// each other and the scheme is `equilibrium`; and Cancelled, which keeps the positions that sweeps have reached.
+  Relaxed relax(int most, const RelaxOptions& options = {}, const std::function<void()>& after_slice = {});
+
+  // Relaxation in slices, for idle time.
+
   /// Makes these elements and their neighbours active: relaxation will visit them. The scheme `equilibrium` then visits
   /// all elements.
   void wake(std::span<const ElementId> elements);
@@ -67,13 +111,8 @@ class Solver {
   /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The scheme `equilibrium` runs
   /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
   /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
-  RelaxationResult relax(double step, std::uint64_t budget, std::span<const ElementId> held);
-  /// Runs iterations of the scheme `equilibrium` until the residual is at most `tolerance`, but at most
-  /// `max_iterations`. Moves the elements once, at the end. Throws Error if pins contradict each other, and Cancelled;
-  /// nothing has moved then.
-  RelaxationResult solve(double tolerance, int max_iterations, std::span<const ElementId> held,
-                         const Progress& progress);
-  /// The elements that the last call of relax or solve moved, once per move.
+  RelaxationResult relax_slice(double step, std::uint64_t budget, std::span<const ElementId> held);
+  /// The elements that the last slice, or the last iterations at once, moved; once per move.
   std::span<const ElementId> relaxed() const;
   /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it as it is.
   std::optional<EquilibriumCertificate> certificate();
@@ -86,12 +125,16 @@ class Solver {
   PassCount move_along_axes(Handle& handle, const Pose& target, Trace* trace);
   template <class Solve>
   RelaxationResult equilibrate(Solve solve);
+  std::uint64_t sweep(double step, const Progress& progress, const std::function<void()>& after_slice);
+  void wake_ends(std::span<const LinkId> links);
+  void note_handle(const Handle& handle);
 
   Body body_;
   AlgorithmInfo algorithm_;
   std::unique_ptr<Method> method_;  // of the algorithm, made by its first pass
   std::vector<ElementId> moved_;
   std::optional<Handle> single_;  // of the last move of a single element
+  std::vector<ElementId> last_handle_, held_;
   RelaxationScheme scheme_ = RelaxationScheme::mean;
   Relaxation relaxation_;                           // the schemes that sweep
   std::unique_ptr<EquilibriumSolver> equilibrium_;  // made by the first iteration
@@ -100,8 +143,5 @@ class Solver {
   Progress progress_;
   int threads_ = 1;
 };
-
-/// Throws Error if the algorithm does not work on the mesh.
-std::unique_ptr<Solver> make_solver(const MeshPointer& mesh, Algorithm algorithm, Precision precision);
 
 }  // namespace chainmail
