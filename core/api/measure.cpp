@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/access.h"
+#include "equilibrium/link_energy.h"
 #include "measure/distance.h"
 #include "measure/physical_error.h"
 #include "measure/violation.h"

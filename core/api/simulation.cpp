@@ -20,6 +20,7 @@
 #include "measure/volume_change.h"
 #include "simulate/simulation.h"
 #ifdef CHAINMAIL_HAS_JSON
+#include "equilibrium/link_energy.h"
 #include "files/session/softness_csv.h"
 #endif
 

@@ -2,6 +2,7 @@
 
 #include "body/positions.h"
 #include "body/softness.h"
+#include "elastic/material.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 
@@ -32,7 +33,11 @@ LinkWeights link_weights(const Mesh& mesh, EnergyKind kind, const LinkSoftness& 
 /// Returns the kind of energy that a mesh has: without cells and faces there is no material; links are corotated.
 EnergyKind energy_in(const Mesh& mesh, EnergyKind kind);
 
-/// Returns the corotated energy (see CorotatedEnergy). It does not change under rotations of the object.
-double corotated_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
+/// Returns the elastic energy over the uncut links, of the kind that the softness names (for corotated links,
+/// see CorotatedEnergy), or of the material of its cells, in double. The isotropic one, ½ Σ |(x_j − x_i) −
+/// r_ij|², is in mesh units squared; that of the material, as neo-Hookean FEM has it, in units of Young's modulus times
+/// mesh units to the power of the space's dimension.
+double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
+                      const ElasticOptions& elastic = {});
 
 }  // namespace chainmail

@@ -7,8 +7,6 @@
 #include <numeric>
 
 #include "body/region.h"
-#include "equilibrium/link_energy.h"
-#include "equilibrium/material_energy.h"
 
 namespace chainmail {
 namespace {
@@ -38,45 +36,6 @@ std::size_t count_of(const ElementBlocks& blocks) {
   std::size_t count = 0;
   blocks.for_each_run([&](ElementId first, ElementId end) { count += (end - first + size - 1) / size; });
   return count;
-}
-
-double isotropic_energy(const Mesh& mesh, const Cuts& cuts, const PositionView& position) {
-  double sum = 0;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    if (cuts.is_cut(link)) {
-      continue;
-    }
-    const auto [a, b] = mesh.links[link];
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const double rest =
-          mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
-      const double difference = position.between(a, b, k) - rest;
-      sum += difference * difference;
-    }
-  }
-  return sum / 2;
-}
-
-double axial_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position) {
-  double sum = 0;
-  for (LinkId link = 0; link < mesh.link_count(); ++link) {
-    if (cuts.is_cut(link)) {
-      continue;
-    }
-    const auto [a, b] = mesh.links[link];
-    const double length = rest_length(mesh, link);
-    double along = 0, square = 0;
-    for (int k = 0; k < mesh.space_dimension; ++k) {
-      const double rest =
-          mesh.rest[std::size_t{b} * mesh.space_dimension + k] - mesh.rest[std::size_t{a} * mesh.space_dimension + k];
-      const double difference = position.between(a, b, k) - rest;
-      along += length > 0 ? rest / length * difference : 0;
-      square += difference * difference;
-    }
-    const auto [axial, lateral] = link_weights(mesh, softness, link);
-    sum += axial * along * along + lateral * square;
-  }
-  return sum / 2;
 }
 
 }  // namespace
@@ -216,20 +175,6 @@ MeasuredViolation ViolationMeter::measure(const Mesh& mesh, const Softness& soft
 Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts,
                             const PositionView& position) {
   return ViolationMeter().measure(mesh, softness, cuts, position, mesh.link_count());
-}
-
-double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                      const ElasticOptions& elastic) {
-  switch (energy_in(mesh, softness.energy)) {
-    case EnergyKind::isotropic:
-      return isotropic_energy(mesh, cuts, position);
-    case EnergyKind::axial:
-      return axial_energy(mesh, softness, cuts, position);
-    case EnergyKind::material:
-      return material_energy(mesh, elastic, cuts, position);
-    default:
-      return corotated_energy(mesh, softness, cuts, position);
-  }
 }
 
 Displacement measure_displacement(const Mesh& mesh, const PositionView& position) {

@@ -88,13 +88,6 @@ class ViolationMeter {
   std::size_t next_ = 0, stride_ = 1;  // the next block, if only some are measured, and the way to the one after it
 };
 
-/// Returns the elastic energy over the uncut links, of the kind that the softness names (see
-/// equilibrium/link_energy.h), or of the material of its cells, in double. The isotropic one, ½ Σ |(x_j − x_i) −
-/// r_ij|², is in mesh units squared; that of the material, as neo-Hookean FEM has it, in units of Young's modulus times
-/// mesh units to the power of the space's dimension.
-double elastic_energy(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position,
-                      const ElasticOptions& elastic = {});
-
 /// Returns the displacement of the elements from rest (mesh units), in double.
 struct Displacement {
   double max = 0;

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "files/session/moves_scan.h"
-#include "files/text/json_fields.h"
+#include "files/session/session_json.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -23,10 +23,10 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 /// Checks and returns the members of a command. Throws Error if one is wrong.
-class MoveFields : public JsonFields {
+class MoveFields : public ObjectFields {
  public:
   /// `where` appears in errors.
-  MoveFields(std::string where, MeshPointer mesh) : JsonFields(std::move(where)), mesh_(std::move(mesh)) {}
+  MoveFields(std::string where, MeshPointer mesh) : ObjectFields(std::move(where)), mesh_(std::move(mesh)) {}
 
   ElementId element(const Json& json) const;
   /// Returns the link whose ends are the first two numbers of an array of this size.
@@ -42,7 +42,7 @@ class MoveFields : public JsonFields {
   std::vector<std::uint32_t> indices(const MoveMembers& command, const std::string& key) const;
   SplitEdit split(const MoveMembers& command) const;
 
-  RegionAxes axes(const Json& members) { return JsonFields::axes(members, *mesh_, principal_); }
+  RegionAxes axes(const Json& members) { return ObjectFields::axes(members, *mesh_, principal_); }
 
   const MeshPointer& mesh() const { return mesh_; }
   /// From now on, commands are about this mesh.

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "body/softness.h"
+#include "equilibrium/relaxation_scheme.h"
 #include "files/text/json_fields.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
@@ -29,10 +32,33 @@ struct SessionJson {  // NOLINT(bugprone-exception-escape): moving a tree throws
 /// Cancelled.
 SessionJson parse_session_json(std::string_view text, const std::filesystem::path& path, const Progress& progress);
 
-/// Checks and returns the members of a session, the packed ones too.
-class SessionFields : public JsonFields {
+/// Checks and returns the members that describe an object.
+class ObjectFields : public JsonFields {
  public:
-  SessionFields(const std::string& where, const SessionJson& json) : JsonFields(where), json_(json) {}
+  using JsonFields::JsonFields;
+
+  /// Returns the numbers of a softness, named as in the table of parameters. Those of the energy may be left out.
+  LinkSoftness softness(const Json& object) const;
+  /// Returns the kind of energy of a softness, or `absent` if it is left out.
+  EnergyKind energy(const Json& object, EnergyKind absent = link_energy) const;
+  /// Returns the axes of a softness for this mesh; those of the world if they are left out. Principal axes without a
+  /// rotation are found in the mesh, which takes time in proportion to its size, and are kept in `principal`.
+  RegionAxes axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const;
+  /// Returns a rotation vector: the axis times the angle (radians).
+  Point rotation_vector(const Json& object, const std::string& key) const;
+  RelaxationScheme relaxation_scheme(const Json& name) const;
+};
+
+/// Returns the names of the members that ObjectFields::softness reads.
+std::vector<std::string> softness_keys();
+/// Adds the global softness, the kind of energy and axes other than those of the world to an object, as ObjectFields
+/// reads them.
+void add_softness(nlohmann::ordered_json& object, const Softness& softness);
+
+/// Checks and returns the members of a session, the packed ones too.
+class SessionFields : public ObjectFields {
+ public:
+  SessionFields(const std::string& where, const SessionJson& json) : ObjectFields(where), json_(json) {}
 
   const std::vector<std::uint32_t>& ids(const Json& object, const char* key) const {
     return json_.ids[packed(object, key)];

@@ -4,7 +4,7 @@
 #include <array>
 #include <unordered_set>
 
-#include "files/text/json_fields.h"
+#include "files/session/session_json.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -35,7 +35,7 @@ constexpr std::array all_built_in_presets{
     BuiltInPreset{
         "Brain-soft", {0.7, 1.2, 0.3}, "shortens by three tenths, lengthens by a fifth, hardly resists shear"}};
 
-SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
+SoftnessPreset preset_of(const ObjectFields& fields, const nlohmann::json& json) {
   if (!json.is_object()) {
     fields.fail("it is not an object", "write {\"name\": …}");
   }
@@ -70,7 +70,7 @@ std::string fault_of_name(std::string_view name) {
 
 std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path) {
   const auto json = parse_json(text, path, "presets of softness");
-  JsonFields fields(shown(path));
+  ObjectFields fields(shown(path));
   if (!json.is_object()) {
     fields.fail("it contains no presets", "use a file of softness presets");
   }

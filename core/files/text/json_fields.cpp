@@ -6,6 +6,7 @@
 #include "files/text/json_scan.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "mesh/mesh.h"
 
 namespace chainmail {
 namespace {
@@ -120,95 +121,6 @@ double JsonFields::number(const Json& json, const Parameter& parameter) const {
     throw error.at(where_ + ": " + error.where());
   }
   return value;
-}
-
-LinkSoftness JsonFields::softness(const Json& object) const {
-  LinkSoftness softness;
-  for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
-    const auto& [parameter, value] = softness_numbers[i];
-    const std::string key(parameter->name);
-    if (i < region_numbers || object.contains(key)) {
-      softness.*value = number(member(object, key), *parameter);
-    }
-  }
-  return softness;
-}
-
-EnergyKind JsonFields::energy(const Json& object, EnergyKind absent) const {
-  if (!object.contains("energy")) {
-    return absent;
-  }
-  try {
-    return energy_kind_of(text(object, "energy"));
-  } catch (const Error& error) {
-    throw error.where() == where_ ? error : error.at(where_);
-  }
-}
-
-Point JsonFields::rotation_vector(const Json& object, const std::string& key) const {
-  const Json& values = array(object, key);
-  if (values.size() != 3) {
-    fail(in_quotes(key) + " does not have three coordinates", "write [x, y, z]: the axis times the angle in radians");
-  }
-  return {number(values[0]), number(values[1]), number(values[2])};
-}
-
-RegionAxes JsonFields::axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const {
-  if (!object.contains("frame")) {
-    return {};
-  }
-  const Json& axes = this->object(object, "frame");
-  check_keys(axes, {"kind", "rotation"});
-  const std::string kind = text(axes, "kind");
-  const auto found = std::ranges::find(axes_kinds, kind);
-  if (found == axes_kinds.end()) {
-    fail("the kind of 'frame' is not known", "use axes, object or given");
-  }
-  const auto which = AxesKind(found - axes_kinds.begin());
-  if (which == AxesKind::axes) {
-    return {};
-  }
-  if (which == AxesKind::object && !axes.contains("rotation")) {
-    if (!principal) {
-      principal = principal_axes(mesh).axes;
-    }
-    return *principal;
-  }
-  RegionAxes result(which, rotation_vector(axes, "rotation"));
-  try {
-    check(result, mesh);
-  } catch (const Error& error) {
-    fail("'frame': " + error.problem(), error.remedy());
-  }
-  return result;
-}
-
-std::vector<std::string> softness_keys() {
-  std::vector<std::string> keys;
-  keys.reserve(softness_numbers.size());
-  for (const SoftnessNumber& number : softness_numbers) {
-    keys.emplace_back(number.parameter->name);
-  }
-  return keys;
-}
-
-void add_softness(nlohmann::ordered_json& object, const Softness& softness) {
-  for (const auto& [parameter, value] : softness_numbers) {
-    object[std::string(parameter->name)] = softness.global.*value;
-  }
-  object["energy"] = info(softness.energy).name;
-  if (const RegionAxes& axes = softness.axes; axes.kind() != AxesKind::axes) {
-    const Point& turn = axes.rotation();
-    object["frame"] = {{"kind", axes_kinds[std::size_t(axes.kind())]}, {"rotation", {turn.x(), turn.y(), turn.z()}}};
-  }
-}
-
-RelaxationScheme JsonFields::relaxation_scheme(const Json& name) const {
-  const auto scheme = name.is_string() ? find_relaxation_scheme(name.get<std::string>()) : std::nullopt;
-  if (!scheme) {
-    fail("'scheme' is not known", "use mean, link or equilibrium");
-  }
-  return *scheme;
 }
 
 }  // namespace chainmail

@@ -2,14 +2,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "body/softness.h"
-#include "equilibrium/relaxation_scheme.h"
 #include "files/text/limits.h"
 #include "mesh/parameters.h"
 
@@ -43,26 +40,10 @@ class JsonFields {
   double number(const Json& json) const;
   /// Returns a number. Throws Error if it is not in the range of the parameter.
   double number(const Json& json, const Parameter& parameter) const;
-  /// Returns the numbers of a softness, named as in the table of parameters. Those of the energy may be left out.
-  LinkSoftness softness(const Json& object) const;
-  /// Returns the kind of energy of a softness, or `absent` if it is left out.
-  EnergyKind energy(const Json& object, EnergyKind absent = link_energy) const;
-  /// Returns the axes of a softness for this mesh; those of the world if they are left out. Principal axes without a
-  /// rotation are found in the mesh, which takes time in proportion to its size, and are kept in `principal`.
-  RegionAxes axes(const Json& object, const Mesh& mesh, std::optional<RegionAxes>& principal) const;
-  /// Returns a rotation vector: the axis times the angle (radians).
-  Point rotation_vector(const Json& object, const std::string& key) const;
-  RelaxationScheme relaxation_scheme(const Json& name) const;
 
  private:
   std::string where_;
 };
-
-/// Returns the names of the members that JsonFields::softness reads.
-std::vector<std::string> softness_keys();
-/// Adds the global softness, the kind of energy and axes other than those of the world to an object, as JsonFields
-/// reads them.
-void add_softness(nlohmann::ordered_json& object, const Softness& softness);
 
 /// Returns a value as text for error messages; long ones are shortened.
 std::string text_of(const nlohmann::json& json);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "equilibrium/link_energy.h"
 #include "mesh/error.h"
 
 namespace chainmail::report {

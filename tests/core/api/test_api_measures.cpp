@@ -6,6 +6,7 @@
 
 #include "calibrate/calibrate.h"
 #include "core/api/api_support.h"
+#include "equilibrium/link_energy.h"
 #include "measure/distance.h"
 #include "measure/physical_error.h"
 #include "measure/violation.h"

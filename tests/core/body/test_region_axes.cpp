@@ -7,6 +7,7 @@
 #include "body/region_axes.h"
 #include "core/families.h"
 #include "core/simulations.h"
+#include "equilibrium/link_energy.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "program.h"

@@ -6,6 +6,7 @@
 #include "core/scenarios.h"
 #include "elastic/energy.h"
 #include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/link_energy.h"
 #include "equilibrium/material_energy.h"
 #include "measure/violation.h"
 #include "mesh/error.h"

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/scenarios.h"
+#include "equilibrium/link_energy.h"
 #include "equilibrium/small_quadratic.h"
 #include "measure/violation.h"
 #include "program.h"

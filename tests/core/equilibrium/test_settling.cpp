@@ -1,6 +1,7 @@
 #include <QtTest>
 
 #include "core/threads.h"
+#include "equilibrium/link_energy.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "program.h"

@@ -6,6 +6,7 @@
 #include "core/scenarios.h"
 #include "core/spheres.h"
 #include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/link_energy.h"
 #include "equilibrium/surface_energy.h"
 #include "measure/violation.h"
 #include "mesh/cells.h"

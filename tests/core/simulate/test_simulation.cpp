@@ -1,6 +1,7 @@
 #include <QtTest>
 
 #include "core/simulations.h"
+#include "equilibrium/link_energy.h"
 #include "mesh/parts.h"
 #include "program.h"
 
