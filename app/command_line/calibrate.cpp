@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "command_line/common.h"
-#include "command_line/elastic.h"
+#include "command_line/model.h"
 #include "command_line/progress_line.h"
 
 namespace chainmail::command_line {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -37,6 +38,9 @@ Command add_deform(CLI::App& root);
 Command add_compare(CLI::App& root, const std::string& command_line);
 Command add_calibrate(CLI::App& root);
 Command add_ramp(CLI::App& root);
+/// Adds the command that prints a script with which a shell completes subcommands, options and values. The script is
+/// made from the options of all commands of `root`.
+Command add_completion(CLI::App& root);
 
 /// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
 /// and writes all messages.
@@ -128,6 +132,9 @@ void say_flaws(const api::Mesh& mesh);
 void add_mesh_file(api::Outputs& outputs, const MeshOptions& read, const std::string& target, const api::Mesh& mesh);
 /// Writes this file as the only output.
 void write_mesh_file(const MeshOptions& read, const std::string& target, const api::Mesh& mesh);
+
+/// Returns the folder of the samples that come with the programs. It may be missing.
+std::filesystem::path samples_folder();
 
 /// Returns the error with the name of an option instead of the name of a value. `options` maps names of values to
 /// options.

@@ -1,15 +1,15 @@
 #include <algorithm>
 
 #include "chainmail/suite.h"
-#include "command_line/compare_options.h"
+#include "command_line/compare.h"
 #include "command_line/progress_line.h"
-#include "command_line/samples.h"
 #include "version/version.h"
 #ifdef CHAINMAIL_HAS_BULLET
 #include "bullet/register_bullet.h"
 #endif
 
 namespace chainmail::command_line {
+
 namespace {
 
 constexpr int max_shards = 1000;
@@ -121,6 +121,29 @@ void merge_suites(const CLI::App& app, const CompareArguments& arguments) {
   const std::vector<std::filesystem::path> reports(names.begin(), names.end());
   const api::Suite suite = api::merge_suites(reports);
   write_report(folder, suite.files(), suite.text(), reports);
+}
+
+void write_cases(const CLI::App& app, const CompareArguments& arguments) {
+  refuse_others(app, "--cases", {arguments.cases, arguments.output});
+  OutputFolder folder(*value_of(arguments.output));
+  const auto cases = api::suite_cases(sample_organs());
+  folder.make();
+  api::Outputs outputs;
+  for (const api::ReportFile& one : cases) {
+    outputs.add(folder.path() / one.name, [&one](std::ostream& out) { out << one.content; });
+  }
+  outputs.commit();
+  folder.keep();
+}
+
+void judge_answers(const CLI::App& app, const CompareArguments& arguments) {
+  refuse_others(app, "--judge", {arguments.judge, arguments.meshes});
+  const std::vector<std::string> files = arguments.meshes->results();
+  if (files.size() < 2) {
+    throw api::Error("--judge", "the files are missing", "name a case, then one or more answers to it");
+  }
+  const std::string table = api::judge_answers(files.front(), {files.begin() + 1, files.end()});
+  api::write_file("-", [&](std::ostream& out) { out << table; });
 }
 
 }  // namespace chainmail::command_line

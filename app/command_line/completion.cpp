@@ -1,11 +1,11 @@
-#include "command_line/completion.h"
-
 #include <algorithm>
 #include <array>
 #include <ostream>
 #include <ranges>
 #include <string>
 #include <vector>
+
+#include "command_line/common.h"
 
 namespace chainmail::command_line {
 namespace {

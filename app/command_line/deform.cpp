@@ -3,10 +3,9 @@
 
 #include "chainmail/simulation.h"
 #include "command_line/common.h"
-#include "command_line/elastic.h"
+#include "command_line/model.h"
 #include "command_line/progress_line.h"
 #include "command_line/script.h"
-#include "command_line/softness.h"
 
 namespace chainmail::command_line {
 namespace {

@@ -1,7 +1,6 @@
 #include "chainmail/repair.h"
 #include "chainmail/session.h"
 #include "command_line/common.h"
-#include "command_line/samples.h"
 
 namespace chainmail::command_line {
 namespace {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "command_line/common.h"
-#include "command_line/completion.h"
 #include "version/version.h"
 
 namespace chainmail::command_line {
@@ -94,6 +93,12 @@ std::string as_typed(int argc, char** argv) {
 }
 
 }  // namespace
+
+std::filesystem::path samples_folder() {
+  std::error_code none;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  return program.parent_path() / DATA_FOLDER "/meshes";
+}
 
 void run(int argc, char** argv) {
   CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");

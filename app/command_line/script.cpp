@@ -6,7 +6,7 @@
 #include <set>
 
 #include "command_line/common.h"
-#include "command_line/elastic.h"
+#include "command_line/model.h"
 #include "command_line/progress_line.h"
 
 namespace chainmail::command_line {

@@ -2,9 +2,8 @@
 
 #include "chainmail/compare.h"
 #include "chainmail/suite.h"
-#include "command_line/elastic.h"
 #include "command_line/folder.h"
-#include "command_line/softness.h"
+#include "command_line/model.h"
 
 namespace chainmail::command_line {
 
