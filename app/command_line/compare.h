@@ -1,14 +1,30 @@
 #pragma once
 
-#include "chainmail/compare.h"
-#include "chainmail/suite.h"
 #include "command_line/folder.h"
 #include "command_line/model.h"
+#include "command_line/progress_line.h"
+#include "files/results/report_json.h"
+#include "files/results/suite_json.h"
+#include "report/page/compared_figures.h"
+#include "report/page/html.h"
+#include "report/page/physics_figures.h"
+#include "report/page/physics_html.h"
+#include "report/page/physics_plot.h"
+#include "report/page/physics_table.h"
+#include "report/page/suite_csv.h"
+#include "report/page/suite_html.h"
+#include "report/page/suite_plot.h"
+#include "report/page/suite_table.h"
+#include "report/page/svg.h"
+#include "report/page/table.h"
+#include "report/run/machine.h"
 
 namespace chainmail::command_line {
 
-/// The options of `compare`, for both references.
+/// The options of `compare`, for both references and for the suite.
 struct CompareArguments {
+  const CLI::App* app = nullptr;
+  std::string command_line;  // shown in the report
   CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;
   CLI::Option *algorithms = nullptr, *relax = nullptr, *relaxation = nullptr, *relax_step = nullptr,
               *precision = nullptr, *repetitions = nullptr;
@@ -20,42 +36,45 @@ struct CompareArguments {
   CLI::Option *suite = nullptr, *experiments = nullptr, *shard = nullptr, *merge = nullptr;
   CLI::Option *cases = nullptr, *judge = nullptr;
 };
-CompareArguments add_compare_arguments(CLI::App& app);
 
-/// Returns the settings of the comparison. `relax` is the default of --relax; `command_line` is shown in the report.
-api::CompareOptions contest_of(const CompareArguments& arguments, const std::string& relax,
-                               const std::string& command_line);
-/// Returns the global softness and the kind of energy: those of the preset, where single options override its values.
-SoftnessChoice softness_of(const CompareArguments& arguments);
-/// Reads a mesh as an object of the report: at rest, with its softness, without drags.
-api::ComparedObject object_of(const std::string& file, const CompareArguments& arguments);
-/// Returns the built-in objects with the softness and the frame of the options. Throws Error if there are pins.
-std::vector<api::ComparedObject> built_in_objects(api::Reference against, const CompareArguments& arguments,
-                                                  const api::Elasticity& elasticity);
+// Each of these functions throws Error before it writes anything.
 
-/// Returns true if contestants are calibrated; `by_default` without --calibrated.
-bool is_calibrated(const CompareArguments& arguments, bool by_default);
+/// Runs the experiments of the suite and writes the report.
+void run_suite(const CompareArguments& arguments);
+/// Joins reports of the suite.
+void merge_suites(const CompareArguments& arguments);
+/// Writes drags of the suite as cases for other solvers.
+void write_cases(const CompareArguments& arguments);
+/// Judges answers of other solvers to a case.
+void judge_answers(const CompareArguments& arguments);
 
-/// Runs the experiments of the suite and writes the report. Throws Error before it writes anything.
-void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line);
-/// Joins reports of the suite. Throws Error before it writes anything.
-void merge_suites(const CLI::App& app, const CompareArguments& arguments);
+/// Returns the number of runs of each drag; none if it is left to the comparison.
+std::optional<int> repetitions_of(const CompareArguments& arguments);
+/// Returns where a report comes from, which ends now.
+report::Origin origin_of(const CompareArguments& arguments);
+/// Returns what shows the progress of a report on a line.
+report::Progress teller_of(ProgressLine& line);
 
-/// Writes drags of the suite as cases for other solvers. Throws Error before it writes anything.
-void write_cases(const CLI::App& app, const CompareArguments& arguments);
-/// Judges answers of other solvers to a case. Throws Error.
-void judge_answers(const CLI::App& app, const CompareArguments& arguments);
-/// Throws Error for an option that the given mode does not take.
-void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken);
-/// Returns the organs of the samples whose files are there.
-api::SampleOrgans sample_organs();
-/// Writes files of a report into the folder, and a text to standard output. `read` are files that stay.
-void write_report(OutputFolder& folder, const std::vector<api::ReportFile>& files, const std::string& text,
-                  const std::vector<std::filesystem::path>& read = {});
-/// Shows the progress of a report.
-std::string report_progress(const api::Job& job);
-
-/// Runs the comparison with physics and writes the report. Throws Error before it writes anything.
-void compare_with_physics(const CompareArguments& arguments, const std::string& command_line);
+/// A file of a report.
+struct ReportFile {
+  std::string name;
+  Outputs::Writer writer;
+};
+/// Writes files into the folder, and a text to standard output. `read` are files that stay.
+void write_files(OutputFolder& folder, const std::vector<ReportFile>& files, const Outputs::Writer& text,
+                 const std::vector<std::filesystem::path>& read = {});
+/// Writes report.html, report.json, report.csv and plots into the folder, and the tables to standard output.
+template <class Report, class... Origin>
+void write_report(OutputFolder& folder, const Report& made, const std::vector<report::PlotFile>& plots,
+                  const std::vector<std::filesystem::path>& read, const Origin&... origin) {
+  std::vector<ReportFile> files{{"report.html", [&](std::ostream& out) { write_html(out, made, origin...); }},
+                                {"report.json", [&](std::ostream& out) { write_json(out, made, origin...); }},
+                                {"report.csv", [&](std::ostream& out) { write_csv(out, made); }}};
+  for (const report::PlotFile& one : plots) {
+    files.push_back({one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); }});
+  }
+  write_files(
+      folder, files, [&](std::ostream& out) { write_text(out, made); }, read);
+}
 
 }  // namespace chainmail::command_line
