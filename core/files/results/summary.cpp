@@ -126,17 +126,6 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
   out << of_kind(json_kinds::info, json).dump(2) << '\n';
 }
 
-void write_json(std::ostream& out, const RepairSummary& summary) {
-  const auto counts = [](const MeshSummary& one) {
-    return Json{{"elements", one.elements},
-                {"links", one.links},
-                {"triangles", one.triangles},
-                {"defects", to_json(one.defects)}};
-  };
-  const Json json{{"before", counts(summary.before)}, {"after", counts(summary.after)}};
-  out << of_kind(json_kinds::repair, json).dump(2) << '\n';
-}
-
 void write_json(std::ostream& out, const RepairResult& repair) {
   const Json json{{"before", counts_of(*repair.before, repair.defects_before)},
                   {"after", counts_of(*repair.mesh, repair.defects)}};

@@ -37,11 +37,6 @@ MeshSummary summarize(const Mesh& mesh);
 MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
 
-/// A mesh before and after a repair.
-struct RepairSummary {
-  MeshSummary before, after;
-};
-void write_json(std::ostream& out, const RepairSummary& summary);
 /// Writes counts before and after a repair.
 void write_json(std::ostream& out, const RepairResult& repair);
 
