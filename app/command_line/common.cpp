@@ -106,16 +106,21 @@ std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, s
   return *number;
 }
 
+std::vector<std::string_view> split(std::string_view text, char mark) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(mark, begin) - begin));
+  }
+  return parts;
+}
+
 std::vector<std::string> words_of(const std::string& where, const std::string& list) {
   std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::string word = list.substr(begin, end - begin);
+  for (const std::string_view word : split(list)) {
     if (std::ranges::find(words, word) != words.end()) {
       throw Error(where, in_quotes(word) + " is given twice", "write each one once");
     }
-    words.push_back(word);
-    begin = end + 1;
+    words.emplace_back(word);
   }
   return words;
 }

@@ -67,6 +67,8 @@ double number_of(const CLI::Option* option, double default_value);
 /// range.
 std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
                               std::uint32_t highest = 1'000'000'000);
+/// Splits a text at each mark. Between two marks, and at both ends, a part may be empty.
+std::vector<std::string_view> split(std::string_view text, char mark = ',');
 /// Splits a list at its commas. Throws Error if a word occurs twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
 /// Returns words with a text between each two of them.

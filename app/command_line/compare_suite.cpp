@@ -22,10 +22,9 @@ void add_bullet() {
 
 report::Shard shard_of(const CLI::Option* option) {
   const std::string text = value_of(option).value_or("1/1");
-  const auto slash = text.find('/');
-  const auto index = slash == std::string::npos ? std::nullopt : parse_count(text.substr(0, slash));
-  const auto count = slash == std::string::npos ? std::nullopt : parse_count(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
+  const auto parts = split(text, '/');
+  const auto index = parse_count(parts.front()), count = parse_count(parts.back());
+  if (parts.size() != 2 || !index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
     throw Error("--shard", in_quotes(text) + " is not a part of a whole", "write I/N, such as 2/4, with N up to 1000");
   }
   return {int(*index), int(*count)};

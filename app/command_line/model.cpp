@@ -46,24 +46,17 @@ RegionAxes given_axes(const std::string& text, const Mesh& mesh) {
 }
 
 std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
-  std::array<std::uint32_t, 3> counts{};
-  std::size_t axis = 0;
-  for (std::size_t begin = 0; begin <= text.size(); ++axis) {
-    const std::size_t end = std::min(text.find('x', begin), text.size());
-    const auto count = parse_count(text.substr(begin, end - begin));
-    if (!count || axis == 3) {
+  std::vector<std::uint32_t> counts;
+  for (const std::string_view word : split(text, 'x')) {
+    const auto count = parse_count(word);
+    if (!count || counts.size() == 3) {
       throw Error("--lattice", in_quotes(text) + " is not a number of control points",
                   "write one number for all axes, or one for each, as 4x4x4");
     }
-    counts[axis] = *count;
-    begin = end + 1;
+    counts.push_back(*count);
   }
-  if (axis == 1) {
-    counts = {counts[0], counts[0], counts[0]};
-  } else if (axis == 2) {
-    counts[2] = counts[1];  // a plane has no third axis
-  }
-  return counts;
+  counts.resize(3, counts.back());  // a plane has no third axis
+  return {counts[0], counts[1], counts[2]};
 }
 
 std::uint32_t iterations_of(const std::string& text) {

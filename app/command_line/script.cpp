@@ -71,25 +71,19 @@ void check_link(const Action& action, const Mesh& mesh) {
 
 std::vector<double> parse_coordinates(const std::string& where, std::string_view text) {
   std::vector<double> coordinates;
-  for (;;) {
-    const std::size_t end = std::min(text.find(','), text.size());
-    coordinates.push_back(parse_number_of(where, text.substr(0, end)));
+  for (const std::string_view number : split(text)) {
+    coordinates.push_back(parse_number_of(where, number));
     if (coordinates.size() > 3) {
       throw Error(where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
     }
-    if (end == text.size()) {
-      return coordinates;
-    }
-    text.remove_prefix(end + 1);
   }
+  return coordinates;
 }
 
 /// Reads `ID,A-B,…`.
 std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& where, std::string_view text) {
   std::vector<std::pair<ElementId, ElementId>> ranges;
-  for (;;) {
-    const std::size_t end = std::min(text.find(','), text.size());
-    const std::string_view range = text.substr(0, end);
+  for (const std::string_view range : split(text)) {
     const std::size_t dash = range.find('-');
     const ElementId first = parse_id(where, range.substr(0, dash));
     const ElementId last = dash == std::string_view::npos ? first : parse_id(where, range.substr(dash + 1));
@@ -97,11 +91,8 @@ std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& whe
       throw Error(where, in_quotes(range) + " is not a range", "write the smaller id first");
     }
     ranges.emplace_back(first, last);
-    if (end == text.size()) {
-      return ranges;
-    }
-    text.remove_prefix(end + 1);
   }
+  return ranges;
 }
 
 bool is_move(const Action& action) {
