@@ -6,10 +6,11 @@
 #include <string>
 #include <system_error>
 
-#include "chainmail/error.h"
-#include "chainmail/files.h"
-#include "chainmail/text.h"
 #include "command_line/common.h"
+#include "files/text/outputs.h"
+#include "files/text/temporary_folder.h"
+#include "files/text/text.h"
+#include "mesh/error.h"
 
 namespace {
 
@@ -17,7 +18,7 @@ enum ExitCode { done = 0, failed = 1, bad_usage = 2 };
 
 /// Prints an error in one line. Characters that cannot be printed are replaced.
 ExitCode complain(std::string_view message, ExitCode code) {
-  std::cerr << "chainmail: " << chainmail::api::printable(message) << '\n';
+  std::cerr << "chainmail: " << chainmail::printable(message) << '\n';
   return code;
 }
 
@@ -26,19 +27,19 @@ ExitCode complain(std::string_view message, ExitCode code) {
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit (ulimit -f) then fails like one on a full disk
-  chainmail::api::remove_folders_on_signals();
+  chainmail::remove_folders_on_signals();
   try {
     chainmail::command_line::run(argc, argv);
     return done;
-  } catch (const chainmail::api::WriteFailure& failure) {
+  } catch (const chainmail::WriteFailure& failure) {
     return complain(failure.what(), failed);
-  } catch (const chainmail::api::Error& error) {
+  } catch (const chainmail::Error& error) {
     return complain(error.what(), bad_usage);
   } catch (const std::bad_alloc&) {
     return complain("memory: not enough memory; use a smaller mesh", failed);
   } catch (const std::filesystem::filesystem_error& error) {
     return complain(
-        chainmail::api::shown(error.path1()) + ": " + error.code().message() + "; check the path and its permissions",
+        chainmail::shown(error.path1()) + ": " + error.code().message() + "; check the path and its permissions",
         failed);
   } catch (const std::system_error& error) {  // of a thread
     return complain("threads: none can be started (" + error.code().message() +

@@ -1,10 +1,13 @@
-#include "chainmail/calibrate.h"
-
-#include <ostream>
+#include "calibrate/calibrate.h"
 
 #include "command_line/common.h"
-#include "command_line/elastic.h"
+#include "command_line/model.h"
 #include "command_line/progress_line.h"
+#include "files/results/report_json.h"
+#include "files/results/summary.h"
+#include "files/session/softness_presets.h"
+#include "files/text/limits.h"
+#include "report/page/format.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -26,62 +29,55 @@ constexpr const char* calibrate_footer =
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
-/// Returns the object: at rest, with pins, the material and the kind of energy.
-api::Body body_of(const CalibrateArguments& options, const std::string& object, const api::Mesh& mesh) {
-  api::Body body(mesh);
-  body.set_elasticity(elastic_of(options.elastic));
-  body.pin(pins_of(options.pins, object, mesh));
-  body.set_energy(energy_of(options.energy, api::link_energy));
-  return body;
-}
-
-api::CalibrateOptions calibration_options(const CalibrateArguments& options) {
-  api::CalibrateOptions result;
+CalibrationOptions calibration_options(const CalibrateArguments& options, const std::string& object, const Mesh& mesh) {
+  CalibrationOptions result;
+  result.elastic = elastic_of(options.elastic);
+  result.pins = pins_of(options.pins, object, mesh);
+  result.energy = energy_of_links(energy_of(options.energy, link_energy));
   if (const auto name = value_of(options.algorithm)) {
-    result.method = method_of("--algorithm", *name, chainmail_methods());
+    result.algorithm = algorithm_of("--algorithm", *name, algorithms());
   }
-  result.scheme = relaxation_of(options.relaxation, false, result.scheme);
+  result.scheme = choice_of(options.relaxation, schemes(false), result.scheme);
   result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
   result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
   result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
   return result;
 }
 
-std::string read_name(const CalibrateArguments& options, const api::Body& body) {
+std::string read_name(const CalibrateArguments& options, const Material& material) {
   const std::filesystem::path path = *value_of(options.mesh.path);
-  std::string name = api::printable(path.stem().string()).substr(0, api::preset_name_bytes - 20);
-  name = value_of(options.name).value_or(name + ", Poisson " + api::figure(body.elasticity().poisson));
-  if (const std::string fault = api::fault_of_preset_name(name); !fault.empty()) {
-    throw api::Error("--name", api::in_quotes(name) + " cannot name a preset", fault);
+  std::string name = printable(path.stem().string()).substr(0, limits::preset_name_bytes - 20);
+  name = value_of(options.name).value_or(name + ", Poisson " + report::figure(material.poisson));
+  if (const std::string fault = fault_of_name(name); !fault.empty()) {
+    throw Error("--name", in_quotes(name) + " cannot name a preset", fault);
   }
   return name;
 }
 
-void calibrate(const CalibrateArguments& options) {
-  const api::Mesh opened = open_mesh(options.mesh);
+void calibrate_file(const CalibrateArguments& options) {
+  const MeshPointer mesh = open_mesh(options.mesh).mesh;
   const std::filesystem::path path = *value_of(options.mesh.path);
-  const std::string object = api::printable(path.filename().string());
-  const api::Body body = body_of(options, object, opened);
-  const api::CalibrateOptions how = calibration_options(options);
-  const std::string name = read_name(options, body);
+  const std::string object = printable(path.filename().string());
+  const CalibrationOptions how = calibration_options(options, object, *mesh);
+  const std::string name = read_name(options, how.elastic.material);
   const auto preset_file = value_of(options.preset), json_file = value_of(options.json);
-  const api::Calibration result = [&] {
-    const Watch watch("calibrating softness for " + object);
+  const CalibrationResult result = [&] {
+    Watch watch("calibrating softness for " + object);
     return in_options({{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}},
-                      [&] { return api::calibrate(body, how, watch.job()); });
+                      [&] { return calibrate(mesh, Cuts(mesh), how, watch.progress()); });
   }();
-  api::Outputs outputs;
+  Outputs outputs;
   outputs.keep(path);
   if (preset_file) {
     outputs.add(*preset_file, [&](std::ostream& out) {
-      api::write_presets(out, std::vector{api::Preset{name, result.softness}});
+      write_presets(out, std::vector{SoftnessPreset{name, result.softness}});
     });
   }
   if (json_file) {
-    outputs.add(*json_file, [&](std::ostream& out) { out << result.json; });
+    outputs.add(*json_file, [&](std::ostream& out) { write_json(out, how, result); });
   }
   if (preset_file != "-" && json_file != "-") {
-    outputs.add("-", [&](std::ostream& out) { out << result.text; });
+    outputs.add("-", [&](std::ostream& out) { write_text(out, how, result); });
   }
   outputs.commit();
 }
@@ -92,15 +88,13 @@ Command add_calibrate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("calibrate", "Find the softness that is closest to an elastic material");
   CalibrateArguments options{};
   options.mesh = add_mesh_options(*app);
-  options.mesh.space =
-      add_value(*app, "--space", "1|2|3",
-                "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
+  options.mesh.space = add_space(*app);
   options.elastic = add_material(*app);
   options.pins = add_pins(*app);
   options.algorithm =
       add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
-  options.relaxation = add_relaxation(*app, false, api::CalibrateOptions().scheme);
-  options.energy = add_energy(*app, api::link_energy);
+  options.relaxation = add_relaxation(*app, false, CalibrationOptions().scheme);
+  options.energy = add_energy(*app, link_energy);
   options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
   options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
   options.evaluations =
@@ -109,7 +103,7 @@ Command add_calibrate(CLI::App& root) {
   options.preset = add_value(*app, "-o", "FILE", "write the softness as a preset (JSON)");
   options.json = add_value(*app, "--json", "FILE", "write softness, sweeps and residuals as JSON");
   app->footer(calibrate_footer);
-  return {app, [options] { calibrate(options); }};
+  return {app, [options] { calibrate_file(options); }};
 }
 
 }  // namespace chainmail::command_line

@@ -1,24 +1,45 @@
 #include "command_line/common.h"
 
 #include <algorithm>
-#include <array>
 #include <iostream>
-#include <iterator>
 
 #include "command_line/progress_line.h"
 
 namespace chainmail::command_line {
 namespace {
 
-std::string name_of(const api::Parameter& parameter) { return "--" + std::string(parameter.name); }
+std::string name_of(const Parameter& parameter) { return "--" + std::string(parameter.name); }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
-    text += words[i];
+VoxelOptions voxels_of(const MeshOptions& options) {
+  VoxelOptions voxels;
+  if (options.threshold->count() > 0) {
+    voxels.threshold = number_of(options.threshold, 0);
   }
-  return text;
+  if (options.voxels->count() > 0) {
+    voxels.every = whole_number_of(options.voxels, 1, 1);
+  }
+  voxels.stiff_where_dense = choice_of(options.by_density, on_or_off, true);
+  return voxels;
+}
+
+ReadOptions read_options_of(const MeshOptions& options) {
+  ReadOptions how;
+  if (const auto size = value_of(options.size)) {
+    how.size = parse_size(*size);
+    if (!how.size) {
+      throw Error("--size", in_quotes(*size) + " is not a size", "write WxH or WxHxD with whole numbers from 1");
+    }
+  }
+  if (const double spacing = value_of(options.spacing, parameters::spacing); options.spacing->count() > 0) {
+    how.spacing = spacing;
+  }
+  how.space_dimension = choice_of(options.space, spaces, {});
+  how.voxels = voxels_of(options);
+  how.data_outside = choice_of(options.data_outside, {{"allow", true}, {"refuse", false}}, false);
+  if (const auto tolerance = value_of(options.weld)) {
+    how.weld = tolerance_of(*tolerance);
+  }
+  return how;
 }
 
 }  // namespace
@@ -31,41 +52,43 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-std::string help_of(const api::Parameter& parameter) {
-  return std::string(parameter.help) + " [" + api::digits_of(parameter.default_value) + "]";
+std::string help_of(const Parameter& parameter) {
+  std::string help = std::string(parameter.help) + " [";
+  append_number(help, parameter.default_value);
+  return help + "]";
 }
 
-CLI::Option* add_parameter(CLI::App& app, const api::Parameter& parameter) {
+CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter) {
   return add_value(app, name_of(parameter), "NUMBER", help_of(parameter));
 }
 
 std::optional<std::string> value_of(const CLI::Option* option) {
-  const auto& values = option->results();
-  if (values.empty()) {
+  if (option == nullptr || option->results().empty()) {
     return std::nullopt;
   }
+  const auto& values = option->results();
   if (values.size() > 1) {
-    throw api::Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "use it once");
+    throw Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "use it once");
   }
   return values.front();
 }
 
 double parse_number_of(const std::string& where, std::string_view text) {
-  const auto number = api::parse_number(text);
+  const auto number = parse_number(text);
   if (!number) {
-    throw api::Error(where, api::in_quotes(text) + " is not a finite number",
-                     "write a decimal number like 0.5 or -2e3");
+    throw Error(where, in_quotes(text) + " is not a finite number", "write a decimal number like 0.5 or -2e3");
   }
   return *number;
 }
 
-double value_of(const CLI::Option* option, const api::Parameter& parameter) {
+double number_of(const CLI::Option* option, double default_value) {
   const auto text = value_of(option);
-  if (!text) {
-    return parameter.default_value;
-  }
-  const double number = parse_number_of(name_of(parameter), *text);
-  in_options({{std::string(parameter.name), name_of(parameter)}}, [&] { api::check(parameter, number); });
+  return text ? parse_number_of(option->get_name(), *text) : default_value;
+}
+
+double value_of(const CLI::Option* option, const Parameter& parameter) {
+  const double number = number_of(option, parameter.default_value);
+  in_options({{std::string(parameter.name), name_of(parameter)}}, [&] { check(parameter, number); });
   return number;
 }
 
@@ -75,162 +98,125 @@ std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, s
   if (!text) {
     return default_value;
   }
-  const auto number = api::parse_count(*text);
+  const auto number = parse_count(*text);
   if (!number || *number < lowest || *number > highest) {
-    throw api::Error(option->get_name(), api::in_quotes(*text) + " is not a whole number in range",
-                     "use " + std::to_string(lowest) + " to " + std::to_string(highest));
+    throw Error(option->get_name(), in_quotes(*text) + " is not a whole number in range",
+                "use " + std::to_string(lowest) + " to " + std::to_string(highest));
   }
   return *number;
 }
 
-void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
-  if (std::find(words.begin(), words.end(), word) == words.end()) {
-    throw api::Error(where, api::in_quotes(word) + " is not known", "use " + joined(words));
+std::vector<std::string_view> split(std::string_view text, char mark) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(mark, begin) - begin));
   }
-}
-
-const api::RelaxationSchemeInfo& info(api::RelaxationScheme scheme) {
-  return api::relaxation_schemes()[std::size_t(scheme)];
-}
-
-CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, api::RelaxationScheme usual) {
-  std::string names, help = "relaxation scheme";
-  for (const api::RelaxationSchemeInfo& one : api::relaxation_schemes()) {
-    if (one.sweeps || !sweeps_only) {
-      names += (names.empty() ? "" : "|") + std::string(one.name);
-      help += "; " + std::string(one.name) + ": " + std::string(one.help);
-    }
-  }
-  return add_value(app, "--relaxation", names, help + " [" + std::string(info(usual).name) + "]");
-}
-
-api::RelaxationScheme relaxation_of(const CLI::Option* option, bool sweeps_only, api::RelaxationScheme usual) {
-  std::vector<std::string> names;
-  for (const api::RelaxationSchemeInfo& one : api::relaxation_schemes()) {
-    if (one.sweeps || !sweeps_only) {
-      names.emplace_back(one.name);
-    }
-  }
-  const std::string word = value_of(option).value_or(std::string(info(usual).name));
-  check_word(option->get_name(), word, names);
-  return std::ranges::find(api::relaxation_schemes(), word, &api::RelaxationSchemeInfo::name)->scheme;
+  return parts;
 }
 
 std::vector<std::string> words_of(const std::string& where, const std::string& list) {
   std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::string word = list.substr(begin, end - begin);
-    if (std::find(words.begin(), words.end(), word) != words.end()) {
-      throw api::Error(where, api::in_quotes(word) + " is given twice", "write each one once");
+  for (const std::string_view word : split(list)) {
+    if (std::ranges::find(words, word) != words.end()) {
+      throw Error(where, in_quotes(word) + " is given twice", "write each one once");
     }
-    words.push_back(word);
-    begin = end + 1;
+    words.emplace_back(word);
   }
   return words;
 }
 
-std::vector<api::MethodInfo> chainmail_methods() {
-  auto methods = api::methods();
-  std::erase_if(methods, [](const api::MethodInfo& one) { return one.family != api::MethodFamily::chainmail; });
-  return methods;
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  return CLI::detail::join(words, between);
 }
 
-std::vector<std::string> names_of(const std::vector<api::MethodInfo>& offered) {
+void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
+  if (std::ranges::find(words, word) == words.end()) {
+    const std::vector<std::string> first(words.begin(), words.end() - 1);
+    throw Error(where, in_quotes(word) + " is not known",
+                "use " + joined(first, ", ") + (first.empty() ? "" : " or ") + words.back());
+  }
+}
+
+Choices<Precision> precisions(Precision usual) {
+  Choices<Precision> all{{"float", Precision::single_precision}, {"double", Precision::double_precision}};
+  if (usual == Precision::double_precision) {
+    std::ranges::reverse(all);
+  }
+  return all;
+}
+
+CLI::Option* add_precision(CLI::App& app, Precision usual) {
+  const auto all = precisions(usual);
+  return add_choice(app, "--precision", all, "precision of the solver [" + all.front().first + "]");
+}
+
+Choices<RelaxationScheme> schemes(bool sweeps_only) {
+  Choices<RelaxationScheme> all;
+  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
+    if (one.sweeps || !sweeps_only) {
+      all.emplace_back(one.name, one.scheme);
+    }
+  }
+  return all;
+}
+
+CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, RelaxationScheme usual) {
+  const auto all = schemes(sweeps_only);
+  std::string help = "relaxation scheme";
+  for (const auto& [name, scheme] : all) {
+    help += "; " + name + ": " + std::string(info(scheme).summary);
+  }
+  return add_choice(app, "--relaxation", all, help + " [" + std::string(info(usual).name) + "]");
+}
+
+CLI::Option* add_space(CLI::App& app) {
+  return add_choice(app, "--space", spaces,
+                    "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
+}
+
+std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered) {
   std::vector<std::string> names;
-  std::ranges::transform(offered, std::back_inserter(names), &api::MethodInfo::name);
+  for (const AlgorithmInfo& one : offered) {
+    names.emplace_back(one.offered_name());
+  }
   return names;
 }
 
-std::string methods_help(const std::vector<api::MethodInfo>& offered) {
+std::string algorithms_help(std::span<const AlgorithmInfo> offered) {
   constexpr std::size_t column = 15;
   std::string text;
-  for (const api::MethodInfo& one : offered) {
-    text += "  " + one.name + std::string(column - std::min(column - 1, one.name.size()), ' ') + one.label + ": " +
-            one.summary + "\n";
+  for (const AlgorithmInfo& one : offered) {
+    const std::string name(one.offered_name());
+    text += "  " + name + std::string(column - std::min(column - 1, name.size()), ' ') + std::string(one.label) + ": " +
+            std::string(one.summary) + "\n";
   }
   return text;
 }
 
-std::string method_of(const std::string& where, const std::string& name, const std::vector<api::MethodInfo>& offered) {
-  const auto method = api::find_method(name);
-  if (!method || std::ranges::find(offered, method->name, &api::MethodInfo::name) == offered.end()) {
-    throw api::Error(where, api::in_quotes(name) + " is not known", "use " + joined(names_of(offered)));
+Algorithm algorithm_of(const std::string& where, const std::string& name, std::span<const AlgorithmInfo> offered) {
+  const auto algorithm = find_algorithm(name);
+  if (!algorithm || std::ranges::find(offered, *algorithm, &AlgorithmInfo::algorithm) == offered.end()) {
+    check_word(where, name, names_of(offered));
   }
-  return method->name;
+  return *algorithm;
 }
 
-std::vector<std::string> methods_of(const CLI::Option* option, const std::vector<api::MethodInfo>& offered) {
-  std::vector<std::string> chosen;
+std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered) {
+  std::vector<Algorithm> chosen;
   if (const auto list = value_of(option)) {
     for (const std::string& word : words_of(option->get_name(), *list)) {
-      chosen.push_back(method_of(option->get_name(), word, offered));
+      chosen.push_back(algorithm_of(option->get_name(), word, offered));
       if (std::ranges::count(chosen, chosen.back()) > 1) {
-        throw api::Error(option->get_name(), api::in_quotes(word) + " is given twice", "write each algorithm once");
+        throw Error(option->get_name(), in_quotes(word) + " is given twice", "write each algorithm once");
       }
     }
   }
   return chosen;
 }
 
-CLI::Option* add_precision(CLI::App& app, api::Precision usual) {
-  return usual == api::Precision::single_precision
-             ? add_value(app, "--precision", "float|double", "precision of the solver [float]")
-             : add_value(app, "--precision", "double|float", "precision of the solver [double]");
-}
-
-api::Precision precision_of(const CLI::Option* option, api::Precision usual) {
-  const auto word = value_of(option);
-  if (!word) {
-    return usual;
-  }
-  check_word("--precision", *word,
-             usual == api::Precision::single_precision ? std::vector<std::string>{"float", "double"}
-                                                       : std::vector<std::string>{"double", "float"});
-  return *word == "float" ? api::Precision::single_precision : api::Precision::double_precision;
-}
-
-CLI::Option* add_energy(CLI::App& app, api::EnergyKind usual) {
-  std::string names, usual_name, ignored;
-  for (const api::EnergyKindInfo& one : api::energy_kinds()) {
-    names += (names.empty() ? "" : "|") + std::string(one.name);
-    usual_name = one.kind == usual ? one.name : usual_name;
-  }
-  const auto numbers = api::softness_numbers();
-  for (std::size_t i = region_numbers; i + 1 < numbers.size(); ++i) {
-    ignored += (ignored.empty() ? "" : ", ") + std::string(numbers[i].name);
-  }
-  return add_value(app, "--energy", names,
-                   "elastic energy that relaxation lowers, of links or of the material of cells; isotropic ignores " +
-                       ignored + " and " + std::string(numbers.back().name) + ", material too, at equilibrium [" +
-                       usual_name + "]");
-}
-
-api::EnergyKind energy_of(const CLI::Option* option, api::EnergyKind usual) {
-  const auto name = value_of(option);
-  if (!name) {
-    return usual;
-  }
-  std::vector<std::string> names;
-  for (const api::EnergyKindInfo& one : api::energy_kinds()) {
-    names.emplace_back(one.name);
-  }
-  check_word("--energy", *name, names);
-  return std::ranges::find(api::energy_kinds(), *name, &api::EnergyKindInfo::name)->kind;
-}
-
-std::optional<int> space_of(const CLI::Option* option) {
-  const auto text = value_of(option);
-  if (!text) {
-    return std::nullopt;
-  }
-  check_word("--space", *text, {"1", "2", "3"});
-  return text->front() - '0';
-}
-
 MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
   MeshOptions options;
-  options.path = add_value(app, "MESH", "", "mesh file: " + api::file_endings(api::FileUse::read))->required();
+  options.path = add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
   options.size = add_value(app, "--size", "WxH[xD]", "number of elements of a .dat file along each axis");
   options.spacing =
       add_value(app, "--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file");
@@ -238,7 +224,7 @@ MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
                                 "lowest density that counts as material, for volumes of voxels [Otsu's method]");
   options.voxels =
       add_value(app, "--voxels", "N", "voxels per element along each axis [chosen to limit the number of elements]");
-  options.by_density = add_value(app, "--density-softness", "on|off", "make denser voxels stiffer [on]");
+  options.by_density = add_choice(app, "--density-softness", on_or_off, "make denser voxels stiffer [on]");
   options.data_outside =
       add_value(app, "--data-outside", "allow|refuse", "data files outside the folder of a volume's header [refuse]");
   if (welding == Welding::by_reader) {
@@ -250,63 +236,26 @@ MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
 
 double tolerance_of(const std::string& text) {
   const double tolerance = parse_number_of("--weld", text);
-  if (tolerance < 0 || tolerance > api::coordinate_limit) {
-    throw api::Error("--weld", api::in_quotes(text) + " is not a distance", "write a number from 0, in mesh units");
+  if (tolerance < 0 || tolerance > coordinate_limit) {
+    throw Error("--weld", in_quotes(text) + " is not a distance", "write a number from 0, in mesh units");
   }
   return tolerance;
 }
 
-void read_voxels(const MeshOptions& options, api::ReadOptions& how) {
-  if (const auto threshold = value_of(options.threshold)) {
-    how.threshold = parse_number_of("--threshold", *threshold);
-  }
-  if (options.voxels->count() > 0) {
-    how.every = whole_number_of(options.voxels, 1, 1);
-  }
-  if (const auto word = value_of(options.by_density)) {
-    check_word("--density-softness", *word, {"on", "off"});
-    how.stiff_where_dense = *word == "on";
-  }
-}
-
-bool data_outside_of(const MeshOptions& options) {
-  const auto word = value_of(options.data_outside);
-  if (word) {
-    check_word("--data-outside", *word, {"allow", "refuse"});
-  }
-  return word == "allow";
-}
-
-api::Mesh open_mesh(const MeshOptions& options) {
-  api::ReadOptions how;
-  if (const auto size = value_of(options.size)) {
-    how.lattice = api::parse_size(*size);
-    if (!how.lattice) {
-      throw api::Error("--size", api::in_quotes(*size) + " is not a size",
-                       "write WxH or WxHxD with whole numbers from 1");
-    }
-  }
-  if (const double spacing = value_of(options.spacing, api::parameter("spacing")); options.spacing->count() > 0) {
-    how.spacing = spacing;
-  }
-  how.space_dimension = options.space == nullptr ? std::nullopt : space_of(options.space);
-  read_voxels(options, how);
-  how.data_outside = data_outside_of(options);
-  if (const auto tolerance = options.weld == nullptr ? std::nullopt : value_of(options.weld)) {
-    how.weld = tolerance_of(*tolerance);
-  }
+OpenedMesh open_mesh(const MeshOptions& options) {
+  const ReadOptions how = read_options_of(options);
   const std::filesystem::path path = *value_of(options.path);
-  const Watch watch("reading " + api::shown(path));
+  Watch watch("reading " + shown(path));
   return in_options({{"space dimension", "--space"},
                      {"size", "--size"},
                      {"spacing", "--spacing"},
                      {"threshold", "--threshold"},
                      {"every", "--voxels"}},
-                    [&] { return api::read_mesh(path, how, watch.job()); });
+                    [&] { return chainmail::open_mesh(path, how, watch.progress()); });
 }
 
-CLI::Option* add_mesh_target(CLI::App& app) {
-  return add_value(app, "-o", "FILE", "output file: " + api::file_endings(api::FileUse::write))->required();
+CLI::Option* add_mesh_target(CLI::App& app, const std::string& name) {
+  return add_value(app, name, "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
 }
 
 void say_note(const std::string& words) {
@@ -315,23 +264,26 @@ void say_note(const std::string& words) {
   }
 }
 
-void say_flaws(const api::Mesh& mesh) { say_note(mesh.flaws()); }
+void say_flaws(const OpenedMesh& opened) { say_note(in_words(opened.flaws)); }
 
-void add_mesh_file(api::Outputs& outputs, const MeshOptions& read, const std::string& target, const api::Mesh& mesh) {
-  api::check_format(target, mesh);
-  say_note(api::lost_in_format(target, mesh));
+void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+                   const OwnSoftness& softness) {
+  const MeshFormat& format = mesh_format(target, FormatUse::write);
+  check_holds(format, *mesh, target);
+  say_note(lost_in(format, *mesh));
   outputs.keep(*value_of(read.path));
-  outputs.add(target, [target, mesh](std::ostream& out) { api::write_mesh(out, target, mesh); });
+  outputs.add(target, [&format, mesh, softness](std::ostream& out) { write_mesh(out, format, *mesh, softness); });
 }
 
-void write_mesh_file(const MeshOptions& read, const std::string& target, const api::Mesh& mesh) {
-  api::Outputs outputs;
-  add_mesh_file(outputs, read, target, mesh);
+void write_mesh_file(const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+                     const OwnSoftness& softness) {
+  Outputs outputs;
+  add_mesh_file(outputs, read, target, mesh, softness);
   outputs.commit();
 }
 
-api::Error at_option(const api::Error& error, const std::map<std::string, std::string>& options) {
-  // An error of the library begins with the name of a value, like `size` or `space dimension 2`. The table has the name
+Error at_option(const Error& error, const std::map<std::string, std::string>& options) {
+  // An error of core begins with the name of a value, like `size` or `space dimension 2`. The table has the name
   // without the number.
   const std::string what = error.where().substr(0, error.where().find_last_not_of(" 0123456789") + 1);
   const auto option = options.find(what);

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "chainmail/suite.h"
-#include "command_line/compare_options.h"
-#include "command_line/progress_line.h"
-#include "command_line/samples.h"
-#include "version/version.h"
+#include "calibrate/for_report.h"
+#include "command_line/compare.h"
+#include "files/results/peer_json.h"
+#include "report/run/peer.h"
+#include "report/run/suite_experiments.h"
 #ifdef CHAINMAIL_HAS_BULLET
 #include "bullet/register_bullet.h"
 #endif
@@ -20,19 +20,12 @@ void add_bullet() {
 #endif
 }
 
-/// A part of the suite: number `index` of `count`, from 1.
-struct Shard {
-  int index, count;
-};
-
-Shard shard_of(const CLI::Option* option) {
+report::Shard shard_of(const CLI::Option* option) {
   const std::string text = value_of(option).value_or("1/1");
-  const auto slash = text.find('/');
-  const auto index = slash == std::string::npos ? std::nullopt : api::parse_count(text.substr(0, slash));
-  const auto count = slash == std::string::npos ? std::nullopt : api::parse_count(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
-    throw api::Error("--shard", api::in_quotes(text) + " is not a part of a whole",
-                     "write I/N, such as 2/4, with N up to 1000");
+  const auto parts = split(text, '/');
+  const auto index = parse_count(parts.front()), count = parse_count(parts.back());
+  if (parts.size() != 2 || !index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
+    throw Error("--shard", in_quotes(text) + " is not a part of a whole", "write I/N, such as 2/4, with N up to 1000");
   }
   return {int(*index), int(*count)};
 }
@@ -40,87 +33,114 @@ Shard shard_of(const CLI::Option* option) {
 /// Returns the experiments of --experiments, or those that run if none is named, as far as they are in the shard.
 std::vector<std::string> experiments_of(const CompareArguments& arguments) {
   const auto list = value_of(arguments.experiments);
-  std::vector<std::string> names;
-  for (const api::SuiteExperiment& one : api::suite_experiments()) {
-    if (list || !one.only_named) {
-      names.push_back(one.name);
-    }
-  }
+  std::vector<std::string> names = list ? report::all_suite_names() : report::suite_names();
   if (list) {
     const auto wanted = words_of("--experiments", *list);
     std::ranges::for_each(wanted, [&](const std::string& name) { check_word("--experiments", name, names); });
     std::erase_if(names, [&](const std::string& name) { return std::ranges::find(wanted, name) == wanted.end(); });
   }
-  const Shard shard = shard_of(arguments.shard);
-  names = api::part_of_suite(names, shard.index, shard.count);
+  names = report::part_of(names, shard_of(arguments.shard));
   if (names.empty()) {
-    throw api::Error("--shard", "no experiment is in this part", "use a smaller number of parts");
+    throw Error("--shard", "no experiment is in this part", "use a smaller number of parts");
   }
   return names;
 }
 
 bool needs_organ(const std::vector<std::string>& names) {
-  return std::ranges::any_of(api::suite_experiments(), [&](const api::SuiteExperiment& one) {
-    return one.needs_organ && std::ranges::count(names, one.name) > 0;
+  return std::ranges::any_of(report::suite_experiments(), [&](const report::SuiteExperiment& one) {
+    return one.needs_organ() && std::ranges::count(names, one.name) > 0;
   });
 }
 
-}  // namespace
-
-void refuse_others(const CLI::App& app, const std::string& mode, const std::vector<const CLI::Option*>& taken) {
-  for (const CLI::Option* option : app.get_options()) {
+/// Throws Error for an option that the given mode does not take.
+void refuse_others(const CompareArguments& arguments, const std::string& mode,
+                   const std::vector<const CLI::Option*>& taken) {
+  for (const CLI::Option* option : arguments.app->get_options()) {
     if (option->count() > 0 && std::ranges::find(taken, option) == taken.end()) {
-      throw api::Error(option->get_name(), "it does not work with " + mode, "leave it out");
+      throw Error(option->get_name(), "it does not work with " + mode, "leave it out");
     }
   }
 }
 
-api::SampleOrgans sample_organs() {
+/// Returns the organs of the samples whose files are there.
+report::SampleOrgans sample_organs() {
   const auto opened = [](const char* name) {
     const auto file = samples_folder() / name;
     std::error_code none;
-    return std::filesystem::is_regular_file(file, none) ? std::optional(api::read_mesh(file)) : std::nullopt;
+    return std::filesystem::is_regular_file(file, none) ? read_mesh(file) : nullptr;
   };
   return {opened("organ.msh"), opened("organ-coarse.msh")};
 }
 
-void run_suite(const CLI::App& app, const CompareArguments& arguments, const std::string& command_line) {
-  refuse_others(app, "--suite",
+}  // namespace
+
+void run_suite(const CompareArguments& arguments) {
+  refuse_others(arguments, "--suite",
                 {arguments.suite, arguments.shard, arguments.experiments, arguments.algorithms, arguments.repetitions,
                  arguments.calibrated, arguments.output});
   add_bullet();
-  api::SuiteOptions options;
-  options.methods = methods_of(arguments.algorithms, api::methods());
-  if (arguments.repetitions->count() > 0) {
-    options.repetitions = static_cast<int>(whole_number_of(arguments.repetitions, 1, 1));
+  report::SuiteOptions options;
+  options.algorithms = algorithms_of(arguments.algorithms, every_algorithm());
+  options.repetitions = repetitions_of(arguments);
+  if (choice_of(arguments.calibrated, on_or_off, false)) {
+    options.calibrate = calibrator_for_reports(RelaxationScheme::mean);
   }
-  options.calibrated = is_calibrated(arguments, false);
-  options.experiments = experiments_of(arguments);
-  options.part = value_of(arguments.shard).value_or("1/1");
-  options.command = command_line;
-  options.program = version_in_words("chainmail");
+  const std::vector<std::string> experiments = experiments_of(arguments);
   OutputFolder folder(*value_of(arguments.output));
-  if (needs_organ(options.experiments)) {
+  if (needs_organ(experiments)) {
     options.organs = sample_organs();
   }
-  const api::Suite suite = [&] {
-    const Watch watch(report_progress);
-    return api::run_suite(options, watch.job());
+  report::Suite suite = [&] {
+    ProgressLine line;
+    return report::run_suite(experiments, options, teller_of(line));
   }();
-  write_report(folder, suite.files(), suite.text());
+  suite.runs = {{origin_of(arguments), value_of(arguments.shard).value_or("1/1"), experiments}};
+  write_report(folder, suite, plots_of(suite), {});
 }
 
-void merge_suites(const CLI::App& app, const CompareArguments& arguments) {
-  refuse_others(app, "--merge", {arguments.merge, arguments.meshes, arguments.output});
+void merge_suites(const CompareArguments& arguments) {
+  refuse_others(arguments, "--merge", {arguments.merge, arguments.meshes, arguments.output});
   if (arguments.meshes->count() == 0) {
-    throw api::Error("--merge", "the files are missing", "name the report.json of each part");
+    throw Error("--merge", "the files are missing", "name the report.json of each part");
   }
   add_bullet();
   OutputFolder folder(*value_of(arguments.output));
   const auto& names = arguments.meshes->results();
   const std::vector<std::filesystem::path> reports(names.begin(), names.end());
-  const api::Suite suite = api::merge_suites(reports);
-  write_report(folder, suite.files(), suite.text(), reports);
+  std::vector<report::Suite> parts;
+  std::ranges::transform(reports, std::back_inserter(parts), read_suite);
+  const report::Suite suite = report::merged(parts);
+  write_report(folder, suite, plots_of(suite), reports);
+}
+
+void write_cases(const CompareArguments& arguments) {
+  refuse_others(arguments, "--cases", {arguments.cases, arguments.output});
+  OutputFolder folder(*value_of(arguments.output));
+  const auto cases = report::peer_cases_of_suite(sample_organs());
+  folder.make();
+  Outputs outputs;
+  for (const report::PeerCase& one : cases) {
+    outputs.add(folder.path() / (one.name + ".json"), [&one](std::ostream& out) { write_json(out, one); });
+  }
+  outputs.commit();
+  folder.keep();
+}
+
+void judge_answers(const CompareArguments& arguments) {
+  refuse_others(arguments, "--judge", {arguments.judge, arguments.meshes});
+  const std::vector<std::string> files = arguments.meshes->results();
+  if (files.size() < 2) {
+    throw Error("--judge", "the files are missing", "name a case, then one or more answers to it");
+  }
+  const report::PeerCase object = read_peer_case(files.front());
+  report::FigureTable table = peer_table(object);
+  table.caption = printable(table.caption);
+  table.about = printable(table.about);
+  for (const std::string& file : std::span(files).subspan(1)) {
+    table.rows.push_back(peer_row(object, read_peer_answer(file)));
+    table.rows.back().label = printable(table.rows.back().label);
+  }
+  write_file("-", [&](std::ostream& out) { write_text(out, table); });
 }
 
 }  // namespace chainmail::command_line

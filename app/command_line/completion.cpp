@@ -1,11 +1,11 @@
-#include "command_line/completion.h"
-
 #include <algorithm>
 #include <array>
 #include <ostream>
 #include <ranges>
 #include <string>
 #include <vector>
+
+#include "command_line/common.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -247,9 +247,9 @@ constexpr std::array shells{Shell{"bash", write_bash}, Shell{"zsh", write_zsh}, 
 void write_completion(const CLI::App& root, const std::string& shell) {
   const auto* const found = std::ranges::find(shells, shell, &Shell::name);
   if (found == shells.end()) {
-    throw api::Error("SHELL", "there is no completion for '" + shell + "'", "use bash, zsh or fish");
+    throw Error("SHELL", "there is no completion for '" + shell + "'", "use bash, zsh or fish");
   }
-  api::write_file("-", [&](std::ostream& out) { found->write(out, root, words_of_all(root)); });
+  write_file("-", [&](std::ostream& out) { found->write(out, root, words_of_all(root)); });
 }
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include <map>
 #include <ostream>
 
-#include "chainmail/simulation.h"
 #include "command_line/common.h"
-#include "command_line/elastic.h"
+#include "command_line/model.h"
 #include "command_line/progress_line.h"
 #include "command_line/script.h"
-#include "command_line/softness.h"
+#include "files/results/summary.h"
+#include "files/results/trace_csv.h"
+#include "files/session/moves.h"
+#include "files/session/softness_csv.h"
+#include "simulate/deformation.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -42,17 +46,19 @@ constexpr const char* example =
 struct Schedule {
   std::uint32_t steps = 1;
   int relax = 0;  // sweeps, or iterations, after each pass
-  api::RelaxOptions how;
+  commands::SetRelaxation how;
+  double until = 0;
 };
 
-Schedule read_schedule(const DeformArguments& options, api::RelaxationScheme scheme) {
-  if (info(scheme).sweeps && options.relax_until->count() > 0) {
-    throw api::Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
+Schedule read_schedule(const DeformArguments& options, RelaxationScheme scheme) {
+  const bool sweeps = info(scheme).sweeps;
+  if (sweeps && options.relax_until->count() > 0) {
+    throw Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
   }
   return {whole_number_of(options.steps, 1, 1),
-          int(whole_number_of(options.relax, 0, info(scheme).sweeps ? 0 : api::usual_iterations)),
-          {value_of(options.relax_step, api::parameter("relax-step")), scheme,
-           value_of(options.relax_until, api::parameter("relax-until"))}};
+          int(whole_number_of(options.relax, 0, sweeps ? 0 : equilibrium_iterations)),
+          {false, value_of(options.relax_step, parameters::relax_step), scheme},
+          value_of(options.relax_until, parameters::relax_until)};
 }
 
 /// Returns the actions in the order of their options on the command line.
@@ -70,15 +76,13 @@ std::vector<Action> read_actions(const DeformArguments& options) {
   return actions;
 }
 
-/// Returns a name with the ending of the positions. On standard output, they are a CSV table.
-std::string positions_name(const std::string& path) {
-  std::string name = path == "-" ? "standard_output.csv" : path;
+/// Returns the format of the positions. On standard output, they are a CSV table.
+const MeshFormat& positions_format(const std::string& path) {
   try {
-    api::check_format(name, api::FileUse::write_positions);
-  } catch (const api::Error& error) {
-    throw error.at("--positions " + api::printable(path));
+    return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
+  } catch (const Error& error) {
+    throw error.at("--positions " + printable(path));
   }
-  return name;
 }
 
 Targets read_targets(const DeformArguments& options) {
@@ -90,79 +94,116 @@ Targets read_targets(const DeformArguments& options) {
     }
   }
   if (targets.positions) {
-    positions_name(*targets.positions);
+    positions_format(*targets.positions);
   }
   return targets;
 }
 
-void write_results(const Targets& targets, const api::Simulation& simulation) {
-  api::Outputs outputs;
+void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
+  const Body& body = simulation.body();
+  const MeshFormat& format = positions_format(path);
+  check_holds(format, body.mesh(), path);
+  write_mesh(out, format, {body.mesh(), body.cuts(), body.positions(), body.softness()});
+}
+
+void write_results(const Targets& targets, Deformation& deformation) {
+  const DeformSummary summary = deformation.summary();
+  Outputs outputs;
   for (const std::string& input : targets.inputs) {
     outputs.keep(input);
   }
   if (targets.positions) {
     outputs.add(*targets.positions,
-                [&](std::ostream& out) { api::write_mesh(out, positions_name(*targets.positions), simulation); });
+                [&](std::ostream& out) { write_positions(out, *targets.positions, deformation.simulation()); });
   }
   if (targets.trace) {
-    outputs.add(*targets.trace, [&](std::ostream& out) { out << simulation.trace_csv(); });
+    outputs.add(*targets.trace, [&](std::ostream& out) { write_trace_csv(out, deformation.traces()); });
   }
   if (targets.json) {
-    outputs.add(*targets.json, [&](std::ostream& out) { out << simulation.json(); });
+    outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
   }
   if (targets.none()) {
-    outputs.add("-", [&](std::ostream& out) { out << simulation.text(); });
+    outputs.add("-", [&](std::ostream& out) { write_text(out, summary); });
   }
   outputs.commit();
-  for (const std::string& note : simulation.notes()) {
+  for (const std::string& note : notes_of(summary)) {
     say_note(note);
   }
 }
 
-/// Gives a body the softness, the energy and the axes of the options.
-void soften(const DeformArguments& options, const SoftnessChoice& softness, api::Body& body) {
-  softness.apply_to(body);
+/// Returns the softness of the options. Recorded moves begin with the energy of links.
+Softness softness_to_begin_with(const DeformArguments& options) {
+  Softness softness = softness_of(options.global);
   if (options.script->count() > 0 && options.global.energy->count() == 0) {
-    body.set_energy(api::link_energy);  // recorded moves begin with it
+    set_energy(softness, link_energy);
   }
-  turn_axes(options.global, body);
+  return softness;
+}
+
+ElasticOptions elastic_options_of(const DeformArguments& options) {
+  ElasticOptions elastic = elastic_of(options.elastic);
+  elastic.law = own_law_of(options.law, elastic.material);
+  elastic.thickness = value_of(options.thickness, parameters::thickness);
+  return elastic;
+}
+
+/// Throws Error, with the option, if the algorithm does not work on the mesh.
+void check_algorithm(const DeformArguments& options, Algorithm algorithm, const Mesh& mesh) {
+  try {
+    check(algorithm, mesh);
+  } catch (const Error& error) {
+    throw error.at("--algorithm " + *value_of(options.algorithm));
+  }
+}
+
+std::vector<chainmail::Command> recorded_moves(const DeformArguments& options, const MeshPointer& mesh) {
+  const auto file = value_of(options.script);
+  if (!file) {
+    return {};
+  }
+  Watch watch("reading " + printable(*file));
+  return read_moves(std::filesystem::path(*file), mesh, watch.progress());
 }
 
 void deform(const DeformArguments& options) {
-  const std::string method = method_of("--algorithm", *value_of(options.algorithm), api::methods());
-  const api::Precision precision = precision_of(options.precision, api::Precision::double_precision);
-  const api::RelaxationScheme relaxation = relaxation_of(options.relaxation, false);
-  const SoftnessChoice softness = softness_of(options.global);
-  api::Elasticity elastic = elastic_of(options.elastic);
-  read_own_law(options.law, elastic);
-  elastic.thickness = value_of(options.thickness, api::parameter("thickness"));
+  const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
+  const Precision precision =
+      choice_of(options.precision, precisions(Precision::double_precision), Precision::double_precision);
+  const RelaxationScheme scheme = choice_of(options.relaxation, schemes(false), RelaxationScheme::mean);
+  Softness softness = softness_to_begin_with(options);
+  const ElasticOptions elastic = elastic_options_of(options);
   const Targets targets = read_targets(options);
-  const Schedule schedule = read_schedule(options, relaxation);
+  const Schedule schedule = read_schedule(options, scheme);
   const std::vector<Action> actions = read_actions(options);
-  const api::Mesh mesh = open_mesh(options.mesh);
-  api::Body body(mesh, precision);
-  soften(options, softness, body);
-  body.set_elasticity(elastic);
-  try {
-    api::check_method(method, mesh);
-  } catch (const api::Error& error) {
-    throw error.at("--algorithm " + *value_of(options.algorithm));
-  }
-  if (const auto file = value_of(options.softness)) {
-    api::read_softness(*file, body);
-  }
-  std::optional<api::RecordedMoves> recorded;
-  if (const auto file = value_of(options.script)) {
-    const Watch watch("reading " + api::printable(*file));
-    recorded = api::read_moves(*file, mesh, watch.job());
-  }
-  check_actions(actions, recorded ? recorded->last_mesh() : mesh, schedule.steps);
 
-  api::Simulation simulation(body, method);
-  simulation.set_relaxation(schedule.relax, schedule.how);
-  simulation.set_tracing(targets.trace.has_value());
-  carry_out(simulation, recorded, actions, schedule.steps);
-  write_results(targets, simulation);
+  OpenedMesh opened = open_mesh(options.mesh);
+  const MeshPointer mesh = opened.mesh;
+  check(precision, *mesh);
+  softness.links = std::move(opened.softness);
+  softness.axes = axes_of(options.global, *mesh);
+  check_algorithm(options, algorithm, *mesh);
+  if (const auto file = value_of(options.softness)) {
+    for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
+      softness.links.set(link, own);
+    }
+  }
+  const std::vector<chainmail::Command> recorded = recorded_moves(options, mesh);
+  check_actions(actions, *last_mesh(mesh, recorded), schedule.steps);
+
+  std::optional<ProgressLine> line(std::chrono::seconds(1));
+  const std::string of_all = " of " + std::to_string(passes_of(recorded, actions, schedule.steps));
+  const auto tell = [&, done = 0]() mutable {
+    ++done;
+    line->show([&] { return "pass " + std::to_string(done) + of_all; });
+  };
+  Deformation deformation(mesh, algorithm, precision,
+                          {schedule.relax, schedule.until, targets.trace.has_value(), tell});
+  deformation.apply(commands::SetSoftness{softness});
+  deformation.apply(commands::SetElastic{elastic});
+  deformation.apply(schedule.how);
+  carry_out(deformation, recorded, actions, schedule.steps);
+  line.reset();
+  write_results(targets, deformation);
 }
 
 void add_acts(CLI::App& app, DeformArguments& options) {
@@ -184,43 +225,28 @@ void add_acts(CLI::App& app, DeformArguments& options) {
       add_value(app, "--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions");
 }
 
-/// Returns the names of the first numbers of softness, for a file with a column for each.
-std::string softness_names(std::size_t count) {
-  std::string names;
-  for (const api::SoftnessNumber& one : api::softness_numbers().first(count)) {
-    names += (names.empty() ? "" : ",") + std::string(one.name);
-  }
-  return names;
-}
-
 void add_model(CLI::App& app, DeformArguments& options) {
-  std::string names;
-  for (const std::string& name : names_of(api::methods())) {
-    names += (names.empty() ? "" : "|") + name;
-  }
-  options.algorithm = add_value(app, "--algorithm", "NAME", names)->required();
+  options.algorithm = add_value(app, "--algorithm", "NAME", joined(names_of(every_algorithm()), "|"))->required();
   options.global = add_softness(app);
   options.softness = add_value(app, "--softness", "FILE",
-                               "softness of single links: CSV rows a,b," + softness_names(region_numbers) + " or a,b," +
-                                   softness_names(api::softness_numbers().size()));
+                               "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) +
+                                   " or a,b," + softness_names(","));
   options.relax = add_value(app, "--relax", "N",
                             "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
-                                std::to_string(api::usual_iterations) + "]");
+                                std::to_string(equilibrium_iterations) + "]");
   options.relaxation = add_relaxation(app, false);
-  options.relax_step = add_parameter(app, api::parameter("relax-step"));
-  options.relax_until = add_parameter(app, api::parameter("relax-until"));
-  options.precision = add_precision(app, api::Precision::double_precision);
+  options.relax_step = add_parameter(app, parameters::relax_step);
+  options.relax_until = add_parameter(app, parameters::relax_until);
+  options.precision = add_precision(app, Precision::double_precision);
   options.elastic = add_elastic(app);
   options.law = add_strain_law(app);
-  options.thickness = add_parameter(app, api::parameter("thickness"));
-  options.mesh.space =
-      add_value(app, "--space", "1|2|3",
-                "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
+  options.thickness = add_parameter(app, parameters::thickness);
+  options.mesh.space = add_space(app);
 }
 
 void add_outputs(CLI::App& app, DeformArguments& options) {
-  options.positions = add_value(app, "--positions", "FILE",
-                                "write the final positions: " + api::file_endings(api::FileUse::write_positions));
+  options.positions =
+      add_value(app, "--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions));
   options.trace =
       add_value(app, "--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved");
   options.json = add_value(app, "--json", "FILE", "write passes, violation, energy and displacement as JSON");
@@ -236,8 +262,8 @@ Command add_deform(CLI::App& root) {
   add_model(*app, options);
   add_acts(*app, options);
   add_outputs(*app, options);
-  app->footer("Algorithms:\n" + methods_help(api::methods()) + "\nFormats of positions:\n" +
-              api::file_formats_help(api::FileUse::write_positions) + "\n" + example);
+  app->footer("Algorithms:\n" + algorithms_help(every_algorithm()) + "\nFormats of positions:\n" +
+              mesh_formats_help(FormatUse::write_positions) + "\n" + example);
   return {app, [options] { deform(options); }};
 }
 

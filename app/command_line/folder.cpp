@@ -6,16 +6,15 @@
 #include <system_error>
 
 #include "command_line/common.h"
+#include "report/page/physics_plot.h"
 
 namespace chainmail::command_line {
 
 namespace fs = std::filesystem;
 
-std::string object_plot(std::size_t number) { return "object-" + std::to_string(number) + ".svg"; }
-
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) {
-    throw api::Error("-o", "the folder's name is empty", "use the name of a folder");
+    throw Error("-o", "the folder's name is empty", "use the name of a folder");
   }
   std::error_code error;
   fs::path there = path_;
@@ -23,12 +22,11 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
   }
   if (!fs::is_directory(there, error)) {
-    throw api::Error("-o", api::shown(there) + " is not a folder", "use the name of a folder");
+    throw Error("-o", shown(there) + " is not a folder", "use the name of a folder");
   }
   errno = 0;
   if (access(there.c_str(), W_OK | X_OK) != 0) {
-    throw api::Error("-o", api::shown(there) + " cannot be written to (" + api::system_reason() + ")",
-                     "check its permissions");
+    throw Error("-o", shown(there) + " cannot be written to (" + system_reason() + ")", "check its permissions");
   }
 }
 
@@ -51,8 +49,8 @@ void OutputFolder::make() {
       made_.push_back(folder);
     }
     if (error) {
-      throw api::Error("-o", api::shown(folder) + " cannot be created (" + error.message() + ")",
-                       "check the name and permissions");
+      throw Error("-o", shown(folder) + " cannot be created (" + error.message() + ")",
+                  "check the name and permissions");
     }
   }
 }
@@ -61,8 +59,8 @@ void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
   std::set<std::string> names{"overview.svg",    "fresh-grab.svg",     "after-cut.svg",
                               "growth-time.svg", "growth-prepare.svg", "growth-error.svg"};
   std::error_code error;
-  for (std::size_t i = 1; fs::exists(path_ / object_plot(i), error); ++i) {
-    names.insert(object_plot(i));
+  for (std::size_t i = 1; fs::exists(path_ / report::object_plot(i), error); ++i) {
+    names.insert(report::object_plot(i));
   }
   std::string older;
   for (const std::string& name : names) {
@@ -71,7 +69,7 @@ void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
     }
   }
   if (!older.empty()) {
-    say_note(api::shown(path_) + " also has plots of an earlier report: " + older);
+    say_note(shown(path_) + " also has plots of an earlier report: " + older);
   }
 }
 

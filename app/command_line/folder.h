@@ -30,7 +30,4 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 
-/// Returns the name of the plot of an object in a report; the first object is 1.
-std::string object_plot(std::size_t number);
-
 }  // namespace chainmail::command_line

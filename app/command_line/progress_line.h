@@ -1,11 +1,12 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
-#include <memory>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
-#include "chainmail/job.h"
+#include "mesh/progress.h"
 
 namespace chainmail::command_line {
 
@@ -15,8 +16,8 @@ std::string percent(double share);
 /// A line of progress on standard error, if that is a terminal. The destructor clears it.
 class ProgressLine {
  public:
-  /// Shows nothing until `delay` has passed.
-  explicit ProgressLine(std::chrono::milliseconds delay = std::chrono::milliseconds(0));
+  /// Shows nothing until `delay` has passed: short work shows nothing.
+  explicit ProgressLine(std::chrono::milliseconds delay = std::chrono::milliseconds(300));
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
@@ -28,6 +29,7 @@ class ProgressLine {
       write(text());
     }
   }
+  bool is_terminal() const { return is_terminal_; }
 
  private:
   bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
@@ -38,24 +40,22 @@ class ProgressLine {
   std::chrono::steady_clock::time_point next_;
 };
 
-/// Shows the progress of a job on standard error, if that is a terminal, while this object exists.
+/// Shows the share of a job that is done, and a text, while this object exists.
 class Watch {
  public:
-  /// Shows the share that is done, and the text.
-  explicit Watch(const std::string& text);
-  /// Shows what `line` says about the job; nothing while that is empty.
-  explicit Watch(std::function<std::string(const api::Job&)> line);
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
-  ~Watch();
+  explicit Watch(std::string text);
 
-  const api::Job& job() const { return job_; }
+  Progress progress() { return Progress(job_); }
 
  private:
-  struct Line;
+  void show(const std::stop_token& stop);
 
-  api::Job job_;
-  std::unique_ptr<Line> line_;  // none without a terminal
+  std::string text_;
+  JobState job_;
+  ProgressLine line_;
+  std::mutex mutex_;
+  std::condition_variable_any over_;
+  std::jthread thread_;  // last member, because it uses the others; none without a terminal
 };
 
 }  // namespace chainmail::command_line

@@ -1,4 +1,4 @@
-#include "chainmail/ramp.h"
+#include "report/run/ramp.h"
 
 #include <unistd.h>
 
@@ -6,6 +6,11 @@
 
 #include "command_line/common.h"
 #include "command_line/progress_line.h"
+#include "files/results/report_json.h"
+#include "report/page/ramp_plot.h"
+#include "report/page/ramp_table.h"
+#include "report/page/svg.h"
+#include "report/run/machine.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -38,42 +43,47 @@ std::uint64_t read_largest(const RampArguments& options, std::uint64_t limit) {
     return largest_for_memory(limit);
   }
   const std::uint32_t largest = whole_number_of(options.largest, smallest_grid, 0);
-  if (largest > api::element_limit) {
-    throw api::Error("--largest", std::to_string(largest) + " is more elements than a mesh may have",
-                     "use " + std::to_string(smallest_grid) + " to " + std::to_string(api::element_limit));
+  if (largest > element_limit) {
+    throw Error("--largest", std::to_string(largest) + " is more elements than a mesh may have",
+                "use " + std::to_string(smallest_grid) + " to " + std::to_string(element_limit));
   }
   return largest;
 }
 
 double read_budget(const RampArguments& options, double default_value) {
-  const auto text = value_of(options.budget);
-  const double budget = text ? parse_number_of("--budget", *text) : default_value;
+  const double budget = number_of(options.budget, default_value);
   if (!(budget > 0)) {
-    throw api::Error("--budget", *text + " is not above 0", "write a number of seconds above 0, like 0.0167");
+    throw Error("--budget", *value_of(options.budget) + " is not above 0",
+                "write a number of seconds above 0, like 0.0167");
   }
   return budget;
 }
 
-api::RampOptions ramp_options(const RampArguments& options) {
-  api::RampOptions result;
-  result.methods = methods_of(options.algorithms, chainmail_methods());
+report::RampOptions ramp_options(const RampArguments& options) {
+  report::RampOptions result;
+  result.algorithms = algorithms_of(options.algorithms, algorithms());
   result.seed = whole_number_of(options.seed, 0, static_cast<std::uint32_t>(result.seed));
   result.budget = read_budget(options, result.budget);
-  result.softness = {value_of(options.compression, api::parameter("compression")),
-                     value_of(options.stretch, api::parameter("stretch")),
-                     value_of(options.shear, api::parameter("shear"))};
-  result.precision = precision_of(options.precision, result.precision);
-  result.largest = read_largest(options, 4'000'000);
+  result.softness = {value_of(options.compression, parameters::compression),
+                     value_of(options.stretch, parameters::stretch), value_of(options.shear, parameters::shear)};
+  result.precision = choice_of(options.precision, precisions(result.precision), result.precision);
+  result.largest = read_largest(options, result.largest);
   return result;
+}
+
+std::string in_words(const report::RampProgress& at) {
+  const std::string width = std::to_string(at.width);
+  return width + 'x' + width + ", drag " + std::to_string(at.drag) + " of " + std::to_string(at.drags) +
+         (at.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(at.in_race.size());
 }
 
 struct Target {
   std::filesystem::path path;
-  api::Outputs::Writer writer;
+  Outputs::Writer writer;
 };
 
 void write(const std::vector<Target>& targets, bool is_trial) {
-  api::Outputs outputs;
+  Outputs outputs;
   for (const Target& target : targets) {
     outputs.add(target.path, is_trial ? [](std::ostream&) {} : target.writer);
   }
@@ -82,26 +92,27 @@ void write(const std::vector<Target>& targets, bool is_trial) {
   }
 }
 
-void ramp(const RampArguments& options) {
-  const api::RampOptions how = ramp_options(options);
-  api::Ramp result;
+void run_ramp(const RampArguments& options) {
+  const report::RampOptions how = ramp_options(options);
+  const report::Machine machine = report::this_machine();
+  report::Ramp result;
   std::vector<Target> targets;
   if (const auto path = value_of(options.json)) {
-    targets.push_back({*path, [&](std::ostream& out) { out << result.json; }});
+    targets.push_back({*path, [&](std::ostream& out) { write_json(out, result, machine); }});
   }
   if (const auto path = value_of(options.csv)) {
-    targets.push_back({*path, [&](std::ostream& out) { out << result.csv; }});
+    targets.push_back({*path, [&](std::ostream& out) { write_csv(out, result); }});
   }
   if (const auto path = value_of(options.svg)) {
-    targets.push_back({*path, [&](std::ostream& out) { out << result.svg; }});
+    targets.push_back({*path, [&](std::ostream& out) { write_svg(out, ramp_plot(result), report::file_ink); }});
   }
-  if (std::none_of(targets.begin(), targets.end(), [](const Target& target) { return target.path == "-"; })) {
-    targets.push_back({"-", [&](std::ostream& out) { out << result.text; }});
+  if (std::ranges::find(targets, "-", &Target::path) == targets.end()) {
+    targets.push_back({"-", [&](std::ostream& out) { write_text(out, result, machine); }});
   }
   write(targets, true);  // if an output cannot be written, this fails before minutes of work
   {
-    const Watch watch([](const api::Job& job) { return job.text(); });
-    result = api::ramp(how, watch.job());
+    ProgressLine line;
+    result = report::ramp(how, [&](const report::RampProgress& at) { line.show([&] { return in_words(at); }); });
   }
   write(targets, false);
 }
@@ -116,15 +127,15 @@ Command add_ramp(CLI::App& root) {
   options.budget = add_value(*app, "--budget", "SECONDS", "time per pass [1/60]");
   options.largest = add_value(*app, "--largest", "ELEMENTS",
                               "largest number of elements in a grid [4000000, or as many as fit into memory]");
-  options.precision = add_precision(*app, api::Precision::single_precision);
-  options.compression = add_parameter(*app, api::parameter("compression"));
-  options.stretch = add_parameter(*app, api::parameter("stretch"));
-  options.shear = add_parameter(*app, api::parameter("shear"));
+  options.precision = add_precision(*app, Precision::single_precision);
+  options.compression = add_parameter(*app, parameters::compression);
+  options.stretch = add_parameter(*app, parameters::stretch);
+  options.shear = add_parameter(*app, parameters::shear);
   options.json = add_value(*app, "--json", "FILE", "write all results as JSON");
   options.csv = add_value(*app, "--csv", "FILE", "write one row per algorithm and size as CSV");
   options.svg = add_value(*app, "--svg", "FILE", "write a plot of the times against the number of elements as SVG");
   app->footer(ramp_footer);
-  return {app, [options] { ramp(options); }};
+  return {app, [options] { run_ramp(options); }};
 }
 
 }  // namespace chainmail::command_line

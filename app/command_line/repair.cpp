@@ -1,9 +1,8 @@
-#include "chainmail/repair.h"
-
-#include <optional>
+#include "files/repair/repair.h"
 
 #include "command_line/common.h"
 #include "command_line/progress_line.h"
+#include "files/results/summary.h"
 
 namespace chainmail::command_line {
 namespace {
@@ -23,7 +22,7 @@ CLI::Option* add_switch(CLI::App& app, const std::string& name, const std::strin
   return app.add_flag(name, help);
 }
 
-api::RepairOptions options_of(const RepairArguments& options) {
+RepairOptions options_of(const RepairArguments& options) {
   const auto tolerance = value_of(options.weld);
   return {.weld = options.asks(options.weld),
           .tolerance = tolerance && !tolerance->empty() ? tolerance_of(*tolerance) : 0,
@@ -33,29 +32,30 @@ api::RepairOptions options_of(const RepairArguments& options) {
 }
 
 /// Refuses to close the holes of an object with cells, if that was asked for.
-void check_holes(const RepairArguments& options, const api::Mesh& mesh) {
-  if (options.holes->count() > 0 && !(mesh.tetrahedra().empty() && mesh.hexahedra().empty())) {
-    throw api::Error("--holes", "the object has cells, and only surfaces have holes", "leave it out, or use a surface");
+void check_holes(const RepairArguments& options, const Mesh& mesh) {
+  if (options.holes->count() > 0 && mesh.has_cells()) {
+    throw Error("--holes", "the object has cells, and only surfaces have holes", "leave it out, or use a surface");
   }
 }
 
 void repair_file(const RepairArguments& options, const std::string& target, const std::optional<std::string>& json) {
-  api::check_format(target, api::FileUse::write);
-  const api::Mesh opened = open_mesh(options.mesh);
+  mesh_format(target, FormatUse::write);
+  const OpenedMesh opened = open_mesh(options.mesh);
   say_flaws(opened);
-  check_holes(options, opened);
-  const std::string name = api::shown(*value_of(options.mesh.path));
-  const auto repair = [&] {
-    const Watch watch("repairing " + name);
-    return in_options({{"surface", name}}, [&] { return api::repair(opened, options_of(options), watch.job()); });
+  check_holes(options, *opened.mesh);
+  const std::string name = shown(*value_of(options.mesh.path));
+  const RepairResult repaired = [&] {
+    Watch watch("repairing " + name);
+    return in_options({{"surface", name}},
+                      [&] { return repair(opened.mesh, opened.softness, options_of(options), watch.progress()); });
   }();
-  api::Outputs outputs;
-  add_mesh_file(outputs, options.mesh, target, repair.mesh());
+  Outputs outputs;
+  add_mesh_file(outputs, options.mesh, target, repaired.mesh, repaired.softness);
   if (json) {
-    outputs.add(*json, [&](std::ostream& out) { out << repair.json(); });
+    outputs.add(*json, [&](std::ostream& out) { write_json(out, repaired); });
   }
   if (json != "-") {
-    outputs.add("-", [&](std::ostream& out) { out << repair.text(); });
+    outputs.add("-", [&](std::ostream& out) { write_text(out, repaired); });
   }
   outputs.commit();
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "command_line/common.h"
-#include "command_line/completion.h"
+#include "files/text/program_folder.h"
 #include "version/version.h"
 
 namespace chainmail::command_line {
@@ -31,7 +31,7 @@ const CLI::App& chosen(const CLI::App& root) {
 }
 
 /// Converts an error of CLI11 to ours. Its text begins with the name of the option or positional argument.
-api::Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
+Error usage_error(const CLI::App& root, const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string name = text.substr(0, text.find_first_of(": "));
   const std::string hint = help_hint(chosen(root));
@@ -56,9 +56,9 @@ void refuse_extras(const CLI::App& root) {
     const std::string& word = *found;
     const bool is_name = found != extras.begin();  // behind `--`
     if (word.size() > 1 && word.front() == '-' && !is_name) {
-      throw api::Error(word, "there is no such option", help_hint(app));
+      throw Error(word, "there is no such option", help_hint(app));
     }
-    throw api::Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
+    throw Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
   }
 }
 
@@ -68,7 +68,7 @@ void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
       if (!option->get_positional() && value.starts_with("--")) {
-        throw api::Error(option->get_name(), "its value is missing", help_hint(app));
+        throw Error(option->get_name(), "its value is missing", help_hint(app));
       }
     }
   }
@@ -95,6 +95,8 @@ std::string as_typed(int argc, char** argv) {
 
 }  // namespace
 
+std::filesystem::path samples_folder() { return program_folder() / DATA_FOLDER "/meshes"; }
+
 void run(int argc, char** argv) {
   CLI::App root("Deforms meshes with the ChainMail family of algorithms.", "chainmail");
   root.set_version_flag("--version", version_in_words("chainmail") + licence, "Print version and licence, and exit");
@@ -112,7 +114,7 @@ void run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     std::ostringstream text;
     root.exit(asked, text, text);
-    api::write_file("-", [&](std::ostream& out) { out << text.str(); });
+    write_file("-", [&](std::ostream& out) { out << text.str(); });
     return;
   } catch (const CLI::ParseError& error) {
     throw usage_error(root, error);
@@ -125,10 +127,9 @@ void run(int argc, char** argv) {
       return;
     }
   }
-  throw api::Error(
-      "command", "no command was given",
-      "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate or ramp; see chainmail "
-      "--help");
+  throw Error("command", "no command was given",
+              "use generate, convert, fill, repair, simplify, info, deform, compare, calibrate or ramp; see chainmail "
+              "--help");
 }
 
 }  // namespace chainmail::command_line

@@ -1,61 +1,42 @@
 #include "command_line/script.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <set>
 
 #include "command_line/common.h"
-#include "command_line/elastic.h"
-#include "command_line/progress_line.h"
+#include "command_line/model.h"
 
 namespace chainmail::command_line {
 namespace {
 
-/// Shows the number of finished passes on a progress line.
-class PassProgress {
- public:
-  explicit PassProgress(std::uint64_t total) : total_(total) {}
-
-  void advance() {
-    ++done_;
-    line_.show([this] { return "pass " + std::to_string(done_) + " of " + std::to_string(total_); });
-  }
-
- private:
-  std::uint64_t total_;
-  std::uint64_t done_ = 0;
-  ProgressLine line_{std::chrono::seconds(1)};
-};
-
-api::ElementId parse_id(const std::string& where, std::string_view text) {
-  const auto id = api::parse_count(text);
+ElementId parse_id(const std::string& where, std::string_view text) {
+  const auto id = parse_count(text);
   if (!id) {
-    throw api::Error(where, api::in_quotes(text) + " is not an element's id", "use a whole number from 0");
+    throw Error(where, in_quotes(text) + " is not an element's id", "use a whole number from 0");
   }
   return *id;
 }
 
-void check_element(const Action& action, api::ElementId element, const api::Mesh& mesh) {
+void check_element(const Action& action, ElementId element, const Mesh& mesh) {
   if (element >= mesh.element_count()) {
-    throw api::Error(action.where, "there is no element " + std::to_string(element),
-                     "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
+    throw Error(action.where, "there is no element " + std::to_string(element),
+                "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
   }
 }
 
 /// Returns the elements that an action pins or grabs, in the given order.
-std::vector<api::ElementId> elements_of(const Action& action, const api::Mesh& mesh) {
+std::vector<ElementId> elements_of(const Action& action, const Mesh& mesh) {
   if (action.layer.empty() && action.kind == Action::Kind::pin) {
     return {action.element};
   }
   if (action.layer.empty()) {
-    std::vector<api::ElementId> elements;
+    std::vector<ElementId> elements;
     for (const auto& [first, last] : action.ranges) {
       check_element(action, last, mesh);
       if (elements.size() + (last - first) >= mesh.element_count()) {
-        throw api::Error(action.where, "it names more elements than the mesh has", "name each element once");
+        throw Error(action.where, "it names more elements than the mesh has", "name each element once");
       }
-      for (api::ElementId element = first; element <= last; ++element) {
+      for (ElementId element = first; element <= last; ++element) {
         elements.push_back(element);
       }
     }
@@ -63,67 +44,55 @@ std::vector<api::ElementId> elements_of(const Action& action, const api::Mesh& m
   }
   const auto pins = pins_by_name(action.where, action.layer, mesh);
   if (!pins) {
-    throw api::Error(action.where, api::in_quotes(action.layer) + " is not an element's id",
-                     "use a whole number from 0, or " + pin_names());
+    throw Error(action.where, in_quotes(action.layer) + " is not an element's id",
+                "use a whole number from 0, or " + pin_names());
   }
   return *pins;
 }
 
-double at(const api::Vector3& vector, std::size_t k) { return std::array{vector.x, vector.y, vector.z}[k]; }
-
-void check_axes(const Action& action, const api::Mesh& mesh) {
-  const api::Vector3 constant = mesh.rest_position(0);  // on the axes that do not exist
-  for (std::size_t k = 0; k < action.coordinates.size(); ++k) {
-    const char axis = "xyz"[k];
-    const double coordinate = action.coordinates[k];
-    const bool stays = coordinate == 0 || (action.kind == Action::Kind::move && coordinate == at(constant, k));
-    if (mesh.axes().find(axis) == std::string::npos && !stays) {
-      throw api::Error(action.where, std::string("the object does not extend along ") + axis,
-                       std::string("write 0 for ") + axis + ", or use more dimensions with --space");
+void check_axes(const Action& action, const Mesh& mesh) {
+  for (int k = 0; k < int(action.coordinates.size()); ++k) {
+    const double coordinate = action.coordinates[std::size_t(k)];
+    const bool stays = coordinate == 0 || (action.kind == Action::Kind::move && coordinate == mesh.origin[k]);
+    if (!mesh.has_axis(k) && !stays) {
+      const std::string axis(1, "xyz"[k]);
+      throw Error(action.where, "the object does not extend along " + axis,
+                  "write 0 for " + axis + ", or use more dimensions with --space");
     }
   }
 }
 
-void check_link(const Action& action, const api::Mesh& mesh) {
+void check_link(const Action& action, const Mesh& mesh) {
   check_element(action, action.other, mesh);
-  if (!mesh.find_link(action.element, action.other)) {
-    throw api::Error(action.where, "these elements are not linked", "use the ids of the two ends of a link");
+  if (!find_link(mesh, action.element, action.other)) {
+    throw Error(action.where, "these elements are not linked", "use the ids of the two ends of a link");
   }
 }
 
 std::vector<double> parse_coordinates(const std::string& where, std::string_view text) {
   std::vector<double> coordinates;
-  for (;;) {
-    const std::size_t end = std::min(text.find(','), text.size());
-    coordinates.push_back(parse_number_of(where, text.substr(0, end)));
+  for (const std::string_view number : split(text)) {
+    coordinates.push_back(parse_number_of(where, number));
     if (coordinates.size() > 3) {
-      throw api::Error(where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
+      throw Error(where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
     }
-    if (end == text.size()) {
-      return coordinates;
-    }
-    text.remove_prefix(end + 1);
   }
+  return coordinates;
 }
 
 /// Reads `ID,A-B,…`.
-std::vector<std::pair<api::ElementId, api::ElementId>> parse_ranges(const std::string& where, std::string_view text) {
-  std::vector<std::pair<api::ElementId, api::ElementId>> ranges;
-  for (;;) {
-    const std::size_t end = std::min(text.find(','), text.size());
-    const std::string_view range = text.substr(0, end);
+std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& where, std::string_view text) {
+  std::vector<std::pair<ElementId, ElementId>> ranges;
+  for (const std::string_view range : split(text)) {
     const std::size_t dash = range.find('-');
-    const api::ElementId first = parse_id(where, range.substr(0, dash));
-    const api::ElementId last = dash == std::string_view::npos ? first : parse_id(where, range.substr(dash + 1));
+    const ElementId first = parse_id(where, range.substr(0, dash));
+    const ElementId last = dash == std::string_view::npos ? first : parse_id(where, range.substr(dash + 1));
     if (last < first) {
-      throw api::Error(where, api::in_quotes(range) + " is not a range", "write the smaller id first");
+      throw Error(where, in_quotes(range) + " is not a range", "write the smaller id first");
     }
     ranges.emplace_back(first, last);
-    if (end == text.size()) {
-      return ranges;
-    }
-    text.remove_prefix(end + 1);
   }
+  return ranges;
 }
 
 bool is_move(const Action& action) {
@@ -133,13 +102,13 @@ bool is_move(const Action& action) {
 /// Checks actions one after another, with what the actions before have pinned and grabbed.
 class ActionChecker {
  public:
-  ActionChecker(const api::Mesh& mesh, std::uint32_t steps) : mesh_(mesh), steps_(steps) {}
+  ActionChecker(const Mesh& mesh, std::uint32_t steps) : mesh_(mesh), steps_(steps) {}
 
   void check(const std::vector<Action>& actions) {
     for (const Action& action : actions) {
       check_element(action, action.element, mesh_);
       if (action.of_handle && !is_grabbed_) {
-        throw api::Error(
+        throw Error(
             action.where,
             "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
             "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
@@ -160,10 +129,10 @@ class ActionChecker {
       named_ += steps_ * (action.of_handle ? handle_ : 1);
     }
     if (passes_ > most_passes || named_ > most_named) {
-      throw api::Error("--steps",
-                       "the moves have more than " + std::to_string(most_passes) +
-                           " passes in all, or name more than " + std::to_string(most_named) + " elements in them",
-                       "use fewer steps");
+      throw Error("--steps",
+                  "the moves have more than " + std::to_string(most_passes) + " passes in all, or name more than " +
+                      std::to_string(most_named) + " elements in them",
+                  "use fewer steps");
     }
   }
 
@@ -184,108 +153,108 @@ class ActionChecker {
     }
   }
 
-  static std::set<api::ElementId> as_set(const std::vector<api::ElementId>& elements) {
+  static std::set<ElementId> as_set(const std::vector<ElementId>& elements) {
     return {elements.begin(), elements.end()};
   }
 
-  void check_free(const Action& action, api::ElementId element) const {
+  void check_free(const Action& action, ElementId element) const {
     if (pinned_.contains(element)) {
-      throw api::Error(action.where, "element " + std::to_string(element) + " is already pinned and cannot move",
-                       "move another element, or pin it later");
+      throw Error(action.where, "element " + std::to_string(element) + " is already pinned and cannot move",
+                  "move another element, or pin it later");
     }
   }
 
   void check_grab(const Action& action) const {
-    std::set<api::ElementId> grabbed;
-    for (const api::ElementId element : elements_of(action, mesh_)) {
+    std::set<ElementId> grabbed;
+    for (const ElementId element : elements_of(action, mesh_)) {
       check_free(action, element);
       if (!grabbed.insert(element).second) {
-        throw api::Error(action.where, "element " + std::to_string(element) + " is named twice",
-                         "name each element once");
+        throw Error(action.where, "element " + std::to_string(element) + " is named twice", "name each element once");
       }
     }
   }
 
   void check_rotation(const Action& action) const {
     try {
-      api::check(action.rotation, mesh_);
-    } catch (const api::Error& error) {
+      chainmail::check(action.rotation, mesh_);
+    } catch (const Error& error) {
       throw error.at(action.where);
     }
   }
 
   static constexpr std::uint64_t most_passes = 100'000, most_named = 10'000'000;
 
-  const api::Mesh& mesh_;
+  const Mesh& mesh_;
   std::uint32_t steps_;  // passes of each move
   std::uint64_t handle_ = 1, passes_ = 0, named_ = 0;
-  std::set<api::ElementId> pinned_;
+  std::set<ElementId> pinned_;
   bool is_grabbed_ = false;
 };
 
 /// Returns where a move with `--move` or `--by` goes: the axes that are not given stay.
-api::Vector3 target_of(const Action& action, const api::Mesh& mesh, const api::Vector3& start) {
-  api::Vector3 target = start;
-  for (std::size_t k = 0; k < action.coordinates.size(); ++k) {
-    if (mesh.axes().find("xyz"[k]) != std::string::npos) {
-      double& coordinate = k == 0 ? target.x : k == 1 ? target.y : target.z;
-      coordinate = action.kind == Action::Kind::by ? coordinate + action.coordinates[k] : action.coordinates[k];
+Point target_of(const Action& action, const Mesh& mesh, const Point& start) {
+  Point target = start;
+  for (int k = 0; k < int(action.coordinates.size()); ++k) {
+    if (mesh.has_axis(k)) {
+      const double coordinate = action.coordinates[std::size_t(k)];
+      target[k] = action.kind == Action::Kind::by ? start[k] + coordinate : coordinate;
     }
   }
   return target;
 }
 
-void apply(api::Simulation& simulation, const Action& action, std::uint32_t steps) {
-  const api::Mesh& mesh = simulation.mesh();
+void apply(Deformation& deformation, const Action& action, std::uint32_t steps) {
+  const Mesh& mesh = deformation.simulation().mesh();
   switch (action.kind) {
     case Action::Kind::cut:
-      return simulation.cut(action.element, action.other);
+      return deformation.apply(commands::Cut{{*find_link(mesh, action.element, action.other)}});
     case Action::Kind::pin:
-      return simulation.pin(elements_of(action, mesh));
+      return deformation.apply(commands::Pin{elements_of(action, mesh)});
     case Action::Kind::grab:
-      return simulation.grab(elements_of(action, mesh));
+      return deformation.apply(commands::Grab{elements_of(action, mesh)});
     case Action::Kind::move:
     case Action::Kind::by:
     case Action::Kind::rotate:
       if (action.of_handle) {
-        simulation.move_handle({target_of(action, mesh, {}), action.rotation}, steps);
+        deformation.move_handle(target_of(action, mesh, Point::Zero()), action.rotation, steps);
       } else {
-        simulation.move(action.element, target_of(action, mesh, simulation.position(action.element)), steps);
+        const Point start = point_of(mesh, deformation.simulation().body().positions(), action.element);
+        deformation.move(action.element, target_of(action, mesh, start), steps);
       }
   }
 }
 
-void carry_out(api::Simulation& simulation, const Action& action, std::uint32_t steps) {
+void carry_out(Deformation& deformation, const Action& action, std::uint32_t steps) {
   try {
     if (!action.of_handle) {
-      simulation.release();
+      deformation.apply(commands::Release{});
     }
-    apply(simulation, action, steps);
-  } catch (const api::Error& error) {
+    apply(deformation, action, steps);
+  } catch (const Error& error) {
     throw is_move(action) ? error.at(action.where + ": " + error.where()) : error;
   }
 }
 
 }  // namespace
 
-api::Rotation parse_rotation(const std::string& where, std::string_view text) {
+Rotation parse_rotation(const std::string& where, std::string_view text) {
   const std::size_t mark = text.find(':');
   const std::string_view axis = text.substr(0, mark);
   if (mark == std::string_view::npos) {
-    throw api::Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
+    throw Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
   }
-  api::Rotation rotation{{}, parse_number_of(where, text.substr(mark + 1))};
-  if (axis == "x" || axis == "y" || axis == "z") {
-    rotation.axis = {axis == "x" ? 1.0 : 0.0, axis == "y" ? 1.0 : 0.0, axis == "z" ? 1.0 : 0.0};
+  Rotation rotation{Point::Zero(), parse_number_of(where, text.substr(mark + 1))};
+  if (const std::size_t k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos) {
+    rotation.axis[int(k)] = 1;
     return rotation;
   }
   if (std::ranges::count(axis, ',') != 2) {
-    throw api::Error(where, api::in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
+    throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
   }
   const std::vector<double> coordinates = parse_coordinates(where, axis);
   rotation.axis = {coordinates[0], coordinates[1], coordinates[2]};
-  if (rotation.axis == api::Vector3()) {
-    throw api::Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
+  if (rotation.axis == Point::Zero()) {
+    throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
   }
   return rotation;
 }
@@ -308,8 +277,8 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
     action.of_handle = true;
     action.coordinates = parse_coordinates(action.where, text);
   } else if (mark == std::string::npos) {
-    throw api::Error(action.where, is_cut ? "it does not name a link" : "it does not name a target",
-                     is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
+    throw Error(action.where, is_cut ? "it does not name a link" : "it does not name a target",
+                is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
   } else {
     action.element = parse_id(action.where, std::string_view(text).substr(0, mark));
     const std::string_view rest = std::string_view(text).substr(mark + 1);
@@ -319,22 +288,25 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
   return action;
 }
 
-void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh, std::uint32_t steps) {
+void check_actions(const std::vector<Action>& actions, const Mesh& mesh, std::uint32_t steps) {
   ActionChecker(mesh, steps).check(actions);
 }
 
-void carry_out(api::Simulation& simulation, const std::optional<api::RecordedMoves>& recorded,
+std::uint64_t passes_of(const std::vector<chainmail::Command>& recorded, const std::vector<Action>& actions,
+                        std::uint32_t steps) {
+  const auto is_drag = [](const chainmail::Command& one) { return std::holds_alternative<commands::Drag>(one); };
+  return std::uint64_t(std::ranges::count_if(actions, is_move)) * steps +
+         std::uint64_t(std::ranges::count_if(recorded, is_drag));
+}
+
+void carry_out(Deformation& deformation, const std::vector<chainmail::Command>& recorded,
                const std::vector<Action>& actions, std::uint32_t steps) {
-  const auto moves = std::uint64_t(std::ranges::count_if(actions, is_move));
-  PassProgress progress(moves * steps + (recorded ? recorded->pass_count() : 0));
-  simulation.set_watcher([&] { progress.advance(); });
-  if (recorded) {
-    simulation.replay(*recorded);
+  for (const chainmail::Command& command : recorded) {
+    deformation.apply(command);
   }
   for (const Action& action : actions) {
-    carry_out(simulation, action, steps);
+    carry_out(deformation, action, steps);
   }
-  simulation.set_watcher({});
 }
 
 }  // namespace chainmail::command_line

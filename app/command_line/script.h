@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "chainmail/simulation.h"
+#include "mesh/mesh.h"
+#include "simulate/deformation.h"
 
 namespace chainmail::command_line {
 
@@ -17,14 +17,14 @@ struct Action {
 
   Kind kind = Kind::move;
   std::string where;  // the option and its value, for error messages
-  api::ElementId element = 0;
-  api::ElementId other = 0;         // cut: the other end of the link
+  ElementId element = 0;
+  ElementId other = 0;              // cut: the other end of the link
   std::vector<double> coordinates;  // move, by: the given ones of x, y and z
   std::string layer;                // pin, grab: the name of a layer; empty for elements
   /// Grab: the first and the last element of each range.
-  std::vector<std::pair<api::ElementId, api::ElementId>> ranges = {};
-  api::Rotation rotation = {};  // rotate
-  bool of_handle = false;       // by, rotate: moves what the last --grab has grabbed
+  std::vector<std::pair<ElementId, ElementId>> ranges = {};
+  Rotation rotation = {};  // rotate
+  bool of_handle = false;  // by, rotate: moves what the last --grab has grabbed
 };
 
 /// Reads `ID:X[,Y[,Z]]` for a move, the same or `X[,Y[,Z]]` for a move of what is grabbed, `A-B` for a cut, `ID` or the
@@ -33,15 +33,18 @@ struct Action {
 Action parse_action(Action::Kind kind, const std::string& option, const std::string& text);
 
 /// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
-api::Rotation parse_rotation(const std::string& where, std::string_view text);
+Rotation parse_rotation(const std::string& where, std::string_view text);
 
 /// Throws Error if an action does not fit the mesh or the actions before it: if the element, link or axis does not
 /// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed. Also if
 /// moves of this number of passes have too many in all: the results have a row for each.
-void check_actions(const std::vector<Action>& actions, const api::Mesh& mesh, std::uint32_t steps);
+void check_actions(const std::vector<Action>& actions, const Mesh& mesh, std::uint32_t steps);
 
-/// Runs the recorded moves, then the actions, with this number of passes per move. Shows progress on a terminal.
-void carry_out(api::Simulation& simulation, const std::optional<api::RecordedMoves>& recorded,
+/// Returns the number of passes that carry_out() makes.
+std::uint64_t passes_of(const std::vector<chainmail::Command>& recorded, const std::vector<Action>& actions,
+                        std::uint32_t steps);
+/// Runs the recorded moves, then the actions, with this number of passes per move.
+void carry_out(Deformation& deformation, const std::vector<chainmail::Command>& recorded,
                const std::vector<Action>& actions, std::uint32_t steps);
 
 }  // namespace chainmail::command_line

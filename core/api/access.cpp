@@ -22,16 +22,6 @@ Job::Job() : impl_(std::make_shared<Impl>()) {}
 
 double Job::share() const { return impl_->state.share.load(); }
 
-std::string Job::text() const {
-  const std::lock_guard lock(impl_->guards_text);
-  return impl_->text;
-}
-
-void Access::say(const Job& job, const std::string& text) {
-  const std::lock_guard lock(job.impl_->guards_text);
-  job.impl_->text = text;
-}
-
 void Job::cancel() const {
   impl_->state.cancelled = true;
   impl_->stop.request_stop();

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <sstream>
 #include <stop_token>
@@ -12,7 +11,6 @@
 
 #include "body/handle.h"
 #include "chainmail/chainmail.h"
-#include "files/mesh/flaws.h"
 #include "files/text/outputs.h"
 #include "measure/reference_solution.h"
 #include "mesh/error.h"
@@ -27,16 +25,12 @@ namespace inner = ::chainmail;
 struct Job::Impl {
   JobState state;
   std::stop_source stop;
-  std::mutex guards_text;
-  std::string text = {};
 };
 
 struct Mesh::Impl {
   MeshPointer mesh;
-  OwnSoftness softness;            // of links that a file makes stiffer
-  std::string conversion;          // of voxels to elements
-  MeshFlaws flaws;                 // in the file
-  std::string remark, flaw_words;  // in words: both, and the flaws alone
+  OwnSoftness softness;  // of links that a file makes stiffer
+  std::string remark;    // about the file
 };
 
 struct Snapshot::Impl {
@@ -82,11 +76,8 @@ ElementBlocks every_block(const inner::Mesh& mesh);
 
 /// Leads from the types of the interface to what is behind them.
 struct Access {
-  static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string conversion = {}, MeshFlaws flaws = {}) {
-    const std::string words = in_words(flaws);
-    const std::string between = conversion.empty() || words.empty() ? "" : "; ";
-    const std::string remark = conversion + between + words;
-    return make<Mesh>(std::move(mesh), std::move(softness), std::move(conversion), flaws, remark, words);
+  static Mesh mesh(MeshPointer mesh, OwnSoftness softness = {}, std::string remark = {}) {
+    return make<Mesh>(std::move(mesh), std::move(softness), std::move(remark));
   }
   static const Mesh::Impl& impl(const Mesh& mesh) { return *mesh.impl_; }
   static const MeshPointer& pointer(const Mesh& mesh) { return mesh.impl_->mesh; }
@@ -100,8 +91,6 @@ struct Access {
   }
   static const ReferenceSolution::Impl& impl(const ReferenceSolution& one) { return *one.impl_; }
   static const Snapshot::Impl& impl(const Snapshot& one) { return *one.impl_; }
-  static const RecordedMoves::Impl& impl(const RecordedMoves& moves) { return *moves.impl_; }
-  static const Simulation::Impl& impl(const Simulation& simulation) { return *simulation.impl_; }
   /// Makes a type of the interface that shares what is behind it.
   template <class Public, class... Parts>
   static Public make(Parts&&... parts) {
@@ -112,8 +101,6 @@ struct Access {
   static MovingBody moving(MovingState& impl) { return MovingBody(impl); }
 
   static Progress progress(const Job& job) { return Progress(job.impl_->state); }
-  /// Sets what the work is doing.
-  static void say(const Job& job, const std::string& text);
   static std::stop_token stop(const Job& job) { return job.impl_->stop.get_token(); }
 };
 

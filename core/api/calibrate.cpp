@@ -1,7 +1,6 @@
 #include "chainmail/calibrate.h"
 
 #include "api/access.h"
-#include "chainmail/text.h"
 
 #ifdef CHAINMAIL_HAS_CALIBRATE
 
@@ -9,8 +8,6 @@
 
 #include "calibrate/calibrate.h"
 #include "files/results/report_json.h"
-#include "report/page/figure_table.h"
-#include "report/page/format.h"
 
 namespace chainmail::api {
 namespace {
@@ -48,40 +45,6 @@ CalibrationErrors errors_of(const TestedDrags& tested) {
   return {error_of_residual(tested.nothing), error_of_residual(tested.before), error_of_residual(tested.after)};
 }
 
-/// Writes rows of residuals: relative, RMS and max.
-void write_residuals(std::ostream& out, const TestedDrags& tested, bool at_equilibrium) {
-  std::vector<std::vector<std::string>> rows{{"", "relative", "RMS", "max"}};
-  const auto add = [&](const std::string& what, const Residual& residual) {
-    rows.push_back({what, figure(residual.relative), figure(residual.rms), figure(residual.max)});
-  };
-  add("nothing moves", tested.nothing);
-  add(at_equilibrium ? "defaults" : "defaults, no sweeps", tested.before);
-  add("calibrated", tested.after);
-  for (const CalibrationDrag& drag : tested.drags) {
-    add("  element " + std::to_string(drag.element) + ", before", drag.before);
-    add("  element " + std::to_string(drag.element) + ", after", drag.after);
-  }
-  report::write_columns(out, rows);
-}
-
-void write_calibration(std::ostream& out, const CalibrationOptions& how, const CalibrationResult& result) {
-  const bool at_equilibrium = !info(how.scheme).sweeps;
-  out << info(how.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
-      << figure(how.elastic.material.young) << ", Poisson's ratio " << figure(how.elastic.material.poisson)
-      << ") with\n  " << report::region_in_words(result.softness) << ", ";
-  if (at_equilibrium) {
-    out << report::energy_in_words(result.softness) << ", at equilibrium (" << info(how.energy).name << " energy)";
-  } else {
-    out << result.sweeps << " sweeps per move";
-  }
-  out << "\nRelative error, and RMS and max over the handle's displacement. An object that does not move has a\n"
-         "relative error of about 1.\nDrags used by the search ("
-      << result.fitted.drags.size() << ", " << result.evaluations << " evaluations):\n";
-  write_residuals(out, result.fitted, at_equilibrium);
-  out << "Drags not used by the search (" << result.held_out.drags.size() << "):\n";
-  write_residuals(out, result.held_out, at_equilibrium);
-}
-
 }  // namespace
 
 Calibration calibrate(const Body& body, const CalibrateOptions& options, const Job& job) {
@@ -89,13 +52,9 @@ Calibration calibrate(const Body& body, const CalibrateOptions& options, const J
     const inner::Body& impl = Access::body(body);
     const CalibrationOptions how = calibration_of(impl, options);
     const CalibrationResult found = inner::calibrate(impl.mesh_pointer(), impl.cuts(), how, Access::progress(job));
-    return Calibration{softness_of(found.softness),
-                       found.sweeps,
-                       found.evaluations,
-                       errors_of(found.fitted),
-                       errors_of(found.held_out),
-                       written([&](std::ostream& out) { write_calibration(out, how, found); }),
-                       written([&](std::ostream& out) { write_json(out, how, found); })};
+    return Calibration{softness_of(found.softness), found.sweeps,
+                       found.evaluations,           errors_of(found.fitted),
+                       errors_of(found.held_out),   written([&](std::ostream& out) { write_json(out, how, found); })};
   });
 }
 
@@ -107,6 +66,38 @@ namespace chainmail::api {
 
 Calibration calibrate(const Body& /*body*/, const CalibrateOptions& /*options*/, const Job& /*job*/) {
   refuse_without("NLopt and nlohmann/json", "calibrate");
+}
+
+}  // namespace chainmail::api
+
+#endif
+
+#ifdef CHAINMAIL_HAS_JSON
+
+#include "files/session/softness_presets.h"
+#include "files/text/text.h"
+
+namespace chainmail::api {
+
+void write_preset(const std::filesystem::path& path, const std::string& name, const LinkSoftness& softness) {
+  if (const std::string fault = fault_of_name(name); !fault.empty()) {
+    throw Error("preset " + in_quotes(name), "this cannot be its name", fault);
+  }
+  guarded([&] {
+    inner::check(softness_of(softness));
+    const std::vector<SoftnessPreset> one{{name, softness_of(softness)}};
+    write_file(path, [&](std::ostream& out) { write_presets(out, one); });
+  });
+}
+
+}  // namespace chainmail::api
+
+#else
+
+namespace chainmail::api {
+
+void write_preset(const std::filesystem::path& path, const std::string& /*name*/, const LinkSoftness& /*softness*/) {
+  refuse_without("nlohmann/json", path.string());
 }
 
 }  // namespace chainmail::api

@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <variant>
 
 #include "api/access.h"
-#include "api/recorded_moves.h"
-#include "api/report_files.h"
-#include "chainmail/text.h"
+#include "files/text/outputs.h"
+#include "files/text/text.h"
 #include "report/page/compared_figures.h"
 #include "report/page/html.h"
 #include "report/page/physics_figures.h"
 #include "report/page/physics_html.h"
 #include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
+#include "report/page/svg.h"
 #include "report/page/table.h"
 #include "report/run/compare.h"
 #include "report/run/drags.h"
@@ -83,71 +84,26 @@ report::RecordedMoves moves_of(const Drag& drag, const inner::Mesh& mesh) {
   return moves;
 }
 
-report::Case case_of(const ComparedObject& one, Reference against) {
-  const inner::Body& impl = Access::body(one.body);
-  report::Case object{printable(one.name),
-                      printable(one.description),
-                      impl.mesh_pointer(),
-                      impl.cuts().links(),
-                      {impl.pins().begin(), impl.pins().end()},
-                      impl.softness(),
+report::Case case_of(const inner::Body& body, const std::vector<Drag>& drags, const CompareOptions& options,
+                     const std::stop_token& stop) {
+  report::Case object{printable(options.title),
+                      "object of a program",
+                      body.mesh_pointer(),
+                      body.cuts().links(),
+                      {body.pins().begin(), body.pins().end()},
+                      body.softness(),
                       {},
-                      impl.elastic()};
-  if (against == Reference::physics && !object.cuts.empty()) {
+                      body.elastic()};
+  if (options.against == Reference::physics && !object.cuts.empty()) {
     throw Error("cuts", "the comparison with physics needs an object without cuts", "uncut its links");
   }
-  for (const Drag& drag : one.drags) {
-    check_drag(drag, impl, against);
-    object.drags.push_back(moves_of(drag, impl.mesh()));
+  for (const Drag& drag : drags) {
+    check_drag(drag, body, options.against);
+    object.drags.push_back(moves_of(drag, body.mesh()));
   }
-  for (const RecordedMoves& moves : one.recorded) {
-    object.drags.push_back(Access::impl(moves).moves);
-  }
-  return object;
-}
-
-std::vector<report::Case> cases_of(const std::vector<ComparedObject>& objects, const CompareOptions& options,
-                                   const Job& job) {
-  std::vector<report::Case> cases;
-  for (const ComparedObject& one : objects) {
-    report::Case& object = cases.emplace_back(case_of(one, options.against));
-    if (object.drags.empty()) {
-      object.drags = options.against == Reference::exact
-                         ? report::three_drags(object, Access::stop(job))
-                         : report::physics_drags(object, true, options.refined ? report::patch_share : 0);
-    }
-  }
-  return cases;
-}
-
-/// Returns each case with each material of the reference solution. Names say the material, except neo-Hookean alone.
-std::vector<report::Case> with_materials(std::vector<report::Case> cases, const std::vector<Elasticity>& materials) {
-  if (materials.empty()) {
-    return cases;
-  }
-  std::vector<report::Case> all;
-  for (const report::Case& object : cases) {
-    for (const Elasticity& material : materials) {
-      all.push_back(object);
-      all.back().law = elastic_options_of(material).law;
-      if (materials.size() > 1 || material.law != StrainLaw::neo_hookean) {
-        all.back().name += ", " + label(all.back().law);
-      }
-    }
-  }
-  return all;
-}
-
-ComparedObject object_of(report::Case&& from) {
-  const Mesh mesh = Access::mesh(std::move(from.mesh));
-  ComparedObject object{from.name, Body(mesh), from.description};
-  auto& impl = Access::impl(object.body);
-  impl.body().cut(from.cuts);
-  impl.body().pin(from.pins);
-  impl.set_softness(from.softness);
-  impl.body().set_elastic(from.elastic);
-  for (report::RecordedMoves& drag : from.drags) {
-    object.recorded.push_back(Access::make<RecordedMoves>(std::move(drag), mesh));
+  if (drags.empty()) {
+    object.drags =
+        options.against == Reference::exact ? report::three_drags(object, stop) : report::physics_drags(object);
   }
   return object;
 }
@@ -203,7 +159,6 @@ std::vector<ComparisonRow> rows_of(const report::Comparison& comparison) {
     for (const report::DragResult& drag : object.drags) {
       for (const report::Entry& entry : drag.entries) {
         rows.push_back(row_of(drag, entry));
-        rows.back().object = object.name;
       }
     }
   }
@@ -216,11 +171,9 @@ std::vector<ComparisonRow> rows_of(const report::PhysicsReport& comparison) {
     for (const report::PhysicsDrag& drag : object.drags) {
       for (const report::PhysicsEntry& entry : drag.entries) {
         rows.push_back(row_of(drag, entry));
-        rows.back().object = object.name;
       }
       if (!drag.no_reference.empty()) {
         ComparisonRow& row = rows.emplace_back();
-        row.object = object.name;
         row.drag = drag.name;
         row.refusal = drag.no_reference;
       }
@@ -229,43 +182,32 @@ std::vector<ComparisonRow> rows_of(const report::PhysicsReport& comparison) {
   return rows;
 }
 
+/// Returns what passes the share of a report that is done on to a job.
+report::Progress teller_of(const Job& job) {
+  return [progress = Access::progress(job)](double share, const std::string& /*text*/) { progress.report(share); };
+}
+
 template <class Report>
-Comparison finished(Report report, const CompareOptions& options) {
+Comparison finished(Report report) {
   if (report.stopped) {
     throw Cancelled();
   }
   auto rows = rows_of(report);
-  return Access::make<Comparison>(std::move(report), origin_of(options.command, options.program), std::move(rows));
+  return Access::make<Comparison>(std::move(report),
+                                  report::Origin{report::this_machine(), "chainmail::api::compare",
+                                                 report::now_in_words(), "chainmail " + std::string(version())},
+                                  std::move(rows));
 }
 
-void add_plots(std::vector<ReportFile>& /*files*/, const report::Comparison& /*report*/) {}
+std::vector<report::PlotFile> plots_of(const report::Comparison& /*comparison*/) { return {}; }
 
-void add_plots(std::vector<ReportFile>& files, const report::PhysicsReport& report) {
-  const auto add = [&](const std::string& name, const report::Plot& plot) { files.push_back(plot_file(name, plot)); };
-  if (report.objects.size() > 1) {
-    add("overview.svg", physics_overview(report));
+/// Makes a folder, if it is missing.
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Error(shown(folder), "the folder cannot be created (" + error.message() + ")", "use another folder");
   }
-  for (std::size_t i = 0; i < report.objects.size(); ++i) {
-    add("object-" + std::to_string(i + 1) + ".svg", physics_plot(report.objects[i]));
-  }
-  if (!report.growths.empty()) {
-    add("growth-time.svg", growth_time_plot(report.growths));
-    add("growth-prepare.svg", growth_prepare_plot(report.growths));
-    add("growth-error.svg", growth_error_plot(report.growths));
-  }
-}
-
-report::PhysicsOptions physics_of(const CompareOptions& options, const report::CompareOptions& contest) {
-  report::PhysicsOptions physics;
-  physics.contest = contest;
-  physics.growth_seconds = options.growth_seconds;
-  if (options.refined) {
-    physics.refine = ConvergingOptions();
-  }
-  if (options.calibrated) {
-    physics.calibrate = calibrator_of(contest.scheme);
-  }
-  return physics;
 }
 
 }  // namespace
@@ -297,48 +239,33 @@ std::string Comparison::csv() const {
   return written([&](std::ostream& out) { std::visit([&](const auto& one) { write_csv(out, one); }, impl_->report); });
 }
 
-std::vector<ReportFile> Comparison::files() const {
-  std::vector<ReportFile> files = report_files(*this);
-  std::visit([&](const auto& one) { add_plots(files, one); }, impl_->report);
-  return files;
-}
-
-void Comparison::write(const std::filesystem::path& folder) const { write_report(folder, files()); }
-
-std::vector<ComparedObject> built_in_objects(Reference against, const LinkSoftness& softness, EnergyKind energy,
-                                             const Elasticity& elasticity) {
-  check(elasticity);
-  return guarded([&] {
-    const Softness all{softness_of(softness), {}, energy_of(energy)};
-    inner::check(all.global);
-    std::vector<ComparedObject> objects;
-    for (report::Case& one : against == Reference::exact ? report::default_cases(all)
-                                                         : report::physics_cases(all, elastic_options_of(elasticity))) {
-      if (against == Reference::physics) {
-        one.drags.clear();  // they depend on the options of the comparison
-      }
-      objects.push_back(object_of(std::move(one)));
+void Comparison::write(const std::filesystem::path& folder) const {
+  make_folder(folder);
+  const auto plots = std::visit([](const auto& one) { return plots_of(one); }, impl_->report);
+  guarded([&] {
+    Outputs outputs;
+    outputs.add(folder / "report.html", [&](std::ostream& out) { out << html(); });
+#ifdef CHAINMAIL_HAS_JSON
+    outputs.add(folder / "report.json", [&](std::ostream& out) { out << json(); });
+#endif
+    outputs.add(folder / "report.csv", [&](std::ostream& out) { out << csv(); });
+    for (const report::PlotFile& one : plots) {
+      outputs.add(folder / one.name, [&](std::ostream& out) { write_svg(out, one.plot, report::file_ink); });
     }
-    return objects;
+    outputs.commit();
   });
 }
 
 Comparison compare(const Body& body, const std::vector<Drag>& drags, const CompareOptions& options, const Job& job) {
-  return compare({ComparedObject{options.title, body, "object of a program", drags}}, options, job);
-}
-
-Comparison compare(const std::vector<ComparedObject>& objects, const CompareOptions& options, const Job& job) {
   return guarded([&] {
-    const report::CompareOptions contest = contest_of(options);
-    const std::vector<report::Case> cases = cases_of(objects, options, job);
-    const auto tell = teller_of(job);
-    if (options.against == Reference::exact) {
-      return finished(report::compare(cases, contest, tell, Access::stop(job)), options);
-    }
-    const report::PhysicsOptions physics = physics_of(options, contest);
-    return finished(
-        report::compare_with_physics(with_materials(cases, options.materials), physics, tell, Access::stop(job)),
-        options);
+    report::PhysicsOptions physics;
+    physics.contest = contest_of(options);
+    physics.growth_seconds = 0;
+    const std::stop_token stop = Access::stop(job);
+    const std::vector<report::Case> cases{case_of(Access::body(body), drags, options, stop)};
+    return options.against == Reference::exact
+               ? finished(report::compare(cases, physics.contest, teller_of(job), stop))
+               : finished(report::compare_with_physics(cases, physics, teller_of(job), stop));
   });
 }
 

@@ -179,20 +179,9 @@ std::vector<ElementId> Mesh::side(std::string_view name) const {
   return elements;
 }
 
-std::span<const std::string_view> side_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    std::ranges::transform(object_sides, std::back_inserter(all), &ObjectSide::name);
-    all.emplace_back("boundary");
-    return all;
-  }();
-  return names;
-}
-
 bool Mesh::operator==(const Mesh& other) const { return impl_->mesh == other.impl_->mesh; }
 const void* Mesh::identity() const { return impl_->mesh.get(); }
 const std::string& Mesh::remark() const { return impl_->remark; }
-const std::string& Mesh::flaws() const { return impl_->flaw_words; }
 
 Mesh make_line(std::uint32_t length, const LatticeOptions& options) {
   return generated(inner::MeshKind::line, {length, 1, 1}, options);
@@ -208,29 +197,6 @@ Mesh make_block(std::uint32_t width, std::uint32_t height, std::uint32_t depth, 
 }
 Mesh make_tetra(std::uint32_t width, std::uint32_t height, std::uint32_t depth, const LatticeOptions& options) {
   return generated(inner::MeshKind::tetra, {width, height, depth}, options);
-}
-
-std::span<const MeshKind> mesh_kinds() {
-  static const std::vector<MeshKind> kinds = [] {
-    std::vector<MeshKind> all;
-    for (const MeshKindInfo& one : inner::mesh_kinds()) {
-      all.push_back({one.name, one.sizes, one.help});
-    }
-    return all;
-  }();
-  return kinds;
-}
-
-Mesh make_lattice(std::string_view kind, const std::array<std::uint32_t, 3>& size, const LatticeOptions& options) {
-  for (const MeshKindInfo& one : inner::mesh_kinds()) {
-    if (one.name == kind) {
-      std::array<std::uint32_t, 3> taken{1, 1, 1};
-      std::copy_n(size.begin(), one.sizes, taken.begin());
-      return generated(one.kind, taken, options);
-    }
-  }
-  throw Error("kind '" + std::string(kind.substr(0, 60)) + "'", "there is no such kind of mesh",
-              "use line, grid, cloth, block or tetra");
 }
 
 Mesh make_mesh(const MeshArrays& arrays) {

@@ -23,16 +23,6 @@ inner::ReadOptions read_options_of(const ReadOptions& options) {
   return result;
 }
 
-FormatUse use_of(FileUse use) {
-  static_assert(int(FileUse::write_positions) == int(FormatUse::write_positions));
-  static_assert(int(FileUse::write) == int(FormatUse::write));
-  return FormatUse(int(use));
-}
-
-const inner::MeshFormat& written_format(const std::filesystem::path& path) {
-  return inner::mesh_format(path, FormatUse::write);
-}
-
 /// Calls write(state) with what is written of an object.
 template <class Write>
 void write_state(const Body& body, Write write) {
@@ -57,25 +47,12 @@ std::vector<FileFormat> file_formats() {
   return formats;
 }
 
-std::string file_endings(FileUse use, std::string_view last) { return mesh_endings(use_of(use), last); }
-std::string file_formats_help(FileUse use) { return mesh_formats_help(use_of(use)); }
-
-void check_format(const std::filesystem::path& path, FileUse use) {
-  guarded([&] { inner::mesh_format(path, use_of(use)); });
-}
-
-void check_format(const std::filesystem::path& path, const Mesh& mesh) {
-  guarded([&] { check_holds(written_format(path), *Access::pointer(mesh), path); });
-}
-
-std::string lost_in_format(const std::filesystem::path& path, const Mesh& mesh) {
-  return guarded([&] { return lost_in(written_format(path), *Access::pointer(mesh)); });
-}
-
 Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options, const Job& job) {
   return guarded([&] {
     OpenedMesh opened = open_mesh(path, read_options_of(options), Access::progress(job));
-    return Access::mesh(std::move(opened.mesh), std::move(opened.softness), std::move(opened.remark), opened.flaws);
+    const std::string flaws = in_words(opened.flaws);
+    const std::string between = opened.remark.empty() || flaws.empty() ? "" : "; ";
+    return Access::mesh(std::move(opened.mesh), std::move(opened.softness), opened.remark + between + flaws);
   });
 }
 
@@ -85,18 +62,6 @@ void write_mesh(const std::filesystem::path& path, const Body& body, const Job& 
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Job& job) {
   write_state(mesh, [&](const MeshState& state) { save_mesh(path, state, Access::progress(job)); });
-}
-
-void write_mesh(std::ostream& out, const std::filesystem::path& name, const Body& body, const Job& job) {
-  write_state(body, [&](const MeshState& state) {
-    inner::write_mesh(out, written_format(name), state, Access::progress(job));
-  });
-}
-
-void write_mesh(std::ostream& out, const std::filesystem::path& name, const Mesh& mesh, const Job& job) {
-  write_state(mesh, [&](const MeshState& state) {
-    inner::write_mesh(out, written_format(name), state, Access::progress(job));
-  });
 }
 
 }  // namespace chainmail::api

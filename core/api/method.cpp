@@ -30,11 +30,6 @@ std::vector<MethodInfo> methods() {
 
 MethodInfo method_info(std::string_view name) { return info_of(info(algorithm_of(name))); }
 
-std::optional<MethodInfo> find_method(std::string_view name) {
-  const auto algorithm = find_algorithm(name);
-  return algorithm ? std::optional(info_of(info(*algorithm))) : std::nullopt;
-}
-
 void check_method(std::string_view method, const Mesh& mesh) {
   const Algorithm algorithm = algorithm_of(method);
   guarded([&] { check(algorithm, *Access::pointer(mesh)); });

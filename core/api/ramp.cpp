@@ -8,14 +8,7 @@
 
 #include "api/access.h"
 #include "mesh/parameters.h"
-#include "report/page/ramp_plot.h"
-#include "report/page/ramp_table.h"
-#include "report/page/svg.h"
-#include "report/run/machine.h"
 #include "report/run/ramp.h"
-#ifdef CHAINMAIL_HAS_JSON
-#include "files/results/report_json.h"
-#endif
 
 namespace chainmail::api {
 namespace {
@@ -69,22 +62,6 @@ RampMethod method_of(const report::RampVerdict& verdict) {
           verdict.growth ? std::optional(verdict.growth->power) : std::nullopt};
 }
 
-std::string text_of(const report::RampProgress& at) {
-  const std::string width = std::to_string(at.width);
-  return width + 'x' + width + ", drag " + std::to_string(at.drag) + " of " + std::to_string(at.drags) +
-         (at.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(at.in_race.size());
-}
-
-void write_report(const report::Ramp& found, Ramp& result) {
-  const report::Machine machine = report::this_machine();
-  result.text = written([&](std::ostream& out) { write_text(out, found, machine); });
-  result.csv = written([&](std::ostream& out) { write_csv(out, found); });
-  result.svg = written([&](std::ostream& out) { write_svg(out, ramp_plot(found), "#808080"); });
-#ifdef CHAINMAIL_HAS_JSON
-  result.json = written([&](std::ostream& out) { write_json(out, found, machine); });
-#endif
-}
-
 }  // namespace
 
 Ramp ramp(const RampOptions& options, const Job& job) {
@@ -92,7 +69,6 @@ Ramp ramp(const RampOptions& options, const Job& job) {
     const report::RampOptions how = options_of(options);
     const Progress progress = Access::progress(job);
     const auto tell = [&](const report::RampProgress& at) {
-      Access::say(job, text_of(at));
       progress.report(std::min(1.0, double(at.width) * at.width / double(how.largest)));
     };
     const report::Ramp found = report::ramp(how, tell, Access::stop(job));
@@ -103,7 +79,6 @@ Ramp ramp(const RampOptions& options, const Job& job) {
     std::ranges::transform(found.rows, std::back_inserter(result.sizes), size_of);
     std::ranges::transform(found.verdicts, std::back_inserter(result.methods), method_of);
     result.seconds = found.seconds;
-    write_report(found, result);
     return result;
   });
 }

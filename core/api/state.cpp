@@ -76,7 +76,7 @@ OwnSoftness softness_from(State& state, const inner::Mesh& mesh) {
 }  // namespace
 
 State save(const Mesh& mesh) {
-  const auto& [pointer, softness, conversion, flaws, remark, flaw_words] = Access::impl(mesh);
+  const auto& [pointer, softness, remark] = Access::impl(mesh);
   FlatMesh flat = flat_mesh_of(*pointer);
   State state;
   state["rest"] = std::move(flat.rest);

@@ -32,7 +32,14 @@ const QString root = sourceFile();
 struct Room {
   QString folder;
   QStringList below;
+  QStringList alone = {};  // rooms that it may include, but not what these may include
 };
+
+/// The rooms of core that are its interface: what a program includes.
+const QStringList interface_of_core{"core/mesh",          "core/body",          "core/solver",     "core/simulate",
+                                    "core/measure",       "core/calibrate",     "core/report/run", "core/report/page",
+                                    "core/files/text",    "core/files/formats", "core/files/mesh", "core/files/repair",
+                                    "core/files/session", "core/files/results"};
 
 const QList<Room> rooms{
     {"core/mesh", {}},
@@ -70,7 +77,7 @@ const QList<Room> rooms{
     {"ui/docks", {"ui/tools", "ui/io"}},
     {"ui/window", {"ui/docks"}},
     {"app/version", {}},
-    {"app/command_line", {"app/version", "core/api/chainmail", "core/bullet/register_bullet.h"}},
+    {"app/command_line", {"app/version", "core/bullet/register_bullet.h"}, interface_of_core},
     {"app/python", {"core/api/chainmail"}},
     {"app", {"app/command_line", "ui/window"}},
 };
@@ -117,8 +124,9 @@ const Room* room_of(const QString& file) {
 /// True if `room` is `other`, or may include it.
 bool sees(const QString& room, const QString& other) {
   const auto found = std::find_if(rooms.begin(), rooms.end(), [&](const Room& one) { return one.folder == room; });
-  return room == other || std::any_of(found->below.begin(), found->below.end(),
-                                      [&](const QString& below) { return sees(below, other); });
+  return room == other || found->alone.contains(other) ||
+         std::any_of(found->below.begin(), found->below.end(),
+                     [&](const QString& below) { return sees(below, other); });
 }
 
 /// Returns the path from the root of one of our headers as an #include names it. The compiler searches core, ui, and
@@ -222,7 +230,9 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/bullet/soft_body.cpp", "#include <BulletSoftBody/btSoftBody.h>", true);
   row("core/bullet/soft_body.h", "#include \"solver/algorithms.h\"", true);
   row("app/command_line/compare_suite.cpp", "#include \"bullet/register_bullet.h\"", true);
-  row("app/command_line/compare.cpp", "#include \"chainmail/compare.h\"", true);
+  row("app/command_line/compare.cpp", "#include \"report/run/compare.h\"", true);
+  row("app/command_line/deform.cpp", "#include \"files/text/text.h\"", true);
+  row("app/chainmail.cpp", "#include \"mesh/error.h\"", true);
   row("core/calibrate/drags.h", "#include \"report/run/cases.h\"", true);
   row("core/api/chainmail/body.h", "#include \"chainmail/mesh.h\"", true);
   row("core/api/body.cpp", "#include \"solver/deformer.h\"", true);
@@ -281,8 +291,10 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("app/command_line/common.h", "#include \"panels/view.h\"", false);
   row("app/python/object.h", "#include \"api/access.h\"", false);
   row("app/command_line/compare_suite.cpp", "#include \"bullet/soft_body.h\"", false);
-  row("app/command_line/deform.cpp", "#include \"files/text/text.h\"", false);
-  row("app/command_line/common.cpp", "#include \"mesh/error.h\"", false);
+  row("app/command_line/deform.cpp", "#include \"chainmail/mesh.h\"", false);
+  row("app/command_line/deform.cpp", "#include \"exact/exact.h\"", false);
+  row("app/command_line/common.cpp", "#include \"equilibrium/relaxation_scheme.h\"", false);
+  row("app/command_line/convert.cpp", "#include \"files/import/import_process.h\"", false);
   row("app/command_line/deform.cpp", "#include \"api/access.h\"", false);
   row("core/bullet/register_bullet.h", "#include \"solver/algorithms.h\"", false);
   row("app/python/object.h", "#include \"body/body.h\"", false);

@@ -20,6 +20,7 @@ class SummaryTest : public QObject {
   void components_are_counted();
   void json_keeps_the_order_of_the_keys();
   void json_of_a_deformation();
+  void text_and_notes_of_a_deformation();
 };
 
 void SummaryTest::of_a_mesh() {
@@ -68,6 +69,26 @@ void SummaryTest::json_of_a_deformation() {
   QCOMPARE(json["energy"].toDouble(), 0.5);
   QCOMPARE(json["displacement"]["max"].toDouble(), 2.0);
   QCOMPARE(json["displacement"]["rms"].toDouble(), 1.0);
+}
+
+void SummaryTest::text_and_notes_of_a_deformation() {
+  DeformSummary summary{"original", 30, 49, {}, {}, 0, {}};
+  summary.passes.resize(2);
+  summary.passes[0].handle = {28, 29};
+  summary.passes[1].handle = {29};
+  QVERIFY(notes_of(summary).empty());
+  summary.passes[1].target = Point(50, 4.5, 0);
+  summary.passes[1].stopped_at = Point(5.5, 4.5, 0);
+  summary.equilibrium.emplace();
+  std::ostringstream out;
+  write_text(out, summary);
+  const QString text = QString::fromStdString(out.str());
+  QVERIFY(text.startsWith("3d on 30 elements, 49 links\npass 0: 2 elements to ") &&
+          text.contains("stopped by pins at"));
+  QVERIFY(text.contains("equilibrium: residual"));
+  QCOMPARE(notes_of(summary),
+           std::vector<std::string>{"1 of 2 passes stopped before the target; the last at (5.5, 4.5, 0) instead of "
+                                    "(50, 4.5, 0)"});
 }
 
 CHAINMAIL_TEST(SummaryTest)

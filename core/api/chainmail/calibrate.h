@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "chainmail/body.h"
 #include "chainmail/job.h"
 #include "chainmail/measure.h"
-#include "chainmail/preset.h"
 #include "chainmail/types.h"
 
 namespace chainmail::api {
@@ -37,7 +37,6 @@ struct Calibration {
   int evaluations = 0;              ///< Number of evaluations that were made.
   CalibrationErrors fitted = {};    ///< On the drags that the search used.
   CalibrationErrors held_out = {};  ///< On drags that the search did not use.
-  std::string text = {};            ///< The result for readers, with the errors of each drag.
   std::string json = {};            ///< All figures, drag by drag, as `chainmail calibrate --json` writes them.
 };
 
@@ -50,5 +49,10 @@ struct Calibration {
 /// Throws Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is out of
 /// its range, if the object has no static solution, and if no reference solution converges; and Cancelled.
 Calibration calibrate(const Body& body, const CalibrateOptions& options = {}, const Job& job = {});
+
+/// Writes one named softness into a file (JSON), which the workbench and `chainmail compare --preset` open. The name is
+/// one line of UTF-8, of at most 60 bytes. Throws Error about a name that is not valid, a softness that is out of its
+/// range, a file that cannot be written, and if the library was built without nlohmann/json.
+void write_preset(const std::filesystem::path& path, const std::string& name, const LinkSoftness& softness);
 
 }  // namespace chainmail::api

@@ -11,7 +11,6 @@
 #include "chainmail/handle.h"
 #include "chainmail/job.h"
 #include "chainmail/measure.h"
-#include "chainmail/moves.h"
 #include "chainmail/types.h"
 
 namespace chainmail::api {
@@ -31,28 +30,6 @@ enum class Reference {
   physics  ///< Neo-Hookean finite elements on the same cells. The object needs pins, and drags grab one element.
 };
 
-/// An object of a comparison. The body gives its mesh, cuts, pins, softness and elasticity; drags start at rest,
-/// whatever its positions are.
-struct ComparedObject {
-  std::string name;                                 ///< Name in the report: one line.
-  Body body;                                        ///< The object.
-  std::string description = "object of a program";  ///< What it is, for readers of the report.
-  std::vector<Drag> drags = {};              ///< Drags. Without drags and recorded moves, there are standard ones.
-  std::vector<RecordedMoves> recorded = {};  ///< Recorded moves of its mesh.
-};
-
-/// Returns the objects with which `chainmail compare` compares methods, with this softness, kind of energy and
-/// elasticity: six for Reference::exact, a bar and a sheet with pins for Reference::physics.
-std::vector<ComparedObject> built_in_objects(Reference against, const LinkSoftness& softness = {},
-                                             EnergyKind energy = EnergyKind::material,
-                                             const Elasticity& elasticity = {});
-
-/// A file of a report.
-struct ReportFile {
-  std::string name = {};     ///< Its name, without a folder.
-  std::string content = {};  ///< Its bytes.
-};
-
 /// Options of a comparison.
 struct CompareOptions {
   std::string title = "object";           ///< Name of the object in the report.
@@ -64,22 +41,12 @@ struct CompareOptions {
   Precision precision = Precision::single_precision;  ///< Precision of the methods. References are in double.
   /// Number of runs of each drag, for times. Default: as many as fit in `seconds`.
   std::optional<int> repetitions = {};
-  double seconds = 4;                               ///< Time for all runs of one drag (s).
-  Reference against = Reference::exact;             ///< What errors refer to.
-  std::string command = "chainmail::api::compare";  ///< The command line, for the report.
-  std::string program = {};                         ///< Program and version, for the report. Empty: the library's.
-
-  // Only with Reference::physics:
-  bool calibrated = false;    ///< Whether Natural Queue and Exact are also calibrated on each object, on other drags.
-  bool refined = false;       ///< True: the handles are patches, and the reference is computed on refined cells.
-  double growth_seconds = 0;  ///< Time for each method on a bar and a sheet that grow (s); 0: they are not measured.
-  /// Settings whose laws are the materials of the reference solution, in turn. Empty: neo-Hookean alone.
-  std::vector<Elasticity> materials = {};
+  double seconds = 4;                    ///< Time for all runs of one drag (s).
+  Reference against = Reference::exact;  ///< What errors refer to.
 };
 
 /// A row of the table: one method with a number of sweeps, on one drag. A figure that was not measured is empty.
 struct ComparisonRow {
-  std::string object = {};   ///< Name of the object.
   std::string drag = {};     ///< Name of the drag.
   std::string method = {};   ///< Name of the method; `nothing` for an object of which only handle and pins move.
   std::string label = {};    ///< Title of the method, with its sweeps.
@@ -114,11 +81,9 @@ class Comparison {
   std::string json() const;
   /// Returns all figures as CSV: a header, then one row per row of the table.
   std::string csv() const;
-  /// Returns the files of the report: report.html, report.csv and, unless the library was built without nlohmann/json,
-  /// report.json; against physics also plots (SVG).
-  std::vector<ReportFile> files() const;
-  /// Writes these files into a folder, which is created if it is missing. Throws Error if a
-  /// file cannot be written; then no file is changed.
+  /// Writes report.html, report.csv and, unless the library was built without nlohmann/json, report.json into a folder,
+  /// which is created if it is missing; against physics also plots (SVG). Throws Error if a file cannot be written;
+  /// then no file is changed.
   void write(const std::filesystem::path& folder) const;
 
  private:
@@ -134,11 +99,8 @@ class Comparison {
 ///
 /// A method that does not work on the object is listed with the reason. Throws Error for an unknown method, an option
 /// out of its range, or a drag that is empty, not finite, or grabs elements that do not exist or are pinned; against
-/// physics also if the object has cuts or no pins; with `calibrated`, also if the library was built without NLopt; and
-/// Cancelled.
+/// physics also if the object has cuts or no pins; and Cancelled.
 Comparison compare(const Body& body, const std::vector<Drag>& drags = {}, const CompareOptions& options = {},
                    const Job& job = {});
-/// Compares methods on several objects in one report; otherwise the same. CompareOptions::title is ignored.
-Comparison compare(const std::vector<ComparedObject>& objects, const CompareOptions& options = {}, const Job& job = {});
 
 }  // namespace chainmail::api

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 namespace chainmail::api {
 
@@ -16,8 +15,6 @@ class Job {
 
   /// Returns the share of the work that is done, from 0 to 1.
   double share() const;
-  /// Returns what the work is doing, for a line of progress; empty if it does not say.
-  std::string text() const;
   /// Asks the work to stop: it throws Cancelled within about 100 ms. A job that is cancelled stays cancelled.
   void cancel() const;
   /// True if cancel() was called.

@@ -82,9 +82,6 @@ class Mesh {
   /// What the reader of a file remarks about it: the density from which voxels became elements, or flaws that were left
   /// out. Usually empty.
   const std::string& remark() const;
-  /// What is wrong in the file that it was read from: parts that were left out or changed, and flaws that stay. Usually
-  /// empty; a part of the remark. Empty for a mesh of load_mesh().
-  const std::string& flaws() const;
 
   /// True for two copies of the same mesh. Meshes with the same content that were made twice differ.
   bool operator==(const Mesh& other) const;
@@ -97,9 +94,6 @@ class Mesh {
   explicit Mesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };
-
-/// Returns the names of the sides of an object, for Mesh::side(): `left` to `front`, then `boundary`.
-std::span<const std::string_view> side_names();
 
 /// Options of generated meshes.
 struct LatticeOptions {
@@ -121,18 +115,6 @@ Mesh make_cloth(std::uint32_t width, std::uint32_t height, const LatticeOptions&
 Mesh make_block(std::uint32_t width, std::uint32_t height, std::uint32_t depth, const LatticeOptions& options = {});
 /// Returns a block of tetrahedra: each cube is split into six (Freudenthal 1942).
 Mesh make_tetra(std::uint32_t width, std::uint32_t height, std::uint32_t depth, const LatticeOptions& options = {});
-
-/// A kind of generated meshes.
-struct MeshKind {
-  std::string_view name;  ///< Its name: `line`, `grid`, `cloth`, `block` or `tetra`.
-  int sizes;              ///< Number of its sizes, 1 to 3.
-  std::string_view help;  ///< What it consists of, in a few words.
-};
-/// Returns all kinds.
-std::span<const MeshKind> mesh_kinds();
-/// Returns the mesh of a kind with these numbers of elements along x, y and z. A kind with fewer sizes ignores the
-/// others. Throws Error, also for another kind.
-Mesh make_lattice(std::string_view kind, const std::array<std::uint32_t, 3>& size, const LatticeOptions& options = {});
 
 /// Content of a mesh, as flat arrays of ids and coordinates. They are copied.
 struct MeshArrays {

@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <ostream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "chainmail/body.h"
@@ -27,20 +25,6 @@ struct FileFormat {
 
 /// Returns all formats.
 std::vector<FileFormat> file_formats();
-
-/// The use of a file: to read an object, to write one, or to write the positions of its elements.
-enum class FileUse { read, write, write_positions };
-/// Returns the endings of all formats with a use, like `.dat or .obj`. `last` is the word before the last one.
-std::string file_endings(FileUse use, std::string_view last = "or");
-/// Returns one line per format with a use, for help texts.
-std::string file_formats_help(FileUse use);
-/// Throws Error about a path if no format has its ending, or if the format does not have this use.
-void check_format(const std::filesystem::path& path, FileUse use);
-/// Throws Error about a path if a file with its ending would have nothing of a mesh, or if no such file is written.
-void check_format(const std::filesystem::path& path, const Mesh& mesh);
-/// Says what a file with the ending of a path will not have of a mesh; empty if it has all. Throws Error if no such
-/// file is written.
-std::string lost_in_format(const std::filesystem::path& path, const Mesh& mesh);
 
 /// Returns where the installed package has chainmail-import, the program that runs the readers of other libraries
 /// (.msh, .mesh, .off, .stl, .nrrd) in a sandbox. Programs that find the package with CMake get the path from it; for
@@ -83,9 +67,5 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {
 void write_mesh(const std::filesystem::path& path, const Body& body, const Job& job = {});
 /// Writes an object at rest; otherwise the same.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Job& job = {});
-/// Writes an object to a stream, in the format of the ending of `name`, which need not be a file; otherwise the same.
-void write_mesh(std::ostream& out, const std::filesystem::path& name, const Body& body, const Job& job = {});
-/// Writes an object at rest to a stream; otherwise the same.
-void write_mesh(std::ostream& out, const std::filesystem::path& name, const Mesh& mesh, const Job& job = {});
 
 }  // namespace chainmail::api

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,8 +38,6 @@ std::vector<MethodInfo> methods();
 
 /// Returns what is known about a method. Throws Error, with all names, if there is none with this name.
 MethodInfo method_info(std::string_view name);
-/// Returns what is known about a method, if there is one with this name.
-std::optional<MethodInfo> find_method(std::string_view name);
 
 /// Throws Error, with the reason, if a method does not work on a mesh or does not exist. Whether the pins suffice is
 /// found by the first move.

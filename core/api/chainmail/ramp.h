@@ -50,18 +50,12 @@ struct Ramp {
   std::vector<RampSize> sizes = {};      ///< In the order of the sizes.
   std::vector<RampMethod> methods = {};  ///< In the order of the methods.
   double seconds = 0;                    ///< Time of the whole ramp (s).
-
-  std::string text = {};  ///< The results and the times for readers.
-  std::string csv = {};   ///< A header, then one row per size and method.
-  std::string svg = {};   ///< A plot of the times against the number of elements.
-  std::string json = {};  ///< All figures, as `chainmail ramp --json` writes them; empty without nlohmann/json.
 };
 
 /// Finds the largest square grid on which each method runs in real time (Dean 2004, chapter 6): grids grow from 4 x 4
 /// elements, and at each size all methods make the same drags. A method leaves when the 99th percentile of its passes
-/// exceeds the budget in two attempts. The job receives the share of the largest grid that is done, and what is
-/// running. Throws Error for a method that is unknown or not of the ChainMail family and for an option out of its
-/// range; and Cancelled.
+/// exceeds the budget in two attempts. The job receives the share of the largest grid that is done. Throws Error for a
+/// method that is unknown or not of the ChainMail family and for an option out of its range; and Cancelled.
 Ramp ramp(const RampOptions& options = {}, const Job& job = {});
 
 }  // namespace chainmail::api

@@ -18,6 +18,11 @@ void write_mesh(std::ostream& out, const MeshFormat& format, const MeshState& st
   format.write(out, state, progress);
 }
 
+void write_mesh(std::ostream& out, const MeshFormat& format, const Mesh& mesh, const OwnSoftness& softness,
+                const Progress& progress) {
+  write_mesh(out, format, {mesh, Cuts(), rest_positions(mesh), Softness{{}, softness}}, progress);
+}
+
 void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress) {
   const MeshFormat& format = mesh_format(path, FormatUse::write);
   check_holds(format, state.mesh, path);

@@ -18,6 +18,9 @@ MeshPointer read_mesh(const std::filesystem::path& path, const ReadOptions& opti
 /// Writes the object with its cuts at the positions of `state`. A .dat file stores no positions. Throws Error if the
 /// format cannot store the mesh, and Cancelled.
 void write_mesh(std::ostream& out, const MeshFormat& format, const MeshState& state, const Progress& progress = {});
+/// Writes an object at rest, with the softness of single links.
+void write_mesh(std::ostream& out, const MeshFormat& format, const Mesh& mesh, const OwnSoftness& softness,
+                const Progress& progress = {});
 
 /// Writes the object into a file, in the format of the file's ending. If writing fails, the old file stays.
 void save_mesh(const std::filesystem::path& path, const MeshState& state, const Progress& progress = {});

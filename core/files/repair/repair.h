@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "body/softness.h"
@@ -42,5 +44,24 @@ Repaired turn_cells(const Mesh& mesh, const std::vector<std::uint32_t>& cells, c
 
 /// Returns the softness of single links of `before` for the same links after a repair.
 OwnSoftness softness_after(const OwnSoftness& own, const Mesh& before, const Repaired& after);
+
+/// The repairs that repair() makes, in their order.
+struct RepairOptions {
+  bool weld = true;
+  double tolerance = 0;  // of weld() (mesh units)
+  bool loose = true, holes = true, cells = true;
+};
+/// A mesh before and after several repairs.
+struct RepairResult {
+  MeshPointer before, mesh;
+  OwnSoftness softness;  // of single links
+  Defects defects_before, defects;
+  std::vector<std::string> done;  // '3 duplicate vertices welded'
+};
+/// Repairs the defects of a mesh. Throws what these repairs throw.
+RepairResult repair(const MeshPointer& mesh, const OwnSoftness& softness, const RepairOptions& options,
+                    const Progress& progress = {});
+/// Writes what was done and what is left, for readers, a line each.
+void write_text(std::ostream& out, const RepairResult& repair);
 
 }  // namespace chainmail

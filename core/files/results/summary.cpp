@@ -1,8 +1,12 @@
 #include "files/results/summary.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "files/results/json_kind.h"
+#include "files/text/text.h"
+#include "report/page/figure_table.h"
+#include "report/page/format.h"
 
 namespace chainmail {
 namespace {
@@ -20,11 +24,58 @@ Json to_json(const Defects& defects) {
           {"inverted_cells", defects.inverted.size()}};
 }
 
-Json counts_of(const MeshSummary& summary) {
-  return {{"elements", summary.elements},
-          {"links", summary.links},
-          {"triangles", summary.triangles},
-          {"defects", to_json(summary.defects)}};
+Json counts_of(const Mesh& mesh, const Defects& defects) {
+  return {{"elements", mesh.element_count()},
+          {"links", mesh.link_count()},
+          {"triangles", mesh.triangles.size()},
+          {"defects", to_json(defects)}};
+}
+
+std::string passes_of(std::size_t count, std::size_t all) {
+  return all == 1 ? "the pass" : std::to_string(count) + " of " + std::to_string(all) + " passes";
+}
+
+std::string coordinates_of(const Point& point) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) {
+    text += k == 0 ? "(" : ", ";
+    append_number(text, point[k]);
+  }
+  return text + ")";
+}
+
+void write_pass(std::ostream& out, const DeformSummary::Pass& pass) {
+  const auto point = [&out](const Point& at) { out << '(' << at.x() << ", " << at.y() << ", " << at.z() << ')'; };
+  pass.handle.size() == 1 ? out << "element " << pass.handle.front() : out << pass.handle.size() << " elements";
+  out << " to ";
+  point(pass.target);
+  if (pass.rotation.degrees != 0) {
+    out << ", rotated by " << pass.rotation.degrees << " degrees about ";
+    point(pass.rotation.axis);
+  }
+  out << ", " << pass.checked << " checked, " << pass.moved << " moved, " << pass.milliseconds << " ms";
+  if (pass.stopped_at) {
+    out << (pass.remark.empty() ? ", stopped by pins at " : ", stopped at ");
+    point(*pass.stopped_at);
+  }
+  out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
+}
+
+/// Writes rows of residuals: relative, RMS and max.
+void write_residuals(std::ostream& out, const TestedDrags& tested, bool at_equilibrium) {
+  std::vector<std::vector<std::string>> rows{{"", "relative", "RMS", "max"}};
+  const auto add = [&](const std::string& what, const Residual& residual) {
+    rows.push_back(
+        {what, report::figure(residual.relative), report::figure(residual.rms), report::figure(residual.max)});
+  };
+  add("nothing moves", tested.nothing);
+  add(at_equilibrium ? "defaults" : "defaults, no sweeps", tested.before);
+  add("calibrated", tested.after);
+  for (const CalibrationDrag& drag : tested.drags) {
+    add("  element " + std::to_string(drag.element) + ", before", drag.before);
+    add("  element " + std::to_string(drag.element) + ", after", drag.after);
+  }
+  report::write_columns(out, rows);
 }
 
 }  // namespace
@@ -75,8 +126,9 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
   out << of_kind(json_kinds::info, json).dump(2) << '\n';
 }
 
-void write_json(std::ostream& out, const RepairSummary& summary) {
-  const Json json{{"before", counts_of(summary.before)}, {"after", counts_of(summary.after)}};
+void write_json(std::ostream& out, const RepairResult& repair) {
+  const Json json{{"before", counts_of(*repair.before, repair.defects_before)},
+                  {"after", counts_of(*repair.mesh, repair.defects)}};
   out << of_kind(json_kinds::repair, json).dump(2) << '\n';
 }
 
@@ -121,6 +173,92 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
                            {"iterations", found->iterations}};
   }
   out << of_kind(json_kinds::deform, json).dump(2) << '\n';
+}
+
+std::vector<std::string> notes_of(const DeformSummary& summary) {
+  std::map<std::string, std::size_t> remarks;
+  std::size_t stopped = 0;
+  const DeformSummary::Pass* last = nullptr;
+  for (const auto& pass : summary.passes) {
+    if (!pass.remark.empty()) {
+      ++remarks[pass.remark];
+    }
+    if (pass.stopped_at) {
+      ++stopped;
+      last = &pass;
+    }
+  }
+  const std::size_t all = summary.passes.size();
+  std::vector<std::string> notes;
+  for (const auto& [remark, count] : remarks) {
+    notes.push_back(passes_of(count, all) + ": " + remark);
+  }
+  if (last != nullptr) {
+    notes.push_back(passes_of(stopped, all) + " stopped before the target; the last at " +
+                    coordinates_of(*last->stopped_at) + " instead of " + coordinates_of(last->target));
+  }
+  return notes;
+}
+
+void write_text(std::ostream& out, const MeshSummary& summary) {
+  std::string length;
+  append_number(length, summary.mean_link_length);
+  out << "elements          " << summary.elements << '\n'
+      << "links             " << summary.links << '\n'
+      << "triangles         " << summary.triangles << '\n'
+      << "tetrahedra        " << summary.tetrahedra << '\n'
+      << "hexahedra         " << summary.hexahedra << '\n'
+      << "object dimension  " << summary.object_dimension << '\n'
+      << "space dimension   " << summary.space_dimension << '\n'
+      << "parts             " << summary.components << '\n'
+      << "bounds            " << coordinates_of(summary.bounds[0]) << " to " << coordinates_of(summary.bounds[1])
+      << '\n'
+      << "mean link length  " << length << '\n';
+  for (const auto& [title, words] :
+       {std::pair("read as           ", summary.remark), std::pair("note              ", in_words(summary.flaws)),
+        std::pair("defects           ", joined_words(in_words(summary.defects), ", "))}) {
+    if (!words.empty()) {
+      out << title << words << '\n';
+    }
+  }
+}
+
+void write_text(std::ostream& out, const DeformSummary& summary) {
+  out << info(find_algorithm(summary.algorithm).value()).offered_name() << " on " << summary.elements << " elements, "
+      << summary.links << " links\n";
+  for (std::size_t i = 0; i < summary.passes.size(); ++i) {
+    out << "pass " << i << ": ";
+    write_pass(out, summary.passes[i]);
+  }
+  out << "violation: max " << summary.violation.max << " rest lengths, RMS " << summary.violation.rms << ", "
+      << 100 * summary.violation.fraction << "% of links\n";
+  if (const auto& found = summary.equilibrium) {
+    out << "equilibrium: residual " << found->residual << " after " << found->iterations << " iterations, ";
+    if (found->gap) {
+      out << "energy about " << 100 * *found->gap << "% above the least, ";
+    }
+    out << "largest violation " << found->violation << " rest lengths, valid regions "
+        << (found->binds ? "bind" : "do not bind") << '\n';
+  }
+}
+
+void write_text(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result) {
+  const bool at_equilibrium = !info(options.scheme).sweeps;
+  const Material& material = options.elastic.material;
+  out << info(options.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
+      << report::figure(material.young) << ", Poisson's ratio " << report::figure(material.poisson) << ") with\n  "
+      << report::region_in_words(result.softness) << ", ";
+  if (at_equilibrium) {
+    out << report::energy_in_words(result.softness) << ", at equilibrium (" << info(options.energy).name << " energy)";
+  } else {
+    out << result.sweeps << " sweeps per move";
+  }
+  out << "\nRelative error, and RMS and max over the handle's displacement. An object that does not move has a\n"
+         "relative error of about 1.\nDrags used by the search ("
+      << result.fitted.drags.size() << ", " << result.evaluations << " evaluations):\n";
+  write_residuals(out, result.fitted, at_equilibrium);
+  out << "Drags not used by the search (" << result.held_out.drags.size() << "):\n";
+  write_residuals(out, result.held_out, at_equilibrium);
 }
 
 }  // namespace chainmail

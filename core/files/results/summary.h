@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "body/handle.h"
-#include "equilibrium/equilibrium_solver.h"
+#include "calibrate/calibrate.h"
 #include "files/mesh/open_mesh.h"
 #include "files/repair/defects.h"
-#include "measure/violation.h"
+#include "files/repair/repair.h"
 #include "mesh/mesh.h"
+#include "simulate/deformation.h"
 
 namespace chainmail {
 
@@ -37,38 +37,16 @@ MeshSummary summarize(const Mesh& mesh);
 MeshSummary summarize(const OpenedMesh& opened);
 void write_json(std::ostream& out, const MeshSummary& summary);
 
-/// A mesh before and after a repair.
-struct RepairSummary {
-  MeshSummary before, after;
-};
-void write_json(std::ostream& out, const RepairSummary& summary);
+/// Writes counts before and after a repair.
+void write_json(std::ostream& out, const RepairResult& repair);
 
-/// The passes of a deformation, and the state of the object after them.
-struct DeformSummary {
-  struct Pass {
-    std::vector<ElementId> handle;  // ascending
-    Point target = Point::Zero();   // of its pivot (mesh units)
-    Rotation rotation = {};         // since it was grabbed
-    std::uint64_t checked = 0;
-    std::uint64_t moved = 0;
-    double milliseconds = 0;
-    std::optional<Point> stopped_at = {};  // where the pivot is, if the handle stopped before its target (mesh units)
-    std::string remark = {};               // reason why it did not end as requested; usually empty
-  };
-
-  std::string algorithm;
-  std::uint64_t elements = 0;
-  std::uint64_t links = 0;
-  std::vector<Pass> passes;
-  Violation violation;
-  double energy = 0;
-  Displacement displacement;
-  // Figures about the shape; none where they are not defined.
-  std::optional<double> volume_change = {};                // relative
-  std::optional<std::uint64_t> inverted_cells = {};        // number of them
-  std::optional<double> largest_stretch = {};              // principal stretch
-  std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
-};
 void write_json(std::ostream& out, const DeformSummary& summary);
+/// Returns what did not go as requested: passes that did not converge or stopped before their target. Usually empty.
+std::vector<std::string> notes_of(const DeformSummary& summary);
+
+// Each of these functions writes a result for readers.
+void write_text(std::ostream& out, const MeshSummary& summary);
+void write_text(std::ostream& out, const DeformSummary& summary);
+void write_text(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result);
 
 }  // namespace chainmail

@@ -180,4 +180,22 @@ Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths) {
   return plot;
 }
 
+std::string object_plot(std::size_t number) { return "object-" + std::to_string(number) + ".svg"; }
+
+std::vector<PlotFile> plots_of(const PhysicsReport& report) {
+  std::vector<PlotFile> plots;
+  if (report.objects.size() > 1) {
+    plots.push_back({"overview.svg", physics_overview(report)});
+  }
+  for (std::size_t i = 0; i < report.objects.size(); ++i) {
+    plots.push_back({object_plot(i + 1), physics_plot(report.objects[i])});
+  }
+  if (!report.growths.empty()) {
+    plots.push_back({"growth-time.svg", growth_time_plot(report.growths)});
+    plots.push_back({"growth-prepare.svg", growth_prepare_plot(report.growths)});
+    plots.push_back({"growth-error.svg", growth_error_plot(report.growths)});
+  }
+  return plots;
+}
+
 }  // namespace chainmail::report

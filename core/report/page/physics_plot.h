@@ -16,4 +16,9 @@ Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths);
 
+/// Returns the name of the file with the plot of an object; the first object is 1.
+std::string object_plot(std::size_t number);
+/// Returns the plots that a report has as files of their own.
+std::vector<PlotFile> plots_of(const PhysicsReport& report);
+
 }  // namespace chainmail::report

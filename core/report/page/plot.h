@@ -78,6 +78,12 @@ struct Plot {
   std::string good_label;
 };
 
+/// A plot of a report, and the name of its file.
+struct PlotFile {
+  std::string name;
+  Plot plot;
+};
+
 /// The axes of a plot. All panels share them.
 struct PlotAxes {
   explicit PlotAxes(const Plot& plot);

@@ -108,4 +108,14 @@ Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure) {
   return plot;
 }
 
+std::vector<PlotFile> plots_of(const Suite& suite) {
+  std::vector<PlotFile> plots;
+  for (const SpeedAgainstError& measure : speeds_against_error) {
+    if (Plot plot = suite_plot(suite, measure); !plot.panels.empty()) {
+      plots.push_back({std::string(measure.file) + ".svg", std::move(plot)});
+    }
+  }
+  return plots;
+}
+
 }  // namespace chainmail::report

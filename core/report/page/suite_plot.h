@@ -10,4 +10,7 @@ namespace chainmail::report {
 /// through those that no other one beats.
 Plot suite_plot(const Suite& suite, const SpeedAgainstError& measure);
 
+/// Returns the plots that a report has as files of their own.
+std::vector<PlotFile> plots_of(const Suite& suite);
+
 }  // namespace chainmail::report

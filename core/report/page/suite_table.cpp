@@ -331,6 +331,31 @@ std::vector<std::string> suite_findings(const Suite& suite) {
   return sentences;
 }
 
+FigureTable peer_table(const PeerCase& object) {
+  FigureTable table;
+  table.caption = object.name;
+  table.about = object.description;
+  if (object.reference_change) {
+    table.about += "; the last refinement of the reference changed it by " + figure(*object.reference_change);
+  }
+  table.corner = "solver";
+  table.columns = {{"", "relative error"},        {"move (ms)", "first"},     {"move (ms)", "later"},
+                   {"prepare (ms)", "factorize"}, {"prepare (ms)", "grab"},   {"shape", "Hausdorff"},
+                   {"shape", "volume change"},    {"shape", "inverted cells"}};
+  return table;
+}
+
+FigureTable::Row peer_row(const PeerCase& object, const PeerAnswer& answer) {
+  const PeerVerdict verdict = judge(object, answer);
+  const auto& inverted = verdict.shape.inverted_cells;
+  return {answer.solver,
+          {error_figure(verdict.error.relative, object.reference_change), cell_of(verdict.first_ms),
+           cell_of(verdict.later_ms), cell_of(answer.factorize_ms), cell_of(answer.grab_ms),
+           cell_of(verdict.shape.hausdorff), cell_of(verdict.shape.volume_change),
+           inverted ? std::to_string(*inverted) : "-"},
+          {}};
+}
+
 void write_text(std::ostream& out, const Suite& suite) {
   for (const std::string& sentence : suite_findings(suite)) {
     out << sentence << '\n';

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "report/page/figure_table.h"
+#include "report/run/peer.h"
 #include "report/run/suite.h"
 
 namespace chainmail::report {
@@ -39,6 +40,9 @@ FigureTable order_table(const SuiteResult& result);
 /// All figures of one experiment with drags.
 FigureTable suite_table(const SuiteResult& result);
 
+/// The head of the table of other solvers' answers to a case, and the figures of an answer.
+FigureTable peer_table(const PeerCase& object);
+FigureTable::Row peer_row(const PeerCase& object, const PeerAnswer& answer);
 /// Returns sentences that say who is closest in each experiment, and who is on the fronts of speed against error (see
 /// front.h).
 std::vector<std::string> suite_findings(const Suite& suite);

@@ -238,4 +238,18 @@ std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, doub
   return drags;
 }
 
+std::vector<Case> with_laws(const std::vector<Case>& cases, const std::vector<StrainLaw>& laws) {
+  std::vector<Case> all;
+  for (const Case& object : cases) {
+    for (const StrainLaw& law : laws) {
+      all.push_back(object);
+      all.back().law = law;
+      if (laws.size() > 1 || law.kind != StrainLaw::Kind::neo_hookean) {
+        all.back().name += ", " + label(law);
+      }
+    }
+  }
+  return all;
+}
+
 }  // namespace chainmail::report

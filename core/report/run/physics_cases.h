@@ -28,6 +28,9 @@ std::vector<ElementId> physics_handles(const Case& object);
 ///
 /// With a radius, as a share of the largest extent, a handle is the patch of all elements without a pin within it.
 std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut = true, double radius_share = 0);
+/// Returns each case with each law of the material of the reference solution. Names say the law, except neo-Hookean
+/// alone.
+std::vector<Case> with_laws(const std::vector<Case>& cases, const std::vector<StrainLaw>& laws);
 /// The radius of the patches of comparisons with a refined reference.
 inline constexpr double patch_share = 0.16;
 

@@ -16,9 +16,8 @@ using namespace chainmail;
 using namespace chainmail::test;
 using command_line::add_parameter;
 using command_line::add_value;
-using command_line::chainmail_methods;
-using command_line::methods_help;
-using command_line::methods_of;
+using command_line::algorithms_help;
+using command_line::algorithms_of;
 using command_line::names_of;
 
 /// An algorithm is one entry of a table, and so is a parameter. Every list of them includes a new entry.
@@ -68,15 +67,6 @@ constexpr Parameter dummy_parameter{.name = "dummy",
                                     .decimals = 1,
                                     .help = "a number without a meaning"};
 
-/// The same for programs that use the public interface.
-constexpr api::Parameter public_parameter{.name = dummy_parameter.name,
-                                          .label = dummy_parameter.label,
-                                          .unit = dummy_parameter.unit,
-                                          .default_value = dummy_parameter.default_value,
-                                          .lowest = dummy_parameter.lowest,
-                                          .highest = dummy_parameter.highest,
-                                          .help = dummy_parameter.help};
-
 /// Parses a command line with one option, and calls `use` with the option.
 template <class Use>
 auto parsed(const std::string& name, const std::vector<std::string>& arguments, Use use) {
@@ -93,8 +83,6 @@ std::string message(const std::function<void()>& run) {
     run();
   } catch (const Error& error) {
     return error.what();
-  } catch (const api::Error& error) {
-    return error.what();
   }
   return "";
 }
@@ -110,8 +98,8 @@ void OneEntryTest::an_algorithm_is_listed() {
   QCOMPARE(elastic_algorithms().size(), others);
   QVERIFY(algorithms().back().algorithm == dummy);
   QVERIFY(elastic_algorithms().front().algorithm == Algorithm::linear_fem);
-  QVERIFY(std::ranges::count(names_of(api::methods()), "another-name") == 1);
-  QVERIFY(contains(methods_help(chainmail_methods()), "another-name   Dummy ChainMail: does what Spiral does\n"));
+  QVERIFY(std::ranges::count(names_of(every_algorithm()), "another-name") == 1);
+  QVERIFY(contains(algorithms_help(algorithms()), "another-name   Dummy ChainMail: does what Spiral does\n"));
   QCOMPARE(report::style_at(report::style_of(dummy)).colour, std::string_view("#123456"));
   QCOMPARE(report::label(report::Contestant{dummy, 3}), std::string("Dummy ChainMail, 3 sweeps"));
 }
@@ -119,12 +107,12 @@ void OneEntryTest::an_algorithm_is_listed() {
 void OneEntryTest::an_algorithm_is_parsed() {
   const auto chosen = [](const std::string& list) {
     return parsed("--algorithms", {"--algorithms", list},
-                  [](const CLI::Option* option) { return methods_of(option, chainmail_methods()); });
+                  [](const CLI::Option* option) { return algorithms_of(option, algorithms()); });
   };
   QVERIFY(contains(message([&] { chosen("dummy"); }), "'dummy' is not known"));
   const ExtraAlgorithm extra(dummy_entry());
-  QVERIFY((chosen("spiral,dummy") == std::vector<std::string>{"spiral", "another-name"}));
-  QVERIFY(chosen("another-name") == std::vector<std::string>{"another-name"});
+  QVERIFY((chosen("spiral,dummy") == std::vector<Algorithm>{Algorithm::spiral, dummy}));
+  QVERIFY(chosen("another-name") == std::vector<Algorithm>{dummy});
   QVERIFY(contains(message([&] { chosen("dummy,another-name"); }), "is given twice"));
   QVERIFY(contains(message([&] { chosen("none"); }), "exact or another-name"));
   QVERIFY(chosen("original") == chosen("3d"));
@@ -191,14 +179,14 @@ void OneEntryTest::names_are_unique() {
 
 void OneEntryTest::a_parameter_is_an_option() {
   CLI::App app;
-  CLI::Option* option = add_parameter(app, public_parameter);
+  CLI::Option* option = add_parameter(app, dummy_parameter);
   QVERIFY(contains(app.help(), "--dummy"));
   QVERIFY(contains(app.help(), "a number without a meaning [2.5]"));
-  QCOMPARE(command_line::value_of(option, public_parameter), 2.5);
+  QCOMPARE(command_line::value_of(option, dummy_parameter), 2.5);
   app.parse(std::vector<std::string>{"3.5", "--dummy"});
-  QCOMPARE(command_line::value_of(option, public_parameter), 3.5);
+  QCOMPARE(command_line::value_of(option, dummy_parameter), 3.5);
   app.parse(std::vector<std::string>{"5", "--dummy"});
-  QCOMPARE(message([&] { command_line::value_of(option, public_parameter); }),
+  QCOMPARE(message([&] { command_line::value_of(option, dummy_parameter); }),
            std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
 }
 
