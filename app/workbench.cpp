@@ -11,7 +11,6 @@
 
 #include "common/application.h"
 #include "common/as_path.h"
-#include "common/last_words.h"
 #include "docks/mesh_dock.h"
 #include "files/text/temporary_folder.h"
 #include "io/sessions.h"

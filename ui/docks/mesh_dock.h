@@ -8,7 +8,7 @@
 #include <array>
 
 #include "common/jobs.h"
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "document/document.h"
 #include "mesh/generate.h"
 

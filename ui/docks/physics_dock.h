@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 #include <array>
 
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "document/document.h"
 #include "tools/pin_layers.h"
 

@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 #include <vector>
 
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "docks/preset_row.h"
 #include "document/document.h"
 

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "common/application.h"
-#include "common/panel_names.h"
 #include "common/text.h"
 #include "document/edit.h"
 #include "document/element_facts.h"

@@ -9,11 +9,9 @@
 #include <filesystem>
 
 #include "common/as_path.h"
-#include "common/ask_where.h"
-#include "common/panel_names.h"
 #include "common/text.h"
-#include "common/up_axis.h"
 #include "document/edits.h"
+#include "drawing/camera.h"
 #include "drawing/prepared_levels.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"

@@ -7,8 +7,8 @@
 #include <QGuiApplication>
 #include <QSettings>
 
-#include "common/ask_where.h"
-#include "common/panel_names.h"
+#include "common/text.h"
+#include "io/questions.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/panel_names.h"
-#include "common/shown_number.h"
 #include "common/text.h"
 #include "measure/violation.h"
 

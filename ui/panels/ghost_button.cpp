@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "common/icons.h"
-#include "common/panel_names.h"
 #include "common/text.h"
 #include "panels/view.h"
 

@@ -7,9 +7,8 @@
 #include <QToolButton>
 
 #include "common/icons.h"
-#include "common/panel_names.h"
 #include "common/text.h"
-#include "common/text_scale.h"
+#include "common/theme.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"

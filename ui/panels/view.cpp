@@ -16,7 +16,6 @@
 #include <cmath>
 
 #include "common/application.h"
-#include "common/panel_names.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"

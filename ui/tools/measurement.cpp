@@ -2,7 +2,7 @@
 
 #include <QStringList>
 
-#include "common/shown_number.h"
+#include "common/text.h"
 #include "document/element_facts.h"
 #include "panels/view.h"
 

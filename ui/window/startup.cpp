@@ -21,7 +21,6 @@
 #include <map>
 
 #include "common/theme.h"
-#include "common/workbench_style.h"
 #include "window/main_window.h"
 
 // Resources of a static library must be initialised explicitly, outside any namespace.

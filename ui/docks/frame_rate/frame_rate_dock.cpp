@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "common/as_path.h"
-#include "common/ask_where.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
-#include "common/panel_names.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
 #include "files/text/outputs.h"
+#include "io/questions.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
 #include "report/page/format.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "common/panel_names.h"
 #include "common/text.h"
 #include "document/panel_colour.h"
 

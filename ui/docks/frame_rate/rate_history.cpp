@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "common/panel_names.h"
+#include "common/text.h"
 #include "report/page/format.h"
 
 namespace chainmail {

@@ -8,9 +8,8 @@
 #include <algorithm>
 
 #include "common/colours.h"
-#include "common/panel_names.h"
 #include "common/text.h"
-#include "common/text_scale.h"
+#include "common/theme.h"
 #include "document/panel_colour.h"
 
 namespace chainmail {

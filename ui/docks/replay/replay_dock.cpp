@@ -10,11 +10,11 @@
 #include <algorithm>
 
 #include "common/as_path.h"
-#include "common/ask_where.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
+#include "io/questions.h"
 #include "mesh/error.h"
 
 namespace chainmail {

@@ -9,7 +9,6 @@
 #include <array>
 
 #include "common/as_path.h"
-#include "common/ask_where.h"
 #include "common/colours.h"
 #include "common/plot_widget.h"
 #include "common/text.h"
