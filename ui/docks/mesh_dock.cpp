@@ -11,7 +11,7 @@
 #include "common/text.h"
 #include "docks/gallery.h"
 #include "document/edits.h"
-#include "drawing/prepared_levels.h"
+#include "drawing/mesh_levels.h"
 #include "io/samples.h"
 
 namespace chainmail {

@@ -12,7 +12,7 @@
 #include "common/text.h"
 #include "document/edits.h"
 #include "drawing/camera.h"
-#include "drawing/prepared_levels.h"
+#include "drawing/mesh_levels.h"
 #include "files/mesh/mesh_formats.h"
 #include "files/mesh/open_mesh.h"
 #include "files/session/session.h"

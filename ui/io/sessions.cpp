@@ -7,7 +7,7 @@
 #include "common/as_path.h"
 #include "document/edits.h"
 #include "document/session_draft.h"
-#include "drawing/prepared_levels.h"
+#include "drawing/mesh_levels.h"
 #include "io/mesh_source.h"
 #include "io/recovery_bar.h"
 #include "io/samples.h"

@@ -11,7 +11,7 @@
 
 #include "document/background_reference.h"
 #include "document/document.h"
-#include "drawing/colour_values.h"
+#include "drawing/colour_map.h"
 #include "panels/colour_range.h"
 
 namespace chainmail {

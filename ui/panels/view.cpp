@@ -1,5 +1,3 @@
-// The order of this file: construction, tools and overlays, camera, search, mouse, keyboard, painting, pictures.
-
 #include "panels/view.h"
 
 #include <QFocusEvent>
@@ -10,7 +8,6 @@
 #include <QPainter>
 #include <QVector4D>
 #include <QWheelEvent>
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drawing/annotation.h"
+#include "panels/overlay.h"
 
 #include <QPainter>
 #include <algorithm>
