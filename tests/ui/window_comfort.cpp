@@ -12,7 +12,7 @@
 #include "document/edits.h"
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 #include "window/message_bar.h"
 

@@ -14,8 +14,7 @@
 #include "io/pictures.h"
 #include "panels/legend.h"
 #include "panels/panel_area.h"
-#include "panels/state_chips.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 
 namespace chainmail::window_figures {

@@ -14,7 +14,7 @@
 #include "document/edits.h"
 #include "io/sessions.h"
 #include "mesh/mesh.h"
-#include "tools/grab_brush.h"
+#include "tools/drag_tool.h"
 #include "tools/rotation_ring.h"
 #include "window.h"
 #include "window/message_bar.h"

@@ -16,7 +16,7 @@
 #include "io/sessions.h"
 #include "measure/violation.h"
 #include "panels/panel_area.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"

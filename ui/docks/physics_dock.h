@@ -9,7 +9,7 @@
 
 #include "common/number_field.h"
 #include "document/document.h"
-#include "tools/pin_layers.h"
+#include "tools/pin_tool.h"
 
 namespace chainmail {
 

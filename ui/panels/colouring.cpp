@@ -4,8 +4,6 @@
 
 #include <QElapsedTimer>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "common/text.h"
 #include "measure/violation.h"

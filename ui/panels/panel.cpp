@@ -13,7 +13,7 @@
 #include "common/text.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"
-#include "panels/state_chips.h"
+#include "panels/panel_state.h"
 
 namespace chainmail {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QActionGroup>
+#include <QComboBox>
 #include <QJsonObject>
 #include <QMenu>
 
@@ -8,6 +9,24 @@
 #include "panels/colouring.h"
 
 namespace chainmail {
+
+/// The 'Colour by' setting of all panels: a selector for the tool bar, and the same choices as actions for a menu.
+class ColourSelector : public QComboBox {
+  Q_OBJECT
+
+ public:
+  explicit ColourSelector(Colouring& colouring);
+  QList<QAction*> menuActions() const { return actions_->actions(); }
+  /// Says that an overlay colours the objects instead, with its title; empty: none does.
+  void showOverlay(const QString& title);
+
+ private:
+  void showMode();
+
+  Colouring& colouring_;
+  QString overlay_;
+  QActionGroup* actions_;
+};
 
 /// The View menu's choice of the range of the colours: automatic, logarithmic, or fixed between two numbers. Each
 /// colour mode has its own choice, because modes have other units. The choice is stored.

@@ -1,11 +1,36 @@
 #pragma once
 
 #include <QLabel>
+#include <QStringList>
 #include <QWidget>
+#include <vector>
 
 #include "simulate/simulation.h"
 
 namespace chainmail {
+
+/// The states of a panel's object for which its head has no room, as chips that wrap. They lie over the upper edge of
+/// the view, which they do not move, and let the mouse through.
+class StateChips : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit StateChips(QWidget& view);
+  void setStates(const QStringList& states);
+  QStringList states() const { return states_; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void place();
+
+  QWidget& view_;
+  QStringList states_;
+  std::vector<QRect> chips_;  // one for each state
+};
 
 /// A bar and a sentence that say how many links of a panel are violated, and by how much. The bar weighs both: its
 /// length is the RMS violation. Many small violations may weigh less than a few large ones.
