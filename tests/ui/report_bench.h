@@ -2,7 +2,7 @@
 
 #include "common/plot_widget.h"
 #include "docks/report/report_dock.h"
-#include "docks/report/report_table.h"
+#include "docks/report/report_results.h"
 #include "window.h"
 #include "window/message_bar.h"
 

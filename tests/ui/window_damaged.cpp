@@ -12,7 +12,7 @@
 #include <QLoggingCategory>
 #include <QPushButton>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "folders.h"
 #include "fuzz/damage.h"

@@ -5,8 +5,8 @@
 #include <QProcess>
 #include <cerrno>
 
-#include "docks/preset_store.h"
-#include "docks/replay/replay_dock.h"
+#include "docks/preset_row.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "faults.h"

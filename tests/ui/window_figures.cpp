@@ -10,7 +10,7 @@
 #include "common/plot_widget.h"
 #include "document/edits.h"
 #include "drawing/colour_map.h"
-#include "io/picture_size.h"
+#include "io/picture_actions.h"
 #include "io/pictures.h"
 #include "panels/legend.h"
 #include "panels/panel_area.h"

@@ -12,7 +12,6 @@
 
 #include "document/edits.h"
 #include "io/file_actions.h"
-#include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"

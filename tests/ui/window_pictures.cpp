@@ -10,7 +10,6 @@
 #include "common/colours.h"
 #include "document/edits.h"
 #include "io/picture_actions.h"
-#include "io/picture_size.h"
 #include "io/pictures.h"
 #include "window.h"
 #include "window/message_bar.h"

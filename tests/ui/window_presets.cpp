@@ -6,7 +6,6 @@
 #include <QLineEdit>
 
 #include "docks/preset_row.h"
-#include "docks/preset_store.h"
 #include "window.h"
 #include "window/message_bar.h"
 

@@ -7,7 +7,7 @@
 #include <QTemporaryDir>
 #include <functional>
 
-#include "docks/frame_rate/frame_rate_dock.h"
+#include "docks/frame_rate_dock.h"
 #include "document/edits.h"
 #include "report/page/format.h"
 #include "window.h"

@@ -19,7 +19,6 @@
 
 #include "document/edits.h"
 #include "io/autosave.h"
-#include "io/recovery_bar.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"

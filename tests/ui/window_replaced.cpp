@@ -12,7 +12,6 @@
 
 #include "common/as_path.h"
 #include "folders.h"
-#include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"

@@ -8,7 +8,7 @@
 #include <QSignalSpy>
 #include <QSlider>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "files/session/moves.h"
 #include "io/pictures.h"

@@ -4,7 +4,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 
-#include "docks/propagation/propagation_column.h"
+#include "docks/propagation_column.h"
 #include "tools/propagation_overlay.h"
 
 class QAction;

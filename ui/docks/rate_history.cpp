@@ -1,4 +1,4 @@
-#include "docks/frame_rate/rate_history.h"
+#include "docks/rate_history.h"
 
 #include <algorithm>
 #include <array>

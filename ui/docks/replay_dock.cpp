@@ -1,4 +1,4 @@
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 
 #include <QAction>
 #include <QFileDialog>

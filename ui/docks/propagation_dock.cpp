@@ -1,4 +1,4 @@
-#include "docks/propagation/propagation_dock.h"
+#include "docks/propagation_dock.h"
 
 #include <QAction>
 #include <QEvent>
