@@ -17,10 +17,9 @@
 #include "mesh/failure.h"
 #include "panels/panel.h"
 #include "version/version.h"
-#include "window/about_dialog.h"
+#include "window/bars.h"
+#include "window/help_menu.h"
 #include "window/main_window.h"
-#include "window/message_bar.h"
-#include "window/start_guard.h"
 #include "window/startup.h"
 
 namespace {

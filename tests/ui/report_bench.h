@@ -4,7 +4,7 @@
 #include "docks/report/report_dock.h"
 #include "docks/report/report_results.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail {
 

@@ -14,7 +14,7 @@
 #include "drawing/colour_map.h"
 #include "panels/panel_state.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_comfort {
 

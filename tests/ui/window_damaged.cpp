@@ -18,8 +18,8 @@
 #include "fuzz/damage.h"
 #include "io/sessions.h"
 #include "window.h"
+#include "window/bars.h"
 #include "window/lessons.h"
-#include "window/message_bar.h"
 
 namespace chainmail::window_damaged {
 

@@ -14,7 +14,7 @@
 #include "mesh/error.h"
 #include "report_bench.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_faults {
 

@@ -12,7 +12,7 @@
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_files {
 

@@ -17,7 +17,7 @@
 #include "tools/drag_tool.h"
 #include "tools/rotation_ring.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_handle {
 

@@ -18,9 +18,9 @@
 #include "panels/panel_area.h"
 #include "panels/panel_state.h"
 #include "window.h"
+#include "window/bars.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
-#include "window/message_bar.h"
 
 namespace chainmail::window_lessons {
 

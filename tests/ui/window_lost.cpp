@@ -16,7 +16,7 @@
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 #include "window/show_menu.h"
 
 namespace chainmail::window_lost {

@@ -17,7 +17,7 @@
 #include "io/file_actions.h"
 #include "io/volumes.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_open {
 

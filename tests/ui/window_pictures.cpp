@@ -12,7 +12,7 @@
 #include "io/picture_actions.h"
 #include "io/pictures.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_pictures {
 

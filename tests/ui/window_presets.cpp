@@ -7,7 +7,7 @@
 
 #include "docks/preset_row.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_presets {
 

@@ -23,7 +23,7 @@
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
 #include "session_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_recovery {
 

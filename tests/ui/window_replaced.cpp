@@ -15,7 +15,7 @@
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_replaced {
 

@@ -15,7 +15,7 @@
 #include "panels/panel_area.h"
 #include "safe_bench.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_replay {
 

@@ -24,8 +24,8 @@
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
-#include "window/dock_layout.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
+#include "window/layout.h"
 
 namespace chainmail {
 namespace {

@@ -16,10 +16,10 @@
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "panels/panel_area.h"
+#include "window/bars.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
 #include "window/main_window.h"
-#include "window/message_bar.h"
 #include "window/show_menu.h"
 
 namespace chainmail {

@@ -2,11 +2,22 @@
 
 #include <QFrame>
 #include <QLabel>
+#include <QPointer>
+#include <QProgressBar>
+#include <QTimer>
+#include <QToolButton>
+#include <QWidget>
 #include <vector>
 
+#include "common/jobs.h"
+
 class QToolButton;
+class QVBoxLayout;
 
 namespace chainmail {
+
+class Panel;
+class PanelArea;
 
 enum class Severity { info, warning, error };
 
@@ -57,6 +68,46 @@ class MessageBar : public QFrame {
   QLabel* waiting_;
   QToolButton* all_;
   QToolButton* close_;
+};
+
+/// Shows the progress of a background job in the status bar after 0.2 s, with a button that cancels it.
+class JobBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit JobBar(Jobs& jobs);
+
+ private:
+  void follow();
+  void showShare();
+
+  Jobs& jobs_;
+  QLabel* text_;
+  QProgressBar* share_;
+  QToolButton* cancel_;
+  QTimer clock_;
+};
+
+/// Bars that come and go, one above the other, over the lower edge of the lowest views. They hide no sentence of a
+/// panel, and what is below them does not move, so that the next click hits what it was aimed at.
+class BarsOverViews : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `area` has a parent, which becomes the parent of the bars too.
+  explicit BarsOverViews(PanelArea& area);
+  /// Adds a bar below the others. It keeps its own visibility.
+  void add(QWidget& bar);
+
+ protected:
+  bool event(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void place();
+
+  QPointer<PanelArea> area_;  // its panels may still move while it is deleted
+  QVBoxLayout* column_;
 };
 
 }  // namespace chainmail
