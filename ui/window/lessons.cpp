@@ -25,9 +25,9 @@
 namespace chainmail {
 namespace {
 
-constexpr float singleSize = 13, edge = 4;         // pixels; the edge is the background around the mark, both sides
-constexpr double smallest = 2, largest = 10;       // diameter of the mark of one of many elements, pixels
-constexpr double share = 0.5, spatialShare = 0.2;  // that diameter, in link lengths
+constexpr float markSize = 13, markEdge = 4;          // pixels; the edge is the background around the mark, both sides
+constexpr double smallestMark = 2, largestMark = 10;  // diameter of the mark of one of many elements, pixels
+constexpr double markShare = 0.5, spatialMarkShare = 0.2;  // that diameter, in link lengths
 
 constexpr std::array tools{"drag", "cut", "pin", "measure", "select"};
 
@@ -58,12 +58,12 @@ QStringList toolNames() { return {tools.begin(), tools.end()}; }
 void LessonHandle::draw(const Canvas& canvas) {
   const auto dragged = player_.dragged();
   if (dragged.size() == 1) {
-    canvas.painter.drawElements(canvas.scene, dragged, canvas.scene.background, singleSize + edge);
-    canvas.painter.drawElements(canvas.scene, dragged, colours::lit, singleSize);
+    canvas.painter.drawElements(canvas.scene, dragged, canvas.scene.background, markSize + markEdge);
+    canvas.painter.drawElements(canvas.scene, dragged, colours::lit, markSize);
   } else if (!dragged.empty()) {
     const Mesh& mesh = *canvas.frame.mesh;
-    const double pixels = (mesh.space_dimension == 3 ? spatialShare : share) * mesh.mean_link_length;
-    const auto diameter = float(std::clamp(pixels / canvas.unitsPerPixel, smallest, largest));
+    const double pixels = (mesh.space_dimension == 3 ? spatialMarkShare : markShare) * mesh.mean_link_length;
+    const auto diameter = float(std::clamp(pixels / canvas.unitsPerPixel, smallestMark, largestMark));
     canvas.painter.drawElements(canvas.scene, dragged, colours::lit, diameter);
   }
 }
