@@ -155,7 +155,7 @@ class Texts : public QObject {
       }
       ++checked;
     }
-    QVERIFY(checked > 200);
+    QVERIFY(checked > 100);
   }
 };
 
