@@ -11,17 +11,15 @@
 
 #include "common/application.h"
 #include "common/as_path.h"
-#include "common/last_words.h"
 #include "docks/mesh_dock.h"
 #include "files/text/temporary_folder.h"
 #include "io/sessions.h"
 #include "mesh/failure.h"
 #include "panels/panel.h"
 #include "version/version.h"
-#include "window/about_dialog.h"
+#include "window/bars.h"
+#include "window/help_menu.h"
 #include "window/main_window.h"
-#include "window/message_bar.h"
-#include "window/start_guard.h"
 #include "window/startup.h"
 
 namespace {

@@ -11,7 +11,7 @@
 #include "bench/scenes.h"
 #include "bench/window_program.h"
 #include "document/edits.h"
-#include "drawing/prepared_levels.h"
+#include "drawing/mesh_levels.h"
 #include "io/sessions.h"
 #include "mesh/generate.h"
 #include "panels/panel.h"

@@ -8,7 +8,6 @@
 #include "colour_vision.h"
 #include "common/colours.h"
 #include "document/panel_colour.h"
-#include "drawing/colour_values.h"
 #include "mesh/generate.h"
 #include "program.h"
 

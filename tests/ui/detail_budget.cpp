@@ -1,9 +1,8 @@
 // Tests how measured times choose the detail of moving objects.
 
-#include "drawing/detail_budget.h"
-
 #include <QTest>
 
+#include "drawing/object_drawing.h"
 #include "program.h"
 
 namespace chainmail::detail_budget {

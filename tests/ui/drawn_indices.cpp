@@ -1,15 +1,13 @@
 // Tests which links and faces of a mesh are drawn, in full detail and coarsely.
 
-#include "drawing/drawn_indices.h"
-
 #include <QTest>
 #include <algorithm>
 #include <numeric>
 #include <random>
 #include <set>
 
-#include "drawing/coarse_level.h"
 #include "drawing/drawn_parts.h"
+#include "drawing/mesh_level.h"
 #include "mesh/generate.h"
 #include "program.h"
 #include "scene.h"

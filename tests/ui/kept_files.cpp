@@ -10,7 +10,7 @@
 #include <QTest>
 #include <memory>
 
-#include "docks/preset_store.h"
+#include "docks/preset_row.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
 #include "program.h"

@@ -5,7 +5,7 @@
 #include <QMimeData>
 #include <QSpinBox>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "io/file_actions.h"
 #include "io/picture_actions.h"
 #include "io/sessions.h"

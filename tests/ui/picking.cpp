@@ -6,9 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "drawing/coarse_level.h"
+#include "drawing/mesh_level.h"
 #include "drawing/mesh_levels.h"
-#include "drawing/prepared_levels.h"
 #include "program.h"
 #include "property.h"
 #include "scene.h"

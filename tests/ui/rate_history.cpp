@@ -1,6 +1,6 @@
 // Tests the lines of figures over time.
 
-#include "docks/frame_rate/rate_history.h"
+#include "docks/rate_history.h"
 
 #include <QTest>
 #include <algorithm>

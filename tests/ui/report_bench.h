@@ -2,9 +2,9 @@
 
 #include "common/plot_widget.h"
 #include "docks/report/report_dock.h"
-#include "docks/report/report_table.h"
+#include "docks/report/report_results.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail {
 

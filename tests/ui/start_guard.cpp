@@ -1,7 +1,5 @@
 // Tests that no settings file ends or delays every start.
 
-#include "window/start_guard.h"
-
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +14,7 @@
 #include <string_view>
 
 #include "program.h"
+#include "window/startup.h"
 
 namespace chainmail::start_guard {
 

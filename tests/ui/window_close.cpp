@@ -7,7 +7,7 @@
 #include <QTemporaryDir>
 #include <functional>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "docks/report/report_thread.h"
 #include "document/edits.h"
 #include "fair_timer.h"

@@ -12,9 +12,9 @@
 #include "document/edits.h"
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_comfort {
 

@@ -7,8 +7,8 @@
 #include "document/panel_colour.h"
 #include "drawing/colour_map.h"
 #include "measure/violation.h"
-#include "panels/ghost_button.h"
 #include "panels/legend.h"
+#include "panels/panel_head.h"
 #include "window.h"
 
 namespace chainmail::window_compare {

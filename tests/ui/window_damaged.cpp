@@ -12,14 +12,14 @@
 #include <QLoggingCategory>
 #include <QPushButton>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "folders.h"
 #include "fuzz/damage.h"
 #include "io/sessions.h"
 #include "window.h"
+#include "window/bars.h"
 #include "window/lessons.h"
-#include "window/message_bar.h"
 
 namespace chainmail::window_damaged {
 

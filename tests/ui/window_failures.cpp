@@ -9,7 +9,7 @@
 #include "document/edits.h"
 #include "io/sessions.h"
 #include "session_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_failures {
 

@@ -5,8 +5,8 @@
 #include <QProcess>
 #include <cerrno>
 
-#include "docks/preset_store.h"
-#include "docks/replay/replay_dock.h"
+#include "docks/preset_row.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "faults.h"
@@ -14,7 +14,7 @@
 #include "mesh/error.h"
 #include "report_bench.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_faults {
 

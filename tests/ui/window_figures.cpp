@@ -10,12 +10,11 @@
 #include "common/plot_widget.h"
 #include "document/edits.h"
 #include "drawing/colour_map.h"
-#include "io/picture_size.h"
+#include "io/picture_actions.h"
 #include "io/pictures.h"
 #include "panels/legend.h"
 #include "panels/panel_area.h"
-#include "panels/state_chips.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 
 namespace chainmail::window_figures {

@@ -9,10 +9,10 @@
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "io/file_actions.h"
-#include "io/recovery_bar.h"
 #include "io/sessions.h"
+#include "io/unsaved_work.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_files {
 

@@ -18,7 +18,7 @@
 #include "folders.h"
 #include "io/sessions.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_foreign {
 

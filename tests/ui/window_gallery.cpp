@@ -5,7 +5,7 @@
 
 #include "io/samples.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_gallery {
 

@@ -14,10 +14,10 @@
 #include "document/edits.h"
 #include "io/sessions.h"
 #include "mesh/mesh.h"
-#include "tools/grab_brush.h"
+#include "tools/drag_tool.h"
 #include "tools/rotation_ring.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_handle {
 

@@ -8,7 +8,7 @@
 #include "document/edits.h"
 #include "io/file_actions.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_jobs {
 

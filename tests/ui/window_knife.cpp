@@ -4,7 +4,7 @@
 #include <QToolButton>
 
 #include "core/families.h"
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "window.h"
 

@@ -11,16 +11,16 @@
 #include "document/edits.h"
 #include "document/lesson_player.h"
 #include "files/session/session.h"
-#include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
+#include "io/unsaved_work.h"
 #include "measure/violation.h"
 #include "panels/panel_area.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
+#include "window/bars.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
-#include "window/message_bar.h"
 
 namespace chainmail::window_lessons {
 

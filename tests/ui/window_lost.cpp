@@ -12,12 +12,11 @@
 
 #include "document/edits.h"
 #include "io/file_actions.h"
-#include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 #include "window/show_menu.h"
 
 namespace chainmail::window_lost {

@@ -15,10 +15,9 @@
 #include "document/edits.h"
 #include "folders.h"
 #include "io/file_actions.h"
-#include "io/volume_bar.h"
 #include "io/volumes.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_open {
 

@@ -11,7 +11,7 @@
 #include "document/edits.h"
 #include "panels/legend.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_physics {
 

@@ -10,10 +10,9 @@
 #include "common/colours.h"
 #include "document/edits.h"
 #include "io/picture_actions.h"
-#include "io/picture_size.h"
 #include "io/pictures.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_pictures {
 

@@ -6,9 +6,8 @@
 #include <QLineEdit>
 
 #include "docks/preset_row.h"
-#include "docks/preset_store.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_presets {
 

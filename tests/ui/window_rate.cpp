@@ -7,11 +7,11 @@
 #include <QTemporaryDir>
 #include <functional>
 
-#include "docks/frame_rate/frame_rate_dock.h"
+#include "docks/frame_rate_dock.h"
 #include "document/edits.h"
 #include "report/page/format.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_rate {
 

@@ -19,12 +19,11 @@
 
 #include "document/edits.h"
 #include "io/autosave.h"
-#include "io/recovery_bar.h"
 #include "io/sessions.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
 #include "session_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_recovery {
 

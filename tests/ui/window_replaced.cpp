@@ -12,11 +12,10 @@
 
 #include "common/as_path.h"
 #include "folders.h"
-#include "io/recovery_bar.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 #include "safe_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_replaced {
 

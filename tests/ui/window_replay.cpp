@@ -8,14 +8,14 @@
 #include <QSignalSpy>
 #include <QSlider>
 
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "files/session/moves.h"
 #include "io/pictures.h"
 #include "panels/panel_area.h"
 #include "safe_bench.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_replay {
 

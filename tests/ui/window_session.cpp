@@ -5,7 +5,7 @@
 #include "document/edits.h"
 #include "io/sessions.h"
 #include "session_bench.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 #include "window/window_layout.h"
 
 namespace chainmail::window_session {

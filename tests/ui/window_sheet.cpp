@@ -8,7 +8,7 @@
 
 #include "io/sessions.h"
 #include "window.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
 
 namespace chainmail::window_sheet {
 

@@ -9,7 +9,7 @@
 #include "document/edits.h"
 #include "folders.h"
 #include "io/pictures.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 
 namespace chainmail::window_views {

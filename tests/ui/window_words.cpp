@@ -12,10 +12,9 @@
 #include <limits>
 
 #include "document/edits.h"
-#include "panels/colour_selector.h"
+#include "panels/colour_choices.h"
 #include "panels/legend.h"
-#include "panels/state_chips.h"
-#include "panels/violation_line.h"
+#include "panels/panel_state.h"
 #include "window.h"
 
 namespace chainmail::window_words {

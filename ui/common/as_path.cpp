@@ -3,6 +3,7 @@
 #include <QFileInfo>
 
 #include "common/text.h"
+#include "files/text/outputs.h"
 #include "files/text/text.h"
 
 namespace chainmail {
@@ -59,6 +60,13 @@ QString keptPath(const QString& path) {
 QString pathOfKept(const QString& kept) {
   return kept.startsWith(scheme) ? pathOf(QByteArray::fromPercentEncoding(kept.sliced(scheme.size()).toLatin1()))
                                  : kept;
+}
+
+void writeBytes(const QString& path, const QByteArray& bytes) {
+  if (bytes.isEmpty()) {
+    throw Error(path.toStdString(), "there is not enough memory for the picture", "choose a smaller scale");
+  }
+  write_file(asPath(path), [&](std::ostream& out) { out.write(bytes.constData(), bytes.size()); });
 }
 
 }  // namespace chainmail

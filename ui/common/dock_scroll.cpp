@@ -6,7 +6,7 @@
 #include <QScrollBar>
 #include <algorithm>
 
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 
 namespace chainmail {
 namespace {

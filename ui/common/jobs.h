@@ -1,13 +1,85 @@
 #pragma once
 
+#include <QMetaObject>
 #include <QObject>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <new>
+#include <thread>
 
-#include "common/task_thread.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
+
+/// Runs tasks one after another on a thread of its own, which starts with the first task and then stays. Its owner uses
+/// it from one thread.
+///
+/// A task reports its failures itself. What it throws nevertheless ends the task, and nothing else.
+class TaskThread {
+ public:
+  using Task = std::function<void()>;
+
+  TaskThread() = default;
+  TaskThread(const TaskThread&) = delete;
+  TaskThread& operator=(const TaskThread&) = delete;
+  ~TaskThread() { finish(); }
+
+  /// Starts the thread, so that a later add() needs none. Throws std::system_error if the system starts no thread.
+  void start();
+  /// Appends a task. Throws std::system_error if the thread does not run and the system starts none, and
+  /// std::bad_alloc; the task is not added then.
+  void add(Task task);
+  /// Runs the tasks that wait, and ends the thread. A later task starts another one.
+  void finish();
+
+ private:
+  void run(const std::stop_token& stop);
+
+  std::mutex mutex_;  // guards the tasks
+  std::condition_variable_any changed_;
+  std::deque<Task> tasks_;
+  std::jthread thread_;
+};
+
+/// Calls a function or a member function of `receiver` in the GUI thread, soon. For other threads: the window would
+/// wait for ever for an announcement that is lost, so this waits some seconds for memory if there is none. Throws
+/// std::bad_alloc after that.
+template <class Receiver, class Call>
+void announce(Receiver* receiver, const Call& call) {
+  constexpr int tries = 500;
+  constexpr std::chrono::milliseconds pause(10);
+  for (int i = 1;; ++i) {
+    try {
+      QMetaObject::invokeMethod(receiver, call, Qt::QueuedConnection);
+      return;
+    } catch (const std::bad_alloc&) {
+      if (i == tries) {
+        throw;
+      }
+      std::this_thread::sleep_for(pause);
+    }
+  }
+}
+
+/// The same, unless such a call is on its way: `announced` is true from now until the call resets it. For callers that
+/// try again later: throws std::bad_alloc at once if there is no memory.
+template <class Receiver, class Call>
+void announceOnce(std::atomic<bool>& announced, Receiver* receiver, const Call& call) {
+  if (announced.exchange(true)) {
+    return;
+  }
+  try {
+    QMetaObject::invokeMethod(receiver, call, Qt::QueuedConnection);
+  } catch (...) {
+    announced = false;
+    throw;
+  }
+}
 
 /// Runs the long jobs of a window (opening, building, saving) on a separate thread, one at a time.
 ///

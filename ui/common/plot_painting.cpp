@@ -6,10 +6,10 @@
 #include <QSvgRenderer>
 #include <cmath>
 
+#include "common/as_path.h"
 #include "common/colours.h"
 #include "common/text.h"
 #include "common/theme.h"
-#include "common/write_bytes.h"
 #include "report/page/plot_style.h"
 
 namespace chainmail {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QChar>
 #include <QLocale>
 #include <QString>
 #include <algorithm>
@@ -46,6 +47,16 @@ inline QString shownRate(double perSecond) {
   const double digit = perSecond < 1000 ? 1 : std::pow(10, std::floor(std::log10(perSecond)) - 2);
   return perSecond < 100 ? QLocale().toString(perSecond, 'g', 3)
                          : QLocale().toString(digit * std::round(perSecond / digit), 'f', 0);
+}
+
+/// Returns the name of a panel: A, B, C, … Panels are numbered from 0.
+inline QString panelName(int panel) { return QChar(u'A' + panel); }
+
+/// Returns a number as QLocale::toString() does; ∞ for an infinite one, and – for what is not a number.
+inline QString shownNumber(double number, char format, int digits) {
+  return std::isnan(number)   ? QStringLiteral("–")
+         : std::isinf(number) ? (number < 0 ? QStringLiteral("−∞") : QStringLiteral("∞"))
+                              : QLocale().toString(number, format, digits);
 }
 
 }  // namespace chainmail

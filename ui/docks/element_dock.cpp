@@ -11,8 +11,7 @@
 #include <span>
 
 #include "common/dock_scroll.h"
-#include "common/parameter_row.h"
-#include "common/shown_number.h"
+#include "common/number_field.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "document/element_facts.h"

@@ -2,17 +2,44 @@
 
 #include <QComboBox>
 #include <QDockWidget>
+#include <QFrame>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <array>
 
 #include "common/jobs.h"
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "document/document.h"
 #include "mesh/generate.h"
 
+class QGridLayout;
+
 namespace chainmail {
+
+/// A popover with thumbnails of the samples; a click opens one.
+class Gallery : public QFrame {
+  Q_OBJECT
+
+ public:
+  /// Shows the samples in `folder`. An empty string means that there is no such folder.
+  explicit Gallery(const QString& folder, QWidget* parent = nullptr);
+
+  /// Opens below a button, or where there is room on its screen.
+  void openBelow(const QWidget& button);
+
+ signals:
+  void chosen(const QString& path);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void fill();
+
+  QString folder_;
+  QGridLayout* grid_;
+};
 
 /// Returns the recipe of the first object of the window, which is also the default in the dock.
 inline MeshRecipe sampleRecipe() {

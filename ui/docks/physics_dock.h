@@ -7,9 +7,9 @@
 #include <QVBoxLayout>
 #include <array>
 
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "document/document.h"
-#include "tools/pin_layers.h"
+#include "tools/pin_tool.h"
 
 namespace chainmail {
 

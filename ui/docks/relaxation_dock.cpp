@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "common/dock_scroll.h"
-#include "common/panel_names.h"
-#include "common/shown_number.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "report/page/format.h"

@@ -6,7 +6,7 @@
 #include <QLabel>
 #include <QTimer>
 
-#include "common/parameter_row.h"
+#include "common/number_field.h"
 #include "document/document.h"
 
 namespace chainmail {

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "common/application.h"
+#include "document/document.h"
+
 namespace chainmail {
 
 std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
@@ -12,6 +15,72 @@ std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const Mes
   result->parts.cut(result->cuts, cuts);
   result->pins = std::move(pins);
   return result;
+}
+
+Edit::Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept)
+    : QUndoCommand(change.text),
+      document_(document),
+      before_(document.contents_),
+      change_(std::move(change)),
+      state_(state),
+      kept_(kept) {}
+
+Edit::~Edit() {
+  try {
+    if (state_) {
+      document_.post(commands::DropState{*state_});
+    }
+  } catch (...) {
+    // No memory for the command: the solvers keep a state that nobody needs.
+  }
+}
+
+void Edit::redo() {
+  if (done_) {
+    exchange(before_, change_.after, true);
+    return;
+  }
+  done_ = true;
+  if (state_ && !kept_) {
+    document_.post(commands::KeepState{*state_});
+  }
+  try {
+    document_.carryOut(change_, before_);
+  } catch (...) {  // no memory for a command: the solvers return to the state before
+    if (state_) {
+      document_.post(commands::RestoreState{*state_});
+    }
+    throw;
+  }
+  change_.carryOut = {};
+  show(before_, change_.after, true);
+}
+
+void Edit::undo() { exchange(change_.after, before_, false); }
+
+bool Edit::mergeWith(const QUndoCommand* later) {
+  const auto* other = dynamic_cast<const Edit*>(later);
+  if (other == nullptr || other->text() != text()) {
+    return false;
+  }
+  change_.after = other->change_.after;
+  return true;
+}
+
+void Edit::exchange(const Contents& from, const Contents& to, bool done) {
+  const commands::StateId now = document_.newState();
+  document_.post(commands::KeepState{now});
+  document_.postSettings(
+      from, to, from.object != to.object ? Document::SolversHave::anotherObject : Document::SolversHave::thisObject);
+  document_.post(commands::RestoreState{*state_});
+  document_.post(commands::DropState{*state_});
+  state_ = now;
+  show(from, to, done);
+}
+
+/// The step must reach the stack, or leave it, whatever fails here.
+void Edit::show(const Contents& from, const Contents& to, bool done) {
+  Application::guarded([&] { document_.show(change_, from, to, done); });
 }
 
 }  // namespace chainmail

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
+#include <utility>
 
 #include "common/application.h"
-#include "common/panel_names.h"
 #include "common/text.h"
-#include "document/edit.h"
 #include "document/element_facts.h"
 #include "files/session/session.h"
 #include "mesh/error.h"
@@ -381,6 +379,18 @@ void Document::showMoves() {
     contents_.softness = object.softness;
     emit softnessChanged();
   }
+}
+
+void DocumentFiles::setSession(const QString& file) {
+  if (file != session_) {
+    session_ = file;
+    emit sessionChanged();
+  }
+}
+
+void DocumentFiles::exchangeSession(QString& file) {
+  std::swap(session_, file);
+  Application::guarded([this] { emit sessionChanged(); });
 }
 
 }  // namespace chainmail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <QUndoStack>
 #include <array>
 #include <functional>
@@ -9,9 +10,7 @@
 #include <span>
 
 #include "document/change.h"
-#include "document/document_files.h"
 #include "document/drag_session.h"
-#include "document/highlight.h"
 #include "document/move_player.h"
 #include "document/panel_solvers.h"
 #include "document/selection.h"
@@ -19,6 +18,24 @@
 namespace chainmail {
 
 struct Session;
+
+/// The file of a document.
+class DocumentFiles : public QObject {
+  Q_OBJECT
+
+ public:
+  /// The file of this session; empty if it has none yet.
+  const QString& session() const { return session_; }
+  void setSession(const QString& file);
+  /// Exchanges the file of the session with `file`, which an undo step keeps.
+  void exchangeSession(QString& file);
+
+ signals:
+  void sessionChanged();
+
+ private:
+  QString session_;
+};
 
 /// The object, its parameters, their undo stack, and one solver per panel that deforms the object.
 ///

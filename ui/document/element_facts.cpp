@@ -3,7 +3,7 @@
 #include <QStringList>
 #include <algorithm>
 
-#include "common/shown_number.h"
+#include "common/text.h"
 #include "measure/violation.h"
 
 namespace chainmail {

@@ -3,7 +3,7 @@
 #include <QString>
 #include <span>
 
-#include "common/panel_names.h"
+#include "common/text.h"
 #include "document/document.h"
 
 namespace chainmail {

@@ -6,9 +6,9 @@
 #include <exception>
 #include <utility>
 
-#include "common/announce.h"
 #include "common/application.h"
-#include "common/panel_names.h"
+#include "common/jobs.h"
+#include "common/text.h"
 #include "mesh/error.h"
 
 namespace chainmail {

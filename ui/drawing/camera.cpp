@@ -1,6 +1,5 @@
 #include "drawing/camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>

@@ -3,7 +3,9 @@
 #include <QMatrix4x4>
 #include <QPointF>
 #include <QSizeF>
+#include <QString>
 #include <QVector3D>
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -86,5 +88,13 @@ class Camera {
   bool framed_ = false;
   Up up_ = Up::y;
 };
+
+/// True if objects in files of this format usually stand on the xy plane: parts for printing, and scans of patients.
+/// Otherwise the y axis usually points up, as in graphics.
+inline bool usuallyZUp(const QString& fileName) {
+  constexpr std::array endings{".stl", ".nrrd", ".nhdr", ".mha", ".mhd"};
+  return std::ranges::any_of(
+      endings, [&](const char* ending) { return fileName.endsWith(QLatin1String(ending), Qt::CaseInsensitive); });
+}
 
 }  // namespace chainmail

@@ -1,7 +1,6 @@
 #include "drawing/colour_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace chainmail::colour_map {
 

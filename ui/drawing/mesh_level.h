@@ -91,4 +91,12 @@ MeshLevelPointer wholeLevel(const MeshPointer& mesh);
 /// Computes the clusters of a level from its elements (in any order), links and faces.
 void makeClusters(MeshLevel& level);
 
+/// Returns a level of a lattice mesh: every `step`-th row and the last row along each axis.
+MeshLevelPointer coarseLattice(const MeshPointer& mesh, unsigned step);
+
+/// Returns the next coarser level of any mesh. Its elements are elements of `finer` that are not linked to each other;
+/// each represents its neighbours. Its step is twice that of `finer`, because its links are slightly more than two
+/// links of `finer` long.
+MeshLevelPointer coarser(const MeshLevel& finer);
+
 }  // namespace chainmail

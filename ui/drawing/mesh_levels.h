@@ -1,13 +1,47 @@
 #pragma once
 
+#include <QOpenGLFunctions>
 #include <map>
+#include <memory>
+#include <vector>
 
-#include "drawing/card_texture.h"
-#include "drawing/coarse_level.h"
+#include "drawing/mesh_level.h"
 #include "drawing/surface_maker.h"
+#include "mesh/progress.h"
 #include "mesh/section.h"
+#include "mesh/texture.h"
+
+class QOpenGLContextGroup;
 
 namespace chainmail {
+
+/// A texture on the graphics card. Constructor and destructor require a context of the same share group to be current.
+class CardTexture {
+ public:
+  explicit CardTexture(const Texture& texture);
+  ~CardTexture();
+  CardTexture(const CardTexture&) = delete;
+  CardTexture& operator=(const CardTexture&) = delete;
+
+  /// Binds the texture for the next draw call: a sampler2D for a picture, a sampler3D for a volume.
+  void bind() const;
+
+ private:
+  GLenum target_;
+  GLuint number_ = 0;
+};
+
+/// Sends the texture of a mesh to the graphics card once for all painters. The last painter frees it.
+class CardTextures {
+ public:
+  /// Returns the texture on the graphics card; sends it on first use. Requires the context to be current.
+  std::shared_ptr<CardTexture> of(const std::shared_ptr<const Texture>& texture);
+
+ private:
+  std::weak_ptr<const Texture> texture_;
+  std::weak_ptr<CardTexture> onCard_;
+  const QOpenGLContextGroup* group_ = nullptr;
+};
 
 /// The data that all painters of one mesh share, created on first use: its levels of detail, outer surface and section.
 /// All panels have the same cuts.
@@ -45,5 +79,13 @@ class MeshLevels {
   MeshPointer mesh_;
   std::map<unsigned, MeshLevelPointer> levels_;
 };
+
+/// Computes the levels with which a large mesh will be searched and first drawn. Call this in the job that opens the
+/// mesh, so that the window does not wait for them. They are kept until they are taken or those of another mesh are
+/// prepared. Throws Cancelled.
+void prepareLevels(const MeshPointer& mesh, const Progress& progress);
+
+/// Returns the prepared levels of a mesh, if any, and no longer keeps them.
+std::vector<MeshLevelPointer> takePreparedLevels(const MeshPointer& mesh);
 
 }  // namespace chainmail

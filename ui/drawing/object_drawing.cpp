@@ -1,8 +1,5 @@
 #include "drawing/object_drawing.h"
 
-#include "common/colours.h"
-#include "drawing/colour_map.h"
-
 namespace chainmail {
 namespace {
 

@@ -9,9 +9,9 @@
 
 #include "common/colours.h"
 #include "drawing/colour_map.h"
-#include "drawing/drawn_indices.h"
+#include "drawing/drawn_parts.h"
+#include "drawing/object_layer.h"
 #include "drawing/projection.h"
-#include "drawing/shaders.h"
 
 namespace chainmail {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "drawing/drawn_parts.h"
 #include "drawing/object_layer.h"
-#include "drawing/see_through.h"
 #include "drawing/surface_normals.h"
 
 namespace chainmail {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "drawing/cluster_boxes.h"
 #include "drawing/projection.h"
 
 namespace chainmail {

@@ -5,7 +5,7 @@
 #include <future>
 #include <memory>
 
-#include "common/task_thread.h"
+#include "common/jobs.h"
 #include "mesh/surface.h"
 
 namespace chainmail {

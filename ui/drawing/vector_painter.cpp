@@ -7,7 +7,7 @@
 
 #include "common/colours.h"
 #include "drawing/colour_map.h"
-#include "drawing/drawn_indices.h"
+#include "drawing/drawn_parts.h"
 #include "drawing/projection.h"
 
 namespace chainmail {

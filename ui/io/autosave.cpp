@@ -7,8 +7,8 @@
 #include <future>
 #include <utility>
 
-#include "common/announce.h"
 #include "common/as_path.h"
+#include "common/jobs.h"
 #include "document/session_draft.h"
 #include "files/session/session.h"
 #include "io/unsaved_work.h"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "common/task_thread.h"
+#include "common/jobs.h"
 #include "document/document.h"
 
 namespace chainmail {

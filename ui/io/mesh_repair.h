@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QFrame>
+#include <QLabel>
 #include <QMenu>
 #include <QObject>
 #include <functional>
@@ -10,9 +12,47 @@
 #include "document/document.h"
 #include "files/repair/repair.h"
 
+class QHBoxLayout;
+class QLineEdit;
+class QPushButton;
+
 namespace chainmail {
 
-class RepairBar;
+struct Defects;
+
+/// A bar above the panels that names the defects of the object, with a button for each repair that applies.
+class RepairBar : public QFrame {
+  Q_OBJECT
+
+ public:
+  RepairBar();
+
+  /// Shows the bar with these defects; `ifNone` is its text where there is none.
+  void offer(const Defects& defects, const QString& ifNone = {});
+  /// Elements as close as this are welded (mesh units).
+  double weldDistance() const;
+  /// Adds what Show has selected to the text.
+  void showShown(const QString& what);
+
+ signals:
+  void showRequested();
+  void weldRequested();
+  void removeLooseRequested();
+  void closeHolesRequested();
+  void turnCellsRequested();
+  void dismissed();
+
+ private:
+  QPushButton* addButton(const QString& text, const char* name, const QString& help, void (RepairBar::*request)());
+  void addWeldDistance();
+  void addClose();
+
+  QHBoxLayout* row_;
+  QLabel* text_;
+  QLabel* shown_;
+  QPushButton *show_, *weld_, *loose_, *holes_, *cells_;
+  QLineEdit* distance_;
+};
 
 /// Offers to repair the object, and repairs it in the background. Each repair is one undo step.
 class MeshRepair : public QObject {

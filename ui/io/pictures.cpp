@@ -9,8 +9,8 @@
 #include <functional>
 #include <optional>
 
+#include "common/as_path.h"
 #include "common/colours.h"
-#include "common/write_bytes.h"
 #include "mesh/error.h"
 #include "panels/legend.h"
 #include "panels/panel.h"

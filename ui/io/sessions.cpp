@@ -1,5 +1,8 @@
 #include "io/sessions.h"
 
+#include <sys/stat.h>
+
+#include <QDir>
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -7,14 +10,28 @@
 #include "common/as_path.h"
 #include "document/edits.h"
 #include "document/session_draft.h"
-#include "drawing/prepared_levels.h"
-#include "io/mesh_source.h"
-#include "io/recovery_bar.h"
+#include "drawing/mesh_levels.h"
+#include "files/mesh/open_mesh.h"
+#include "files/text/text.h"
+#include "io/picture_file.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
+#include "mesh/error.h"
+#include "mesh/sheet.h"
 
 namespace chainmail {
 namespace {
+
+QString found(const QString& session, const QString& name) {
+  for (const QString& folder : {QFileInfo(session).path(), samplesFolder()}) {
+    QString path = QDir(folder).filePath(name);
+    if (std::error_code none; !folder.isEmpty() && std::filesystem::exists(asPath(path), none)) {
+      return path;
+    }
+  }
+  throw Error(shown(asPath(session)), "its mesh " + in_quotes(name.toStdString()) + " was not found",
+              "put that file into the folder of the session");
+}
 
 /// Returns the file that an automatically saved session was opened from or saved to, if any.
 QString ownFile(const Session& session) {
@@ -23,6 +40,40 @@ QString ownFile(const Session& session) {
 }
 
 }  // namespace
+
+std::optional<FileState> stateOf(const QString& path) {
+  struct stat status {};
+  if (stat(asPath(path).c_str(), &status) != 0) {
+    return std::nullopt;
+  }
+  return FileState{std::uint64_t(status.st_dev), std::uint64_t(status.st_ino), std::uint64_t(status.st_size),
+                   std::int64_t(status.st_mtim.tv_sec), std::int64_t(status.st_mtim.tv_nsec)};
+}
+
+void KnownFiles::know(const QString& path, const std::optional<FileState>& state) {
+  if (state) {
+    known_[path] = *state;
+  } else {
+    known_.erase(path);
+  }
+}
+
+bool KnownFiles::isChanged(const QString& path) const {
+  const auto known = known_.find(path);
+  const auto now = stateOf(path);
+  return known != known_.end() && now && *now != known->second;
+}
+
+MeshOpener meshesNear(const QString& session) {
+  return [session](const std::string& name, std::uint32_t across, const Progress& progress) -> MeshPointer {
+    const QString path = found(session, QString::fromStdString(name));
+    if (!isPicture(path)) {
+      return open_mesh(asPath(path), {}, progress).mesh;
+    }
+    return make_sheet(readPictureFile(path, progress.part(0, 0.7)), across > 0 ? across : elementsAcross,
+                      progress.part(0.7, 1));
+  };
+}
 
 Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent)
     : QObject(parent), document_(document), jobs_(jobs), layout_(std::move(layout)), recovery_(new RecoveryBar) {

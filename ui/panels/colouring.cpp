@@ -4,11 +4,7 @@
 
 #include <QElapsedTimer>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "common/panel_names.h"
-#include "common/shown_number.h"
 #include "common/text.h"
 #include "measure/violation.h"
 

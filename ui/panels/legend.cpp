@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/shown_number.h"
 #include "common/text.h"
 #include "drawing/colour_map.h"
 

@@ -10,12 +10,10 @@
 #include <cmath>
 
 #include "common/colours.h"
-#include "common/panel_names.h"
-#include "common/shown_number.h"
 #include "common/text.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"
-#include "panels/state_chips.h"
+#include "panels/panel_state.h"
 
 namespace chainmail {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "panels/legend.h"
 #include "panels/panel_head.h"
+#include "panels/panel_state.h"
 #include "panels/view.h"
-#include "panels/violation_line.h"
 
 namespace chainmail {
 

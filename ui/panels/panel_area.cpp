@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "common/text_scale.h"
-#include "common/up_axis.h"
+#include "common/theme.h"
+#include "drawing/camera.h"
 #include "drawing/mesh_levels.h"
 #include "panels/legend.h"
 #include "panels/panel.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drawing/camera.h"
-#include "drawing/draw_options.h"
+#include "drawing/object_drawing.h"
 #include "panels/colouring.h"
 #include "panels/panel_links.h"
 

@@ -1,24 +1,88 @@
 #include "panels/panel_head.h"
 
 #include <QAbstractItemView>
+#include <QActionGroup>
+#include <QApplication>
 #include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
+#include <QPainter>
+#include <QSlider>
 #include <QStandardItemModel>
-#include <QToolButton>
+#include <QStyledItemDelegate>
+#include <QWidgetAction>
+#include <cmath>
 
 #include "common/icons.h"
-#include "common/panel_names.h"
 #include "common/text.h"
-#include "common/text_scale.h"
+#include "common/theme.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
 #include "document/panel_colour.h"
 #include "mesh/error.h"
-#include "panels/algorithm_delegate.h"
-#include "panels/ghost_button.h"
+#include "panels/view.h"
 
 namespace chainmail {
 namespace {
+
+constexpr int blendSteps = 100;
+constexpr int sliderWidth = 180;
+
+constexpr int margin = 8, padding = 4;  // pixels
+constexpr double smaller = 0.88;        // size of the explanation, relative to the name
+
+QFont smallFont(QFont font) {
+  font.setPointSizeF(smaller * font.pointSizeF());
+  return font;
+}
+
+/// Draws the entries of an algorithm list: the name, and a line below it that explains the algorithm or says why it is
+/// not available.
+class AlgorithmDelegate : public QStyledItemDelegate {
+ public:
+  /// The role of the line below the name.
+  static constexpr int explanationRole = Qt::UserRole + 1;
+
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+};
+
+void AlgorithmDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
+  const QString explanation = index.data(explanationRole).toString();
+  if (explanation.isEmpty()) {
+    QStyledItemDelegate::paint(painter, option, index);  // a separator
+    return;
+  }
+  QStyleOptionViewItem item = option;
+  initStyleOption(&item, index);
+  const QString name = item.text;
+  item.text.clear();
+  (item.widget != nullptr ? item.widget->style() : QApplication::style())
+      ->drawControl(QStyle::CE_ItemViewItem, &item, painter, item.widget);
+  const bool enabled = (item.state & QStyle::State_Enabled) != 0, selected = (item.state & QStyle::State_Selected) != 0;
+  const auto group = enabled ? QPalette::Active : QPalette::Disabled;
+  painter->save();
+  painter->setPen(item.palette.color(group, selected ? QPalette::HighlightedText : QPalette::Text));
+  const QRect inner = option.rect.adjusted(margin, padding, -margin, -padding);
+  painter->setFont(item.font);
+  painter->drawText(inner, Qt::AlignLeft | Qt::AlignTop, name);
+  painter->setOpacity(enabled && !selected ? 0.75 : 1);
+  painter->setFont(smallFont(item.font));
+  painter->drawText(inner, Qt::AlignLeft | Qt::AlignBottom, explanation);
+  painter->restore();
+}
+
+QSize AlgorithmDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
+  const QString explanation = index.data(explanationRole).toString();
+  if (explanation.isEmpty()) {
+    return QStyledItemDelegate::sizeHint(option, index);
+  }
+  const QFontMetrics large(option.font), small(smallFont(option.font));
+  return {std::max(large.horizontalAdvance(index.data().toString()), small.horizontalAdvance(explanation)) + 2 * margin,
+          large.height() + small.height() + 2 * padding};
+}
 
 constexpr int smallestSelector = 90;  // pixels; in a narrow panel, the name is shortened
 constexpr int swatchSize = 10;        // pixels, at the usual size of texts
@@ -30,6 +94,66 @@ QString joined(const QStringList& states) { return states.join(QStringLiteral(" 
 QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
 
 }  // namespace
+
+GhostButton::GhostButton(Document& document, View& view, int panel)
+    : document_(document), view_(view), panel_(panel), menu_(new QMenu(this)) {
+  setObjectName(QStringLiteral("ghostButton%1").arg(panel));
+  setAccessibleName(QStringLiteral("Ghost in panel %1").arg(panelName(panel)));
+  setToolTip(QStringLiteral("Shows another panel's object over this one, see-through and in that panel's colour"));
+  setIcon(chainmail::icon("overlay"));
+  setAutoRaise(true);
+  setCheckable(true);
+  setPopupMode(InstantPopup);
+  menu_->setObjectName(QStringLiteral("ghostMenu%1").arg(panel));
+  menu_->setToolTipsVisible(true);
+  setMenu(menu_);
+  connect(menu_, &QMenu::aboutToShow, this, &GhostButton::fill);
+  connect(&view, &View::ghostChanged, this, [this] { setChecked(view_.ghost().of.has_value()); });
+}
+
+/// Fills the menu each time it opens, because panels and their algorithms change.
+void GhostButton::fill() {
+  menu_->clear();
+  addChoice(QStringLiteral("No ghost"), std::nullopt);
+  for (int other = 0; other < document_.panels(); ++other) {
+    if (other != panel_) {
+      const QString algorithm = chainmail::text(info(document_.algorithm(other)).label);
+      addChoice(QStringLiteral("Panel &%1: %2").arg(panelName(other), algorithm), other);
+    }
+  }
+  menu_->addSeparator();
+  addBlend();
+}
+
+void GhostButton::addChoice(const QString& choice, std::optional<int> of) {
+  auto* action = menu_->addAction(choice, this, [this, of] { view_.setGhost({of, view_.ghost().blend}); });
+  action->setCheckable(true);
+  action->setChecked(view_.ghost().of == of);
+}
+
+void GhostButton::addBlend() {
+  auto* content = new QWidget;
+  auto* grid = new QGridLayout(content);
+  grid->setContentsMargins(10, 4, 10, 6);
+  auto* slider = new QSlider(Qt::Horizontal);
+  slider->setObjectName(QStringLiteral("ghostBlend%1").arg(panel_));
+  slider->setAccessibleName(QStringLiteral("Blend between this panel's object and the ghost"));
+  slider->setRange(0, blendSteps);
+  slider->setValue(int(std::lround(view_.ghost().blend * blendSteps)));
+  slider->setMinimumWidth(sliderWidth);
+  slider->setEnabled(view_.ghost().of.has_value());
+  slider->setToolTip(slider->isEnabled() ? QStringLiteral("Left: only this panel's object. Right: only the ghost")
+                                         : QStringLiteral("There is no ghost yet: choose a panel above"));
+  connect(slider, &QSlider::valueChanged, this, [this](int value) {
+    view_.setGhost({view_.ghost().of, double(value) / blendSteps});
+  });
+  grid->addWidget(new QLabel(QStringLiteral("This panel")), 0, 0, Qt::AlignLeft);
+  grid->addWidget(new QLabel(QStringLiteral("Ghost")), 0, 1, Qt::AlignRight);
+  grid->addWidget(slider, 1, 0, 1, 2);
+  auto* action = new QWidgetAction(menu_);
+  action->setDefaultWidget(content);
+  menu_->addAction(action);
+}
 
 PanelHead::PanelHead(Document& document, View& view, int panel)
     : document_(document),

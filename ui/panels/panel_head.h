@@ -2,6 +2,8 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QMenu>
+#include <QToolButton>
 #include <QWidget>
 
 #include "document/document.h"
@@ -12,6 +14,24 @@ class QToolButton;
 namespace chainmail {
 
 class View;
+
+/// Chooses the panel whose object is drawn as a ghost over a panel's own object, and how the two are blended.
+class GhostButton : public QToolButton {
+  Q_OBJECT
+
+ public:
+  GhostButton(Document& document, View& view, int panel);
+
+ private:
+  void fill();
+  void addChoice(const QString& text, std::optional<int> of);
+  void addBlend();
+
+  Document& document_;
+  View& view_;
+  int panel_;
+  QMenu* menu_;
+};
 
 /// The line above a panel's view: colour and letter, the algorithm selector, the state of the object, and the buttons
 /// that arrange the panel. A double-click next to them shows only this panel, or all panels again.

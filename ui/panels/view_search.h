@@ -13,8 +13,8 @@
 
 #include "document/document.h"
 #include "drawing/camera.h"
-#include "drawing/draw_options.h"
 #include "drawing/mesh_levels.h"
+#include "drawing/object_drawing.h"
 #include "drawing/picking.h"
 #include "drawing/projection.h"
 

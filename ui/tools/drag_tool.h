@@ -1,16 +1,52 @@
 #pragma once
 
+#include <QObject>
 #include <QPointer>
 #include <QVector3D>
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "document/document.h"
 #include "panels/tool.h"
-#include "tools/grab_brush.h"
 #include "tools/rotation_ring.h"
 
 namespace chainmail {
+
+/// The brush of the Drag tool: a press grabs all elements within its radius. The wheel changes the radius while `R` is
+/// held. Without a radius, a press grabs one element.
+class GrabBrush : public QObject {
+  Q_OBJECT
+
+ public:
+  static constexpr double largestRadius = 300;  // logical pixels
+
+  GrabBrush();
+  ~GrabBrush() override;
+
+  /// Returns the radius (logical pixels); 0 for one element.
+  int radius() const;
+  bool keyHeld() const { return keyHeld_; }
+  /// Changes the radius by notches of the wheel.
+  void turn(double notches);
+  void setNotches(double notches);
+  /// Number of elements that a press would grab.
+  std::size_t reached() const { return reached_; }
+  void setReached(std::size_t elements);
+
+ signals:
+  /// The radius or the number of elements has changed.
+  void changed();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  double notches_ = 0;  // of the wheel, since the radius was 0
+  std::size_t reached_ = 0;
+  bool keyHeld_ = false;
+};
 
 /// Grabs a handle and moves it in all panels, in the plane through the handle that is parallel to the view: the element
 /// under the cursor, the selection that this element belongs to, or all elements within the brush. A handle of many

@@ -4,7 +4,7 @@
 #include <QTimer>
 #include <functional>
 
-#include "tools/measurement.h"
+#include "tools/measure_tool.h"
 
 namespace chainmail {
 

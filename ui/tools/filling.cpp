@@ -9,7 +9,7 @@
 #include "common/number_field.h"
 #include "common/text.h"
 #include "document/edits.h"
-#include "drawing/prepared_levels.h"
+#include "drawing/mesh_levels.h"
 #include "files/mesh/fill.h"
 #include "files/repair/simplify.h"
 #include "solver/algorithms.h"

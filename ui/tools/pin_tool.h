@@ -1,9 +1,75 @@
 #pragma once
 
+#include <QMenu>
+#include <QObject>
+#include <array>
+#include <optional>
+
+#include "common/ask_bar.h"
 #include "document/document.h"
+#include "mesh/layers.h"
 #include "panels/tool.h"
 
 namespace chainmail {
+
+/// Pins a whole layer of the object at its current positions: the layer at one side of the object, or the boundary.
+class PinLayers : public QObject {
+  Q_OBJECT
+
+ public:
+  PinLayers(Document& document, QWidget* parent);
+
+  /// The menu of all layers. Each entry shows the number of elements that it pins.
+  QMenu& menu() { return *menu_; }
+  /// Returns the bottom side, or the left side if the scene has no y axis.
+  const ObjectSide& foot() const;
+  void pin(const ObjectSide& side);
+  void pinBoundary();
+
+ private:
+  struct Choice {
+    const ObjectSide* side;  // null for the boundary
+    QString name;            // for example 'bottom layer'
+    QAction* action;
+  };
+
+  void add(const ObjectSide* side);
+  std::vector<ElementId> elements(const ObjectSide* side) const;
+  void pin(const std::vector<ElementId>& elements);
+  void adapt();
+  void count();
+  void show(const Choice& choice, std::optional<std::size_t> count) const;
+
+  Document& document_;
+  QMenu* menu_;
+  std::vector<Choice> choices_;
+};
+
+/// Offers to pin the object if a panel has no solution because no element is pinned. It asks when the drag has ended.
+/// It asks again only after a change of an algorithm, the object or the pins.
+class PinBar : public AskBar {
+  Q_OBJECT
+
+ public:
+  PinBar(Document& document, PinLayers& layers);
+
+ signals:
+  /// The user wants to pin with the pin tool.
+  void byHandChosen();
+
+ private:
+  void addChoices();
+  void await(int panel);
+  void offer();
+  void follow();
+
+  Document& document_;
+  PinLayers& layers_;
+  int panel_ = 0;        // the panel without a solution
+  bool awaits_ = false;  // waits for the end of the drag
+  bool asked_ = false;
+  QWidget* byHand_ = nullptr;
+};
 
 /// Pins the element under the cursor at its current position, or unpins it.
 class PinTool : public Tool {

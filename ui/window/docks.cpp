@@ -3,28 +3,29 @@
 #include <QAction>
 #include <QMainWindow>
 #include <QMenu>
+#include <QUndoView>
 #include <algorithm>
 #include <array>
 #include <memory>
 
 #include "common/icons.h"
 #include "docks/element_dock.h"
-#include "docks/frame_rate/frame_rate_dock.h"
-#include "docks/history_dock.h"
+#include "docks/frame_rate_dock.h"
 #include "docks/mesh_dock.h"
 #include "docks/physics_dock.h"
-#include "docks/propagation/propagation_dock.h"
+#include "docks/propagation_dock.h"
 #include "docks/relaxation_dock.h"
-#include "docks/replay/replay_dock.h"
+#include "docks/replay_dock.h"
 #include "docks/report/report_dock.h"
 #include "docks/section_dock.h"
 #include "docks/stiffness_dock.h"
 #include "docks/tools_dock.h"
+#include "document/document.h"
 #include "io/file_actions.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
-#include "window/dock_layout.h"
-#include "window/message_bar.h"
+#include "window/bars.h"
+#include "window/layout.h"
 
 namespace chainmail {
 namespace {
@@ -100,7 +101,17 @@ QDockWidget* makeSection(const DockParts& parts, const Docks& /*made*/) {
 
 QDockWidget* makeElement(const DockParts& parts, const Docks& /*made*/) { return new ElementDock(parts.document); }
 
-QDockWidget* makeHistory(const DockParts& parts, const Docks& /*made*/) { return new HistoryDock(parts.document); }
+/// The undo list: the name of every step. A click on a step goes back to it.
+QDockWidget* makeHistory(const DockParts& parts, const Docks& /*made*/) {
+  auto* dock = new QDockWidget;
+  auto* list = new QUndoView(&parts.document.undoStack());
+  list->setObjectName(QStringLiteral("undoList"));
+  list->setAccessibleName(QStringLiteral("Undo list"));
+  list->setEmptyLabel(QStringLiteral("initial state"));
+  list->setToolTip(QStringLiteral("All steps, the newest last. Click a step to go back to the state after it"));
+  dock->setWidget(list);
+  return dock;
+}
 
 const std::array entries{
     DockEntry{.id = "toolsDock",

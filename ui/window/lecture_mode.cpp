@@ -7,7 +7,7 @@
 #include <QToolBar>
 #include <algorithm>
 
-#include "common/text_scale.h"
+#include "common/theme.h"
 #include "document/propagation.h"
 #include "panels/panel_area.h"
 #include "window/docks.h"

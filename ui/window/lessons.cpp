@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/colours.h"
 #include "common/icons.h"
 #include "common/text.h"
 #include "drawing/camera.h"
@@ -15,14 +16,18 @@
 #include "io/samples.h"
 #include "io/sessions.h"
 #include "panels/panel_area.h"
+#include "window/bars.h"
 #include "window/docks.h"
 #include "window/lesson_bar.h"
 #include "window/main_window.h"
-#include "window/message_bar.h"
 #include "window/show_menu.h"
 
 namespace chainmail {
 namespace {
+
+constexpr float markSize = 13, markEdge = 4;          // pixels; the edge is the background around the mark, both sides
+constexpr double smallestMark = 2, largestMark = 10;  // diameter of the mark of one of many elements, pixels
+constexpr double markShare = 0.5, spatialMarkShare = 0.2;  // that diameter, in link lengths
 
 constexpr std::array tools{"drag", "cut", "pin", "measure", "select"};
 
@@ -49,6 +54,19 @@ QStringList colourNames() {
 QStringList toolNames() { return {tools.begin(), tools.end()}; }
 
 }  // namespace
+
+void LessonHandle::draw(const Canvas& canvas) {
+  const auto dragged = player_.dragged();
+  if (dragged.size() == 1) {
+    canvas.painter.drawElements(canvas.scene, dragged, canvas.scene.background, markSize + markEdge);
+    canvas.painter.drawElements(canvas.scene, dragged, colours::lit, markSize);
+  } else if (!dragged.empty()) {
+    const Mesh& mesh = *canvas.frame.mesh;
+    const double pixels = (mesh.space_dimension == 3 ? spatialMarkShare : markShare) * mesh.mean_link_length;
+    const auto diameter = float(std::clamp(pixels / canvas.unitsPerPixel, smallestMark, largestMark));
+    canvas.painter.drawElements(canvas.scene, dragged, colours::lit, diameter);
+  }
+}
 
 Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
     : QObject(&window),

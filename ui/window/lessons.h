@@ -5,7 +5,7 @@
 
 #include "document/lesson_player.h"
 #include "panels/colouring.h"
-#include "tools/lesson_handle.h"
+#include "panels/overlay.h"
 
 class QAction;
 class QDockWidget;
@@ -17,6 +17,17 @@ class LessonBar;
 class MainWindow;
 class Sessions;
 struct LessonFile;
+
+/// Marks the handles that a lesson has dragged, as the Drag tool marks its handle.
+class LessonHandle : public Overlay {
+ public:
+  explicit LessonHandle(const LessonPlayer& player) : player_(player) {}
+
+  void draw(const Canvas& canvas) override;
+
+ private:
+  const LessonPlayer& player_;
+};
 
 /// The lessons of a window: the menu that opens them, their bar, and what the window shows at each step.
 class Lessons : public QObject {

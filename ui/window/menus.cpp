@@ -1,6 +1,6 @@
 #include "window/menus.h"
 
-#include <QMenu>
+#include <QActionGroup>
 #include <QMenuBar>
 #include <QSet>
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <span>
 
 #include "common/icons.h"
+#include "common/theme.h"
 
 namespace chainmail {
 namespace {
@@ -128,6 +129,26 @@ void completeMenus(const QMenuBar& bar) {
     addIcons(*top->menu());
   }
   addMnemonics(bar.actions());
+}
+
+void addThemes(QMenu& menu) {
+  auto* themes = menu.addMenu(QStringLiteral("&Theme"));
+  auto* group = new QActionGroup(themes);
+  const auto add = [&](const char* name, const QString& text, colours::Ground ground, const QString& tip) {
+    auto* action = group->addAction(text);
+    action->setObjectName(QLatin1String(name));
+    action->setCheckable(true);
+    action->setChecked(rememberedGround() == ground);
+    action->setStatusTip(tip);
+    QObject::connect(action, &QAction::triggered, action, [ground] {
+      remember(ground);
+      applyGround(ground);
+    });
+    themes->addAction(action);
+  };
+  add("themeDark", QStringLiteral("&Dark"), colours::Ground::dark, QStringLiteral("Light text on a dark background"));
+  add("themeLight", QStringLiteral("&Light"), colours::Ground::light,
+      QStringLiteral("Dark text on a light background"));
 }
 
 }  // namespace chainmail

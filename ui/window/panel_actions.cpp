@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/icons.h"
-#include "common/panel_names.h"
+#include "common/text.h"
 #include "panels/panel_area.h"
 
 namespace chainmail {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "document/document.h"
-#include "drawing/draw_options.h"
+#include "drawing/object_drawing.h"
 
 namespace chainmail {
 

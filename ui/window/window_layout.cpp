@@ -9,7 +9,7 @@
 #include "common/as_path.h"
 #include "common/text.h"
 #include "docks/section_dock.h"
-#include "panels/colour_range_menu.h"
+#include "panels/colour_choices.h"
 #include "panels/panel.h"
 #include "panels/panel_area.h"
 #include "window/docks.h"

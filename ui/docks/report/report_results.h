@@ -4,14 +4,33 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSplitter>
+#include <QTableWidget>
 
 #include "docks/report/report_thread.h"
+#include "report/run/compare.h"
 
 namespace chainmail {
 
 class PlotLegend;
 class PlotWidget;
-class ReportTable;
+
+/// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
+QString shortName(std::string_view label);
+
+/// All figures of a drag, with one row for each contestant. A click on a column header sorts by that column.
+class ReportTable : public QTableWidget {
+  Q_OBJECT
+
+ public:
+  ReportTable();
+  void show(const report::DragResult& drag);
+  /// Width at which no column is cut (pixels).
+  int fullWidth() const;
+
+ private:
+  void fitColumns();
+  void showColumn(const report::DragResult& drag, int column);
+};
 
 /// Shows the results of a run: one drag as a plot and a table, and the refused algorithms with the reasons. Saves the
 /// report.

@@ -3,7 +3,7 @@
 #include <new>
 #include <utility>
 
-#include "common/announce.h"
+#include "common/jobs.h"
 #include "mesh/failure.h"
 #include "report/run/drags.h"
 

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <string>
 
-#include "common/task_thread.h"
+#include "common/jobs.h"
 #include "report/run/compare.h"
 
 namespace chainmail {
