@@ -25,11 +25,11 @@ Eigen::Quaterniond quaternion_of(const Point& rotation) {
 
 std::string name_of(ElementId element) { return "element " + std::to_string(element); }
 
-void check_elements(const Mesh& mesh, std::span<const ElementId> ascending) {
+void check_handle(const Mesh& mesh, std::span<const ElementId> ascending) {
   if (ascending.empty()) {
     throw Error("handle", "it has no elements", "grab at least one element");
   }
-  std::ranges::for_each(ascending, [&](ElementId one) { check_element(mesh, one); });
+  check_elements(mesh, ascending);
   if (const auto twice = std::ranges::adjacent_find(ascending); twice != ascending.end()) {
     throw Error(name_of(*twice), "it is grabbed twice", "name each element of the handle once");
   }
@@ -110,7 +110,7 @@ void check_free(const Body& body, std::span<const ElementId> elements) {
 
 Handle::Handle(const Body& body, std::vector<ElementId> elements) : elements_(std::move(elements)) {
   std::ranges::sort(elements_);
-  check_elements(body.mesh(), elements_);
+  check_handle(body.mesh(), elements_);
   check_free(body, elements_);
   const PositionView positions = body.positions();
   for (const ElementId element : elements_) {

@@ -169,7 +169,7 @@ void RestoreValidityTest::relaxation_that_moves_nothing_leaves_the_rest_shape() 
   const auto line = make_mesh(MeshKind::line, {9, 1, 1}, {}, 0.37);
   const auto mesh = build_mesh(placed(*line, [](const Point& p) { return Point(p + Point(16777216, 0, 0)); }));
   const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::single_precision);
-  solver->relax(1, 1000, {});
+  solver->relax_slice(1, 1000, {});
   solver->set_algorithm(Algorithm::exact);
   QVERIFY(same_bits(positions_of(*solver, *mesh), mesh->rest));
 }

@@ -369,7 +369,7 @@ void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
   solver->wake_all();
   simulation.relax(3, {0.5, simulation.relaxation().scheme});
   for (int i = 0; i < 3; ++i) {
-    solver->relax(0.5, std::numeric_limits<std::uint64_t>::max(), std::array{ElementId{0}});
+    solver->relax_slice(0.5, std::numeric_limits<std::uint64_t>::max(), std::array{ElementId{0}});
   }
   QVERIFY(same_bits(positions_of(simulation), positions_of(*solver, *mesh)));
 }
@@ -394,7 +394,7 @@ void SimulationTest::sweeps_are_given_up_in_the_middle_of_one() {
   for (Simulation* one : {&given_up, &never}) {
     carry_out(*one, commands::RestoreState{1});
     drag_by(*one, 0, Point(-9, -7, 0));
-    one->relax(2, 1);
+    one->relax(2, {});
   }
   QVERIFY(same_bits(positions_of(given_up), positions_of(never)));
 }

@@ -111,7 +111,7 @@ class LongLife {
         return body.restore(kept_, blocks_);
       case Event::relax:
         solver_.wake_all();
-        (void)solver_.relax(0.5, mesh_->element_count() / 2 + 1, handle_);
+        (void)solver_.relax_slice(0.5, mesh_->element_count() / 2 + 1, handle_);
         break;
       case Event::change_algorithm:
         algorithm_ = all_[which % all_.size()];
