@@ -235,7 +235,7 @@ class Relaxation::Slice {
   }
 
   /// Returns the deflection of a link from its rest vector, without rotation.
-  Deflection deflection(ElementId element, ElementId neighbour, EntryId entry) const {
+  [[gnu::always_inline]] Deflection deflection(ElementId element, ElementId neighbour, EntryId entry) const {
     const Vector rest = rest_vector(element, neighbour);
     Deflection link{relaxation_.weights_[body_.mesh->entry_link[entry]]};
     for (int k = 0; k < Dimension; ++k) {
@@ -252,14 +252,18 @@ class Relaxation::Slice {
   using Square = FixedMatrix<double, Dimension, Dimension>;
 
   /// Returns the rotation of an element's neighbourhood: the one found last since the object was woken, or a new one.
-  Square rotation_of(ElementId element) const {
+  [[gnu::always_inline]] Square rotation_of(ElementId element) const {
     if (relaxation_.turned_[element] != relaxation_.wakes_) {
       find_rotation(element);
     }
     return present_rotation(element);
   }
 
-  Square present_rotation(ElementId element) const {
+  /// The rotations are stored in three dimensions.
+  [[gnu::always_inline]] Square present_rotation(ElementId element) const {
+    if constexpr (Dimension == 3) {
+      return relaxation_.rotations_[element];
+    }
     Square rotation;
     for (int row = 0; row < Dimension; ++row) {
       for (int column = 0; column < Dimension; ++column) {
@@ -276,11 +280,15 @@ class Relaxation::Slice {
       const Vector rest = rest_vector(element, neighbour);
       sum += outer_product(link.weights.lateral * (rest + link.all), rest);
     });
-    Square rotation = present_rotation(element);
-    turn_toward(sum, rotation);
-    for (int row = 0; row < Dimension; ++row) {
-      for (int column = 0; column < Dimension; ++column) {
-        relaxation_.rotations_[element](row, column) = rotation(row, column);
+    if constexpr (Dimension == 3) {
+      turn_toward(sum, relaxation_.rotations_[element]);
+    } else {
+      Square rotation = present_rotation(element);
+      turn_toward(sum, rotation);
+      for (int row = 0; row < Dimension; ++row) {
+        for (int column = 0; column < Dimension; ++column) {
+          relaxation_.rotations_[element](row, column) = rotation(row, column);
+        }
       }
     }
     relaxation_.turned_[element] = relaxation_.wakes_;

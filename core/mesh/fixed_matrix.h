@@ -42,38 +42,38 @@ class FixedMatrix {
   Scalar* data() { return numbers_.data(); }
   const Scalar* data() const { return numbers_.data(); }
 
-  FixedMatrix& operator+=(const FixedMatrix& other) {
+  [[gnu::always_inline]] FixedMatrix& operator+=(const FixedMatrix& other) {
     for (int i = 0; i < size; ++i) {
       numbers_[std::size_t(i)] += other[i];
     }
     return *this;
   }
-  FixedMatrix& operator-=(const FixedMatrix& other) {
+  [[gnu::always_inline]] FixedMatrix& operator-=(const FixedMatrix& other) {
     for (int i = 0; i < size; ++i) {
       numbers_[std::size_t(i)] -= other[i];
     }
     return *this;
   }
-  FixedMatrix& operator*=(Scalar factor) {
+  [[gnu::always_inline]] FixedMatrix& operator*=(Scalar factor) {
     for (Scalar& number : numbers_) {
       number *= factor;
     }
     return *this;
   }
-  FixedMatrix& operator/=(Scalar divisor) {
+  [[gnu::always_inline]] FixedMatrix& operator/=(Scalar divisor) {
     for (Scalar& number : numbers_) {
       number /= divisor;
     }
     return *this;
   }
-  friend FixedMatrix operator+(FixedMatrix a, const FixedMatrix& b) { return a += b; }
-  friend FixedMatrix operator-(FixedMatrix a, const FixedMatrix& b) { return a -= b; }
-  friend FixedMatrix operator-(FixedMatrix a) { return a *= -1; }
-  friend FixedMatrix operator*(Scalar factor, FixedMatrix a) { return a *= factor; }
-  friend FixedMatrix operator*(FixedMatrix a, Scalar factor) { return a *= factor; }
-  friend FixedMatrix operator/(FixedMatrix a, Scalar divisor) { return a /= divisor; }
+  [[gnu::always_inline]] friend FixedMatrix operator+(FixedMatrix a, const FixedMatrix& b) { return a += b; }
+  [[gnu::always_inline]] friend FixedMatrix operator-(FixedMatrix a, const FixedMatrix& b) { return a -= b; }
+  [[gnu::always_inline]] friend FixedMatrix operator-(FixedMatrix a) { return a *= -1; }
+  [[gnu::always_inline]] friend FixedMatrix operator*(Scalar factor, FixedMatrix a) { return a *= factor; }
+  [[gnu::always_inline]] friend FixedMatrix operator*(FixedMatrix a, Scalar factor) { return a *= factor; }
+  [[gnu::always_inline]] friend FixedMatrix operator/(FixedMatrix a, Scalar divisor) { return a /= divisor; }
 
-  Scalar dot(const FixedMatrix& other) const {
+  [[gnu::always_inline]] Scalar dot(const FixedMatrix& other) const {
     Scalar sum = 0;
     for (int i = 0; i < size; ++i) {
       sum += numbers_[std::size_t(i)] * other[i];
@@ -152,15 +152,25 @@ void add_transposed_product(FixedMatrix<Scalar, Rows, Columns>& sum, const Fixed
 }
 
 template <class Scalar, int Rows, int Inner, int Columns>
-FixedMatrix<Scalar, Rows, Columns> operator*(const FixedMatrix<Scalar, Rows, Inner>& a,
-                                             const FixedMatrix<Scalar, Inner, Columns>& b) {
+[[gnu::always_inline]] inline FixedMatrix<Scalar, Rows, Columns> operator*(
+    const FixedMatrix<Scalar, Rows, Inner>& a, const FixedMatrix<Scalar, Inner, Columns>& b) {
   FixedMatrix<Scalar, Rows, Columns> product;
-  add_product(product, a, b);
+  for (int column = 0; column < Columns; ++column) {
+    for (int row = 0; row < Rows; ++row) {
+      product(row, column) = a(row, 0) * b(0, column);
+    }
+    for (int k = 1; k < Inner; ++k) {
+      for (int row = 0; row < Rows; ++row) {
+        product(row, column) += a(row, k) * b(k, column);
+      }
+    }
+  }
   return product;
 }
 
 template <class Scalar, int Rows, int Columns>
-FixedMatrix<Scalar, Columns, Rows> transposed(const FixedMatrix<Scalar, Rows, Columns>& matrix) {
+[[gnu::always_inline]] inline FixedMatrix<Scalar, Columns, Rows> transposed(
+    const FixedMatrix<Scalar, Rows, Columns>& matrix) {
   FixedMatrix<Scalar, Columns, Rows> result;
   for (int row = 0; row < Rows; ++row) {
     for (int column = 0; column < Columns; ++column) {
@@ -172,8 +182,8 @@ FixedMatrix<Scalar, Columns, Rows> transposed(const FixedMatrix<Scalar, Rows, Co
 
 /// Returns the matrix a bᵀ.
 template <class Scalar, int Rows, int Columns>
-FixedMatrix<Scalar, Rows, Columns> outer_product(const FixedMatrix<Scalar, Rows>& a,
-                                                 const FixedMatrix<Scalar, Columns>& b) {
+[[gnu::always_inline]] inline FixedMatrix<Scalar, Rows, Columns> outer_product(const FixedMatrix<Scalar, Rows>& a,
+                                                                               const FixedMatrix<Scalar, Columns>& b) {
   FixedMatrix<Scalar, Rows, Columns> product;
   for (int column = 0; column < Columns; ++column) {
     for (int row = 0; row < Rows; ++row) {
@@ -185,7 +195,7 @@ FixedMatrix<Scalar, Rows, Columns> outer_product(const FixedMatrix<Scalar, Rows>
 
 /// Returns the adjugate of a matrix of up to three rows: its inverse times its determinant.
 template <class Scalar, int Rows>
-FixedMatrix<Scalar, Rows, Rows> adjugate(const FixedMatrix<Scalar, Rows, Rows>& matrix) {
+[[gnu::always_inline]] inline FixedMatrix<Scalar, Rows, Rows> adjugate(const FixedMatrix<Scalar, Rows, Rows>& matrix) {
   FixedMatrix<Scalar, Rows, Rows> result;
   if constexpr (Rows == 1) {
     result[0] = 1;
@@ -208,7 +218,8 @@ FixedMatrix<Scalar, Rows, Rows> adjugate(const FixedMatrix<Scalar, Rows, Rows>& 
 
 /// Returns the determinant of a matrix, given its adjugate.
 template <class Scalar, int Rows>
-Scalar determinant(const FixedMatrix<Scalar, Rows, Rows>& matrix, const FixedMatrix<Scalar, Rows, Rows>& adjugate) {
+[[gnu::always_inline]] inline Scalar determinant(const FixedMatrix<Scalar, Rows, Rows>& matrix,
+                                                 const FixedMatrix<Scalar, Rows, Rows>& adjugate) {
   Scalar sum = 0;
   for (int i = 0; i < Rows; ++i) {
     sum += matrix(0, i) * adjugate(i, 0);
