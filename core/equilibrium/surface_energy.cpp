@@ -253,10 +253,12 @@ double SurfaceEnergy::bend(const Vectors& displacements, bool wants_force, const
 
 /// Returns F, and F less its value at rest.
 auto SurfaceEnergy::stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const -> Frame {
-  const auto& [i, j, k] = cells_.triangles[triangle];
+  const auto& corners = cells_.triangles[triangle];
   const Rest& rest = rest_[triangle];
-  const auto from_first = [&](ElementId e) { return Vector((displacements[e] - displacements[i]).data()); };
-  strain = from_first(j) * rest.gradients.col(1).transpose() + from_first(k) * rest.gradients.col(2).transpose();
+  const auto from_first = [&](std::size_t corner) {
+    return Vector((displacements[corners[corner]] - displacements[corners[0]]).data());
+  };
+  strain = from_first(1) * rest.gradients.col(1).transpose() + from_first(2) * rest.gradients.col(2).transpose();
   return rest.frame + strain;
 }
 
