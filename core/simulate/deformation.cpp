@@ -21,15 +21,6 @@ Point between(const Point& from, const Point& to, double share) {
 
 }  // namespace
 
-void check(Precision precision, const Mesh& mesh) {
-  const double limit = position_limit(precision);
-  for (const Point& corner : mesh.box) {
-    if (!(corner.array().abs() <= limit).all()) {
-      throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
-    }
-  }
-}
-
 Deformation::Deformation(MeshPointer mesh, Algorithm algorithm, Precision precision, EachPass each)
     : simulation_(std::move(mesh), algorithm, precision), each_(std::move(each)) {}
 

@@ -38,9 +38,6 @@ struct DeformSummary {
   std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
 };
 
-/// Throws Error if the rest positions of a mesh are out of the range of a precision.
-void check(Precision precision, const Mesh& mesh);
-
 /// A simulation that notes what each of its passes did.
 class Deformation {
  public:
