@@ -109,8 +109,9 @@ bool Snapshot::operator==(const Snapshot& other) const {
 Body::Body(const Mesh& mesh, Precision precision) {
   check_precision(*Access::pointer(mesh), precision_of(precision));
   impl_ = guarded([&] {
-    return std::make_unique<Impl>(
-        Impl{mesh, std::make_unique<inner::Deformer>(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision))});
+    return std::make_unique<Impl>(Impl{
+        mesh,
+        std::make_unique<inner::Deformer>(Access::pointer(mesh), Algorithm::natural_queue, precision_of(precision))});
   });
   Softness softness = standard_softness();
   softness.links = Access::impl(mesh).softness;

@@ -269,7 +269,8 @@ void Simulation::measure_all() {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  auto solver = std::make_unique<Deformer>(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
+  auto solver =
+      std::make_unique<Deformer>(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
   solver->body().set_elastic(elastic());
   deformer_ = std::move(solver);
   deformer_->set_relaxation(relaxation_scheme_);

@@ -234,8 +234,8 @@ Deformer::Relaxed Deformer::relax(int most, const RelaxOptions& options, const s
     wake(last_handle_);
     wake(moved_);
   }
-  while (done.sweeps < most && sweep(options.step, progress_.part(double(done.sweeps) / most, (done.sweeps + 1.0) / most),
-                                     after_slice) > 0) {
+  while (done.sweeps < most &&
+         sweep(options.step, progress_.part(double(done.sweeps) / most, (done.sweeps + 1.0) / most), after_slice) > 0) {
     ++done.sweeps;
   }
   return done;

@@ -85,7 +85,7 @@ class Deformer {
 
   /// What relaxation that runs at once has done.
   struct Relaxed {
-    int sweeps = 0;  // or iterations, with the scheme `equilibrium`
+    int sweeps = 0;                       // or iterations, with the scheme `equilibrium`
     std::optional<double> residual = {};  // after iterations
   };
   /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or `most` have run. The scheme

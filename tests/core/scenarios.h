@@ -30,7 +30,8 @@ inline void showValue(const DragStep& drag_step, std::ostream& out) {
   out << '#' << drag_step.element << " by " << drag_step.by().transpose();
 }
 
-inline PassCount move_by(Deformer& solver, const Mesh& mesh, ElementId element, const Point& by, Trace* trace = nullptr) {
+inline PassCount move_by(Deformer& solver, const Mesh& mesh, ElementId element, const Point& by,
+                         Trace* trace = nullptr) {
   return solver.move(element, position_of(solver, mesh, element) + by, trace);
 }
 

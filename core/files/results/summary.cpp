@@ -190,6 +190,7 @@ std::vector<std::string> notes_of(const DeformSummary& summary) {
   }
   const std::size_t all = summary.passes.size();
   std::vector<std::string> notes;
+  notes.reserve(remarks.size() + 1);
   for (const auto& [remark, count] : remarks) {
     notes.push_back(passes_of(count, all) + ": " + remark);
   }

@@ -40,7 +40,7 @@ class ApiMeasuresTest : public QObject {
 void ApiMeasuresTest::measures_are_those_of_core() {
   cm::Deformer deformer(cm::make_cloth(8, 8), "generalized");
   const auto solver = std::make_unique<Deformer>(generate({MeshKind::cloth, {8, 8, 1}}), Algorithm::generalized,
-                                  chainmail::Precision::double_precision);
+                                                 chainmail::Precision::double_precision);
   deformer.body().cut({3});
   solver->body().cut(std::vector<chainmail::LinkId>{3});
   deformer.move(9, {-4, 6, 0});

@@ -76,8 +76,8 @@ void ApiMovesTest::moves_equal_those_of_the_solver() {
   const MeshPointer mesh = is_grid ? generate({MeshKind::block, {5, 4, 3}}) : generate({MeshKind::tetra, {5, 4, 3}});
   const auto solver =
       std::make_unique<Deformer>(mesh, algorithm,
-                  precision == cm::Precision::single_precision ? chainmail::Precision::single_precision
-                                                               : chainmail::Precision::double_precision);
+                                 precision == cm::Precision::single_precision ? chainmail::Precision::single_precision
+                                                                              : chainmail::Precision::double_precision);
   cm::Deformer deformer(is_grid ? cm::make_block(5, 4, 3) : cm::make_tetra(5, 4, 3), method, precision);
   const std::vector<cm::ElementId> pins = deformer.body().mesh().side("left");
   deformer.body().pin(pins);
@@ -149,7 +149,7 @@ void ApiMovesTest::moves_are_traced() {
   QVERIFY(deformer.trace().empty());
   deformer.set_tracing(true);
   const auto solver = std::make_unique<Deformer>(generate({MeshKind::grid, {4, 4, 1}}), Algorithm::natural_queue,
-                                  chainmail::Precision::double_precision);
+                                                 chainmail::Precision::double_precision);
   solver->move(0, Point(-2, 0, 0));
   chainmail::Trace trace;
   const auto result = deformer.move(0, {-5, 1, 0});

@@ -41,9 +41,9 @@ struct Scene {
 };
 
 std::unique_ptr<Deformer> played(const Scene& scene, Algorithm algorithm, Precision precision, const RegionAxes& axes,
-                               const Point& rotation) {
-  auto solver =
-      std::make_unique<Deformer>(rotation == Point::Zero() ? scene.mesh : turned_mesh(scene.mesh, rotation), algorithm, precision);
+                                 const Point& rotation) {
+  auto solver = std::make_unique<Deformer>(rotation == Point::Zero() ? scene.mesh : turned_mesh(scene.mesh, rotation),
+                                           algorithm, precision);
   solver->body().set_softness(Softness{{0.8, 1.2, 0.1}, {}, standard_energy, axes});
   solver->body().pin(scene.pins);
   solver->body().cut(scene.cuts);

@@ -36,7 +36,7 @@ Algorithm bullet() {
 
 /// A solver that runs as many frames as it needs.
 Deformer patient(const MeshPointer& mesh, const std::vector<ElementId>& pins,
-               Precision precision = Precision::double_precision) {
+                 Precision precision = Precision::double_precision) {
   Deformer solver(mesh, bullet(), precision);
   ElasticOptions options;
   options.iterations = 100'000;

@@ -15,8 +15,8 @@ constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
 constexpr LinkSoftness wide{0, 100, 100};  // regions have no effect
 
 std::unique_ptr<Deformer> stretched_chain(std::uint32_t length, const std::vector<double>& positions) {
-  auto solver =
-      std::make_unique<Deformer>(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
+  auto solver = std::make_unique<Deformer>(make_mesh(MeshKind::line, {length, 1, 1}), Algorithm::natural_queue,
+                                           Precision::double_precision);
   solver->body().set_softness({wide, {}});
   solver->set_relaxation(RelaxationScheme::link);
   solver->body().set_positions(positions);
@@ -106,8 +106,8 @@ void LinkRelaxationTest::a_chain_between_pins_ends_near_even() {
 void LinkRelaxationTest::valid_links_stay_valid() {
   const auto holds = [] {
     const auto& mesh = draw_family().mesh;
-    const auto solver =
-        std::make_unique<Deformer>(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact), Precision::double_precision);
+    const auto solver = std::make_unique<Deformer>(mesh, *rc::gen::element(Algorithm::natural_queue, Algorithm::exact),
+                                                   Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
     solver->set_relaxation(RelaxationScheme::link);

@@ -28,7 +28,7 @@ class MeasuresTest : public QObject {
 namespace {
 
 std::unique_ptr<Deformer> at(const MeshPointer& mesh, const std::vector<double>& positions,
-                           Precision precision = Precision::double_precision) {
+                             Precision precision = Precision::double_precision) {
   auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, precision);
   solver->body().set_positions(positions);
   return solver;

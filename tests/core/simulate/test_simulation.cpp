@@ -71,7 +71,8 @@ void SimulationTest::a_drag_is_one_pass() {
   auto simulation = grid_simulation();
   Trace trace, expected;
   simulation.set_trace(&trace);
-  const auto solver = std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  const auto solver =
+      std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
   drag_by(simulation, 7, Point(2, 1, 0));
   drag_by(simulation, 7, Point(-1, 3, 0));
   solver->move(7, Point(3, 2, 0), &expected);
@@ -120,7 +121,8 @@ void SimulationTest::the_algorithm_may_change_midway() {
   carry_out(simulation, commands::SetAlgorithm{Algorithm::natural_queue});
   QVERIFY(same_bits(before, positions_of(simulation)));
   QVERIFY(simulation.statistics().algorithm == Algorithm::natural_queue);
-  const auto solver = std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
+  const auto solver =
+      std::make_unique<Deformer>(simulation.mesh_pointer(), Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_positions(before);
   drag_by(simulation, 7, Point(1, 1, 0));
   solver->move(7, position_of(simulation, 7));

@@ -134,7 +134,8 @@ void OneEntryTest::an_algorithm_runs() {
   for (const MeshPointer& mesh : {make_mesh(MeshKind::line, {9, 1, 1}), make_mesh(MeshKind::cloth, {6, 5, 1}),
                                   make_mesh(MeshKind::tetra, {4, 3, 3})}) {
     for (const Precision precision : precisions) {
-      const auto solver = std::make_unique<Deformer>(mesh, dummy, precision), spiral = std::make_unique<Deformer>(mesh, Algorithm::spiral, precision);
+      const auto solver = std::make_unique<Deformer>(mesh, dummy, precision),
+                 spiral = std::make_unique<Deformer>(mesh, Algorithm::spiral, precision);
       for (const double by : {2.0, -1.5}) {
         const Point target = mesh->rest_position(1) + Point(by, 0, 0);
         QCOMPARE(solver->move(1, target).moved, spiral->move(1, target).moved);
