@@ -10,7 +10,7 @@ in vec3 rest_here;
 
 uniform vec4 colour;
 uniform vec4 background;
-uniform vec4 light;       // everywhere, sky, key, edge: see ui/drawing/lighting.h
+uniform vec4 light;       // everywhere, sky, key, edge: see Lighting in ui/drawing/object_drawing.h
 uniform float glint;
 uniform float front_sign; // 1 if faces that are not folded are counterclockwise in the view, otherwise -1; 0: unknown
 uniform vec2 fog;         // distances from the eye at which fading begins and ends; equal: none

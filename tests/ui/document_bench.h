@@ -1,17 +1,15 @@
 #pragma once
 
 #include <QTest>
-#include <future>
 #include <vector>
 
 #include "document/document.h"
-#include "document/edits.h"
 
 namespace chainmail {
 
 constexpr int longest_wait = 60'000;  // milliseconds: the sanitizers are slow, and so is a busy machine
 
-/// Waits until all solvers have carried out all commands, relaxation rests, and their last frames have arrived.
+/// Waits until all solvers have carried out all commands, relaxation sleeps, and the last frames have arrived.
 inline bool has_settled(Document& document) {
   return QTest::qWaitFor(
       [&document] {

@@ -57,7 +57,7 @@ class DocumentChangesTest : public QObject {
   void a_change_ends_the_drag_in_the_solvers();
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
-  void a_panel_may_go_while_it_is_saved();
+  void a_panel_may_be_removed_while_saving();
 
  private:
   const MeshPointer mesh_ = jittered_triangles(5, 4, 2);
@@ -143,7 +143,7 @@ void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
 }
 
 /// The draft shares the solvers, and the panel is removed before its solver has reported its positions.
-void DocumentChangesTest::a_panel_may_go_while_it_is_saved() {
+void DocumentChangesTest::a_panel_may_be_removed_while_saving() {
   Document document(mesh_, QStringLiteral("sheet"));
   document.addPanel();
   edits::replaceMesh(document, generate({MeshKind::grid, {400, 400, 1}, 1, {}}), QStringLiteral("large"),

@@ -1,8 +1,9 @@
-// Replay of a document: the recorded commands lead to the same object, bit by bit, and a drag goes on from any of them.
+// Replay of a document: the recorded commands lead to the same object, bit by bit, and a drag can continue from any of
+// them.
 
 #include <QTest>
-#include <algorithm>
 
+#include "document/edits.h"
 #include "document_bench.h"
 #include "mesh/generate.h"
 #include "program.h"
@@ -13,20 +14,20 @@ namespace {
 
 using Shapes = std::vector<std::vector<float>>;
 
-/// Makes two drags with a cut and pins in between.
-void work(Document& document) {
-  QVERIFY(has_settled(document));
-  QVERIFY(drag_and_release(document, 31, {1.7, 2.1, 0}));
+/// Makes two drags with a cut and pins in between. Returns false if the solvers do not settle.
+bool work(Document& document) {
+  if (!has_settled(document) || !drag_and_release(document, 31, {1.7, 2.1, 0})) {
+    return false;
+  }
   edits::cut(document, {3, 4, 40});
   edits::setPinned(document, {0}, true);
   edits::setSoftness(document, {0.9, 1.1, 0.05}, QStringLiteral("stiffer"));
-  QVERIFY(drag_and_release(document, 62, {0.9, 1.4, 0}));
+  return drag_and_release(document, 62, {0.9, 1.4, 0});
 }
 
-void go(Document& document, std::size_t position) {
+bool goes_to(Document& document, std::size_t position) {
   document.moves().goTo(position);
-  QVERIFY(has_settled(document));
-  QCOMPARE(document.moves().history().position(), position);
+  return has_settled(document) && document.moves().history().position() == position;
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ class DocumentReplayTest : public QObject {
 
  private slots:
   void a_replay_gives_identical_bits();
-  void from_a_place_in_the_middle_a_drag_goes_on();
+  void a_drag_continues_from_an_earlier_position();
   void a_move_goes_to_idle_solvers_at_once();
 
  private:
@@ -45,37 +46,37 @@ class DocumentReplayTest : public QObject {
 
 void DocumentReplayTest::a_replay_gives_identical_bits() {
   Document document(mesh_, QStringLiteral("sheet"));
-  work(document);
+  QVERIFY(work(document));
   const Shapes live = shapes_of(document);
   const MoveHistory& history = document.moves().history();
   const std::size_t length = history.length();
   QCOMPARE(history.position(), length);
-  go(document, history.start());
+  QVERIFY(goes_to(document, history.start()));
   const std::vector<float> rest(mesh_->rest.begin(), mesh_->rest.end());
   QVERIFY(shapes_of(document) == (Shapes{rest, rest}));
   QCOMPARE(document.cuts().count(), 0U);
   QVERIFY(document.pins().empty());
   QVERIFY(*document.wholeSoftness() == standard_softness());  // as the object was when it was new
   QCOMPARE(history.length(), length);
-  go(document, length);
+  QVERIFY(goes_to(document, length));
   QVERIFY(shapes_of(document) == live);
   QCOMPARE(document.cuts().count(), 3U);
   QCOMPARE(document.pins(), std::vector<ElementId>{0});
 }
 
-void DocumentReplayTest::from_a_place_in_the_middle_a_drag_goes_on() {
+void DocumentReplayTest::a_drag_continues_from_an_earlier_position() {
   Document document(mesh_, QStringLiteral("sheet"));
-  work(document);
+  QVERIFY(work(document));
   const MoveHistory& history = document.moves().history();
-  go(document, history.start());
-  go(document, 2);  // after the first move of the first drag
+  QVERIFY(goes_to(document, history.start()));
+  QVERIFY(goes_to(document, 2));  // after the first move of the first drag
   QVERIFY(history.position() < history.length());
   QVERIFY(drag_and_release(document, 5, {-0.8, -1.1, 0}));
   QCOMPARE(history.position(), history.length());
   const Shapes live = shapes_of(document);
-  go(document, history.start());
+  QVERIFY(goes_to(document, history.start()));
   QVERIFY(shapes_of(document) != live);
-  go(document, history.length());
+  QVERIFY(goes_to(document, history.length()));
   QVERIFY(shapes_of(document) == live);
 }
 

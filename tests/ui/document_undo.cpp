@@ -3,7 +3,9 @@
 #include <QTest>
 #include <algorithm>
 #include <functional>
+#include <future>
 
+#include "document/edits.h"
 #include "document_bench.h"
 #include "mesh/generate.h"
 #include "program.h"
@@ -62,7 +64,7 @@ class DocumentUndoTest : public QObject {
   void a_reset_is_exact_and_is_undone();
   void undo_of_a_mesh_brings_the_deformed_object_back();
   void an_algorithm_that_did_not_fit_comes_back_with_its_mesh();
-  void steps_of_a_panel_that_is_gone_are_undone();
+  void steps_of_a_removed_panel_are_undone();
 
  private:
   const MeshPointer grid_ = generate({MeshKind::grid, {9, 7, 1}, 1, {}});
@@ -205,7 +207,7 @@ void DocumentUndoTest::an_algorithm_that_did_not_fit_comes_back_with_its_mesh() 
 }
 
 /// An undo step of a removed panel has no effect, and undo of the steps before it still works.
-void DocumentUndoTest::steps_of_a_panel_that_is_gone_are_undone() {
+void DocumentUndoTest::steps_of_a_removed_panel_are_undone() {
   Document document(grid_, QStringLiteral("sheet"));
   edits::setPinned(document, {3}, true);
   document.addPanel();

@@ -147,7 +147,7 @@ class LayoutTest : public QObject {
       QVERIFY(file.open(QIODevice::ReadOnly));
       QVERIFY2(!state.match(QString::fromUtf8(file.readAll())).hasMatch(), qPrintable(file.fileName()));
     }
-    QVERIFY(checked > 100);
+    QVERIFY(checked > 200);
   }
 };
 

@@ -340,7 +340,7 @@ class WindowDocks : public QObject {
     QVERIFY(!bench.document().relaxation().on);
   }
 
-  void theSchemeOfRelaxationIsChosenAndTheMaterialIsOneChoice() {
+  void choosingTheRelaxation() {
     Workbench bench(generate({MeshKind::tetra, {4, 3, 3}, 1, {}}));
     auto* scheme = bench.find<QComboBox>("relaxationScheme");
     QVERIFY(bench.document().relaxation().scheme == RelaxationScheme::mean);
@@ -356,9 +356,8 @@ class WindowDocks : public QObject {
     QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
 
     bench.document().undoStack().clear();
-    const int steps = bench.document().undoStack().count();
     scheme->setCurrentText(QStringLiteral("material"));
-    QCOMPARE(bench.document().undoStack().count(), steps + 1);
+    QCOMPARE(bench.document().undoStack().count(), 1);
     QVERIFY(bench.document().relaxation().on && bench.document().relaxation().scheme == RelaxationScheme::equilibrium);
     QVERIFY(bench.document().wholeSoftness()->energy == EnergyKind::material);
     QCOMPARE(bench.document().softness(), (LinkSoftness{0, 3, 2}));

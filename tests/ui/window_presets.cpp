@@ -66,7 +66,7 @@ class WindowPresets : public QObject {
     QCOMPARE(bench.document().softness(), LinkSoftness());
     QCOMPARE(bench.shown(), QStringLiteral("Standard"));
 
-    // Changed values are no preset, unless they are those of one.
+    // Changed values show as Custom, unless they equal those of a preset.
     bench.set("stretchSpin", 1.3);
     QCOMPARE(bench.shown(), QStringLiteral("Custom"));
     QVERIFY(bench.enabled("savePreset"));

@@ -254,7 +254,7 @@ class WindowRecovery : public QObject {
     QVERIFY(!bench.timer->isActive());  // nothing runs while nothing changes
     QCOMPARE(workOnDisk()->pins, std::vector<ElementId>{3});
     edits::setPinned(bench.document(), {4}, true);
-    QVERIFY(bench.timer->remainingTime() <= 4500);
+    QVERIFY(bench.timer->isActive() && bench.timer->remainingTime() <= 4500);
     bench.window.sessions().savePath(path);
     bench.settle();
     bench.timer->start(0);

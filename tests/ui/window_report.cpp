@@ -79,7 +79,7 @@ class WindowReport : public QObject {
     QCOMPARE(bench.table().rowCount(), 0);
   }
 
-  void savingWritesThreeFilesThatParseAsksBeforeItReplacesAndSavesNoHalves() {
+  void savingAReport() {
     ReportBench bench;
     bench.run();
     QTemporaryDir folder;

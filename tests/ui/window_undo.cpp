@@ -37,7 +37,7 @@ class WindowUndo : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
-  /// The button is still down then. Its release is none of the moves.
+  /// The button is still down then. Its release is not recorded as a move.
   void undoInTheMiddleOfADragRecordsOneRelease() {
     Workbench bench;
     drag(bench, 31, QPoint(120, -150));  // without a step, there would be nothing to undo

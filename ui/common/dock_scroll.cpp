@@ -11,6 +11,9 @@
 namespace chainmail {
 namespace {
 
+/// Minimum width of docks (pixels), so that figures that change do not move the panels.
+constexpr int dockWidth = 230;
+
 /// Returns the share of the screen's width that the content of a dock may ask for. The two columns with panels between
 /// them, or three docks at the bottom beside the right column, fit on a screen of 1024 pixels.
 double largestShare(QWidget* dock) {

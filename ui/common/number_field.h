@@ -32,9 +32,6 @@ class NumberField : public QDoubleSpinBox {
   QString label_;
 };
 
-/// Minimum width of docks (pixels), so that figures that change do not move the panels.
-inline constexpr int dockWidth = 230;
-
 /// A row for one parameter: its name, a slider, a spin box, and a button that resets it to the default.
 class ParameterRow : public QWidget {
   Q_OBJECT

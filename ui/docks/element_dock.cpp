@@ -11,7 +11,6 @@
 #include <span>
 
 #include "common/dock_scroll.h"
-#include "common/number_field.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "document/element_facts.h"

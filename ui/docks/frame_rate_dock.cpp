@@ -2,7 +2,6 @@
 
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QLocale>
 #include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>

@@ -15,7 +15,6 @@
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
 #include "io/questions.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {

@@ -12,8 +12,8 @@ namespace {
 
 const QString selectedPrefix = QStringLiteral("selected-");
 
-}  // namespace
-
+/// Returns true if the numbers of the links' energy count: with isotropic energy they do not, and with the energy of
+/// the material they do for sweeps only, which know links only.
 bool usesLinkEnergy(const Document& document) {
   switch (energy_in(*document.mesh(), document.wholeSoftness()->energy)) {
     case EnergyKind::isotropic:
@@ -24,6 +24,8 @@ bool usesLinkEnergy(const Document& document) {
       return true;
   }
 }
+
+}  // namespace
 
 SelectedLinks::SelectedLinks(Document& document)
     : QGroupBox(QStringLiteral("Selected links")),

@@ -15,10 +15,6 @@
 
 namespace chainmail {
 
-/// Returns true if the numbers of the links' energy count: with isotropic energy they do not, and with the energy of
-/// the material they do for sweeps only, which know links only.
-bool usesLinkEnergy(const Document& document);
-
 /// Softness of the selected links only: sets or resets its numbers as one undo step.
 class SelectedLinks : public QGroupBox {
   Q_OBJECT

@@ -9,6 +9,13 @@
 namespace chainmail {
 namespace {
 
+/// A recorded drag, or the part of it that belongs to a range of moves.
+struct LessonDrag {
+  std::vector<ElementId> elements;  // of the handle
+  bool relative = false;            // true: `ways` are displacements since the beginning of the range
+  std::array<Point, 2> ways{};      // the lowest and highest coordinates of where the moves lead (mesh units)
+};
+
 using Box = std::array<Point, 2>;
 
 void include(Box& box, const Point& point) { box = {box[0].cwiseMin(point), box[1].cwiseMax(point)}; }
@@ -33,8 +40,7 @@ constexpr int moveMilliseconds = 16;        // between two moves
 constexpr int candidateMilliseconds = 160;  // between two candidates of a pass
 constexpr int maxTicksForPasses = 200;      // a panel may have refused the move, so that it has no pass
 
-}  // namespace
-
+/// Returns the drags among the moves from `from` up to `to`, also the rest of a drag that began before.
 std::vector<LessonDrag> dragsAmong(std::span<const Command> moves, std::size_t from, std::size_t to) {
   Point before = Point::Zero();
   LessonDrag now = underWay(moves, from, before);
@@ -56,6 +62,8 @@ std::vector<LessonDrag> dragsAmong(std::span<const Command> moves, std::size_t f
   return drags;
 }
 
+/// Returns the corners of a box that contains the handles of the drags everywhere on their ways. `now` shows the object
+/// at the beginning of the range.
 std::vector<Point> cornersOf(std::span<const LessonDrag> drags, const Frame& now) {
   std::vector<Point> corners;
   for (const LessonDrag& drag : drags) {
@@ -72,6 +80,8 @@ std::vector<Point> cornersOf(std::span<const LessonDrag> drags, const Frame& now
   }
   return corners;
 }
+
+}  // namespace
 
 LessonPlayer::LessonPlayer(Document& document, Propagation& propagation)
     : document_(document), propagation_(propagation) {

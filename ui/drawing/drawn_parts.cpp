@@ -60,6 +60,9 @@ std::vector<ElementId> drawnFaces(const MeshLevel& level, const Cuts& cuts,
   return indices;
 }
 
+namespace {
+
+/// Returns every `nth` of the visible links of a volume: links on its surface, and uncut links that belong to no cell.
 DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts, std::size_t nth) {
   const CellTable& table = surface.table();
   DrawnLinks drawn;
@@ -76,6 +79,8 @@ DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts, std::size_t nt
   return drawn;
 }
 
+/// Returns the corners of the triangles of the surface that no cut has revealed, and of the mesh's own triangles that
+/// belong to no cell and have no cut side.
 std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
   const CellTable& table = surface.table();
   std::vector<ElementId> corners;
@@ -92,6 +97,7 @@ std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
   return corners;
 }
 
+/// Returns the corners of the triangles inside the uncut volume that cuts have made visible.
 std::vector<ElementId> freshSurfaceFaces(const Surface& surface) {
   const CellTable& table = surface.table();
   std::vector<ElementId> corners;
@@ -102,6 +108,8 @@ std::vector<ElementId> freshSurfaceFaces(const Surface& surface) {
   }
   return corners;
 }
+
+}  // namespace
 
 std::vector<ElementId> thinned(const std::vector<ElementId>& elements, std::size_t atMost) {
   const std::size_t share = (elements.size() + atMost - 1) / atMost;

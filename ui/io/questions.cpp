@@ -1,6 +1,5 @@
 #include "io/questions.h"
 
-#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>

@@ -64,6 +64,9 @@ bool KnownFiles::isChanged(const QString& path) const {
   return known != known_.end() && now && *now != known->second;
 }
 
+namespace {
+
+/// Returns what opens the meshes and pictures that a session names: in the folder of the session, or among the samples.
 MeshOpener meshesNear(const QString& session) {
   return [session](const std::string& name, std::uint32_t across, const Progress& progress) -> MeshPointer {
     const QString path = found(session, QString::fromStdString(name));
@@ -74,6 +77,8 @@ MeshOpener meshesNear(const QString& session) {
                       progress.part(0.7, 1));
   };
 }
+
+}  // namespace
 
 Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent)
     : QObject(parent), document_(document), jobs_(jobs), layout_(std::move(layout)), recovery_(new RecoveryBar) {

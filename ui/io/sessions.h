@@ -42,9 +42,6 @@ class KnownFiles {
 /// Number of elements along the width of a picture.
 inline constexpr std::uint32_t elementsAcross = 32;
 
-/// Returns what opens the meshes and pictures that a session names: in the folder of the session, or among the samples.
-MeshOpener meshesNear(const QString& session);
-
 /// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
 /// next start.
 class Sessions : public QObject {

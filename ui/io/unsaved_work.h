@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QLockFile>
 #include <QStringList>
-#include <QToolButton>
 #include <memory>
 #include <vector>
 

@@ -11,8 +11,7 @@ namespace {
 
 constexpr float boxOpacity = 0.8F;
 
-}  // namespace
-
+/// Returns the box behind the text: next to the line and inside the view.
 QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view) {
   QRectF box = font.boundingRect(QRectF(0, 0, view.width(), view.height()), Qt::AlignLeft, annotation.words);
   box.adjust(-annotationPadding, -annotationPadding, annotationPadding, annotationPadding);
@@ -26,6 +25,8 @@ QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QS
   box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, view.height() - box.height())));
   return box;
 }
+
+}  // namespace
 
 void drawAnnotation(QPainter& painter, const Annotation& annotation, QColor ground, QSizeF view) {
   painter.setPen(QPen(QColor(colours::marked), 1.5));

@@ -22,8 +22,6 @@ struct Annotation {
   QString words;
 };
 
-/// Returns the box behind the text: next to the line and inside the view.
-QRectF annotationBox(const Annotation& annotation, const QFontMetricsF& font, QSizeF view);
 /// Draws the ends of the line and the text, but not the line itself.
 void drawAnnotation(QPainter& painter, const Annotation& annotation, QColor ground, QSizeF view);
 inline constexpr double annotationPadding = 4;      // pixels between the text and the edge of its box

@@ -1,7 +1,6 @@
 #include "panels/panel_head.h"
 
 #include <QAbstractItemView>
-#include <QActionGroup>
 #include <QApplication>
 #include <QEvent>
 #include <QGridLayout>

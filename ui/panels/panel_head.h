@@ -9,7 +9,6 @@
 #include "document/document.h"
 
 class QHBoxLayout;
-class QToolButton;
 
 namespace chainmail {
 

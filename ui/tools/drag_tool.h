@@ -3,7 +3,6 @@
 #include <QObject>
 #include <QPointer>
 #include <QVector3D>
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>

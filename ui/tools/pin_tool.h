@@ -2,7 +2,6 @@
 
 #include <QMenu>
 #include <QObject>
-#include <array>
 #include <optional>
 
 #include "common/ask_bar.h"

@@ -11,7 +11,6 @@
 
 #include "common/jobs.h"
 
-class QToolButton;
 class QVBoxLayout;
 
 namespace chainmail {

@@ -54,7 +54,7 @@ class ExampleDrag : public QObject {
   QElapsedTimer since_;
 };
 
-/// The Help menu: the manual, the page of keys, and the example of the first start.
+/// The Help menu: the manual, the page of keys, About, and the example of the first start.
 class HelpMenu : public QObject {
   Q_OBJECT
 

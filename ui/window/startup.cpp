@@ -16,7 +16,6 @@
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <QThread>
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>

@@ -143,12 +143,13 @@ QString refusalsOf(const report::DragResult& drag) {
   return lines.join(QLatin1Char('\n'));
 }
 
-}  // namespace
-
+/// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
 QString shortName(std::string_view label) {
   QString name = text(label);
   return name.startsWith(QStringLiteral("3D ")) ? name : name.remove(QStringLiteral(" ChainMail"));
 }
+
+}  // namespace
 
 ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
   setObjectName(QStringLiteral("reportTable"));

@@ -14,9 +14,6 @@ namespace chainmail {
 class PlotLegend;
 class PlotWidget;
 
-/// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
-QString shortName(std::string_view label);
-
 /// All figures of a drag, with one row for each contestant. A click on a column header sorts by that column.
 class ReportTable : public QTableWidget {
   Q_OBJECT
