@@ -125,15 +125,11 @@ std::vector<std::string> words_of(const std::string& where, const std::string& l
   return words;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  return CLI::detail::join(words, between);
-}
-
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
   if (std::ranges::find(words, word) == words.end()) {
     const std::vector<std::string> first(words.begin(), words.end() - 1);
     throw Error(where, in_quotes(word) + " is not known",
-                "use " + joined(first, ", ") + (first.empty() ? "" : " or ") + words.back());
+                "use " + joined_words(first, ", ") + (first.empty() ? "" : " or ") + words.back());
   }
 }
 

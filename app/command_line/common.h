@@ -71,8 +71,6 @@ std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, s
 std::vector<std::string_view> split(std::string_view text, char mark = ',');
 /// Splits a list at its commas. Throws Error if a word occurs twice.
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
-/// Returns words with a text between each two of them.
-std::string joined(const std::vector<std::string>& words, const std::string& between);
 /// Throws Error, with the list of words, if the word is not one of them.
 void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
 
@@ -94,7 +92,7 @@ std::vector<std::string> names_of(const Choices<Value>& choices) {
 template <class Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices<Value>& choices,
                         const std::string& help) {
-  return add_value(app, name, joined(names_of(choices), "|"), help);
+  return add_value(app, name, joined_words(names_of(choices), "|"), help);
 }
 /// Returns what the word of an option stands for; `usual` without it. Throws Error for another word.
 template <class Value>

@@ -216,7 +216,7 @@ void compare_with_exact(const CompareArguments& arguments) {
   OutputFolder folder(*value_of(arguments.output));
   const report::Comparison comparison = [&] {
     ProgressLine line;
-    return report::compare(cases_of(arguments), options, teller_of(line));
+    return report::compare(cases_of(arguments), options, progress_on(line));
   }();
   write_report(folder, comparison, {}, {}, origin_of(arguments));
 }
@@ -229,7 +229,7 @@ void compare_with_physics(const CompareArguments& arguments) {
   const auto cases = physics_cases_of(arguments, elastic, options.refine ? report::patch_share : 0);
   const report::PhysicsReport report = [&] {
     ProgressLine line;
-    return report::compare_with_physics(report::with_laws(cases, laws), options, teller_of(line));
+    return report::compare_with_physics(report::with_laws(cases, laws), options, progress_on(line));
   }();
   write_report(folder, report, plots_of(report), {}, origin_of(arguments));
 }
@@ -359,7 +359,7 @@ report::Origin origin_of(const CompareArguments& arguments) {
   return {report::this_machine(), arguments.command_line, report::now_in_words(), version_in_words("chainmail")};
 }
 
-report::Progress teller_of(ProgressLine& line) {
+report::Progress progress_on(ProgressLine& line) {
   return [&line](double share, const std::string& text) { line.show([&] { return percent(share) + text; }); };
 }
 

@@ -52,8 +52,8 @@ void judge_answers(const CompareArguments& arguments);
 std::optional<int> repetitions_of(const CompareArguments& arguments);
 /// Returns where a report comes from, which ends now.
 report::Origin origin_of(const CompareArguments& arguments);
-/// Returns what shows the progress of a report on a line.
-report::Progress teller_of(ProgressLine& line);
+/// Returns a function that shows the progress of a report on a line.
+report::Progress progress_on(ProgressLine& line);
 
 /// A file of a report.
 struct ReportFile {

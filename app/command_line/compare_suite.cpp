@@ -92,7 +92,7 @@ void run_suite(const CompareArguments& arguments) {
   }
   report::Suite suite = [&] {
     ProgressLine line;
-    return report::run_suite(experiments, options, teller_of(line));
+    return report::run_suite(experiments, options, progress_on(line));
   }();
   suite.runs = {{origin_of(arguments), value_of(arguments.shard).value_or("1/1"), experiments}};
   write_report(folder, suite, plots_of(suite), {});
@@ -134,11 +134,8 @@ void judge_answers(const CompareArguments& arguments) {
   }
   const report::PeerCase object = read_peer_case(files.front());
   report::FigureTable table = peer_table(object);
-  table.caption = printable(table.caption);
-  table.about = printable(table.about);
   for (const std::string& file : std::span(files).subspan(1)) {
     table.rows.push_back(peer_row(object, read_peer_answer(file)));
-    table.rows.back().label = printable(table.rows.back().label);
   }
   write_file("-", [&](std::ostream& out) { write_text(out, table); });
 }

@@ -192,12 +192,12 @@ void deform(const DeformArguments& options) {
 
   std::optional<ProgressLine> line(std::chrono::seconds(1));
   const std::string of_all = " of " + std::to_string(passes_of(recorded, actions, schedule.steps));
-  const auto tell = [&, done = 0]() mutable {
+  const auto on_end = [&, done = 0]() mutable {
     ++done;
     line->show([&] { return "pass " + std::to_string(done) + of_all; });
   };
   Deformation deformation(mesh, algorithm, precision,
-                          {schedule.relax, schedule.until, targets.trace.has_value(), tell});
+                          {schedule.relax, schedule.until, targets.trace.has_value(), on_end});
   deformation.apply(commands::SetSoftness{softness});
   deformation.apply(commands::SetElastic{elastic});
   deformation.apply(schedule.how);
@@ -226,7 +226,7 @@ void add_acts(CLI::App& app, DeformArguments& options) {
 }
 
 void add_model(CLI::App& app, DeformArguments& options) {
-  options.algorithm = add_value(app, "--algorithm", "NAME", joined(names_of(every_algorithm()), "|"))->required();
+  options.algorithm = add_value(app, "--algorithm", "NAME", joined_words(names_of(every_algorithm()), "|"))->required();
   options.global = add_softness(app);
   options.softness = add_value(app, "--softness", "FILE",
                                "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) +

@@ -165,7 +165,7 @@ StrainLawArguments add_strain_laws(CLI::App& app) {
 }
 
 StrainLawArguments add_strain_law(CLI::App& app) {
-  return add_laws(app, joined(names_of(laws_by_name()), "|"),
+  return add_laws(app, joined_words(names_of(laws_by_name()), "|"),
                   "law of the material, for relaxation to it and for the algorithm neo-hookean; gent and fung stiffen "
                   "as they are stretched");
 }

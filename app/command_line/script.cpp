@@ -294,9 +294,7 @@ void check_actions(const std::vector<Action>& actions, const Mesh& mesh, std::ui
 
 std::uint64_t passes_of(const std::vector<chainmail::Command>& recorded, const std::vector<Action>& actions,
                         std::uint32_t steps) {
-  const auto is_drag = [](const chainmail::Command& one) { return std::holds_alternative<commands::Drag>(one); };
-  return std::uint64_t(std::ranges::count_if(actions, is_move)) * steps +
-         std::uint64_t(std::ranges::count_if(recorded, is_drag));
+  return std::uint64_t(std::ranges::count_if(actions, is_move)) * steps + count_drags(recorded);
 }
 
 void carry_out(Deformation& deformation, const std::vector<chainmail::Command>& recorded,

@@ -36,16 +36,6 @@ static_assert(int(StrainLaw::neo_hookean) == int(inner::StrainLaw::Kind::neo_hoo
 
 namespace {
 
-/// Throws Error if the rest positions are out of the range of a precision.
-void check_precision(const inner::Mesh& mesh, inner::Precision precision) {
-  const double limit = position_limit(precision);
-  for (const Point& corner : mesh.box) {
-    if (!(corner.array().abs() <= limit).all()) {
-      throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
-    }
-  }
-}
-
 inner::Snapshot snapshot_of(const inner::Body& body) {
   return body.snapshot(body.is_at_rest() ? ElementBlocks(body.mesh().element_count()) : every_block(body.mesh()));
 }
@@ -107,7 +97,7 @@ bool Snapshot::operator==(const Snapshot& other) const {
 }
 
 Body::Body(const Mesh& mesh, Precision precision) {
-  check_precision(*Access::pointer(mesh), precision_of(precision));
+  guarded([&] { inner::check(precision_of(precision), *Access::pointer(mesh)); });
   impl_ = guarded([&] {
     return std::make_unique<Impl>(Impl{
         mesh,

@@ -27,6 +27,9 @@ constexpr std::array all_energy_kinds{
                    "The cells resist as an elastic material with Poisson's ratio does, and a surface in space as a "
                    "thin shell of it; nothing is calibrated. Where there are neither, it is that of co-rotated links.",
                    parameters::lateral.default_value}};
+static_assert(all_energy_kinds[0].kind == EnergyKind(0) && all_energy_kinds[1].kind == EnergyKind(1) &&
+                  all_energy_kinds[2].kind == EnergyKind(2) && all_energy_kinds[3].kind == EnergyKind(3),
+              "info() finds a row by its kind");
 
 }  // namespace
 

@@ -4,11 +4,22 @@
 #include <limits>
 #include <numeric>
 
+#include "mesh/error.h"
+
 namespace chainmail {
 
 double position_limit(Precision precision) {
   return precision == Precision::single_precision ? double(std::numeric_limits<float>::max() / 16)
                                                   : std::numeric_limits<double>::max() / 16;
+}
+
+void check(Precision precision, const Mesh& mesh) {
+  const double limit = position_limit(precision);
+  for (const Point& corner : mesh.box) {
+    if (!(corner.array().abs() <= limit).all()) {
+      throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
+    }
+  }
 }
 
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {

@@ -15,6 +15,8 @@ enum class Precision { single_precision, double_precision };
 
 /// Largest coordinate that a solver stores (mesh units), so that sums of a few of them are finite.
 double position_limit(Precision precision);
+/// Throws Error if the rest positions of a mesh are out of the range of a precision.
+void check(Precision precision, const Mesh& mesh);
 
 /// Position of an element (mesh units). In 3D it is padded, so that all axes are computed at once. Size in bytes for
 /// one, two and three dimensions: 4, 8, 16 in float; 8, 16, 32 in double.

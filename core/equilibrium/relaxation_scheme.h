@@ -26,6 +26,11 @@ inline constexpr std::array relaxation_schemes{
     RelaxationSchemeInfo{RelaxationScheme::equilibrium, "equilibrium", "equilibrium",
                          "the whole object at once, to the valid state of least energy", false}};
 
+static_assert(relaxation_schemes[0].scheme == RelaxationScheme(0) &&
+                  relaxation_schemes[1].scheme == RelaxationScheme(1) &&
+                  relaxation_schemes[2].scheme == RelaxationScheme(2),
+              "info() finds a row by its scheme");
+
 /// Returns the row of a scheme.
 constexpr const RelaxationSchemeInfo& info(RelaxationScheme scheme) {
   return relaxation_schemes[static_cast<std::size_t>(scheme)];

@@ -12,7 +12,7 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint64_t most_traced = 50'000'000;  // rows, which are in memory until they are written
+constexpr std::uint64_t max_traced = 50'000'000;  // rows, which are in memory until they are written
 
 /// Returns the position at a share of the way. std::lerp ends exactly at the target, and does not overflow.
 Point between(const Point& from, const Point& to, double share) {
@@ -20,15 +20,6 @@ Point between(const Point& from, const Point& to, double share) {
 }
 
 }  // namespace
-
-void check(Precision precision, const Mesh& mesh) {
-  const double limit = position_limit(precision);
-  for (const Point& corner : mesh.box) {
-    if (!(corner.array().abs() <= limit).all()) {
-      throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
-    }
-  }
-}
 
 Deformation::Deformation(MeshPointer mesh, Algorithm algorithm, Precision precision, EachPass each)
     : simulation_(std::move(mesh), algorithm, precision), each_(std::move(each)) {}
@@ -58,9 +49,8 @@ void Deformation::move_handle(const Point& by, const Rotation& rotation, std::ui
   const commands::Drag from = handle_;
   for (std::uint32_t step = 1; step <= steps; ++step) {
     const double share = double(step) / steps;
-    handle_.target = between(from.target, from.target + by, share);
-    handle_.rotation = composed(from.rotation, {rotation.axis, share * rotation.degrees});
-    pass(handle_);
+    pass({between(from.target, from.target + by, share),
+          composed(from.rotation, {rotation.axis, share * rotation.degrees}), true});
   }
 }
 
@@ -72,8 +62,10 @@ void Deformation::pass(const commands::Drag& drag) {
   const Statistics& statistics = simulation_.statistics();
   const Handle& held = *simulation_.last_handle();
   const auto elements = held.elements();
+  const Point grabbed_at = held.grabbed().pivot;
+  handle_ = {drag.relative ? drag.target : Point(drag.target - grabbed_at), drag.rotation, true};
   passes_.push_back({{elements.begin(), elements.end()},
-                     drag.relative ? Point(held.grabbed().pivot + drag.target) : drag.target,
+                     drag.relative ? Point(grabbed_at + drag.target) : drag.target,
                      drag.rotation,
                      statistics.last_pass.checked,
                      statistics.last_pass.moved,
@@ -85,14 +77,14 @@ void Deformation::pass(const commands::Drag& drag) {
   passes_.back().remark = statistics.remark;
   if (each_.traced) {
     traced_ += trace.size();
-    if (traced_ > most_traced) {
-      throw Error("trace", "it has more than " + std::to_string(most_traced) + " rows",
+    if (traced_ > max_traced) {
+      throw Error("trace", "it has more than " + std::to_string(max_traced) + " rows",
                   "use fewer steps, or a smaller object");
     }
     traces_.push_back(std::move(trace));
   }
   simulation_.relax(each_.relax, {simulation_.relaxation().step, simulation_.relaxation().scheme, each_.relax_until});
-  each_.tell();
+  each_.on_end();
 }
 
 DeformSummary Deformation::summary() {
@@ -101,7 +93,7 @@ DeformSummary Deformation::summary() {
   simulation_.measure_all();
   const Statistics& statistics = simulation_.statistics();
   const auto positions = body.positions();
-  return {std::string(info(statistics.algorithm).name),
+  return {statistics.algorithm,
           mesh.element_count(),
           mesh.link_count(),
           passes_,

@@ -24,7 +24,7 @@ struct DeformSummary {
     std::string remark = {};               // reason why it did not end as requested; usually empty
   };
 
-  std::string algorithm;
+  Algorithm algorithm = Algorithm::natural_queue;
   std::uint64_t elements = 0;
   std::uint64_t links = 0;
   std::vector<Pass> passes;
@@ -38,18 +38,15 @@ struct DeformSummary {
   std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
 };
 
-/// Throws Error if the rest positions of a mesh are out of the range of a precision.
-void check(Precision precision, const Mesh& mesh);
-
 /// A simulation that notes what each of its passes did.
 class Deformation {
  public:
-  /// What belongs to each pass.
+  /// What each pass does.
   struct EachPass {
-    int relax = 0;                       // sweeps of relaxation, or most iterations, with the scheme last set
-    double relax_until = 0;              // residual that ends the iterations
-    bool traced = false;                 // notes every candidate
-    std::function<void()> tell = [] {};  // called at its end
+    int relax = 0;           // sweeps of relaxation, or most iterations, with the scheme last set
+    double relax_until = 0;  // residual that ends the iterations
+    bool traced = false;     // notes every candidate
+    std::function<void()> on_end = [] {};
   };
   Deformation(MeshPointer mesh, Algorithm algorithm, Precision precision, EachPass each);
 

@@ -169,6 +169,11 @@ MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands
   return last;
 }
 
+std::size_t count_drags(std::span<const Command> commands) {
+  return std::size_t(std::ranges::count_if(
+      commands, [](const Command& command) { return std::holds_alternative<commands::Drag>(command); }));
+}
+
 MeshPointer MoveHistory::first_mesh() const {
   MeshPointer first;
   for (std::size_t i = 0; i < length() && !first; ++i) {

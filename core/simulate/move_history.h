@@ -14,6 +14,8 @@ MeshPointer first_mesh(const std::vector<Command>& commands);
 
 /// Returns the mesh of the object after recorded commands that begin with `mesh`.
 MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands);
+/// Returns the number of drags.
+std::size_t count_drags(std::span<const Command> commands);
 
 /// The recorded commands. They lead from an object at rest, without cuts and pins and with Softness(), to the current
 /// object. Settings of the solver (algorithm, relaxation) are not recorded, but what relaxation did is.

@@ -25,8 +25,6 @@ constexpr double settled_below = 1e-4;
 // so far in so many iterations or sweeps. Counts, unlike a time, are the same in a replay.
 constexpr double falls_below = 0.99;
 constexpr std::uint64_t most_iterations = 500, most_sweeps = 2000;
-// About 2 ms, so that commands never wait longer for a slice of relaxation.
-constexpr std::uint64_t elements_per_slice = 20'000;
 constexpr LinkId links_per_slice = 50'000;
 
 }  // namespace
@@ -208,7 +206,7 @@ void Simulation::begin_relaxation(bool awake) {
 
 RelaxationResult Simulation::relax_slice(double step) {
   return take_relaxed([&] {
-    const RelaxationResult slice = deformer_->relax_slice(step, elements_per_slice, grabbed());
+    const RelaxationResult slice = deformer_->relax_slice(step, Deformer::elements_per_slice, grabbed());
     mark(deformer_->relaxed());
     return slice;
   });
@@ -242,6 +240,10 @@ void Simulation::refuse_relaxation(const std::string& reason) {
 }
 
 void Simulation::relax(int count, const RelaxOptions& options) {
+  if (count == 0 || !info(algorithm_).relaxes()) {
+    deformer_->relax(count, options);  // checks the options; what is known of the last relaxation stays
+    return;
+  }
   take_relaxed([&] {
     RelaxationResult result;
     result.residual = deformer_->relax(count, options, [this] { mark(deformer_->relaxed()); }).residual;
@@ -269,10 +271,10 @@ void Simulation::measure_all() {
 
 void Simulation::take_mesh(MeshPointer mesh) {
   const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  auto solver =
-      std::make_unique<Deformer>(mesh, algorithm, precision_);  // may run out of memory, so it comes before any change
-  solver->body().set_elastic(elastic());
-  deformer_ = std::move(solver);
+  // This may run out of memory, so it comes before any change.
+  auto deformer = std::make_unique<Deformer>(mesh, algorithm, precision_);
+  deformer->body().set_elastic(elastic());
+  deformer_ = std::move(deformer);
   deformer_->set_relaxation(relaxation_scheme_);
   deformer_->set_progress(progress_);
   deformer_->set_threads(threads_);

@@ -77,7 +77,7 @@ class Simulation {
 
   const Mesh& mesh() const { return *mesh_; }
   const MeshPointer& mesh_pointer() const { return mesh_; }
-  const Deformer& solver() const { return *deformer_; }
+  const Deformer& deformer() const { return *deformer_; }
   const Body& body() const { return deformer_->body(); }
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }

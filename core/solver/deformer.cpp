@@ -12,8 +12,6 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint64_t elements_between_checks = 20'000;  // about 2 ms, after which sweeps may be cancelled
-
 /// Relaxes with a scheme until the end of a block.
 class SchemeForNow {
  public:
@@ -246,7 +244,7 @@ std::uint64_t Deformer::sweep(double step, const Progress& progress, const std::
   std::uint64_t visited = 0;
   while (true) {
     progress.report(std::min(1.0, double(visited) / body_.mesh().element_count()));
-    const RelaxationResult slice = relax_slice(step, elements_between_checks, held_);
+    const RelaxationResult slice = relax_slice(step, elements_per_slice, held_);
     visited += slice.visited;
     if (after_slice) {
       after_slice();

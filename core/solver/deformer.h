@@ -98,6 +98,9 @@ class Deformer {
 
   // Relaxation in slices, for idle time.
 
+  /// Elements that a slice may visit: about 2 ms, so that nobody waits longer for its end.
+  static constexpr std::uint64_t elements_per_slice = 20'000;
+
   /// Makes these elements and their neighbours active: relaxation will visit them. The scheme `equilibrium` then visits
   /// all elements.
   void wake(std::span<const ElementId> elements);
@@ -112,7 +115,7 @@ class Deformer {
   /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
   /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
   RelaxationResult relax_slice(double step, std::uint64_t budget, std::span<const ElementId> held);
-  /// The elements that the last slice, or the last iterations at once, moved; once per move.
+  /// The elements that the last slice with the present scheme moved, once per move.
   std::span<const ElementId> relaxed() const;
   /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it as it is.
   std::optional<EquilibriumCertificate> certificate();

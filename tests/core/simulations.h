@@ -23,11 +23,11 @@ inline void exchange(Simulation& simulation, commands::StateId state) {
 }
 
 inline std::vector<double> positions_of(const Simulation& simulation) {
-  return positions_of(simulation.solver(), simulation.mesh());
+  return positions_of(simulation.deformer(), simulation.mesh());
 }
 
 inline Point position_of(const Simulation& simulation, ElementId element) {
-  return position_of(simulation.solver(), simulation.mesh(), element);
+  return position_of(simulation.deformer(), simulation.mesh(), element);
 }
 
 /// Grabs an element and drags it from its position.

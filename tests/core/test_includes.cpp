@@ -57,7 +57,7 @@ const QList<Room> rooms{
     {"core/report/run", {"core/simulate"}},
     {"core/report/page", {"core/report/run"}},
     {"core/calibrate", {"core/report/run"}},
-    {"core/files/text", {"core/equilibrium"}},
+    {"core/files/text", {"core/mesh"}},
     {"core/files/formats", {"core/files/text", "core/measure"}},
     {"core/files/import", {"core/files/formats"}},
     {"core/files/mesh", {"core/files/import"}},
@@ -226,6 +226,7 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/files/import/program/fill.cpp", "#include \"files/mesh/fill.h\"", true);
   row("core/files/import/program/fill.cpp", "#include <gmsh.h>", true);
   row("core/files/repair/repair.cpp", "#include \"files/import/import_process.h\"", true);
+  row("core/files/text/json_fields.h", "#include \"body/softness.h\"", false);
   row("core/calibrate/optimum.cpp", "#include <nlopt.h>", true);
   row("core/bullet/soft_body.cpp", "#include <BulletSoftBody/btSoftBody.h>", true);
   row("core/bullet/soft_body.h", "#include \"solver/algorithms.h\"", true);

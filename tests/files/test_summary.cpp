@@ -53,8 +53,10 @@ void SummaryTest::json_keeps_the_order_of_the_keys() {
 }
 
 void SummaryTest::json_of_a_deformation() {
-  DeformSummary summary{"spiral", 4, 3, {{{2}, Point(0.1, 0, 0), {}, 7, 5, 0.25}}, {}, 0.5, {2, 1}};
+  DeformSummary summary{Algorithm::spiral, 4, 3, {{{2}, Point(0.1, 0, 0), {}, 7, 5, 0.25}}, {}, 0.5, {2, 1}};
   summary.violation.max = 0.125;
+  summary.passes[0].stopped_at = Point(0.05, 0, 0);
+  summary.equilibrium.emplace().binds = true;
   std::ostringstream out;
   write_json(out, summary);
   const auto json = QJsonDocument::fromJson(QByteArray::fromStdString(out.str())).object();
@@ -62,6 +64,8 @@ void SummaryTest::json_of_a_deformation() {
   const auto pass = json["passes"][0];
   QCOMPARE(pass["element"].toInt(), 2);
   QCOMPARE(pass["target"][0].toDouble(), 0.1);
+  QCOMPARE(pass["stopped_at"][0].toDouble(), 0.05);
+  QVERIFY(json["equilibrium"]["regions_bind"].toBool());
   QCOMPARE(pass["checked"].toInt(), 7);
   QCOMPARE(pass["moved"].toInt(), 5);
   QCOMPARE(pass["milliseconds"].toDouble(), 0.25);
@@ -72,7 +76,7 @@ void SummaryTest::json_of_a_deformation() {
 }
 
 void SummaryTest::text_and_notes_of_a_deformation() {
-  DeformSummary summary{"original", 30, 49, {}, {}, 0, {}};
+  DeformSummary summary{Algorithm::chainmail_3d, 30, 49, {}, {}, 0, {}};
   summary.passes.resize(2);
   summary.passes[0].handle = {28, 29};
   summary.passes[1].handle = {29};

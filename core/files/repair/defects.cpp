@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "files/mesh/flaws.h"
+#include "files/text/text.h"
 
 namespace chainmail {
 namespace {
@@ -193,10 +194,6 @@ void find_holes(const Mesh& mesh, const Triangles& triangles, const std::vector<
   }
 }
 
-std::string counted(std::size_t count, const char* one, const char* several) {
-  return std::to_string(count) + " " + (count == 1 ? one : several);
-}
-
 }  // namespace
 
 std::size_t Defects::hole_edges() const {
@@ -280,14 +277,6 @@ std::vector<std::string> in_words(const Defects& defects) {
     words.push_back(counted(count, "cell inside out", "cells inside out"));
   }
   return words;
-}
-
-std::string joined_words(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : between) + word;
-  }
-  return text;
 }
 
 }  // namespace chainmail

@@ -47,9 +47,6 @@ Defects find_defects(const Mesh& mesh, const Progress& progress = {});
 /// '1 non-manifold edge', '5 cells inside out'.
 std::vector<std::string> in_words(const Defects& defects);
 
-/// Joins such descriptions.
-std::string joined_words(const std::vector<std::string>& words, const std::string& between);
-
 /// Returns for each element whether it is loose: without links, faces and cells, in a mesh with links.
 std::vector<bool> loose_elements(const Mesh& mesh);
 

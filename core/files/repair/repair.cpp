@@ -9,6 +9,7 @@
 #include "files/import/import_process.h"
 #include "files/mesh/flaws.h"
 #include "files/mesh/join.h"
+#include "files/text/text.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
 
@@ -129,10 +130,6 @@ Repaired with_all_elements(MeshPointer after, const Mesh& before) {
   return repaired;
 }
 
-std::string number_of(std::size_t count, const char* one, const char* several) {
-  return std::to_string(count) + " " + (count == 1 ? one : several);
-}
-
 }  // namespace
 
 Repaired weld(const Mesh& mesh, double tolerance, const Progress& progress) {
@@ -218,34 +215,24 @@ RepairResult repair(const MeshPointer& mesh, const OwnSoftness& softness, const 
   if (options.weld && (options.tolerance > 0 || !defects.duplicates.empty())) {
     take(weld(*result.mesh, options.tolerance, progress.part(0, 0.2)));
     if (const ElementId count = mesh->element_count() - result.mesh->element_count(); count > 0) {
-      result.done.push_back(number_of(count, "duplicate vertex welded", "duplicate vertices welded"));
+      result.done.push_back(counted(count, "duplicate vertex welded", "duplicate vertices welded"));
     }
   }
   if (const auto count = defects.loose.size(); options.loose && count > 0) {
     take(remove_loose(*result.mesh, progress.part(0.2, 0.4)));
-    result.done.push_back(number_of(count, "loose point removed", "loose points removed"));
+    result.done.push_back(counted(count, "loose point removed", "loose points removed"));
   }
   if (const auto count = defects.holes.size(); options.holes && count > 0) {
     const std::size_t triangles = result.mesh->triangles.size();
     take(close_holes(*result.mesh, defects.holes, progress.part(0.4, 1)));
-    result.done.push_back(number_of(count - std::min(count, defects.holes.size()), "hole", "holes") + " closed with " +
-                          number_of(result.mesh->triangles.size() - triangles, "triangle", "triangles"));
+    result.done.push_back(counted(count - std::min(count, defects.holes.size()), "hole", "holes") + " closed with " +
+                          counted(result.mesh->triangles.size() - triangles, "triangle", "triangles"));
   }
   if (const auto count = defects.inverted.size(); options.cells && count > 0) {
     take(turn_cells(*result.mesh, defects.inverted, progress.part(0.9, 1)));
-    result.done.push_back(number_of(count, "cell turned", "cells turned"));
+    result.done.push_back(counted(count, "cell turned", "cells turned"));
   }
   return result;
-}
-
-void write_text(std::ostream& out, const RepairResult& repair) {
-  out << "repaired  " << (repair.done.empty() ? "nothing" : joined_words(repair.done, ", ")) << '\n';
-  if (!repair.defects.empty()) {
-    out << "left      " << joined_words(in_words(repair.defects), ", ") << '\n';
-  }
-  if (const auto outlines = repair.defects.outlines; outlines > 0) {
-    out << "open      " << number_of(outlines, "border: the outline", "borders: outlines") << " of an open surface\n";
-  }
 }
 
 }  // namespace chainmail

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -61,7 +60,5 @@ struct RepairResult {
 /// Repairs the defects of a mesh. Throws what these repairs throw.
 RepairResult repair(const MeshPointer& mesh, const OwnSoftness& softness, const RepairOptions& options,
                     const Progress& progress = {});
-/// Writes what was done and what is left, for readers, a line each.
-void write_text(std::ostream& out, const RepairResult& repair);
 
 }  // namespace chainmail

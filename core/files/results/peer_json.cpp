@@ -32,8 +32,8 @@ class PeerReader {
   report::PeerCase read_case(const Read& json) const {
     check_kind(json, json_kinds::peer_case);
     report::PeerCase object;
-    object.name = fields_.text(json, "name");
-    object.description = fields_.text(json, "description");
+    object.name = printable(fields_.text(json, "name"));
+    object.description = printable(fields_.text(json, "description"));
     object.mesh = mesh(json);
     const ElementId count = object.mesh->element_count();
     object.pins = ids(fields_.array(json, "pins"), count);
@@ -59,8 +59,8 @@ class PeerReader {
   report::PeerAnswer read_answer(const Read& json) const {
     check_kind(json, json_kinds::peer_answer);
     report::PeerAnswer answer;
-    answer.solver = fields_.text(json, "solver");
-    answer.case_name = fields_.text(json, "case");
+    answer.solver = printable(fields_.text(json, "solver"));
+    answer.case_name = printable(fields_.text(json, "case"));
     answer.positions = points(fields_.array(json, "positions"));
     answer.factorize_ms = time_if_any(json, "factorize_ms");
     answer.grab_ms = time_if_any(json, "grab_ms");

@@ -152,7 +152,7 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
     passes.push_back(std::move(one));
   }
   const auto& violation = summary.violation;
-  Json json{{"algorithm", summary.algorithm},
+  Json json{{"algorithm", info(summary.algorithm).name},
             {"elements", summary.elements},
             {"links", summary.links},
             {"passes", std::move(passes)},
@@ -224,9 +224,19 @@ void write_text(std::ostream& out, const MeshSummary& summary) {
   }
 }
 
+void write_text(std::ostream& out, const RepairResult& repair) {
+  out << "repaired  " << (repair.done.empty() ? "nothing" : joined_words(repair.done, ", ")) << '\n';
+  if (!repair.defects.empty()) {
+    out << "left      " << joined_words(in_words(repair.defects), ", ") << '\n';
+  }
+  if (const auto outlines = repair.defects.outlines; outlines > 0) {
+    out << "open      " << counted(outlines, "border: the outline", "borders: outlines") << " of an open surface\n";
+  }
+}
+
 void write_text(std::ostream& out, const DeformSummary& summary) {
-  out << info(find_algorithm(summary.algorithm).value()).offered_name() << " on " << summary.elements << " elements, "
-      << summary.links << " links\n";
+  out << info(summary.algorithm).offered_name() << " on " << summary.elements << " elements, " << summary.links
+      << " links\n";
   for (std::size_t i = 0; i < summary.passes.size(); ++i) {
     out << "pass " << i << ": ";
     write_pass(out, summary.passes[i]);

@@ -41,11 +41,13 @@ void write_json(std::ostream& out, const MeshSummary& summary);
 void write_json(std::ostream& out, const RepairResult& repair);
 
 void write_json(std::ostream& out, const DeformSummary& summary);
-/// Returns what did not go as requested: passes that did not converge or stopped before their target. Usually empty.
+/// Returns notes about passes that did not converge or stopped before their target. Usually empty.
 std::vector<std::string> notes_of(const DeformSummary& summary);
 
 // Each of these functions writes a result for readers.
 void write_text(std::ostream& out, const MeshSummary& summary);
+/// What was done and what is left, a line each.
+void write_text(std::ostream& out, const RepairResult& repair);
 void write_text(std::ostream& out, const DeformSummary& summary);
 void write_text(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result);
 

@@ -94,6 +94,18 @@ std::string shortened(std::string_view text, std::size_t most) {
   return std::string(text.substr(0, end)) + std::string(ellipsis);
 }
 
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
+std::string joined_words(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : between) + word;
+  }
+  return text;
+}
+
 std::string shown(const std::filesystem::path& path) { return path.empty() ? "''" : printable(path.string()); }
 
 std::string shown(const std::filesystem::path& path, std::size_t line) {

@@ -8,6 +8,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/progress.h"
 
@@ -23,6 +24,10 @@ std::string in_quotes(std::string_view word);
 /// Returns a text with at most `most` bytes: of a longer one the beginning, which ends between two characters of UTF-8
 /// and with an ellipsis.
 std::string shortened(std::string_view text, std::size_t most);
+/// Returns '1 hole' or '3 holes'.
+std::string counted(std::size_t count, const char* one, const char* several);
+/// Joins words with a text between them.
+std::string joined_words(const std::vector<std::string>& words, const std::string& between);
 /// Returns a path as text for messages; with a line, as `file:line`.
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);

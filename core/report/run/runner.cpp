@@ -118,9 +118,6 @@ void check(const RecordedMoves& moves) {
   }
 }
 
-int count_moves(const RecordedMoves& moves) {
-  return static_cast<int>(std::ranges::count_if(
-      moves.commands, [](const Command& command) { return std::holds_alternative<commands::Drag>(command); }));
-}
+int count_moves(const RecordedMoves& moves) { return static_cast<int>(count_drags(moves.commands)); }
 
 }  // namespace chainmail::report

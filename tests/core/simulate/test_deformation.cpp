@@ -26,18 +26,28 @@ void DeformationTest::a_move_has_equal_steps() {
   const MeshPointer mesh = make_mesh(MeshKind::tetra, {4, 3, 3});
   const auto pins = layer(*mesh, *find_side("left"));
   for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact, Algorithm::linear_fem}) {
-    int told = 0;
-    Deformation deformation(mesh, algorithm, Precision::double_precision, {.tell = [&] { ++told; }});
+    int ended = 0;
+    Deformation deformation(mesh, algorithm, Precision::double_precision, {.on_end = [&] { ++ended; }});
     const auto solver = std::make_unique<Deformer>(mesh, algorithm, Precision::double_precision);
+    const LinkId cut = mesh->entry_link[mesh->first_entry[mesh->element_count() / 2]];
+    const Softness softness{{0.9, 1.1, 0.3}, {}};
+    ElasticOptions elastic;
+    elastic.material.poisson = 0.4;
     deformation.apply(commands::Pin{pins});
-    solver->body().pin(pins);
+    deformation.apply(commands::Cut{{cut}});
+    deformation.apply(commands::SetSoftness{softness});
+    deformation.apply(commands::SetElastic{elastic});
+    solver->pin(pins);
+    solver->cut(std::array{cut});
+    solver->body().set_softness(softness);
+    solver->body().set_elastic(elastic);
     const ElementId tip = layer(*mesh, *find_side("right")).back();
     const Point start = mesh->rest_position(tip), target = start + Point(0.5, 1, -0.25);
     deformation.move(tip, target, 4);
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
       solver->move(tip, start + share * (target - start));
     }
-    QCOMPARE(told, 4);
+    QCOMPARE(ended, 4);
     QVERIFY(same_bits(positions_of(deformation.simulation()), positions_of(*solver, *mesh)));
   }
 }
@@ -53,8 +63,13 @@ void DeformationTest::passes_are_noted() {
   QCOMPARE(summary.passes.size(), std::size_t(2));
   QVERIFY(!summary.passes[0].stopped_at && summary.passes[1].stopped_at.value().x() < 50);
   QVERIFY(summary.passes[1].handle == std::vector<ElementId>{29} && summary.passes[1].target == Point(50, 4.5, 0));
-  QVERIFY(summary.algorithm == "exact" && summary.elements == 30 && summary.links == 49 && summary.equilibrium);
-  QVERIFY(deformation.traces().size() == 2 && !deformation.traces()[0].empty());
+  QVERIFY(summary.algorithm == Algorithm::exact && summary.elements == 30 && summary.links == 49 &&
+          summary.equilibrium);
+  Deformer deformer(mesh, Algorithm::exact);
+  deformer.pin(std::array{ElementId{0}});
+  Trace trace;
+  deformer.move(29, {5.5, 4.5, 0}, &trace);
+  QVERIFY(deformation.traces().size() == 2 && !trace.empty() && deformation.traces()[0].size() == trace.size());
 }
 
 void DeformationTest::a_handle_of_many_goes_on_from_where_it_is() {
@@ -67,6 +82,13 @@ void DeformationTest::a_handle_of_many_goes_on_from_where_it_is() {
   QVERIFY((position_of(deformation.simulation(), 28) - Point(6.5, 3.5, 0)).norm() < 1e-12);
   QCOMPARE(deformation.summary().passes.size(), std::size_t(3));
   QCOMPARE(deformation.summary().passes[2].rotation.degrees, 90.0);
+  deformation.apply(commands::Drag{{5, 6, 0}});
+  deformation.move_handle(Point(0, 1, 0), {}, 1);
+  QCOMPARE(deformation.summary().passes[4].target, Point(5, 7, 0));
+  QVERIFY_EXCEPTION_THROWN(deformation.apply(commands::Pin{{29}}), Error);
+  deformation.apply(commands::Release{});
+  deformation.apply(commands::Pin{{29}});
+  QVERIFY_EXCEPTION_THROWN(deformation.move(29, {1, 1, 0}, 1), Error);
 }
 
 void DeformationTest::commands_are_carried_out() {

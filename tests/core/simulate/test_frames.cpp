@@ -56,7 +56,7 @@ struct Scene {
 /// Returns the blocks of the last dragged element and of those that it moved.
 std::set<std::size_t> blocks_of_last_pass(const Simulation& simulation) {
   std::set<std::size_t> blocks{simulation.grabbed()[0] / Frame::block_elements};
-  for (const ElementId element : simulation.solver().moved()) {
+  for (const ElementId element : simulation.deformer().moved()) {
     blocks.insert(element / Frame::block_elements);
   }
   return blocks;

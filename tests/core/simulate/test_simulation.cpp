@@ -255,16 +255,16 @@ std::string lost_setting(Simulation& simulation, const PassSettings& seen, const
     can_be_cancelled = true;
   }
   job.cancelled = false;
-  return simulation.statistics().algorithm != noting_algorithm         ? "algorithm"
-         : seen.precision != Precision::single_precision               ? "precision"
-         : seen.threads != 3                                           ? "threads"
-         : seen.trace != &trace                                        ? "trace"
-         : !can_be_cancelled                                           ? "progress"
-         : simulation.softness() != other_softness                     ? "softness"
-         : simulation.elastic() != other_elastic                       ? "elastic options"
-         : simulation.relaxation() != other_relaxation                 ? "relaxation"
-         : simulation.solver().relaxation() != other_relaxation.scheme ? "scheme of the solver"
-                                                                       : "";
+  return simulation.statistics().algorithm != noting_algorithm           ? "algorithm"
+         : seen.precision != Precision::single_precision                 ? "precision"
+         : seen.threads != 3                                             ? "threads"
+         : seen.trace != &trace                                          ? "trace"
+         : !can_be_cancelled                                             ? "progress"
+         : simulation.softness() != other_softness                       ? "softness"
+         : simulation.elastic() != other_elastic                         ? "elastic options"
+         : simulation.relaxation() != other_relaxation                   ? "relaxation"
+         : simulation.deformer().relaxation() != other_relaxation.scheme ? "scheme of the solver"
+                                                                         : "";
 }
 
 }  // namespace
