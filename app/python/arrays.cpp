@@ -7,17 +7,14 @@
 #include <span>
 #include <utility>
 
-#include "chainmail/error.h"
-#include "python/unlocked.h"
+#include "python/long_work.h"
 
 namespace chainmail::python {
 namespace {
 
-using api::Error;
-
 constexpr std::uint32_t max_ids = std::numeric_limits<std::uint32_t>::max();
 /// Most rows of an array. A mesh has about seven links or six cells for each element.
-constexpr std::size_t most_rows = 10 * std::size_t{api::element_limit};
+constexpr std::size_t most_rows = 10 * std::size_t{element_limit};
 constexpr py::ssize_t rows_between_looks = 1 << 18;  // copied in a few ms
 
 std::string shape_in_words(const py::array& array) {
@@ -107,8 +104,7 @@ std::vector<std::uint32_t> checked_ids(const py::array& array, const std::string
 }
 
 /// Returns x, y and z for each row. Fewer than three columns are `axes`, and the other coordinates are `origin`.
-std::vector<double> spread_out(const py::array& array, const std::array<int, 3>& axes,
-                               const std::array<double, 3>& origin) {
+std::vector<double> spread_out(const py::array& array, const std::array<int, 3>& axes, const Point& origin) {
   std::vector<double> numbers = real_numbers(array, "positions");
   const auto columns = std::size_t(array.shape(1));
   if (columns == 3) {
@@ -119,12 +115,19 @@ std::vector<double> spread_out(const py::array& array, const std::array<int, 3>&
   const double* in = numbers.data();
   for (std::size_t row = 0; row < rows; ++row) {
     double* at = positions.data() + 3 * row;
-    std::copy(origin.begin(), origin.end(), at);
+    std::ranges::copy(origin, at);
     for (std::size_t k = 0; k < columns; ++k) {
       at[std::size_t(axes[k])] = *in++;
     }
   }
   return positions;
+}
+
+template <class Rows>
+Words names_in(const Rows& rows) {
+  Words names;
+  std::ranges::transform(rows, std::back_inserter(names), [](const auto& row) { return row.name; });
+  return names;
 }
 
 double number_of(PyObject* value) {
@@ -193,7 +196,7 @@ py::object next_of(const py::object& iterator) {
   return item;
 }
 
-api::Vector3 vector_of(py::handle value, const char* where) {
+Point vector_of(py::handle value, const char* where) {
   std::array<double, 3> at{};
   const auto items = py::reinterpret_steal<py::object>(PyObject_GetIter(value.ptr()));
   if (!items) {
@@ -214,28 +217,25 @@ api::Vector3 vector_of(py::handle value, const char* where) {
 }
 
 std::vector<double> positions_of(py::handle values) {
-  const py::array array = array_from(values, "positions", api::element_limit);
+  const py::array array = array_from(values, "positions", element_limit);
   if (array.ndim() != 2 || array.shape(1) < 1 || array.shape(1) > 3) {
     throw Error("positions", "the array has the shape " + shape_in_words(array),
                 "give the shape (n, 3): x, y and z for each of n elements; or (n, 2) or (n, 1)");
   }
-  return spread_out(array, {0, 1, 2}, {0, 0, 0});
+  return spread_out(array, {0, 1, 2}, Point::Zero());
 }
 
-std::vector<double> positions_on(const api::Mesh& mesh, py::handle values) {
-  const py::array array = array_from(values, "positions", api::element_limit);
+std::vector<double> positions_on(const Mesh& mesh, py::handle values) {
+  const py::array array = array_from(values, "positions", element_limit);
   const std::string count = std::to_string(mesh.element_count());
   const bool fits = array.ndim() == 2 && array.shape(0) == py::ssize_t(mesh.element_count()) &&
-                    (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension());
+                    (array.shape(1) == 3 || array.shape(1) == mesh.space_dimension);
   if (!fits) {
-    const std::string flat = "(" + count + ", " + std::to_string(mesh.space_dimension()) + ")";
+    const std::string flat = "(" + count + ", " + std::to_string(mesh.space_dimension) + ")";
     throw Error("positions", "the array has the shape " + shape_in_words(array),
-                "give the shape (" + count + ", 3)" + (mesh.space_dimension() == 3 ? "" : " or " + flat));
+                "give the shape (" + count + ", 3)" + (mesh.space_dimension == 3 ? "" : " or " + flat));
   }
-  std::array<int, 3> axes{};
-  std::ranges::transform(mesh.axes(), axes.begin(), [](char axis) { return axis - 'x'; });
-  const api::Vector3 constant = mesh.rest_position(0);  // on the axes that do not exist
-  return spread_out(array, axes, {constant.x, constant.y, constant.z});
+  return spread_out(array, mesh.axes, mesh.origin);
 }
 
 std::vector<double> numbers_of(py::handle value, const std::string& name, std::size_t count) {
@@ -248,7 +248,37 @@ std::vector<double> numbers_of(py::handle value, const std::string& name, std::s
   return array.ndim() == 0 ? std::vector<double>(count, numbers.front()) : numbers;
 }
 
-std::size_t word_of(const std::string& name, std::string_view word, std::span<const std::string_view> words) {
+py::tuple tuple_of(const Point& vector) { return py::make_tuple(vector.x(), vector.y(), vector.z()); }
+
+py::array_t<std::uint32_t> array_of(std::span<const std::uint32_t> ids) {
+  return py::array_t<std::uint32_t>(py::ssize_t(ids.size()), ids.data());
+}
+
+py::array_t<double> array_of(std::span<const double> numbers, std::size_t columns) {
+  return py::array_t<double>({py::ssize_t(numbers.size() / columns), py::ssize_t(columns)}, numbers.data());
+}
+
+const Words& words(Precision /*kind*/) {
+  static const Words all{"float", "double"};
+  return all;
+}
+
+const Words& words(RelaxationScheme /*kind*/) {
+  static const Words all = names_in(relaxation_schemes);
+  return all;
+}
+
+const Words& words(EnergyKind /*kind*/) {
+  static const Words all = names_in(energy_kinds());
+  return all;
+}
+
+const Words& words(StrainLaw::Kind /*kind*/) {
+  static const Words all{"neo-hookean", "gent", "fung"};
+  return all;
+}
+
+std::size_t index_of(const std::string& name, std::string_view word, const Words& words) {
   const auto found = std::ranges::find(words, word);
   if (found == words.end()) {
     std::string list;
@@ -260,14 +290,12 @@ std::size_t word_of(const std::string& name, std::string_view word, std::span<co
   return std::size_t(found - words.begin());
 }
 
-py::tuple tuple_of(const api::Vector3& vector) { return py::make_tuple(vector.x, vector.y, vector.z); }
-
-py::array_t<std::uint32_t> array_of(std::span<const std::uint32_t> ids) {
-  return py::array_t<std::uint32_t>(py::ssize_t(ids.size()), ids.data());
-}
-
-py::array_t<double> array_of(std::span<const double> numbers, std::size_t columns) {
-  return py::array_t<double>({py::ssize_t(numbers.size() / columns), py::ssize_t(columns)}, numbers.data());
+py::dict dict_of(std::initializer_list<std::pair<const char*, double>> numbers) {
+  py::dict result;
+  for (const auto& [name, number] : numbers) {
+    result[name] = number;
+  }
+  return result;
 }
 
 }  // namespace chainmail::python

@@ -1,38 +1,36 @@
-#include "chainmail/measure.h"
-
+// Figures of a body, and reference solutions.
 #include <pybind11/stl.h>
 
+#include "files/formats/mesh_state.h"
+#include "measure/distance.h"
+#include "measure/physical_error.h"
+#include "measure/violation.h"
 #include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
-#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
 
-py::dict named(const api::Spread& spread) {
-  py::dict numbers;
-  numbers["max"] = spread.max;
-  numbers["rms"] = spread.rms;
-  return numbers;
+/// A reference solution, with the mesh that it belongs to.
+struct ReferenceObject {
+  MeshPointer mesh;
+  ReferenceSolution solution;
+};
+
+/// Returns a view of coordinates, space_dimension for each element (mesh units).
+PositionView view_of(const Mesh& mesh, const std::vector<double>& coordinates) {
+  return {coordinates.data(), sizeof(double) * std::size_t(mesh.space_dimension), Precision::double_precision};
 }
 
-py::dict named(const api::PhysicalError& error) {
-  py::dict numbers;
-  numbers["relative"] = error.relative;
-  numbers["rms"] = error.rms;
-  numbers["max"] = error.max;
-  return numbers;
+template <class Figures>
+py::dict max_and_rms(const Figures& figures) {
+  return dict_of({{"max", figures.max}, {"rms", figures.rms}});
 }
 
-py::dict named(const api::Violation& violation) {
-  py::dict numbers;
-  numbers["max"] = violation.max;
-  numbers["rms"] = violation.rms;
-  numbers["fraction"] = violation.fraction;
-  numbers["links"] = violation.links;
-  return numbers;
+py::dict errors_in(const PhysicalError& error) {
+  return dict_of({{"relative", error.relative}, {"rms", error.rms}, {"max", error.max}});
 }
 
 /// Computes a figure of a body without the lock of Python.
@@ -43,44 +41,84 @@ auto figure_of(Object& object, Figure figure) {
   return figure(std::as_const(object.body()));
 }
 
-api::Spread distance_to_positions(Object& object, const py::object& values) {
+py::object violation(Object& object, const py::object& link) {
+  if (!link.is_none()) {
+    const LinkId id = id_of(link, "link");
+    return py::float_(figure_of(object, [id](const Body& body) { return link_violation(body, id); }));
+  }
+  const Violation all = figure_of(object, [](const Body& body) { return measure_violation(body); });
+  py::dict numbers = max_and_rms(all);
+  numbers["fraction"] = all.fraction;
+  numbers["links"] = all.links;
+  return numbers;
+}
+
+Distance distance_to_positions(Object& object, const py::object& values) {
   const UseObject use(object);
-  const std::vector<double> positions = positions_on(object.body().mesh(), values);
+  const std::vector<double> positions = positions_on(object.mesh(), values);
   const Unlocked unlocked;
-  return api::distance(object.body(), positions);
+  const std::vector<double> coordinates = coordinates_of(object.mesh(), positions, Precision::double_precision);
+  return measure_distance(object.mesh(), object.body().positions(), view_of(object.mesh(), coordinates));
+}
+
+Distance distance_between(Object& one, Object& other) {
+  const Body& second = other.body();
+  return figure_of(one, [&](const Body& body) {
+    if (body.mesh_pointer() != second.mesh_pointer()) {
+      throw Error("distance", "the two objects have different meshes", "use two bodies of one mesh");
+    }
+    return measure_distance(body.mesh(), body.positions(), second.positions());
+  });
 }
 
 py::dict distance(Object& object, const py::object& other) {
   if (!py::isinstance<Object>(other)) {
-    return named(distance_to_positions(object, other));
+    return max_and_rms(distance_to_positions(object, other));
   }
   Object& second = other.cast<Object&>();
   if (&second == &object) {
-    return named(figure_of(object, [](const api::Body& body) { return api::distance(body, body); }));
+    return max_and_rms(distance_between(object, object));
   }
   const UseObject use(second);
-  return named(figure_of(object, [&](const api::Body& body) { return api::distance(body, second.body()); }));
+  return max_and_rms(distance_between(object, second));
 }
 
-api::ReferenceSolution reference_solution(Object& object, const py::object& handle, const std::optional<api::Job>& job,
-                                          const py::object& progress) {
+ReferenceObject solve_reference(Object& object, const py::object& handle, const JobPointer& job,
+                                const py::object& progress) {
   const UseObject use(object);
   const auto ids = ids_of(handle, "element");
-  const api::Job watched = job.value_or(api::Job());
-  return run_long(watched, progress, [&] { return api::reference_solution(object.body(), ids, watched); });
+  const JobPointer watched = job_or_new(job);
+  return {object.body().mesh_pointer(), run_long(*watched, progress, [&] {
+            return reference_solution(object.body(), ids, Progress(watched->state));
+          })};
+}
+
+py::array_t<double> positions_of_solution(const ReferenceObject& one) {
+  const Mesh& mesh = *one.mesh;
+  std::vector<double> coordinates = mesh.rest;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    coordinates[i] += one.solution.displacements[i];
+  }
+  py::array_t<double> positions({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
+  double* out = positions.mutable_data();
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    out = std::ranges::copy(mesh.to_point(&coordinates[std::size_t{e} * std::size_t(mesh.space_dimension)]), out).out;
+  }
+  return positions;
+}
+
+py::dict error_of(Object& object, const ReferenceObject& reference) {
+  return errors_in(figure_of(object, [&](const Body& body) {
+    if (reference.mesh != body.mesh_pointer()) {
+      throw Error("reference solution", "it is of another mesh", "compute it for this object");
+    }
+    return measure_physical_error(body.mesh(), body.positions(), reference.solution);
+  }));
 }
 
 void add_figures(py::module_& module) {
   module.def(
-      "violation",
-      [](Object& object, const py::object& link) -> py::object {
-        if (!link.is_none()) {
-          const std::uint32_t id = id_of(link, "link");
-          return py::float_(figure_of(object, [id](const api::Body& body) { return api::violation(body, id); }));
-        }
-        return named(figure_of(object, [](const api::Body& body) { return api::violation(body); }));
-      },
-      py::arg("body"), py::arg("link") = py::none(),
+      "violation", &violation, py::arg("body"), py::arg("link") = py::none(),
       "Returns how far links lie outside their valid regions, in rest lengths of the link. Cut links do not count.\n\n"
       "Without a link, a dictionary: the largest violation `max`, the root of the mean square `rms`, the share\n"
       "`fraction` of the links that are violated by more than 1e-4, and the number of measured `links`. With a link,\n"
@@ -88,7 +126,8 @@ void add_figures(py::module_& module) {
   module.def(
       "displacement",
       [](Object& object) {
-        return named(figure_of(object, [](const api::Body& body) { return api::displacement(body); }));
+        return max_and_rms(
+            figure_of(object, [](const Body& body) { return measure_displacement(body.mesh(), body.positions()); }));
       },
       py::arg("body"),
       "Returns the displacement of the elements from rest (mesh units): a dictionary with the largest one `max` and "
@@ -102,42 +141,38 @@ void add_figures(py::module_& module) {
              "shapes differ.");
   module.def(
       "elastic_energy",
-      [](Object& object) { return figure_of(object, [](const api::Body& body) { return api::elastic_energy(body); }); },
+      [](Object& object) { return figure_of(object, [](const Body& body) { return elastic_energy(body); }); },
       py::arg("body"), "Returns the elastic energy of the body's kind over the uncut links (see the C++ interface).");
 }
 
 void add_reference(py::module_& module) {
-  py::class_<api::ReferenceSolution> reference(
+  py::class_<ReferenceObject> reference(
       module, "ReferenceSolution",
       "The positions that a neo-Hookean elastic object has: converged finite elements on\n"
       "the object's own cells or faces.");
   reference
-      .def(
-          "positions", [](const api::ReferenceSolution& one) { return array_of(one.positions(), 3); },
-          "Returns the positions: shape (element_count, 3), dtype float64 (mesh units). A copy.")
-      .def_property_readonly("handle_displacement", &api::ReferenceSolution::handle_displacement,
-                             "Largest displacement of an element of the handle (mesh units).")
-      .def("__repr__", [](const api::ReferenceSolution&) { return "<ReferenceSolution>"; });
+      .def("positions", &positions_of_solution,
+           "Returns the positions: shape (element_count, 3), dtype float64 (mesh units). A copy.")
+      .def_property_readonly(
+          "handle_displacement", [](const ReferenceObject& one) { return one.solution.handle_displacement; },
+          "Largest displacement of an element of the handle (mesh units).")
+      .def("__repr__", [](const ReferenceObject&) { return "<ReferenceSolution>"; });
   refuse_pickling(reference, "it belongs to a mesh of this process",
                   "pickle its positions(), or compute it again there");
   module.def(
-      "reference_solution", &reference_solution, py::arg("body"), py::arg("handle"), py::kw_only(),
+      "reference_solution", &solve_reference, py::arg("body"), py::arg("handle"), py::kw_only(),
       py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Returns the reference solution with the pins and these elements, the handle, at their current positions.\n\n"
       "`progress` is called with the share that is done, 0 to 1. Raises Error if an element does not exist, is\n"
       "given twice or is pinned, if the handle is at rest, if there are no cells or faces, if the pins are too\n"
       "few, or if it does not converge; and Cancelled.");
   module.def(
-      "physical_error",
-      [](Object& object, const api::ReferenceSolution& reference) {
-        return named(figure_of(object, [&](const api::Body& body) { return api::physical_error(body, reference); }));
-      },
-      py::arg("body"), py::arg("reference"),
+      "physical_error", &error_of, py::arg("body"), py::arg("reference"),
       "Returns the error of the current positions: a dictionary with `relative` (RMS of the error over RMS of the\n"
       "reference's displacements), and `rms` and `max` (over the handle's displacement).");
   module.def(
       "physical_error_of_rest",
-      [](const api::ReferenceSolution& reference) { return named(api::physical_error_of_rest(reference)); },
+      [](const ReferenceObject& one) { return errors_in(error_of_nothing_moving(*one.mesh, one.solution)); },
       py::arg("reference"), "Returns the error of an object of which only handle and pins move, as physical_error().");
 }
 

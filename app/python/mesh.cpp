@@ -1,219 +1,335 @@
-#include "chainmail/mesh.h"
-
-#include <pybind11/operators.h>
+// Meshes: generated, from arrays, and from files.
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <limits>
 
-#include "chainmail/error.h"
+#include "files/mesh/mesh_arrays.h"
+#include "files/mesh/open_mesh.h"
+#include "mesh/generate.h"
+#include "mesh/layers.h"
 #include "python/arrays.h"
+#include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
-#include "python/unlocked.h"
 
 namespace chainmail::python {
 namespace {
 
-/// Returns a read-only array that shows data of a mesh and keeps the mesh alive.
-template <class Number>
-py::array shown(const api::Mesh& mesh, const Number* first, std::size_t rows, std::size_t columns) {
-  const py::capsule owner(new api::Mesh(mesh), [](void* owned) { delete static_cast<api::Mesh*>(owned); });
-  py::array array(py::dtype::of<Number>(), {py::ssize_t(rows), py::ssize_t(columns)}, {}, first, owner);
-  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return array;
+using MeshClass = py::class_<MeshObject, MeshObjectPointer>;
+
+MeshObjectPointer object_of(MeshPointer mesh) { return std::make_shared<MeshObject>(MeshObject{std::move(mesh)}); }
+
+/// Makes a function of a mesh one of the Python class.
+template <class Function>
+auto on_mesh(Function function) {
+  return [function](const MeshObject& one) { return function(*one.mesh); };
 }
 
+/// The same for a function of an element.
+template <class Function>
+auto on_element(Function function) {
+  return [function](const MeshObject& one, const py::object& id) {
+    const ElementId element = id_of(id, "element");
+    check_element(*one.mesh, element);
+    return function(*one.mesh, element);
+  };
+}
+
+/// Returns a read-only array that shows groups of ids of a mesh and keeps the mesh alive.
 template <std::size_t Columns>
-py::array shown(const api::Mesh& mesh, std::span<const std::array<api::ElementId, Columns>> rows) {
-  return shown(mesh, rows.empty() ? nullptr : rows.front().data(), rows.size(), Columns);
+py::array shown_groups(const MeshPointer& mesh, std::span<const std::array<ElementId, Columns>> rows) {
+  const py::capsule owner(new MeshPointer(mesh), [](void* owned) { delete static_cast<MeshPointer*>(owned); });
+  return shown(rows.empty() ? nullptr : rows.front().data(), rows.size(), Columns, sizeof(rows[0]), owner);
 }
 
-py::array_t<double> rest_lengths_of(const api::Mesh& mesh) {
+py::array_t<double> rest_positions_of(const Mesh& mesh) {
+  py::array_t<double> positions({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
+  double* out = positions.mutable_data();
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    out = std::ranges::copy(mesh.rest_position(e), out).out;
+  }
+  return positions;
+}
+
+py::array_t<double> rest_lengths_of(const Mesh& mesh) {
   py::array_t<double> lengths(mesh.link_count());
   double* out = lengths.mutable_data();
-  for (api::LinkId link = 0; link < mesh.link_count(); ++link) {
-    out[link] = mesh.rest_length(link);
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    out[link] = rest_length(mesh, link);
   }
   return lengths;
 }
 
-std::string mesh_in_words(const api::Mesh& mesh) {
-  static constexpr std::array<const char*, 4> kinds{"", "chain", "surface", "volume"};
-  return "<Mesh: " + std::string(kinds[std::size_t(mesh.object_dimension())]) + " of " +
-         std::to_string(mesh.element_count()) + " elements and " + std::to_string(mesh.link_count()) + " links along " +
-         mesh.axes() + ">";
+std::string axes_of(const Mesh& mesh) {
+  std::string axes;
+  for (int k = 0; k < mesh.space_dimension; ++k) {
+    axes += "xyz"[mesh.axes[std::size_t(k)]];
+  }
+  return axes;
 }
 
-api::LatticeOptions lattice_options(double spacing, std::optional<int> space_dimension) {
-  return {spacing, space_dimension};
+std::string mesh_in_words(const Mesh& mesh) {
+  static constexpr std::array<const char*, 4> kinds{"", "chain", "surface", "volume"};
+  return "<Mesh: " + std::string(kinds[std::size_t(mesh.object_dimension)]) + " of " +
+         std::to_string(mesh.element_count()) + " elements and " + std::to_string(mesh.link_count()) + " links along " +
+         axes_of(mesh) + ">";
+}
+
+py::tuple link_of(const Mesh& mesh, const py::object& id) {
+  const LinkId link = id_of(id, "link");
+  check_links(mesh, std::span(&link, 1));
+  return py::make_tuple(mesh.links[link][0], mesh.links[link][1]);
+}
+
+std::optional<LinkId> link_between(const Mesh& mesh, const py::object& a, const py::object& b) {
+  const std::array ends{id_of(a, "element"), id_of(b, "element")};
+  check_elements(mesh, ends);
+  return find_link(mesh, ends[0], ends[1]);
 }
 
 std::uint32_t size_of(const py::object& value, const char* name) {
   const auto size = whole_of(value);
   if (!size || *size < 1 || *size > std::numeric_limits<std::uint32_t>::max()) {
-    throw api::Error(name, std::string(py::repr(value)).substr(0, 60) + " is no number of elements",
-                     "use a number from 1");
+    throw Error(name, std::string(py::repr(value)).substr(0, 60) + " is no number of elements", "use a number from 1");
   }
   return static_cast<std::uint32_t>(*size);
 }
 
-api::Mesh mesh_from(const py::object& positions, const py::object& links, const py::object& triangles,
-                    const py::object& tetrahedra, const py::object& hexahedra, std::optional<int> space_dimension) {
+MeshObjectPointer mesh_from(const py::object& positions, const py::object& links, const py::object& triangles,
+                            const py::object& tetrahedra, const py::object& hexahedra,
+                            std::optional<int> space_dimension) {
   const std::vector<double> rest = positions_of(positions);
   const auto pairs = rows_of(links, "links", 2);
   const auto faces = rows_of(triangles, "triangles", 3);
   const auto cells = rows_of(tetrahedra, "tetrahedra", 4);
   const auto blocks = rows_of(hexahedra, "hexahedra", 8);
   const Unlocked unlocked;
-  return api::make_mesh({rest, pairs, faces, cells, blocks, space_dimension});
+  return object_of(make_mesh({rest, pairs, faces, cells, blocks, space_dimension}));
 }
 
-void add_content(py::class_<api::Mesh>& mesh) {
-  mesh.def_property_readonly("element_count", &api::Mesh::element_count,
+void add_content(MeshClass& mesh) {
+  mesh.def_property_readonly("element_count", on_mesh([](const Mesh& one) { return one.element_count(); }),
                              "Number of elements. Their ids are 0 to element_count - 1.")
-      .def_property_readonly("link_count", &api::Mesh::link_count,
+      .def_property_readonly("link_count", on_mesh([](const Mesh& one) { return one.link_count(); }),
                              "Number of links. Their ids are 0 to link_count - 1.")
       .def_property_readonly(
-          "links", [](const api::Mesh& one) { return shown(one, one.links()); },
+          "links", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->links)); },
           "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32.\n"
           "A read-only view.")
       .def_property_readonly(
-          "triangles", [](const api::Mesh& one) { return shown(one, one.triangles()); },
+          "triangles",
+          [](const MeshObject& one) {
+            return shown_groups(one.mesh, std::span(one.mesh->triangles).first(one.mesh->own_triangles));
+          },
           "Corners of the triangles: shape (n, 3), dtype uint32. A read-only view.")
       .def_property_readonly(
-          "tetrahedra", [](const api::Mesh& one) { return shown(one, one.tetrahedra()); },
+          "tetrahedra", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->tetrahedra)); },
           "Corners of the tetrahedra: shape (n, 4), dtype uint32. A read-only view.")
       .def_property_readonly(
-          "hexahedra", [](const api::Mesh& one) { return shown(one, one.hexahedra()); },
+          "hexahedra", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->hexahedra)); },
           "Corners of the hexahedra: shape (n, 8), dtype uint32. A read-only view.")
-      .def(
-          "rest_positions", [](const api::Mesh& one) { return array_of(one.rest_positions(), 3); },
-          "Returns the positions at rest: shape (element_count, 3), dtype float64 (mesh units). A copy.")
-      .def(
-          "rest_position",
-          [](const api::Mesh& one, const py::object& id) { return tuple_of(one.rest_position(id_of(id, "element"))); },
-          py::arg("element"), "Returns the position (x, y, z) of an element at rest (mesh units).")
-      .def("rest_lengths", &rest_lengths_of,
+      .def("rest_positions", on_mesh(&rest_positions_of),
+           "Returns the positions at rest: shape (element_count, 3), dtype float64 (mesh units). A copy.")
+      .def("rest_position",
+           on_element([](const Mesh& one, ElementId element) { return tuple_of(one.rest_position(element)); }),
+           py::arg("element"), "Returns the position (x, y, z) of an element at rest (mesh units).")
+      .def("rest_lengths", on_mesh(&rest_lengths_of),
            "Returns the length of each link at rest: shape (link_count,), dtype float64 (mesh units). A copy.");
 }
 
-void add_connectivity(py::class_<api::Mesh>& mesh) {
-  mesh.def(
-          "neighbours",
-          [](const api::Mesh& one, const py::object& id) { return array_of(one.neighbours(id_of(id, "element"))); },
-          py::arg("element"),
-          "Returns the elements that an element is linked to: in the order of the file if it lists them (.dat),\n"
-          "otherwise ascending. Shape (n,), dtype uint32. A copy.")
+void add_connectivity(MeshClass& mesh) {
+  mesh.def("neighbours",
+           on_element([](const Mesh& one, ElementId element) { return array_of(one.neighbours_of(element)); }),
+           py::arg("element"),
+           "Returns the elements that an element is linked to: in the order of the file if it lists them (.dat),\n"
+           "otherwise ascending. Shape (n,), dtype uint32. A copy.")
       .def(
-          "link",
-          [](const api::Mesh& one, const py::object& id) {
-            const auto ends = one.link(id_of(id, "link"));
-            return py::make_tuple(ends[0], ends[1]);
-          },
-          py::arg("link"), "Returns the two elements of a link, the smaller id first.")
+          "link", [](const MeshObject& one, const py::object& id) { return link_of(*one.mesh, id); }, py::arg("link"),
+          "Returns the two elements of a link, the smaller id first.")
       .def(
           "find_link",
-          [](const api::Mesh& one, const py::object& a, const py::object& b) {
-            return one.find_link(id_of(a, "element"), id_of(b, "element"));
-          },
+          [](const MeshObject& one, const py::object& a, const py::object& b) { return link_between(*one.mesh, a, b); },
           py::arg("a"), py::arg("b"), "Returns the id of the link between two elements, or None.")
       .def(
-          "side", [](const api::Mesh& one, const std::string& name) { return array_of(one.side(name)); },
+          "side", [](const MeshObject& one, const std::string& name) { return array_of(elements_at(*one.mesh, name)); },
           py::arg("name"),
           "Returns the elements at a side, ascending: shape (n,), dtype uint32.\n\n"
           "The sides are left (lowest x), right, bottom (lowest y), top, back (lowest z), front and boundary (outer\n"
           "surface, open edges or ends). Raises Error for another name, and if the mesh has no such side.");
 }
 
-void add_facts(py::class_<api::Mesh>& mesh) {
-  mesh.def_property_readonly("mean_rest_length", &api::Mesh::mean_rest_length,
+void add_facts(MeshClass& mesh) {
+  mesh.def_property_readonly("mean_rest_length", on_mesh([](const Mesh& one) { return one.mean_link_length; }),
                              "Mean length of the links at rest (mesh units); 0 without links.")
       .def_property_readonly(
-          "bounds",
-          [](const api::Mesh& one) { return py::make_tuple(tuple_of(one.bounds()[0]), tuple_of(one.bounds()[1])); },
+          "bounds", on_mesh([](const Mesh& one) { return py::make_tuple(tuple_of(one.box[0]), tuple_of(one.box[1])); }),
           "Lowest and highest corner (x, y, z) of the box around the rest positions (mesh units).")
-      .def_property_readonly("object_dimension", &api::Mesh::object_dimension,
+      .def_property_readonly("object_dimension", on_mesh([](const Mesh& one) { return one.object_dimension; }),
                              "1 for a chain, 2 for a surface, 3 for a volume.")
-      .def_property_readonly("space_dimension", &api::Mesh::space_dimension,
+      .def_property_readonly("space_dimension", on_mesh([](const Mesh& one) { return one.space_dimension; }),
                              "Number of coordinates that exist: on a line there is no y, in a plane no z.")
-      .def_property_readonly("axes", &api::Mesh::axes, "The axes that exist: 'xyz', or 'xy' in a plane.")
-      .def_property_readonly("part_count", &api::Mesh::part_count, "Number of parts that no link joins.")
-      .def_property_readonly(
-          "lattice",
-          [](const api::Mesh& one) -> py::object {
-            const auto size = one.lattice();
-            return size ? py::object(py::make_tuple((*size)[0], (*size)[1], (*size)[2])) : py::none();
-          },
-          "Numbers of elements along x, y and z, if the elements are in a lattice, or None.")
-      .def_property_readonly("is_grid", &api::Mesh::is_grid,
+      .def_property_readonly("axes", on_mesh(&axes_of), "The axes that exist: 'xyz', or 'xy' in a plane.")
+      .def_property_readonly("part_count", on_mesh([](const Mesh& one) { return one.part_count; }),
+                             "Number of parts that no link joins.")
+      .def_property_readonly("lattice", on_mesh([](const Mesh& one) -> py::object {
+                               return one.lattice ? py::object(py::tuple(py::cast(one.lattice->size))) : py::none();
+                             }),
+                             "Numbers of elements along x, y and z, if the elements are in a lattice, or None.")
+      .def_property_readonly("is_grid", on_mesh([](const Mesh& one) { return one.is_grid; }),
                              "True for a lattice whose links run along the axes only. 3D ChainMail needs one.")
-      .def_property_readonly("remark", &api::Mesh::remark, "What the reader of a file remarks about it. Usually empty.")
+      .def_property_readonly(
+          "remark", [](const MeshObject& one) { return one.remark; },
+          "What the reader of a file remarks about it. Usually empty.")
       .def("__eq__",
-           [](const api::Mesh& one, const py::object& other) {
-             return py::isinstance<api::Mesh>(other) && one == other.cast<const api::Mesh&>();
+           [](const MeshObject& one, const py::object& other) {
+             return py::isinstance<MeshObject>(other) && one.mesh == other.cast<const MeshObject&>().mesh;
            })
-      .def("__hash__", [](const api::Mesh& one) { return std::hash<const void*>()(one.identity()); })
-      .def("__repr__", &mesh_in_words);
+      .def("__hash__", [](const MeshObject& one) { return std::hash<MeshPointer>()(one.mesh); })
+      .def("__repr__", on_mesh(&mesh_in_words));
+}
+
+/// Adds a function that generates a mesh of a kind. `sizes` are the names of its first arguments, one to three.
+void add_generator(py::module_& module, const char* name, MeshKind kind, const std::vector<const char*>& sizes,
+                   const char* help) {
+  const auto make = [kind, sizes](const std::array<py::object, 3>& given, double spacing, std::optional<int> space) {
+    MeshRecipe recipe{kind, {1, 1, 1}, spacing, space};
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      recipe.size[i] = size_of(given[i], sizes[i]);
+    }
+    return object_of(generate(recipe));
+  };
+  using Size = const py::object&;
+  using Space = std::optional<int>;
+  const py::arg_v spacing = py::arg("spacing") = MeshRecipe().spacing, space = py::arg("space_dimension") = py::none();
+  if (sizes.size() == 1) {
+    module.def(
+        name, [make](Size a, double h, Space to) { return make({a}, h, to); }, py::arg(sizes[0]), py::kw_only(),
+        spacing, space, help);
+  } else if (sizes.size() == 2) {
+    module.def(
+        name,
+        [make](Size a, Size b, double h, Space to) {
+          return make({a, b}, h, to);
+        },
+        py::arg(sizes[0]), py::arg(sizes[1]), py::kw_only(), spacing, space, help);
+  } else {
+    module.def(
+        name,
+        [make](Size a, Size b, Size c, double h, Space to) {
+          return make({a, b, c}, h, to);
+        },
+        py::arg(sizes[0]), py::arg(sizes[1]), py::arg(sizes[2]), py::kw_only(), spacing, space, help);
+  }
 }
 
 void add_generators(py::module_& module) {
-  const py::arg_v spacing_argument = py::arg("spacing") = 1.0;
-  const py::arg_v space_argument = py::arg("space_dimension") = py::none();
-  module.def(
-      "make_line",
-      [](const py::object& length, double spacing, std::optional<int> space) {
-        return api::make_line(size_of(length, "length"), lattice_options(spacing, space));
-      },
-      py::arg("length"), py::kw_only(), spacing_argument, space_argument,
+  add_generator(
+      module, "make_line", MeshKind::line, {"length"},
       "Returns a chain of elements along x.\n\n"
       "`spacing` is the distance between neighbours (mesh units), above 0. `space_dimension` is the number of\n"
       "coordinates, 1 to 3: 3 lets the object leave its line or plane. Default: as many as it extends along.");
-  module.def(
-      "make_grid",
-      [](const py::object& width, const py::object& height, double spacing, std::optional<int> space) {
-        return api::make_grid(size_of(width, "width"), size_of(height, "height"), lattice_options(spacing, space));
-      },
-      py::arg("width"), py::arg("height"), py::kw_only(), spacing_argument, space_argument,
-      "Returns a grid in the plane of x and y, with links along the axes. See make_line() for the options.");
-  module.def(
-      "make_cloth",
-      [](const py::object& width, const py::object& height, double spacing, std::optional<int> space) {
-        return api::make_cloth(size_of(width, "width"), size_of(height, "height"), lattice_options(spacing, space));
-      },
-      py::arg("width"), py::arg("height"), py::kw_only(), spacing_argument, space_argument,
+  add_generator(module, "make_grid", MeshKind::grid, {"width", "height"},
+                "Returns a grid in the plane of x and y, with links along the axes. See make_line() for the options.");
+  add_generator(
+      module, "make_cloth", MeshKind::cloth, {"width", "height"},
       "Returns a sheet of triangles: a grid whose squares are split by a diagonal. See make_line() for the options.");
+  add_generator(module, "make_block", MeshKind::block, {"width", "height", "depth"},
+                "Returns a block of elements with links along the three axes. See make_line() for the options.");
+  add_generator(module, "make_tetra", MeshKind::tetra, {"width", "height", "depth"},
+                "Returns a block of tetrahedra: each cube is split into six. See make_line() for the options.");
+}
+
+// Files
+
+MeshObjectPointer read_mesh(const std::filesystem::path& path,
+                            const std::optional<std::array<std::uint32_t, 3>>& lattice, std::optional<double> spacing,
+                            std::optional<int> space_dimension, std::optional<double> threshold,
+                            std::optional<std::uint32_t> every, bool data_outside, bool stiff_where_dense,
+                            std::optional<double> weld, const std::string& import_program, const JobPointer& job,
+                            const py::object& progress) {
+  ReadOptions options;
+  options.size = lattice;
+  options.spacing = spacing;
+  options.space_dimension = space_dimension;
+  options.voxels.threshold = threshold;
+  options.voxels.every = every;
+  options.voxels.stiff_where_dense = stiff_where_dense;
+  options.data_outside = data_outside;
+  options.weld = weld;
+  options.import_program = import_program;
+  const JobPointer watched = job_or_new(job);
+  OpenedMesh opened = run_long(*watched, progress, [&] { return open_mesh(path, options, Progress(watched->state)); });
+  const std::string flaws = in_words(opened.flaws);
+  const char* const between = opened.remark.empty() || flaws.empty() ? "" : "; ";
+  return std::make_shared<MeshObject>(
+      MeshObject{std::move(opened.mesh), std::move(opened.softness), opened.remark + between + flaws});
+}
+
+void write_state(const std::filesystem::path& path, const MeshState& state) {
+  Job job;
+  run_long(job, py::none(), [&] { save_mesh(path, state, Progress(job.state)); });
+}
+
+void write_body(const std::filesystem::path& path, Object& object) {
+  const UseObject use(object);
+  const Body& body = object.body();
+  write_state(path, {body.mesh(), body.cuts(), body.positions(), body.softness()});
+}
+
+void write_rest(const std::filesystem::path& path, const MeshObject& mesh) {
+  const Softness softness{{}, mesh.softness};
+  const Cuts cuts;
+  write_state(path, {*mesh.mesh, cuts, rest_positions(*mesh.mesh), softness});
+}
+
+py::list rows_of_formats() {
+  py::list rows;
+  for (const MeshFormat& format : mesh_formats()) {
+    py::dict row;
+    row["name"] = format.name;
+    row["endings"] = py::str(format.endings.data(), format.endings.size()).attr("split")();
+    row["content"] = format.help;
+    row["reads"] = format.reads();
+    row["writes"] = format.writes();
+    row["holds_positions"] = format.holds_positions;
+    rows.append(row);
+  }
+  return rows;
+}
+
+void add_files(py::module_& module) {
+  module.def("read_mesh", &read_mesh, py::arg("path"), py::kw_only(), py::arg("lattice") = py::none(),
+             py::arg("spacing") = py::none(), py::arg("space_dimension") = py::none(),
+             py::arg("threshold") = py::none(), py::arg("every") = py::none(), py::arg("data_outside") = false,
+             py::arg("stiff_where_dense") = true, py::arg("weld") = py::none(), py::arg("import_program") = "",
+             py::arg("job") = py::none(), py::arg("progress") = py::none(),
+             "Reads a mesh; chainmail.read_mesh() also finds the import program.");
   module.def(
-      "make_block",
-      [](const py::object& width, const py::object& height, const py::object& depth, double spacing,
-         std::optional<int> space) {
-        return api::make_block(size_of(width, "width"), size_of(height, "height"), size_of(depth, "depth"),
-                               lattice_options(spacing, space));
-      },
-      py::arg("width"), py::arg("height"), py::arg("depth"), py::kw_only(), spacing_argument, space_argument,
-      "Returns a block of elements with links along the three axes. See make_line() for the options.");
+      "write_mesh", &write_body, py::arg("path"), py::arg("body"),
+      "Writes an object with its cuts at its current positions, in the format of the file's ending: faces, cells\n"
+      "and links (.obj, .ply, .vtu, .msh, .dat), or a table `id,x,y,z` of positions (.csv). A mesh is written at\n"
+      "rest. If writing fails, the old file stays. Raises Error if the format is not known or cannot store the\n"
+      "object, or if the file cannot be written.");
+  module.def("write_mesh", &write_rest, py::arg("path"), py::arg("mesh"));
   module.def(
-      "make_tetra",
-      [](const py::object& width, const py::object& height, const py::object& depth, double spacing,
-         std::optional<int> space) {
-        return api::make_tetra(size_of(width, "width"), size_of(height, "height"), size_of(depth, "depth"),
-                               lattice_options(spacing, space));
-      },
-      py::arg("width"), py::arg("height"), py::arg("depth"), py::kw_only(), spacing_argument, space_argument,
-      "Returns a block of tetrahedra: each cube is split into six. See make_line() for the options.");
+      "file_formats", &rows_of_formats,
+      "Returns all formats of files, a dictionary each: name, endings (the first one is used for writing), content,\n"
+      "reads, writes, and holds_positions (False if it stores links only).");
 }
 
 }  // namespace
 
 void add_mesh(py::module_& module) {
-  py::class_<api::Mesh> mesh(
-      module, "Mesh",
-      "An object at rest: elements, the links between them, faces and cells. It does not change.\n\n"
-      "Every function that takes an id raises Error if there is no such element or link.");
+  MeshClass mesh(module, "Mesh",
+                 "An object at rest: elements, the links between them, faces and cells. It does not change.\n\n"
+                 "Every function that takes an id raises Error if there is no such element or link.");
   add_content(mesh);
   add_connectivity(mesh);
   add_facts(mesh);
   add_mesh_pickling(mesh);
   add_generators(module);
+  add_files(module);
   module.def(
       "make_mesh", &mesh_from, py::arg("positions"), py::arg("links") = py::none(), py::kw_only(),
       py::arg("triangles") = py::none(), py::arg("tetrahedra") = py::none(), py::arg("hexahedra") = py::none(),

@@ -2,28 +2,29 @@
 
 #include <pybind11/pybind11.h>
 
+#include <type_traits>
+
 #include "python/object.h"
 
 namespace chainmail::python {
 
 namespace py = pybind11;
 
-/// The Python class of Object.
-using BodyClass = py::class_<Object, ObjectPointer>;
-
 // Each of these functions adds the classes and functions of its source to the module.
-void add_types(py::module_& module);
+void add_values(py::module_& module);
 void add_mesh(py::module_& module);
 void add_body(py::module_& module);
-void add_softness(BodyClass& body);
-void add_position_view(BodyClass& body);
-void add_mesh_file(py::module_& module);
-void add_handle(py::module_& module);
-void add_method(py::module_& module);
 void add_deformer(py::module_& module);
 void add_measure(py::module_& module);
-void add_compare(py::module_& module);
-void add_calibrate(py::module_& module);
-void add_ramp(py::module_& module);
+void add_reports(py::module_& module);
+
+/// Makes a function of an object a method that marks the object as used. Further arguments come from Python.
+template <class... Arguments, class Function>
+auto used(Function function) {
+  return [function](Object& object, Arguments... arguments) {
+    const UseObject use(object);
+    return function(object, arguments...);
+  };
+}
 
 }  // namespace chainmail::python

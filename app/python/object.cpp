@@ -1,22 +1,26 @@
 #include "python/object.h"
 
-#include <string>
-#include <utility>
-
-#include "chainmail/error.h"
-#include "chainmail/method.h"
-
 namespace chainmail::python {
+namespace {
 
-using api::Error;
-
-Use::Use(Busy& busy, const char* what) : busy_(busy) {
-  if (busy.is_used_.exchange(true)) {
-    throw Error(what, "another thread uses it", "wait until that thread is done, or give each thread a copy");
-  }
+const MeshPointer& checked(const MeshObject& mesh, Precision precision) {
+  check(precision, *mesh.mesh);
+  return mesh.mesh;
 }
 
-Use::~Use() { busy_.is_used_ = false; }
+}  // namespace
+
+Object::Object(MeshObjectPointer mesh, Precision precision)
+    : mesh_(std::move(mesh)), deformer_(checked(*mesh_, precision), Algorithm::natural_queue, precision) {
+  Softness softness = standard_softness();
+  softness.links = mesh_->softness;
+  body().set_softness(softness);
+  deformer_.set_progress(Progress(job().state));
+}
+
+Object::Object(const Object& other) : mesh_(other.mesh_), deformer_(other.deformer_.copy()) {
+  deformer_.set_progress(Progress(job().state));
+}
 
 void Object::check_no_views(std::string_view before) const {
   if (views_ > 0) {
@@ -26,41 +30,42 @@ void Object::check_no_views(std::string_view before) const {
 }
 
 /// Some methods store displacements or turned coordinates, which a view would show instead of positions.
-void Object::check_views(std::string_view method) {
-  if (!body().keeps_stored_positions(method)) {
+void Object::check_views(Algorithm algorithm) {
+  const Body& now = deformer_.body();
+  const AlgorithmInfo& next = info(algorithm);
+  const bool works_in_axes = next.family() == Family::chainmail;
+  const bool stays = stores_displacements(next, now) == now.stores_displacements() &&
+                     (works_in_axes == now.works_in_axes() || !now.softness().axes.is_turned());
+  if (!stays) {
     check_no_views("change the method");
   }
-}
-
-void Object::note_method(std::string_view method) {
-  is_slow_ = api::method_info(method).family == api::MethodFamily::elastic;
 }
 
 void Object::attach(std::string_view method) {
   if (is_attached_) {
     throw Error("body", "it has a deformer already", "use that one and its set_method(), or a copy of the body");
   }
-  // A deformer that refuses a body takes it along, so everything is checked before.
-  api::check_method(method, body().mesh());
-  check_views(method);
-  api::Body taken = std::move(body());
-  deformer_.emplace(std::move(taken), method);
-  deformer_->set_job(job());
+  set_method(method);
+  set_tracing(false);
+  trace_.clear();
   is_attached_ = true;
-  note_method(method);
 }
 
 void Object::set_method(std::string_view method) {
-  check_views(method);
-  deformer_->set_method(method);
-  note_method(method);
+  const Algorithm algorithm = algorithm_of(method);
+  check(algorithm, mesh());
+  check_views(algorithm);
+  deformer_.set_algorithm(algorithm);
 }
 
-void Object::set_job(const api::Job& job) {
-  jobs_.push_back(job);
-  if (deformer_) {
-    deformer_->set_job(job);
-  }
+void Object::set_job(JobPointer job) {
+  jobs_.push_back(std::move(job));
+  deformer_.set_progress(Progress(jobs_.back()->state));
+}
+
+Trace* Object::new_trace() {
+  trace_.clear();
+  return is_tracing_ ? &trace_ : nullptr;
 }
 
 }  // namespace chainmail::python

@@ -2,15 +2,22 @@
 
 #include <atomic>
 #include <memory>
-#include <optional>
+#include <stop_token>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "chainmail/body.h"
-#include "chainmail/deformer.h"
-#include "chainmail/job.h"
+#include "body/handle.h"
+#include "body/softness.h"
+#include "mesh/error.h"
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "solver/deformer.h"
 
 namespace chainmail::python {
+
+// What Python holds: a few objects of core together, with the marks that keep threads apart.
 
 /// True while a thread uses the owner.
 class Busy {
@@ -32,38 +39,71 @@ class Busy {
 class Use {
  public:
   /// Throws Error if the object is in use. `what` is its name in the error.
-  Use(Busy& busy, const char* what);
+  Use(Busy& busy, const char* what) : busy_(busy) {
+    if (busy.is_used_.exchange(true)) {
+      throw Error(what, "another thread uses it", "wait until that thread is done, or give each thread a copy");
+    }
+  }
   Use(const Use&) = delete;
   Use& operator=(const Use&) = delete;
-  ~Use();
+  ~Use() { busy_.is_used_ = false; }
 
  private:
   Busy& busy_;
 };
 
-/// A body as Python holds it: alone, or owned by the deformer that moves it. chainmail.Body and chainmail.Deformer
-/// share one, so a change through either of them is a change of the same object.
+/// The progress of long work, which another thread may read and cancel.
+struct Job {
+  JobState state;
+  std::stop_source stop;
+
+  void cancel() {
+    state.cancelled = true;
+    stop.request_stop();
+  }
+};
+using JobPointer = std::shared_ptr<Job>;
+
+/// A mesh, with what its file says beside it.
+struct MeshObject {
+  MeshPointer mesh;
+  OwnSoftness softness = {};  // of links that bodies of the mesh have from the beginning
+  std::string remark = {};
+};
+using MeshObjectPointer = std::shared_ptr<MeshObject>;
+
+/// A body: alone, or moved by the one deformer that is attached to it. chainmail.Body and chainmail.Deformer share one,
+/// so a change through either of them is a change of the same object.
 class Object {
  public:
-  explicit Object(api::Body body) : alone_(std::move(body)) {}
+  /// Makes an object at rest. Throws Error if the mesh is out of the range of the precision.
+  Object(MeshObjectPointer mesh, Precision precision);
+  /// Copies the state. The copy has no deformer attached.
+  Object(const Object& other);
+  Object& operator=(const Object&) = delete;
+  ~Object() = default;
 
   Busy& busy() { return busy_; }
+  const MeshObjectPointer& mesh_object() const { return mesh_; }
+  const Mesh& mesh() const { return *mesh_->mesh; }
+  Body& body() { return deformer_.body(); }
+  Deformer& deformer() { return deformer_; }
 
-  api::Body& body() { return deformer_ ? deformer_->body() : *alone_; }
-  /// The deformer. Call this only while there is one.
-  api::Deformer& deformer() { return *deformer_; }
-
-  /// Gives the body to a new deformer. Throws Error if it has one, if there is no such method, and if the method does
-  /// not work on the mesh.
+  /// Attaches a deformer. Throws Error if there is one, if there is no such method, and if the method does not work on
+  /// the mesh.
   void attach(std::string_view method);
-  /// The deformer is no longer used: another one may take the body.
   void detach() { is_attached_ = false; }
   void set_method(std::string_view method);
+  std::string_view method() const { return info(deformer_.algorithm()).offered_name(); }
   /// True if a move may take long, as with the methods of elasticity, which prepare.
-  bool is_slow() const { return is_slow_; }
+  bool is_slow() const { return info(deformer_.algorithm()).family() == Family::elastic; }
 
-  const api::Job& job() const { return jobs_.back(); }
-  void set_job(const api::Job& job);
+  Job& job() { return *jobs_.back(); }
+  void set_job(JobPointer job);
+  /// Returns what receives the candidates of the next move, which is emptied; null if moves are not traced.
+  Trace* new_trace();
+  void set_tracing(bool on) { is_tracing_ = on; }
+  const Trace& trace() const { return trace_; }
 
   // While there are views of the stored positions, nothing may change how they are stored.
   void add_view() { ++views_; }
@@ -72,24 +112,60 @@ class Object {
   void check_no_views(std::string_view before) const;
 
  private:
-  void check_views(std::string_view method);
-  void note_method(std::string_view method);
+  void check_views(Algorithm algorithm);
 
   Busy busy_;
-  std::optional<api::Body> alone_;  // moved from when there is a deformer
-  std::optional<api::Deformer> deformer_;
+  MeshObjectPointer mesh_;
+  Deformer deformer_;
   bool is_attached_ = false;
-  bool is_slow_ = false;
-  std::vector<api::Job> jobs_{api::Job()};  // the last one is in use; the solver may still know the others
-  int views_ = 0;                           // guarded by the lock of Python
+  std::vector<JobPointer> jobs_{std::make_shared<Job>()};  // the last one is in use; a method may still know the others
+  bool is_tracing_ = false;
+  Trace trace_;
+  int views_ = 0;  // guarded by the lock of Python
 };
-
 using ObjectPointer = std::shared_ptr<Object>;
 
 /// Marks a body as used.
 class UseObject : public Use {
  public:
   explicit UseObject(Object& object) : Use(object.busy(), "body") {}
+};
+
+/// The Python class Deformer: the right to move an object.
+class Mover {
+ public:
+  Mover(ObjectPointer object, std::string_view method) : object_(std::move(object)) {
+    const UseObject use(*object_);
+    object_->attach(method);
+  }
+  Mover(const Mover&) = delete;
+  Mover& operator=(const Mover&) = delete;
+  ~Mover() { object_->detach(); }
+
+  const ObjectPointer& object() const { return object_; }
+
+ private:
+  ObjectPointer object_;
+};
+
+/// A handle, with the mesh that its elements belong to.
+struct HeldHandle {
+  HeldHandle(Object& object, std::vector<ElementId> elements)
+      : handle(object.body(), std::move(elements)), mesh(object.mesh_object()->mesh) {}
+
+  Handle handle;
+  MeshPointer mesh;
+  Busy busy;
+};
+
+/// A pose as a user gives it: its rotation is an axis and an angle.
+struct UserPose {
+  Point pivot = Point::Zero();  // mesh units
+  Rotation rotation = {};
+
+  static UserPose of(const Pose& pose) { return {pose.pivot, Rotation::of(pose.rotation)}; }
+  Pose pose() const { return {pivot, rotation.vector()}; }
+  bool operator==(const UserPose&) const = default;
 };
 
 }  // namespace chainmail::python

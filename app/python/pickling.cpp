@@ -1,12 +1,13 @@
 #include "python/pickling.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <variant>
+#include <vector>
 
-#include "chainmail/error.h"
+#include "files/session/flat_mesh.h"
 #include "python/arrays.h"
 
 namespace chainmail::python {
@@ -18,100 +19,175 @@ constexpr const char* module_name = "chainmail._core";
   throw py::type_error("the object is not initialised: call its class, not __new__");
 }
 
+constexpr const char* state_of_mesh = "state of a mesh";
+
+[[noreturn]] void refuse_part(const std::string& name) {
+  throw Error(state_of_mesh, "its part '" + name + "' is missing or damaged", "pickle the mesh again");
+}
+
 // An array is bytes: one that says what its numbers are, then theirs.
-constexpr char ids_mark = 'I', reals_mark = 'd';
+template <class Number>
+constexpr char mark = std::is_same_v<Number, double> ? 'd' : 'I';
 
 template <class Number>
-py::bytes bytes_of(char mark, const std::vector<Number>& numbers) {
+py::bytes bytes_of(const std::vector<Number>& numbers) {
   const std::size_t size = numbers.size() * sizeof(Number);
   auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(nullptr, py::ssize_t(1 + size)));
   if (!bytes) {
     throw py::error_already_set();
   }
   char* const out = PyBytes_AS_STRING(bytes.ptr());
-  *out = mark;
+  *out = mark<Number>;
   std::copy_n(reinterpret_cast<const char*>(numbers.data()), size, out + 1);
   return bytes;
 }
 
-template <class Number>
-std::optional<api::StateValue> unpacked(std::string_view bytes) {
-  if (bytes.size() % sizeof(Number) != 0) {
-    return std::nullopt;
-  }
-  std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::ranges::copy(bytes, reinterpret_cast<char*>(numbers.data()));
-  return numbers;
-}
-
-/// Returns a text; nothing if it is not valid Unicode.
-std::optional<std::string> text_of(py::handle text) {
-  Py_ssize_t size = 0;
-  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
-  if (bytes == nullptr) {
-    PyErr_Clear();
-    return std::nullopt;
-  }
-  return std::string(bytes, std::size_t(size));
-}
-
-/// Returns a part of a dictionary as a value of a state; nothing if no state has such a value.
-std::optional<api::StateValue> value_of(py::handle part) {
-  PyObject* const object = part.ptr();
-  if (PyLong_Check(object) != 0) {
-    const auto whole = whole_of(part);
-    return whole ? std::optional<api::StateValue>(*whole) : std::nullopt;
-  }
-  if (PyFloat_Check(object) != 0) {
-    return PyFloat_AS_DOUBLE(object);
-  }
-  if (PyUnicode_Check(object) != 0) {
-    return text_of(part);
-  }
-  if (PyBytes_Check(object) != 0) {
-    const std::string_view bytes(PyBytes_AS_STRING(object), std::size_t(PyBytes_GET_SIZE(object)));
-    return bytes.starts_with(ids_mark)     ? unpacked<std::uint32_t>(bytes.substr(1))
-           : bytes.starts_with(reals_mark) ? unpacked<double>(bytes.substr(1))
-                                           : std::nullopt;
-  }
-  return std::nullopt;
-}
-
-constexpr const char* state_of_mesh = "state of a mesh";
-
-py::object parts_of(const api::Mesh& mesh) {
-  const auto in_python = [](const auto& value) -> py::object {
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, std::vector<std::uint32_t>>) {
-      return bytes_of(ids_mark, value);
-    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
-      return bytes_of(reals_mark, value);
-    } else {
-      return py::cast(value);
+/// The parts of a state, which may come from outside. Each of these functions throws Error if the part is missing or
+/// damaged.
+class Parts {
+ public:
+  explicit Parts(const py::object& state) {
+    if (!py::isinstance<py::dict>(state)) {
+      throw Error(state_of_mesh, "it is not a dictionary", "pickle the mesh again");
     }
-  };
-  py::dict parts;
-  for (const auto& [name, value] : api::save(mesh)) {
-    parts[py::str(name)] = std::visit(in_python, value);
+    parts_ = state.cast<py::dict>();
+    for (const auto& [name, part] : parts_) {
+      if (!py::isinstance<py::str>(name) || !text_of(name)) {
+        throw Error(state_of_mesh, "one of its parts is damaged", "pickle the mesh again");
+      }
+    }
   }
-  return parts;
+
+  template <class Number>
+  std::vector<Number> numbers(const char* name) const {
+    const py::object part = at(name);
+    if (PyBytes_Check(part.ptr()) == 0) {
+      refuse_part(name);
+    }
+    const std::string_view bytes(PyBytes_AS_STRING(part.ptr()), std::size_t(PyBytes_GET_SIZE(part.ptr())));
+    if (!bytes.starts_with(mark<Number>) || (bytes.size() - 1) % sizeof(Number) != 0) {
+      refuse_part(name);
+    }
+    std::vector<Number> numbers((bytes.size() - 1) / sizeof(Number));
+    std::ranges::copy(bytes.substr(1), reinterpret_cast<char*>(numbers.data()));
+    return numbers;
+  }
+
+  double real(const char* name) const {
+    const py::object part = at(name);
+    if (PyFloat_Check(part.ptr()) == 0) {
+      refuse_part(name);
+    }
+    return PyFloat_AS_DOUBLE(part.ptr());
+  }
+
+  std::int64_t whole(const char* name) const {
+    const py::object part = at(name);
+    const auto whole = PyLong_Check(part.ptr()) != 0 ? whole_of(part) : std::nullopt;
+    if (!whole) {
+      refuse_part(name);
+    }
+    return *whole;
+  }
+
+  std::string text(const char* name) const {
+    const py::object part = at(name);
+    auto text = PyUnicode_Check(part.ptr()) != 0 ? text_of(part) : std::nullopt;
+    if (!text) {
+      refuse_part(name);
+    }
+    return std::move(*text);
+  }
+
+ private:
+  py::object at(const char* name) const {
+    if (!parts_.contains(name)) {
+      refuse_part(name);
+    }
+    return parts_[name];
+  }
+
+  /// Returns a text; nothing if it is not valid Unicode.
+  static std::optional<std::string> text_of(py::handle text) {
+    Py_ssize_t size = 0;
+    const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+    if (bytes == nullptr) {
+      PyErr_Clear();
+      return std::nullopt;
+    }
+    return std::string(bytes, std::size_t(size));
+  }
+
+  py::dict parts_;
+};
+
+using Ids = std::vector<std::uint32_t>;
+using Reals = std::vector<double>;
+
+constexpr std::pair<const char*, Ids FlatMesh::*> arrays_of_ids[]{
+    {"first_entry", &FlatMesh::first_entry}, {"neighbours", &FlatMesh::neighbours},
+    {"triangles", &FlatMesh::triangles},     {"polygons", &FlatMesh::polygons},
+    {"tetrahedra", &FlatMesh::tetrahedra},   {"hexahedra", &FlatMesh::hexahedra}};
+
+py::object state_of(const MeshObject& mesh) {
+  const FlatMesh flat = flat_mesh_of(*mesh.mesh);
+  py::dict state;
+  state["rest"] = bytes_of(flat.rest);
+  for (const auto& [name, ids] : arrays_of_ids) {
+    state[name] = bytes_of(flat.*ids);
+  }
+  state["lattice"] = bytes_of(flat.lattice ? Ids(flat.lattice->size.begin(), flat.lattice->size.end()) : Ids());
+  state["spacing"] = flat.lattice ? flat.lattice->spacing : 0.0;
+  state["space_dimension"] = flat.space_dimension;
+  Ids links;
+  Reals numbers;
+  for (const auto& [link, own] : mesh.softness) {
+    links.push_back(link);
+    for (const SoftnessNumber& one : softness_numbers) {
+      numbers.push_back(own.*one.value);
+    }
+  }
+  state["own_links"] = bytes_of(links);
+  state["own_softness"] = bytes_of(numbers);
+  state["remark"] = mesh.remark;
+  return state;
+}
+
+OwnSoftness softness_in(const Parts& parts, const Mesh& mesh) {
+  const Ids links = parts.numbers<std::uint32_t>("own_links");
+  const Reals numbers = parts.numbers<double>("own_softness");
+  if (numbers.size() != links.size() * softness_numbers.size()) {
+    refuse_part("own_softness");
+  }
+  std::vector<LinkSoftness> own(links.size());
+  auto number = numbers.begin();
+  for (LinkSoftness& softness : own) {
+    for (const SoftnessNumber& one : softness_numbers) {
+      softness.*one.value = *number++;
+    }
+  }
+  Softness softness;
+  set_own(softness, mesh, links, own);
+  return softness.links;
 }
 
 /// Makes a mesh of a dictionary that may come from outside.
-api::Mesh unpickled_mesh(const py::object& parts) {
-  if (!py::isinstance<py::dict>(parts)) {
-    throw api::Error(state_of_mesh, "it is not a dictionary", "pickle the mesh again");
+MeshObjectPointer unpickled_mesh(const py::object& state) {
+  const Parts parts(state);
+  FlatMesh flat;
+  flat.rest = parts.numbers<double>("rest");
+  for (const auto& [name, ids] : arrays_of_ids) {
+    flat.*ids = parts.numbers<std::uint32_t>(name);
   }
-  api::State state;
-  for (const auto& [key, part] : parts.cast<py::dict>()) {
-    const auto name = py::isinstance<py::str>(key) ? text_of(key) : std::nullopt;
-    auto value = name ? value_of(part) : std::nullopt;
-    if (!value) {
-      throw api::Error(state_of_mesh, "one of its parts is damaged", "pickle the mesh again");
-    }
-    state[*name] = std::move(*value);
+  const double spacing = parts.real("spacing");
+  if (const Ids size = parts.numbers<std::uint32_t>("lattice"); size.size() == 3) {
+    flat.lattice = Lattice{{size[0], size[1], size[2]}, spacing};
+  } else if (!size.empty()) {
+    refuse_part("lattice");
   }
-  return api::load_mesh(std::move(state));
+  flat.space_dimension = parts.whole("space_dimension");
+  const MeshPointer mesh = checked_mesh(std::move(flat), state_of_mesh);
+  return std::make_shared<MeshObject>(MeshObject{mesh, softness_in(parts, *mesh), parts.text("remark")});
 }
 
 }  // namespace
@@ -124,9 +200,8 @@ void set_reduction(const py::object& type, const std::function<py::object(const 
 
 void refuse_pickling(const py::object& type, const std::string& problem, const std::string& remedy) {
   const auto name = type.attr("__name__").cast<std::string>();
-  set_reduction(type, [name, problem, remedy](const py::object& /*self*/) -> py::object {
-    throw api::Error(name, problem, remedy);
-  });
+  set_reduction(
+      type, [name, problem, remedy](const py::object& /*self*/) -> py::object { throw Error(name, problem, remedy); });
 }
 
 void refuse_uninitialised(const py::module_& module) {
@@ -162,8 +237,8 @@ void add_pickled_functions(const py::module_& module) {
   registry.attr("pickle")(type, py::cpp_function(reduce));
 }
 
-void add_mesh_pickling(py::class_<api::Mesh>& mesh) {
-  add_pickling(mesh, &parts_of, &unpickled_mesh);
+void add_mesh_pickling(py::class_<MeshObject, MeshObjectPointer>& mesh) {
+  add_pickling(mesh, &state_of, &unpickled_mesh);
   mesh.def("__copy__", [](const py::object& self) { return self; });  // it does not change
   mesh.def(
       "__deepcopy__", [](const py::object& self, const py::object& /*memo*/) { return self; }, py::arg("memo"));

@@ -1,21 +1,12 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "chainmail/mesh.h"
-#include "chainmail/state.h"
+#include "python/module.h"
 
 namespace chainmail::python {
-
-namespace py = pybind11;
 
 /// Sets the function that reduces objects of a class to what pickle writes. What Python does without it knows only
 /// protocols from 2 on; in others, and if it is called directly, pybind11 ends the process.
@@ -45,6 +36,6 @@ void add_pickled_functions(const py::module_& module);
 
 /// Makes meshes known to pickle, with bytes for their arrays: NumPy trusts what is pickled of its arrays, and a damaged
 /// one ends the process.
-void add_mesh_pickling(py::class_<api::Mesh>& mesh);
+void add_mesh_pickling(py::class_<MeshObject, MeshObjectPointer>& mesh);
 
 }  // namespace chainmail::python

@@ -250,6 +250,12 @@ void Body::reset(const ElementBlocks& away) {
   note_positions_set(true);
 }
 
+Snapshot Body::snapshot() const {
+  return snapshot(is_at_rest_ ? ElementBlocks(mesh_->element_count()) : all_blocks(*mesh_));
+}
+
+void Body::restore(const Snapshot& snapshot) { restore(snapshot, all_blocks(*mesh_)); }
+
 Snapshot Body::snapshot(const ElementBlocks& away) const {
   Snapshot result;
   update(result, away, away);

@@ -121,7 +121,11 @@ class Body {
   /// The same as reset(), but faster. No element outside these blocks may be away from rest.
   void reset(const ElementBlocks& away);
 
-  /// Returns the positions. No element outside `away` may be away from rest.
+  /// Returns the positions.
+  Snapshot snapshot() const;
+  /// Restores all positions of a snapshot of this mesh and precision.
+  void restore(const Snapshot& snapshot);
+  /// The same as snapshot(), but faster. No element outside `away` may be away from rest.
   Snapshot snapshot(const ElementBlocks& away) const;
   /// Updates these blocks of a snapshot of this body. No element outside `away` may be away from rest.
   void update(Snapshot& snapshot, const ElementBlocks& blocks, const ElementBlocks& away) const;

@@ -15,6 +15,7 @@ struct Rotation {
 
   /// The axis of length 1, times the angle (radians).
   Point vector() const;
+  static Rotation of(const Point& vector);
   bool operator==(const Rotation&) const = default;
 };
 
@@ -56,6 +57,9 @@ double angle_between(const Point& from, const Point& to);
 /// Throws Error if an object with the mesh's axes cannot rotate like this, or if the rotation has no axis or is not
 /// finite.
 void check(const Rotation& rotation, const Mesh& mesh);
+
+/// Returns the axes of the world after a rotation. Throws Error about the rotation as check() does.
+RegionAxes axes_after(const Rotation& rotation, const Mesh& mesh);
 
 /// Throws Error if one of these elements is pinned.
 void check_free(const Body& body, std::span<const ElementId> elements);

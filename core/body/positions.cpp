@@ -1,8 +1,10 @@
 #include "body/positions.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include "mesh/error.h"
 
@@ -20,6 +22,31 @@ void check(Precision precision, const Mesh& mesh) {
       throw Error("mesh", "a coordinate is out of the range of the precision", "use double, or scale the mesh down");
     }
   }
+}
+
+std::vector<double> coordinates_of(const Mesh& mesh, std::span<const double> positions, Precision precision) {
+  if (positions.size() != std::size_t{3} * mesh.element_count()) {
+    throw Error("positions",
+                "there are " + std::to_string(positions.size()) + " numbers for " +
+                    std::to_string(mesh.element_count()) + " elements",
+                "give x, y and z for each element");
+  }
+  const double limit = position_limit(precision);
+  std::vector<double> coordinates;
+  coordinates.reserve(mesh.rest.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const int k = int(i % 3);
+    const auto where = [i] { return "positions, element " + std::to_string(i / 3); };
+    if (!(std::abs(positions[i]) <= limit)) {
+      throw Error(where(), "a coordinate is not finite or out of the range of the precision", "give smaller numbers");
+    }
+    if (mesh.has_axis(k)) {
+      coordinates.push_back(positions[i]);
+    } else if (positions[i] != mesh.origin[k]) {
+      refuse_axis(where(), k);
+    }
+  }
+  return coordinates;
 }
 
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element) {

@@ -117,6 +117,11 @@ class PositionView {
 /// Returns the position of an element with all three coordinates (mesh units).
 Point point_of(const Mesh& mesh, const PositionView& positions, ElementId element);
 
+/// Returns the coordinates that exist, space_dimension for each element, of positions: x, y and z for each element
+/// (mesh units). Throws Error, with the element, if there are not as many as the mesh has, if one is not finite or out
+/// of the range of the precision, and if one is on an axis that does not exist and is not that of the object.
+std::vector<double> coordinates_of(const Mesh& mesh, std::span<const double> positions, Precision precision);
+
 /// Returns the displacements of elements from rest, space_dimension coordinates each (mesh units).
 std::vector<double> displacements_of(const Mesh& mesh, const PositionView& positions,
                                      std::span<const ElementId> elements);

@@ -1,8 +1,12 @@
 #include "body/softness.h"
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 #include <span>
 #include <utility>
+
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -167,6 +171,38 @@ void set_energy(Softness& softness, EnergyKind kind) {
 
 Softness kept_for(const Mesh& mesh, const Softness& softness) {
   return {softness.global, {}, softness.energy, axes_for(mesh, softness.axes)};
+}
+
+OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries) {
+  const auto numbers_of = [](const OwnSoftness::Entry& entry) {
+    return std::bit_cast<std::array<double, softness_numbers.size()>>(entry.second);
+  };
+  std::ranges::stable_sort(entries, {}, numbers_of);
+  return OwnSoftness(entries.begin(), entries.end());
+}
+
+void set_own(Softness& softness, const Mesh& mesh, std::span<const LinkId> links,
+             std::span<const LinkSoftness> softnesses) {
+  check_links(mesh, links);
+  std::vector<OwnSoftness::Entry> entries;
+  entries.reserve(links.size() + softness.links.size());
+  std::vector<bool> is_new(mesh.link_count());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const std::string link = "link " + std::to_string(links[i]);
+    if (is_new[links[i]]) {
+      throw Error(link, "it is given twice", "give each link once");
+    }
+    try {
+      check(softnesses[i]);
+    } catch (const Error& error) {
+      throw error.at(link + ", " + error.where());
+    }
+    is_new[links[i]] = true;
+    entries.emplace_back(links[i], softnesses[i]);
+  }
+  std::ranges::copy_if(softness.links, std::back_inserter(entries),
+                       [&](const OwnSoftness::Entry& one) { return !is_new[one.first]; });
+  softness.links = own_softness_of(std::move(entries));
 }
 
 bool has_global_regions(const Softness& softness) {

@@ -183,6 +183,13 @@ void set_energy(Softness& softness, EnergyKind kind);
 /// Returns what another object keeps of a softness: all but that of single links.
 Softness kept_for(const Mesh& mesh, const Softness& softness);
 
+/// Returns the softness of links (each once) that have their own. Links with the same softness are one group.
+OwnSoftness own_softness_of(std::vector<OwnSoftness::Entry> entries);
+/// Gives links (ids) their own softness, one for each; other links keep theirs. Throws Error, with the link, for a link
+/// that does not exist or is given twice, and for a number out of range; nothing has changed then.
+void set_own(Softness& softness, const Mesh& mesh, std::span<const LinkId> links,
+             std::span<const LinkSoftness> softnesses);
+
 /// True if the valid regions of all links follow from the global softness.
 bool has_global_regions(const Softness& softness);
 

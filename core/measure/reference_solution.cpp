@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "body/handle.h"
 #include "mesh/error.h"
 #include "solver/algorithms.h"
 
@@ -48,6 +49,27 @@ ReferenceSolution ReferenceSolver::at(const std::vector<ElementId>& handle, cons
   std::vector<ElementId> prescribed = pins_;
   prescribed.insert(prescribed.end(), handle.begin(), handle.end());
   return {solver_->displacements(), largest, std::move(prescribed)};
+}
+
+ReferenceSolution reference_solution(const Body& body, std::vector<ElementId> handle, const Progress& progress) {
+  constexpr double preparation_share = 0.3;  // of the time, roughly
+  const Handle grabbed(body, std::move(handle));
+  const std::vector<ElementId> elements(grabbed.elements().begin(), grabbed.elements().end());
+  const std::vector<double> displacements = displacements_of(body.mesh(), body.positions(), elements);
+  if (std::ranges::all_of(displacements, [](double one) { return one == 0; })) {
+    throw Error("handle", "it is at rest, so there is nothing to compare with", "move it first");
+  }
+  const auto pins = body.pins();
+  if (pins.empty()) {
+    throw Error("pins", "nothing pins the object, so physics has no solution", "pin a side or some elements");
+  }
+  ReferenceSolver solver({.mesh = body.mesh_pointer(),
+                          .cuts = body.cuts(),
+                          .pins = {pins.begin(), pins.end()},
+                          .pinned = displacements_of(body.mesh(), body.positions(), pins),
+                          .options = body.elastic()},
+                         progress.part(0, preparation_share));
+  return solver.at(elements, displacements, progress.part(preparation_share, 1));
 }
 
 }  // namespace chainmail

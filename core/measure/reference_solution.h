@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "body/body.h"
 #include "elastic/elastic.h"
 
 namespace chainmail {
@@ -42,5 +43,10 @@ class ReferenceSolver {
   std::vector<ElementId> pins_;
   std::unique_ptr<ElasticSolver> solver_;
 };
+
+/// Returns the solution with an object's pins and these elements (ids), the handle, at their current positions. Throws
+/// Error if an element does not exist, is given twice or is pinned, if the handle is at rest, if nothing is pinned, and
+/// as ReferenceSolver does; and Cancelled.
+ReferenceSolution reference_solution(const Body& body, std::vector<ElementId> handle, const Progress& progress = {});
 
 }  // namespace chainmail

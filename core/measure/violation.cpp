@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "body/region.h"
+#include "equilibrium/link_energy.h"
 
 namespace chainmail {
 namespace {
@@ -192,6 +193,19 @@ Displacement measure_displacement(const Mesh& mesh, const PositionView& position
   result.max = std::sqrt(result.max);
   result.rms = mesh.element_count() == 0 ? 0 : std::sqrt(sum / mesh.element_count());
   return result;
+}
+
+double link_violation(const Body& body, LinkId link) {
+  check_links(body.mesh(), std::span(&link, 1));
+  return link_violation(body.mesh(), body.softness(), body.positions(), link);
+}
+
+Violation measure_violation(const Body& body) {
+  return measure_violation(body.mesh(), body.softness(), body.cuts(), body.positions());
+}
+
+double elastic_energy(const Body& body) {
+  return elastic_energy(body.mesh(), body.softness(), body.cuts(), body.positions(), body.elastic());
 }
 
 }  // namespace chainmail

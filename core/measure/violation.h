@@ -30,9 +30,12 @@ struct Violation {
 
 /// Returns the violation of one link: the Euclidean norm of the excess per axis. Computed in double.
 double link_violation(const Mesh& mesh, const Softness& softness, const PositionView& position, LinkId link);
+/// The same of a link of an object. Throws Error if there is no such link.
+double link_violation(const Body& body, LinkId link);
 
 /// Returns the violation of the whole mesh.
 Violation measure_violation(const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& position);
+Violation measure_violation(const Body& body);
 
 /// Collects the violations of links.
 class ViolationSum {
@@ -87,6 +90,9 @@ class ViolationMeter {
   std::vector<ViolationSum> sums_, sums_of_groups_;
   std::size_t next_ = 0, stride_ = 1;  // the next block, if only some are measured, and the way to the one after it
 };
+
+/// Returns the elastic energy of an object: see equilibrium/link_energy.h.
+double elastic_energy(const Body& body);
 
 /// Returns the displacement of the elements from rest (mesh units), in double.
 struct Displacement {

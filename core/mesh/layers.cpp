@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "mesh/cells.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -106,6 +108,22 @@ std::vector<ElementId> boundary(const Mesh& mesh) {
   }
   std::ranges::sort(elements);
   elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  return elements;
+}
+
+std::vector<ElementId> elements_at(const Mesh& mesh, std::string_view name) {
+  const ObjectSide* side = find_side(name);
+  if (side == nullptr && name != "boundary") {
+    throw Error("side '" + std::string(name.substr(0, 60)) + "'", "there is no such side",
+                "use left, right, bottom, top, back, front or boundary");
+  }
+  std::vector<ElementId> elements = side == nullptr ? boundary(mesh) : layer(mesh, *side);
+  if (elements.empty()) {
+    throw Error(
+        "side '" + std::string(name) + "'",
+        side == nullptr ? "the object is closed and has no boundary" : "the object does not extend along that axis",
+        "use another side, or elements by id");
+  }
   return elements;
 }
 

@@ -300,4 +300,29 @@ void check_links(const Mesh& mesh, std::span<const LinkId> links) {
   }
 }
 
+void refuse_axis(const std::string& where, int axis) {
+  const std::string name(1, "xyz"[axis]);
+  throw Error(where, "the object does not extend along " + name,
+              "leave " + name + " unchanged, or make the mesh with more space dimensions");
+}
+
+void check_displacement(const Mesh& mesh, const std::string& where, const Point& displacement) {
+  if (!displacement.allFinite()) {
+    throw Error(where, "a coordinate is not a finite number", "give numbers");
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (displacement[k] != 0 && !mesh.has_axis(k)) {
+      refuse_axis(where, k);
+    }
+  }
+}
+
+void check_position(const Mesh& mesh, const std::string& where, const Point& position) {
+  Point moved = position;
+  for (int k = 0; k < 3; ++k) {
+    moved[k] = !mesh.has_axis(k) && position[k] == mesh.origin[k] ? 0 : position[k];
+  }
+  check_displacement(mesh, where, moved);
+}
+
 }  // namespace chainmail

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/link_shares.h"
@@ -131,6 +132,12 @@ using MeshPointer = std::shared_ptr<const Mesh>;
 void check_element(const Mesh& mesh, ElementId element);
 void check_elements(const Mesh& mesh, std::span<const ElementId> elements);
 void check_links(const Mesh& mesh, std::span<const LinkId> links);
+/// Throw Error at `where` if a coordinate is not a finite number, or if it is on an axis that does not exist. There, a
+/// displacement is 0, and a position is 0 or that of the object.
+void check_position(const Mesh& mesh, const std::string& where, const Point& position);
+void check_displacement(const Mesh& mesh, const std::string& where, const Point& displacement);
+/// Throws Error at `where`: the object does not extend along this axis.
+[[noreturn]] void refuse_axis(const std::string& where, int axis);
 
 inline std::array<Point, 2> bounds(const Mesh& mesh) { return mesh.box; }
 /// True if the object lies far from the origin for its size: its absolute coordinates have fewer digits in single

@@ -224,6 +224,18 @@ std::optional<Algorithm> find_algorithm(std::string_view name) {
   return found == all.end() ? std::nullopt : std::optional(found->algorithm);
 }
 
+Algorithm algorithm_of(std::string_view name) {
+  const auto algorithm = find_algorithm(name);
+  if (!algorithm) {
+    std::string names;
+    for (const AlgorithmInfo& one : every_algorithm()) {
+      names += (names.empty() ? "" : ", ") + std::string(one.offered_name());
+    }
+    throw Error("method '" + std::string(name.substr(0, 60)) + "'", "there is no such method", "use one of " + names);
+  }
+  return *algorithm;
+}
+
 WaitingHistory waiting_history(const RecordedPass& pass) {
   const auto find = info(pass.algorithm).history;
   return find == nullptr ? WaitingHistory() : find(pass);

@@ -76,6 +76,8 @@ std::span<const AlgorithmInfo> every_algorithm();
 const AlgorithmInfo& info(Algorithm algorithm);
 /// Returns the algorithm with this name or alias, if any.
 std::optional<Algorithm> find_algorithm(std::string_view name);
+/// Returns the algorithm with this name or alias. Throws Error, with all names, if there is none.
+Algorithm algorithm_of(std::string_view name);
 
 /// Returns the waiting list at each step of a recorded pass. The history is unknown (see WaitingHistory::known) if the
 /// algorithm has no list.

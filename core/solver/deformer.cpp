@@ -155,6 +155,34 @@ void Deformer::unpin(std::span<const ElementId> elements) {
   wake(elements);
 }
 
+void Deformer::set_softness(const Softness& softness) {
+  const std::uint64_t before = body_.revisions().energy;
+  body_.set_softness(softness);
+  if (body_.revisions().energy != before && !body_.is_at_rest()) {
+    wake_all();
+  }
+}
+
+void Deformer::set_positions(std::span<const double> positions) {
+  body_.set_positions(coordinates_of(body_.mesh(), positions, body_.precision()));
+  forget_handle();
+}
+
+void Deformer::reset() {
+  body_.reset();
+  forget_handle();
+}
+
+void Deformer::restore(const Snapshot& snapshot) {
+  body_.restore(snapshot);
+  forget_handle();
+}
+
+void Deformer::forget_handle() {
+  release();
+  set_last_handle({});
+}
+
 void Deformer::prepare(ElementId element) {
   if (body_.is_pinned(element)) {
     return;

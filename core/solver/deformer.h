@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "body/body.h"
@@ -39,6 +40,10 @@ class Deformer {
   /// Takes an object at rest. Throws Error if the algorithm does not work on the mesh.
   Deformer(MeshPointer mesh, Algorithm algorithm, Precision precision = Precision::double_precision);
 
+  /// Returns a deformer of a copy of the object, with the same algorithm and handle. It has none of what the method and
+  /// relaxation keep.
+  Deformer copy() const { return {body_, algorithm_, last_handle_, held_}; }
+
   /// The object. It may be changed between passes; the functions below also wake what a change concerns.
   Body& body() { return body_; }
   const Body& body() const { return body_; }
@@ -50,6 +55,16 @@ class Deformer {
   void uncut(std::span<const LinkId> links);
   void pin(std::span<const ElementId> elements);
   void unpin(std::span<const ElementId> elements);
+  /// Sets the softness. If it changes the energy, wakes all elements for relaxation.
+  void set_softness(const Softness& softness);
+
+  // Set all positions, and release the handle: its elements are elsewhere now.
+  /// Sets positions: x, y and z for each element (mesh units). Throws Error as coordinates_of() does.
+  void set_positions(std::span<const double> positions);
+  /// Moves all elements to rest.
+  void reset();
+  /// Restores a snapshot of this mesh and precision.
+  void restore(const Snapshot& snapshot);
 
   /// Throws Error if the algorithm does not work on the mesh; nothing has changed then.
   void set_algorithm(Algorithm algorithm);
@@ -121,7 +136,14 @@ class Deformer {
   std::optional<EquilibriumCertificate> certificate();
 
  private:
+  Deformer(Body body, AlgorithmInfo algorithm, std::vector<ElementId> last_handle, std::vector<ElementId> held)
+      : body_(std::move(body)),
+        algorithm_(std::move(algorithm)),
+        last_handle_(std::move(last_handle)),
+        held_(std::move(held)) {}
+
   Method& method();
+  void forget_handle();
   template <class Pass>
   PassCount run(Pass pass);
   void store_for(const AlgorithmInfo& algorithm);

@@ -65,9 +65,8 @@ const QList<Room> rooms{
     {"core/files/repair", {"core/files/mesh"}},
     {"core/files/session", {"core/files/mesh", "core/simulate"}},
     {"core/files/results", {"core/files/repair", "core/calibrate", "core/report/page"}},
-    {"core/api/chainmail", {}},
-    {"core/api", {"core/api/chainmail", "core/files/session", "core/files/results"}},
-    {"core/api/examples", {"core/api/chainmail"}},
+    {"core/chainmail.h", {"core/files/mesh", "core/simulate"}},
+    {"core/examples", {"core/chainmail.h", "core/files/results"}},
     {"ui/common", {"core/files/session", "core/files/results"}},
     {"ui/document", {"ui/common"}},
     {"ui/drawing", {"ui/common"}},
@@ -78,7 +77,7 @@ const QList<Room> rooms{
     {"ui/window", {"ui/docks"}},
     {"app/version", {}},
     {"app/command_line", {"app/version", "core/bullet/register_bullet.h"}, interface_of_core},
-    {"app/python", {"core/api/chainmail"}},
+    {"app/python", {}, interface_of_core},
     {"app", {"app/command_line", "ui/window"}},
 };
 
@@ -104,7 +103,7 @@ const QList<Wrapped> libraries{
     {QRegularExpression("^(pybind11/|Python)"), {"app/python"}, "Python belongs in app/python"},
     {QRegularExpression("^Eigen/"),
      {"core/mesh", "core/elastic", "core/body", "core/chainmail", "core/exact", "core/equilibrium", "core/solver",
-      "core/measure", "core/simulate", "core/report", "core/files", "core/calibrate", "core/api/access.h", "ui", "app"},
+      "core/measure", "core/simulate", "core/report", "core/files", "core/calibrate", "core/examples", "ui", "app"},
      "users of the public headers need no Eigen"},
     {QRegularExpression("^rapidcheck"), {"tests/property.h"}, "tests/property.h checks properties"},
 };
@@ -129,12 +128,9 @@ bool sees(const QString& room, const QString& other) {
                      [&](const QString& below) { return sees(below, other); });
 }
 
-/// Returns the path from the root of one of our headers as an #include names it. The compiler searches core, ui, and
-/// core/api for the public headers.
+/// Returns the path from the root of one of our headers as an #include names it. The compiler searches core, ui
+/// and app.
 QString path_of(const QString& included) {
-  if (QFile::exists(root + "/core/api/" + included)) {
-    return "core/api/" + included;
-  }
   for (const QString folder : {"core/", "ui/", "app/"}) {
     if (const Room* room = room_of(folder + included); room != nullptr && room->folder.contains('/')) {
       return folder + included;
@@ -235,15 +231,10 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("app/command_line/deform.cpp", "#include \"files/text/text.h\"", true);
   row("app/chainmail.cpp", "#include \"mesh/error.h\"", true);
   row("core/calibrate/drags.h", "#include \"report/run/cases.h\"", true);
-  row("core/api/chainmail/body.h", "#include \"chainmail/mesh.h\"", true);
-  row("core/api/body.cpp", "#include \"solver/deformer.h\"", true);
-  row("core/api/compare.cpp", "#include \"files/results/report_json.h\"", true);
-  row("core/api/examples/drag.cpp", "#include <chainmail/chainmail.h>", true);
-  row("core/api/chainmail/body.h", "#include \"mesh/mesh.h\"", false);
-  row("core/api/chainmail/body.h", "#include \"api/access.h\"", false);
-  row("core/api/chainmail/body.h", "#include <Eigen/Core>", false);
-  row("core/api/examples/drag.cpp", "#include \"solver/deformer.h\"", false);
-  row("core/solver/deformer.cpp", "#include \"chainmail/mesh.h\"", false);
+  row("core/chainmail.h", "#include \"solver/deformer.h\"", true);
+  row("core/examples/drag.cpp", "#include <chainmail/chainmail.h>", true);
+  row("core/examples/compare.cpp", "#include <chainmail/report/run/compare.h>", true);
+  row("core/mesh/mesh.h", "#include \"chainmail.h\"", false);
   row("ui/panels/view.h", "#include <QOpenGLWidget>", true);
   row("ui/panels/view.h", "#include \"simulate/frame.h\"", true);
   row("ui/panels/view.h", "#include \"drawing/camera.h\"", true);
@@ -252,7 +243,8 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("app/workbench.cpp", "#include <QApplication>", true);
   row("app/workbench.cpp", "#include \"window/main_window.h\"", true);
   row("app/command_line/common.h", "#include <CLI/CLI.hpp>", true);
-  row("app/python/object.h", "#include \"chainmail/deformer.h\"", true);
+  row("app/python/object.h", "#include \"body/body.h\"", true);
+  row("app/python/reports.cpp", "#include \"files/results/report_json.h\"", true);
   row("tests/property.h", "#include <rapidcheck.h>", true);
   row("tests/core/exact/test_exact.cpp", "#include \"property.h\"", true);
   row("tests/core/exact/test_exact.cpp", "#include <rapidcheck.h>", false);
@@ -290,15 +282,13 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/files/formats/obj.cpp", "#include \"command_line/common.h\"", false);
   row("ui/panels/view.h", "#include \"command_line/common.h\"", false);
   row("app/command_line/common.h", "#include \"panels/view.h\"", false);
-  row("app/python/object.h", "#include \"api/access.h\"", false);
+  row("app/python/object.h", "#include \"exact/exact.h\"", false);
   row("app/command_line/compare_suite.cpp", "#include \"bullet/soft_body.h\"", false);
   row("app/command_line/deform.cpp", "#include \"chainmail/mesh.h\"", false);
   row("app/command_line/deform.cpp", "#include \"exact/exact.h\"", false);
   row("app/command_line/common.cpp", "#include \"equilibrium/relaxation_scheme.h\"", false);
   row("app/command_line/convert.cpp", "#include \"files/import/import_process.h\"", false);
-  row("app/command_line/deform.cpp", "#include \"api/access.h\"", false);
   row("core/bullet/register_bullet.h", "#include \"solver/algorithms.h\"", false);
-  row("app/python/object.h", "#include \"body/body.h\"", false);
   row("ui/document/document.h", "#include \"drawing/camera.h\"", false);
   row("ui/drawing/camera.h", "#include \"document/document.h\"", false);
   row("ui/panels/panel.cpp", "#include \"tools/cut_tool.h\"", false);

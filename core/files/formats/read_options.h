@@ -8,6 +8,10 @@
 
 #include "files/formats/voxel_block.h"
 
+#ifndef CHAINMAIL_IMPORT_PROGRAM
+#define CHAINMAIL_IMPORT_PROGRAM ""  // the installed package says where it is
+#endif
+
 namespace chainmail {
 
 /// Options of the user for data that a file may not contain.
@@ -25,7 +29,7 @@ struct ReadOptions {
   /// True if the header of a volume may name data outside its own folder.
   bool data_outside = false;
   /// Path of chainmail-import, for programs in another folder; see run_import (files/import/import_process.h).
-  std::filesystem::path import_program;
+  std::filesystem::path import_program = CHAINMAIL_IMPORT_PROGRAM;
 };
 
 /// Returns W x H x D of a text `WxH` or `WxHxD`, each 1 or more. `sizes` is the number of sizes that the text must

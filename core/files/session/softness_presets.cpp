@@ -6,6 +6,7 @@
 
 #include "files/session/session_json.h"
 #include "files/text/limits.h"
+#include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -112,6 +113,14 @@ void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets) {
   }
   const nlohmann::ordered_json json{{"version", presets_version}, {"presets", list}};
   out << json.dump(2) << '\n';
+}
+
+void write_preset(const std::filesystem::path& path, const SoftnessPreset& preset) {
+  if (const std::string fault = fault_of_name(preset.name); !fault.empty()) {
+    throw Error("preset " + in_quotes(preset.name), "this cannot be its name", fault);
+  }
+  check(preset.softness);
+  write_file(path, [&](std::ostream& out) { write_presets(out, std::span(&preset, 1)); });
 }
 
 }  // namespace chainmail

@@ -44,4 +44,8 @@ std::vector<SoftnessPreset> read_presets(const std::filesystem::path& path);
 /// Writes presets with all digits, so that they read back exactly.
 void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets);
 
+/// Writes one preset into a file. Throws Error for a name that is not valid, for softness out of range, and if the file
+/// cannot be written.
+void write_preset(const std::filesystem::path& path, const SoftnessPreset& preset);
+
 }  // namespace chainmail

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/error.h"
 #include "mesh/generate.h"
 #include "report/run/drags.h"
 #include "report/run/random.h"
@@ -121,6 +122,37 @@ std::vector<Case> default_cases(const Softness& softness) {
     one.drags = three_drags(one);
   }
   return cases;
+}
+
+RecordedMoves drag_along(const std::string& name, const Body& body, const std::vector<ElementId>& elements,
+                         const std::vector<Motion>& path) {
+  const Mesh& mesh = body.mesh();
+  const std::string where = "drag '" + name + "'";
+  const Handle handle(body, elements);
+  if (path.empty()) {
+    throw Error(where, "its path is empty", "give at least one motion");
+  }
+  RecordedMoves moves{name, "", {commands::Grab(elements)}};
+  // Targets are absolute for a handle of one element, as the comparison with physics reads them.
+  const Point from = handle.has_one() ? mesh.rest_position(elements[0]) : Point(Point::Zero());
+  for (const Motion& motion : path) {
+    check_displacement(mesh, where, motion.by);
+    check(motion.rotation, mesh);
+    moves.commands.emplace_back(commands::Drag{from + motion.by, motion.rotation, !handle.has_one()});
+  }
+  return moves;
+}
+
+Case case_of(const Body& body, const std::string& name) {
+  const auto pins = body.pins();
+  return {.name = name,
+          .description = "object of a program",
+          .mesh = body.mesh_pointer(),
+          .cuts = body.cuts().links(),
+          .pins = {pins.begin(), pins.end()},
+          .softness = body.softness(),
+          .drags = {},
+          .elastic = body.elastic()};
 }
 
 }  // namespace chainmail::report

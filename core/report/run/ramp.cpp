@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "mesh/error.h"
 #include "mesh/generate.h"
 #include "report/run/ramp_rule.h"
 #include "report/run/scripted_drags.h"
@@ -154,6 +156,28 @@ std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (wid
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
           const std::stop_token& stop) {
   return RampRun(options, progress, stop).run();
+}
+
+void check(const RampOptions& options) {
+  constexpr std::uint64_t smallest_grid = 16;
+  const auto check_range = [](const char* name, bool is_in_range, const char* problem, const char* what_to_do) {
+    if (!is_in_range) {
+      throw Error(name, problem, what_to_do);
+    }
+  };
+  for (const Algorithm algorithm : options.algorithms) {
+    if (info(algorithm).family() != Family::chainmail) {
+      throw Error("method '" + std::string(info(algorithm).offered_name()) + "'", "it is not of the ChainMail family",
+                  "use one that is");
+    }
+  }
+  check_range("budget", options.budget > 0 && std::isfinite(options.budget), "it is not a number above 0",
+              "use a number of seconds, such as 1 / 60");
+  check_range("largest", options.largest >= smallest_grid && options.largest <= element_limit,
+              "no grid has so many elements", "use 16 to 20000000");
+  check_range("drags", options.drags >= 1, "it is below 1", "use 1 or more");
+  check_range("moves", options.moves >= 1, "it is below 1", "use 1 or more");
+  chainmail::check(options.softness);
 }
 
 }  // namespace chainmail::report

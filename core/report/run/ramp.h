@@ -25,6 +25,9 @@ struct RampOptions {
   Clocks clocks = machine_clocks();
 };
 
+/// Throws Error if a number is out of its range, or an algorithm is not of the ChainMail family.
+void check(const RampOptions& options);
+
 /// The figures of one algorithm at one size.
 struct RampRow {
   std::uint32_t width = 0;  // number of elements along each side of the square grid

@@ -1,0 +1,164 @@
+#include <QtTest>
+#include <limits>
+#include <string>
+
+#include "core/support.h"
+#include "mesh/error.h"
+#include "mesh/layers.h"
+#include "program.h"
+
+namespace chainmail::test_deformer {
+
+using namespace chainmail::test;
+
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns the message of the error that an act throws.
+template <class Act>
+std::string refusal_of(Act act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+/// Returns x, y and z of each element.
+std::vector<double> points_of(const Deformer& deformer) {
+  std::vector<double> points;
+  const Body& body = deformer.body();
+  for (ElementId e = 0; e < body.mesh().element_count(); ++e) {
+    const Point at = point_of(body.mesh(), body.positions(), e);
+    points.insert(points.end(), at.begin(), at.end());
+  }
+  return points;
+}
+
+}  // namespace
+
+/// What a program hands to a deformer: it goes in and comes out, and bad input changes nothing.
+class DeformerTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void positions_go_in_and_out();
+  void copies_are_independent_data();
+  void copies_are_independent();
+  void another_energy_wakes_the_object();
+  void bad_input_changes_nothing();
+  void sides_have_names();
+};
+
+void DeformerTest::positions_go_in_and_out() {
+  for (const Precision precision : precisions) {
+    Deformer deformer(make_mesh(MeshKind::grid, {4, 3, 1}), Algorithm::natural_queue, precision);
+    const std::vector<double> rest = points_of(deformer);
+    std::vector<double> moved = rest;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      moved[i] += i % 3 == 2 ? 0 : 0.5 * double(i);
+    }
+    deformer.move(0, {-3, 0, 0});
+    deformer.set_positions(moved);
+    QVERIFY(same_bits(points_of(deformer), moved));
+    QVERIFY(deformer.held().empty() && deformer.last_handle().empty());
+    const Snapshot snapshot = deformer.body().snapshot();
+    deformer.reset();
+    QVERIFY(same_bits(points_of(deformer), rest));
+    deformer.restore(snapshot);
+    QVERIFY(same_bits(points_of(deformer), moved));
+  }
+}
+
+void DeformerTest::copies_are_independent_data() {
+  QTest::addColumn<Algorithm>("algorithm");
+  for (const AlgorithmInfo& one : algorithms()) {
+    QTest::newRow(std::string(one.name).c_str()) << one.algorithm;
+  }
+}
+
+/// A copy moves as the deformer that it was copied from, and neither notices the other.
+void DeformerTest::copies_are_independent() {
+  QFETCH(Algorithm, algorithm);
+  Deformer deformer(make_mesh(MeshKind::grid, {6, 5, 1}), algorithm);
+  deformer.pin(std::vector<ElementId>{29});
+  deformer.cut(std::vector<LinkId>{3});
+  deformer.move(0, {-4, -3, 0});
+  Deformer copy = deformer.copy();
+  const std::vector<double> before = points_of(deformer);
+  QVERIFY(same_bits(points_of(copy), before));
+  QVERIFY(copy.body().cuts().count() == 1 && copy.body().pins().size() == 1 && copy.last_handle().size() == 1);
+  copy.move(0, {-6, 2, 0});
+  QVERIFY(same_bits(points_of(deformer), before));
+  deformer.move(0, {-6, 2, 0});
+  QVERIFY(same_bits(points_of(deformer), points_of(copy)));
+  copy.unpin(std::vector<ElementId>{29});
+  QVERIFY(deformer.body().is_pinned(29));
+}
+
+void DeformerTest::another_energy_wakes_the_object() {
+  Deformer deformer(make_mesh(MeshKind::grid, {5, 5, 1}), Algorithm::natural_queue);
+  deformer.move(0, {-4, -3, 0});
+  deformer.relax(1000);
+  Softness softness = deformer.body().softness();
+  QCOMPARE(deformer.relax_slice(1, 1000, {}).visited, std::uint64_t(0));
+  set_energy(softness, EnergyKind::axial);
+  deformer.set_softness(softness);
+  QVERIFY(deformer.relax_slice(1, 1000, {}).visited > 0);
+}
+
+void DeformerTest::bad_input_changes_nothing() {
+  Deformer deformer(make_mesh(MeshKind::grid, {3, 3, 1}), Algorithm::natural_queue, Precision::single_precision);
+  const std::vector<double> before = points_of(deformer);
+  const auto with = [&](std::size_t at, double value) {
+    std::vector<double> positions = before;
+    positions[at] = value;
+    return positions;
+  };
+  const auto refused = [&](auto act, const std::string& reason) {
+    const std::string refusal = refusal_of(act);
+    QVERIFY2(has(refusal, reason), refusal.c_str());
+    QVERIFY(same_bits(points_of(deformer), before));
+  };
+  refused([&] { deformer.set_positions(std::vector<double>(26)); }, "there are 26 numbers for 9 elements");
+  refused([&] { deformer.set_positions(with(4, no_number)); }, "positions, element 1");
+  refused([&] { deformer.set_positions(with(25, 1e38)); }, "positions, element 8");
+  refused([&] { deformer.set_positions(with(5, 1)); }, "does not extend along z");
+  const Mesh& mesh = deformer.body().mesh();
+  refused([&] { check_position(mesh, "target", {no_number, 0, 0}); }, "target: a coordinate is not a finite number");
+  refused([&] { check_displacement(mesh, "by", {0, 0, 1}); }, "by: the object does not extend along z");
+  refused([&] { axes_after({{1, 0, 0}, 30}, mesh); }, "rotation");
+  refused([&] { algorithm_of("magic"); }, "method 'magic': there is no such method; use one of generalized");
+
+  Softness softness;
+  const Softness none = softness;
+  const std::vector<LinkSoftness> two(2, {.stretch = 2});
+  set_own(softness, mesh, std::vector<LinkId>{3, 1}, two);
+  QVERIFY(softness.of(3).stretch == 2 && softness.of(0) == LinkSoftness() && softness.links.size() == 2);
+  const auto refuses_links = [&](const std::vector<LinkId>& links, const LinkSoftness& own, const char* reason) {
+    softness = none;
+    refused([&] { set_own(softness, mesh, links, std::vector<LinkSoftness>(links.size(), own)); }, reason);
+    QVERIFY(softness == none);
+  };
+  refuses_links({0, 0}, {}, "link 0: it is given twice");
+  refuses_links({12}, {}, "link 12: there is no such link");
+  refuses_links({5}, {.stretch = 0.9}, "link 5, stretch");
+}
+
+void DeformerTest::sides_have_names() {
+  const MeshPointer grid = make_mesh(MeshKind::grid, {4, 3, 1});
+  QVERIFY((elements_at(*grid, "left") == std::vector<ElementId>{0, 4, 8}));
+  QCOMPARE(elements_at(*grid, "boundary").size(), std::size_t(10));
+  QVERIFY(has(refusal_of([&] { elements_at(*grid, "upper"); }), "use left, right"));
+  QVERIFY(has(refusal_of([&] { elements_at(*grid, "front"); }), "does not extend along that axis"));
+}
+
+CHAINMAIL_TEST(DeformerTest)
+
+}  // namespace chainmail::test_deformer
+
+#include "test_deformer.moc"
