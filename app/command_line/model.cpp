@@ -37,14 +37,6 @@ Choices<StrainLaw::Kind> laws_by_name() {
   return all;
 }
 
-RegionAxes given_axes(const std::string& text, const Mesh& mesh) {
-  const Rotation rotation = parse_rotation("--frame", text);
-  RegionAxes axes(AxesKind::given, rotation.vector());
-  check(axes, mesh);
-  check(rotation, mesh);
-  return axes;
-}
-
 std::array<std::uint32_t, 3> lattice_of(const std::string& text) {
   std::vector<std::uint32_t> counts;
   for (const std::string_view word : split(text, 'x')) {
@@ -123,7 +115,7 @@ RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh) {
     return principal.axes;
   }
   try {
-    return given_axes(*text, mesh);
+    return axes_after(parse_rotation("--frame", *text), mesh);
   } catch (const Error& error) {
     const bool is_rotation = text->find(':') != std::string::npos;
     throw is_rotation ? error.at("--frame")

@@ -101,6 +101,13 @@ void check(const Rotation& rotation, const Mesh& mesh) {
   }
 }
 
+RegionAxes axes_after(const Rotation& rotation, const Mesh& mesh) {
+  const RegionAxes axes(AxesKind::given, rotation.vector());
+  check(axes, mesh);
+  check(rotation, mesh);
+  return axes;
+}
+
 void check_free(const Body& body, std::span<const ElementId> elements) {
   const auto pinned = std::ranges::find_if(elements, [&](ElementId one) { return body.is_pinned(one); });
   if (pinned != elements.end()) {

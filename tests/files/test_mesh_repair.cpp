@@ -7,6 +7,7 @@
 #include "elastic/simplices.h"
 #include "files/mesh/fill.h"
 #include "files/repair/repair.h"
+#include "files/text/text.h"
 #include "files/support.h"
 #include "files/volume_of.h"
 #include "folders.h"

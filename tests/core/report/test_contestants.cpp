@@ -251,7 +251,7 @@ template <class Make>
 void rests_nearer_with_smaller_steps(const Mesh& mesh, const std::vector<double>& exact, Make make_solver) {
   std::vector<double> apart;
   for (const double square : {0.08, 0.02, 0.005}) {
-    const auto solver = std::make_unique<Deformer>(XpbdStep{.springs_over_inertia = square});
+    const auto solver = make_solver(XpbdStep{.springs_over_inertia = square});
     drag(*solver, mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     apart.push_back(largest_step(solver->displacements(), exact));
