@@ -272,7 +272,6 @@ void IncludesTest::the_rules_can_be_broken_data() {
   row("core/chainmail/propagate.h", "#include \"exact/exact.h\"", false);
   row("core/exact/exact.h", "#include \"equilibrium/relaxation.h\"", false);
   row("core/equilibrium/relaxation.h", "#include \"solver/deformer.h\"", false);
-  row("core/chainmail/propagate.h", "#include \"chainmail/body.h\"", false);
   row("core/elastic/energy.h", "#include \"body/body.h\"", false);
   row("core/solver/deformer.h", "#include \"measure/violation.h\"", false);
   row("core/measure/violation.h", "#include \"simulate/simulation.h\"", false);
