@@ -68,6 +68,11 @@ Point Rotation::vector() const {
   return degrees == 0 ? Point(Point::Zero()) : Point(axis.stableNormalized() * (degrees * (std::numbers::pi / 180)));
 }
 
+Rotation Rotation::of(const Point& vector) {
+  const double angle = vector.norm();
+  return angle == 0 ? Rotation() : Rotation{vector / angle, angle * (180 / std::numbers::pi)};
+}
+
 Rotation composed(const Rotation& first, const Rotation& then) {
   if (first.degrees == 0 || then.degrees == 0) {
     return first.degrees == 0 ? then : first;
