@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/error.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::report {
 namespace {

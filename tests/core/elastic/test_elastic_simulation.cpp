@@ -54,8 +54,8 @@ struct Bar : Simulation {
     apply(commands::Drag{target});
     apply(commands::Release{});
   }
-  std::vector<double> all() const { return positions_of(solver(), mesh()); }
-  Point at(ElementId element) const { return position_of(solver(), mesh(), element); }
+  std::vector<double> all() const { return positions_of(deformer(), mesh()); }
+  Point at(ElementId element) const { return position_of(deformer(), mesh(), element); }
 };
 
 constexpr ElementId tip = 4;
