@@ -79,6 +79,11 @@ class Body {
   void set_softness(std::shared_ptr<const Softness> softness);
   void set_softness(const Softness& softness) { set_softness(std::make_shared<const Softness>(softness)); }
 
+  /// Returns the object without its positions.
+  ObjectState object() const { return {mesh_, cuts_.links(), pins_, softness_}; }
+  /// Restores cuts, pins and softness of an object of this mesh. What stays the same gets no new revision.
+  void restore(const ObjectState& object);
+
   /// Options of the methods of elasticity. The ChainMail family ignores them.
   const ElasticOptions& elastic() const { return elastic_; }
   void set_elastic(const ElasticOptions& options);

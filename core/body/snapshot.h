@@ -6,10 +6,19 @@
 
 #include "body/positions.h"
 #include "body/region_axes.h"
+#include "body/softness.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
+
+/// An object without its positions: what all solvers of an object share.
+struct ObjectState {
+  MeshPointer mesh = {};
+  std::vector<LinkId> cuts = {};     // ascending
+  std::vector<ElementId> pins = {};  // ascending
+  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
+};
 
 /// Positions of an object, as a body stores them. The same body, or another of the same mesh and precision, restores
 /// them to the bit.

@@ -104,8 +104,6 @@ Snapshot SplitPositions::snapshot() {
   return std::move(result_);
 }
 
-}  // namespace
-
 std::shared_ptr<const Softness> softness_after(const Split& split, const std::shared_ptr<const Softness>& softness) {
   if (softness->links.empty()) {
     return softness;
@@ -124,6 +122,13 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
     }
   }
   return std::make_shared<const Softness>(std::move(result));
+}
+
+}  // namespace
+
+ObjectState object_after(const Split& split, const ObjectState& object) {
+  return {split.after, cuts_after(split, object.cuts), pins_after(split, object.pins),
+          softness_after(split, object.softness)};
 }
 
 Snapshot positions_after(const Split& split, const Snapshot& positions, Precision precision) {

@@ -7,14 +7,12 @@
 
 namespace chainmail {
 
-std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
-                                         const std::vector<LinkId>& cuts, std::vector<ElementId> pins) {
-  auto result = std::make_shared<DocumentObject>(mesh, object.name);
-  result->unsplit = object.unsplit;
-  result->before = object.before;
-  result->parts.cut(result->cuts, cuts);
-  result->pins = std::move(pins);
-  return result;
+void Contents::goTo(const ObjectState& state) {
+  auto other = std::make_shared<DocumentObject>(state, object->name);
+  other->unsplit = object->unsplit;
+  other->before = object->before;
+  object = std::move(other);
+  softness = state.softness;
 }
 
 Edit::Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept)

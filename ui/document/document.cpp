@@ -18,7 +18,7 @@ constexpr int undoSteps = 30;
 
 /// Replaces the values that differ between `from` and `to`, and the algorithms of these panels.
 void replaceValues(Contents& present, const Contents& from, const Contents& to, const std::vector<int>& panels) {
-  const auto replace = [&](auto Contents::*value) {
+  const auto replace = [&](auto value) {
     if (from.*value != to.*value) {
       present.*value = to.*value;
     }
@@ -73,8 +73,8 @@ bool changesObject(const Command& command) {
 
 Document::Document(MeshPointer mesh, const QString& name)
     : selection_(contents_), solvers_(contents_), handle_(*this), moves_(*this) {
-  contents_.object = std::make_shared<DocumentObject>(std::move(mesh), name);
   contents_.softness = std::make_shared<const Softness>(standard_softness());
+  contents_.object = std::make_shared<DocumentObject>(ObjectState{std::move(mesh)}, name);
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   connect(&solvers_, &PanelSolvers::refused, this, &Document::reportRefusal);
   connect(&solvers_, &PanelSolvers::sent, &moves_, &MovePlayer::changed);
@@ -365,7 +365,7 @@ void Document::replaceUnfitAlgorithms() {
 
 /// Sets cuts, pins and softness to their state at the current position in the recorded commands.
 void Document::showMoves() {
-  const MoveHistory::Object object = moves_.history().object();
+  const ObjectState object = moves_.history().object();
   const std::vector<LinkId> cut = cuts().links();
   if (cut != object.cuts) {
     showCuts(minus(cut, object.cuts), false);

@@ -62,6 +62,7 @@ class Document : public QObject {
   /// The global softness. It applies to all links without a softness of their own.
   const LinkSoftness& softness() const { return contents_.softness->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
+  ObjectState object() const { return {mesh(), cuts().links(), pins(), wholeSoftness()}; }
   const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
   const ElasticOptions& elastic() const { return contents_.elastic; }
   /// The lesson of the object; without a session if the object is none.

@@ -26,14 +26,13 @@ bool startsFromRest(const Session& session) {
 }
 
 /// Returns the commands that lead from the beginning of recorded moves to an object at rest.
-std::vector<Command> commandsFor(const std::shared_ptr<const Softness>& softness, const std::vector<LinkId>& cuts,
-                                 const std::vector<ElementId>& pins) {
-  std::vector<Command> commands{commands::SetSoftness{softness}};
-  if (!cuts.empty()) {
-    commands.push_back(commands::Cut{cuts});
+std::vector<Command> commandsFor(const ObjectState& object) {
+  std::vector<Command> commands{commands::SetSoftness{object.softness}};
+  if (!object.cuts.empty()) {
+    commands.push_back(commands::Cut{object.cuts});
   }
-  if (!pins.empty()) {
-    commands.push_back(commands::Pin{pins});
+  if (!object.pins.empty()) {
+    commands.push_back(commands::Pin{object.pins});
   }
   return commands;
 }
@@ -53,7 +52,7 @@ const MoveHistory& MovePlayer::history() const { return std::as_const(document_)
 
 /// A session without moves gets recorded commands that start with the object at rest.
 void MovePlayer::open(const Session& session) {
-  const std::vector<Command> object = commandsFor(session.softness, session.cuts, session.pins);
+  const std::vector<Command> object = commandsFor(session);
   const bool hasMoves = !session.moves.empty();
   CommandLog& log = document_.solvers().log();
   log.flush();  // to the history that is replaced below
@@ -74,7 +73,7 @@ void MovePlayer::noteDeparture() {
 }
 
 void MovePlayer::forget() {
-  const auto object = commandsFor(document_.wholeSoftness(), document_.cuts().links(), document_.pins());
+  const auto object = commandsFor(document_.object());
   MoveHistory& history = document_.solvers().log().history();
   history.load(object);
   history.go_to(object.size());
@@ -152,10 +151,10 @@ void MovePlayer::endFilm() {
 
 /// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
 /// recorded commands begin; null if that is the present one.
-void MovePlayer::replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const {
-  if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != document_.mesh()) {
-    edit.after.object = withMesh(*edit.after.object, other, then.cuts, then.pins);
-    edit.after.softness = then.softness;
+void MovePlayer::replaceSplit(Change& edit, ObjectState then, const MeshPointer& first) const {
+  then.mesh = then.mesh ? then.mesh : first;
+  if (then.mesh && then.mesh != document_.mesh()) {
+    edit.after.goTo(then);
   }
 }
 

@@ -78,7 +78,7 @@ class MovePlayer : public QObject {
 
   Change travelTo(std::size_t position);
   void travel(std::size_t position, const MeshPointer& first);
-  void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
+  void replaceSplit(Change& edit, ObjectState then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
   void noteRecorded(const Session* lesson);
   bool followsLesson(const std::vector<Algorithm>& algorithms) const;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "body/snapshot.h"
-#include "body/softness.h"
 #include "files/session/lesson.h"
 #include "files/text/outputs.h"
 #include "mesh/mesh.h"
@@ -21,7 +20,7 @@ namespace chainmail {
 
 /// The content of a window, to be saved and restored: an object, its moves, and the positions of its elements in each
 /// panel.
-struct Session {
+struct Session : ObjectState {
   struct Panel {
     Algorithm algorithm = Algorithm::natural_queue;
     /// Precision of the coordinates in `positions`. In single precision they are floats.
@@ -30,12 +29,8 @@ struct Session {
   };
 
   std::string name;  // name of the object, as in titles; a file has its first limits::name_bytes bytes
-  MeshPointer mesh;
   /// If not empty, a file that has the mesh: the session is then written with this name in place of the mesh.
   std::string mesh_file;
-  std::vector<LinkId> cuts;     // ascending
-  std::vector<ElementId> pins;  // ascending
-  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   std::vector<Panel> panels;  // 1 to limits::session_panels
