@@ -359,8 +359,9 @@ report::Origin origin_of(const CompareArguments& arguments) {
   return {report::this_machine(), arguments.command_line, report::now_in_words(), version_in_words("chainmail")};
 }
 
-report::Progress progress_on(ProgressLine& line) {
-  return [&line](double share, const std::string& text) { line.show([&] { return percent(share) + text; }); };
+Progress progress_on(ProgressLine& line) {
+  return Progress::watched(
+      [&line](double share, const std::string& text) { line.show([&] { return percent(share) + text; }); });
 }
 
 void write_files(OutputFolder& folder, const std::vector<ReportFile>& files, const Outputs::Writer& text,

@@ -53,7 +53,7 @@ std::optional<int> repetitions_of(const CompareArguments& arguments);
 /// Returns where a report comes from, which ends now.
 report::Origin origin_of(const CompareArguments& arguments);
 /// Returns a function that shows the progress of a report on a line.
-report::Progress progress_on(ProgressLine& line);
+Progress progress_on(ProgressLine& line);
 
 /// A file of a report.
 struct ReportFile {

@@ -43,7 +43,7 @@ auto run(Object& object, bool is_slow, Work work) {
   try {
     return run_long(object.job(), py::none(), [&] { return work(object.deformer()); });
   } catch (const py::error_already_set&) {
-    object.set_job(std::make_shared<Job>());  // the cancelled one would cancel the next move, too
+    object.set_job(Progress::watched());  // the cancelled one would cancel the next move, too
     throw;
   }
 }
@@ -278,7 +278,7 @@ void add_settings(MoverClass& deformer) {
            "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses more, "
            "for\n"
            "large objects, and no result depends on it.")
-      .def("set_job", used_mover<const JobPointer&>([](Object& object, const JobPointer& job) { object.set_job(job); }),
+      .def("set_job", used_mover<const Progress&>([](Object& object, const Progress& job) { object.set_job(job); }),
            py::arg("job").none(false),
            "Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.")
       .def("__repr__", [](const Mover& mover) {

@@ -49,14 +49,14 @@ class Unlocked {
 
 /// Waits for work in another thread, without the lock of Python. Calls `progress`, unless it is None, with the share
 /// that is done. Ctrl-C and an exception of `progress` cancel the job; the exception is thrown when the work has ended.
-void wait_for_work(Job& job, const pybind11::object& progress,
+void wait_for_work(const Progress& job, const pybind11::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within);
 
 /// Runs work that may take long in a thread of its own, while this thread looks for Ctrl-C: Python handles signals only
 /// between its own instructions. The work must not touch Python. If the system has no memory for another thread, the
 /// work runs in this one, and Ctrl-C waits for it.
 template <class Work>
-auto run_long(Job& job, const pybind11::object& progress, Work work) {
+auto run_long(const Progress& job, const pybind11::object& progress, Work work) {
   // The C library ends the program if a thread finds no memory for its first exception, so some is kept for that.
   auto reserve = std::make_unique_for_overwrite<std::array<std::byte, 1 << 20>>();
   std::future<decltype(work())> result;
@@ -76,6 +76,6 @@ auto run_long(Job& job, const pybind11::object& progress, Work work) {
 }
 
 /// Returns the job of a keyword; a new one if it is None.
-inline JobPointer job_or_new(const JobPointer& job) { return job ? job : std::make_shared<Job>(); }
+inline Progress job_or_new(const Progress* job) { return job != nullptr ? *job : Progress::watched(); }
 
 }  // namespace chainmail::python

@@ -83,14 +83,13 @@ py::dict distance(Object& object, const py::object& other) {
   return max_and_rms(distance_between(object, second));
 }
 
-ReferenceObject solve_reference(Object& object, const py::object& handle, const JobPointer& job,
+ReferenceObject solve_reference(Object& object, const py::object& handle, const Progress* job,
                                 const py::object& progress) {
   const UseObject use(object);
   const auto ids = ids_of(handle, "element");
-  const JobPointer watched = job_or_new(job);
-  return {object.body().mesh_pointer(), run_long(*watched, progress, [&] {
-            return reference_solution(object.body(), ids, Progress(watched->state));
-          })};
+  const Progress watched = job_or_new(job);
+  return {object.body().mesh_pointer(),
+          run_long(watched, progress, [&] { return reference_solution(object.body(), ids, watched); })};
 }
 
 py::array_t<double> positions_of_solution(const ReferenceObject& one) {

@@ -246,7 +246,7 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
                             const std::optional<std::array<std::uint32_t, 3>>& lattice, std::optional<double> spacing,
                             std::optional<int> space_dimension, std::optional<double> threshold,
                             std::optional<std::uint32_t> every, bool data_outside, bool stiff_where_dense,
-                            std::optional<double> weld, const std::string& import_program, const JobPointer& job,
+                            std::optional<double> weld, const std::string& import_program, const Progress* job,
                             const py::object& progress) {
   ReadOptions options;
   options.size = lattice;
@@ -258,8 +258,8 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
   options.data_outside = data_outside;
   options.weld = weld;
   options.import_program = import_program;
-  const JobPointer watched = job_or_new(job);
-  OpenedMesh opened = run_long(*watched, progress, [&] { return open_mesh(path, options, Progress(watched->state)); });
+  const Progress watched = job_or_new(job);
+  OpenedMesh opened = run_long(watched, progress, [&] { return open_mesh(path, options, watched); });
   const std::string flaws = in_words(opened.flaws);
   const char* const between = opened.remark.empty() || flaws.empty() ? "" : "; ";
   return std::make_shared<MeshObject>(
@@ -267,8 +267,8 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
 }
 
 void write_state(const std::filesystem::path& path, const MeshState& state) {
-  Job job;
-  run_long(job, py::none(), [&] { save_mesh(path, state, Progress(job.state)); });
+  const Progress job = Progress::watched();
+  run_long(job, py::none(), [&] { save_mesh(path, state, job); });
 }
 
 void write_body(const std::filesystem::path& path, Object& object) {

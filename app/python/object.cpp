@@ -15,11 +15,11 @@ Object::Object(MeshObjectPointer mesh, Precision precision)
   Softness softness = standard_softness();
   softness.links = mesh_->softness;
   body().set_softness(softness);
-  deformer_.set_progress(Progress(job().state));
+  deformer_.set_progress(job_);
 }
 
 Object::Object(const Object& other) : mesh_(other.mesh_), deformer_(other.deformer_.copy()) {
-  deformer_.set_progress(Progress(job().state));
+  deformer_.set_progress(job_);
 }
 
 void Object::check_no_views(std::string_view before) const {
@@ -58,9 +58,9 @@ void Object::set_method(std::string_view method) {
   deformer_.set_algorithm(algorithm);
 }
 
-void Object::set_job(JobPointer job) {
-  jobs_.push_back(std::move(job));
-  deformer_.set_progress(Progress(jobs_.back()->state));
+void Object::set_job(const Progress& job) {
+  job_ = job;
+  deformer_.set_progress(job);
 }
 
 Trace* Object::new_trace() {

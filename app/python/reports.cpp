@@ -98,7 +98,7 @@ struct CompareOptions {
 };
 
 report::Case case_of(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
-                     const std::stop_token& stop) {
+                     const Progress& progress) {
   const Body& body = object.body();
   const bool physics = options.against == Reference::physics;
   report::Case result = report::case_of(body, printable(options.title));
@@ -113,7 +113,7 @@ report::Case case_of(Object& object, const std::vector<Drag>& drags, const Compa
     }
   }
   if (drags.empty()) {
-    result.drags = physics ? report::physics_drags(result) : report::three_drags(result, stop);
+    result.drags = physics ? report::physics_drags(result) : report::three_drags(result, progress);
   }
   return result;
 }
@@ -149,7 +149,8 @@ void write_report(const std::filesystem::path& folder, const Report& report) {
 
 using AnyReport = std::variant<report::Comparison, report::PhysicsReport>;
 
-AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const CompareOptions& options, Job& job) {
+AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
+                         const Progress& progress) {
   const auto finished = [&](auto report) {
     if (report.stopped) {
       throw Cancelled();
@@ -159,14 +160,9 @@ AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const C
     }
     return AnyReport(std::move(report));
   };
-  const std::stop_token stop = job.stop.get_token();
-  const auto tell = [progress = Progress(job.state)](double share, const std::string& /*text*/) {
-    progress.report(share);
-  };
-  const std::vector<report::Case> cases{case_of(object, drags, options, stop)};
-  return options.against == Reference::exact
-             ? finished(report::compare(cases, options.physics.contest, tell, stop))
-             : finished(report::compare_with_physics(cases, options.physics, tell, stop));
+  const std::vector<report::Case> cases{case_of(object, drags, options, progress)};
+  return options.against == Reference::exact ? finished(report::compare(cases, options.physics.contest, progress))
+                                             : finished(report::compare_with_physics(cases, options.physics, progress));
 }
 
 // The rows of the table. All have the same columns; a figure that was not measured is None.
@@ -266,8 +262,7 @@ void put_rows(Table& table, const report::PhysicsReport& comparison) {
 py::dict compare(Object& object, const py::sequence& drags, const py::sequence& methods, const py::sequence& sweeps,
                  bool equilibrium, double relax_step, const std::string& scheme, const std::string& precision,
                  std::optional<int> repetitions, double seconds, const std::string& against, const std::string& title,
-                 const std::optional<std::filesystem::path>& folder, const JobPointer& job,
-                 const py::object& progress) {
+                 const std::optional<std::filesystem::path>& folder, const Progress* job, const py::object& progress) {
   CompareOptions options;
   report::CompareOptions& contest = options.physics.contest;
   contest.algorithms = algorithms_of(methods);
@@ -287,9 +282,9 @@ py::dict compare(Object& object, const py::sequence& drags, const py::sequence& 
   }
   check(contest);
   const auto all = list_of<Drag>(drags, "drags");
-  const JobPointer watched = job_or_new(job);
+  const Progress watched = job_or_new(job);
   const UseObject use(object);
-  const AnyReport report = run_long(*watched, progress, [&] { return compare_bodies(object, all, options, *watched); });
+  const AnyReport report = run_long(watched, progress, [&] { return compare_bodies(object, all, options, watched); });
   Table table;
   std::visit([&](const auto& one) { put_rows(table, one); }, report);
   return table.columns();
@@ -334,7 +329,7 @@ void check_at_least(int lowest, const char* name, int value) {
 }
 
 py::dict calibrate(Object& object, const std::string& method, std::uint64_t seed, int drags, int held_out,
-                   int evaluations, int most_sweeps, const std::string& scheme, const JobPointer& job,
+                   int evaluations, int most_sweeps, const std::string& scheme, const Progress* job,
                    const py::object& progress) {
   check_at_least(1, "drags", drags);
   check_at_least(1, "held_out", held_out);
@@ -353,9 +348,9 @@ py::dict calibrate(Object& object, const std::string& method, std::uint64_t seed
                              .not_these = {},
                              .scheme = named<RelaxationScheme>("scheme", scheme),
                              .energy = energy_of_links(body.softness().energy)};
-  const JobPointer watched = job_or_new(job);
-  return result_of(options, run_long(*watched, progress, [&] {
-                     return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, Progress(watched->state));
+  const Progress watched = job_or_new(job);
+  return result_of(options, run_long(watched, progress, [&] {
+                     return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, watched);
                    }));
 }
 
@@ -363,7 +358,7 @@ py::dict calibrate(Object& object, const std::string& method, std::uint64_t seed
 
 py::dict calibrate(Object& /*object*/, const std::string& /*method*/, std::uint64_t /*seed*/, int /*drags*/,
                    int /*held_out*/, int /*evaluations*/, int /*most_sweeps*/, const std::string& /*scheme*/,
-                   const JobPointer& /*job*/, const py::object& /*progress*/) {
+                   const Progress* /*job*/, const py::object& /*progress*/) {
   throw Error("calibrate", "the library was built without NLopt", "install it, and build it again");
 }
 
@@ -400,7 +395,7 @@ py::dict columns_of(const std::vector<report::RampVerdict>& verdicts) {
 }
 
 py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
-              int moves, const std::string& precision, const LinkSoftness& softness, const JobPointer& job,
+              int moves, const std::string& precision, const LinkSoftness& softness, const Progress* job,
               const py::object& progress) {
   report::RampOptions options;
   options.algorithms = algorithms_of(methods);
@@ -412,12 +407,12 @@ py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, st
   options.precision = named<Precision>("precision", precision);
   options.softness = softness;
   check(options);
-  const JobPointer watched = job_or_new(job);
-  const report::Ramp found = run_long(*watched, progress, [&] {
+  const Progress watched = job_or_new(job);
+  const report::Ramp found = run_long(watched, progress, [&] {
     const auto tell = [&](const report::RampProgress& at) {
-      Progress(watched->state).report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
+      watched.report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
     };
-    report::Ramp made = report::ramp(options, tell, watched->stop.get_token());
+    report::Ramp made = report::ramp(options, tell, watched);
     if (made.stopped) {
       throw Cancelled();
     }

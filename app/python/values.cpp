@@ -204,21 +204,18 @@ void add_elasticity(py::module_& module) {
 }
 
 void add_job(py::module_& module) {
-  py::class_<Job, JobPointer> job(
+  py::class_<Progress> job(
       module, "Job",
       "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to\n"
       "use from any thread.");
-  job.def(py::init<>())
-      .def_property_readonly(
-          "share", [](const Job& one) { return one.state.share.load(); },
-          "The share of the work that is done, from 0 to 1.")
-      .def("cancel", &Job::cancel,
-           "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
-      .def_property_readonly(
-          "is_cancelled", [](const Job& one) { return one.state.cancelled.load(); }, "True if cancel() was called.")
-      .def("__repr__", [](const Job& one) {
-        return "<Job: " + std::to_string(int(100 * one.state.share)) + " % done" +
-               (one.state.cancelled ? ", cancelled>" : ">");
+  job.def(py::init([] { return Progress::watched(); }))
+      .def_property_readonly("share", &Progress::share, "The share of the work that is done, from 0 to 1.")
+      .def(
+          "cancel", [](const Progress& one) { one.cancel(); },
+          "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
+      .def_property_readonly("is_cancelled", &Progress::cancelled, "True if cancel() was called.")
+      .def("__repr__", [](const Progress& one) {
+        return "<Job: " + std::to_string(int(100 * one.share())) + " % done" + (one.cancelled() ? ", cancelled>" : ">");
       });
   refuse_pickling(job, "it belongs to the work of this process", "make another one where it is needed");
 }

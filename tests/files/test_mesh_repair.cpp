@@ -494,12 +494,12 @@ void MeshRepairTest::random_triangles_are_repaired_or_refused() {
 }
 
 void MeshRepairTest::it_can_be_cancelled() {
-  JobState job;
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  job.cancel();
   const auto mesh = obj(corners + sides);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, closed(*mesh, Progress(job)));
-  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, 0, Progress(job)));
-  QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, closed(*mesh, job));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, 0, job));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, job));
 }
 
 CHAINMAIL_TEST(MeshRepairTest)

@@ -335,9 +335,9 @@ void OpenMeshTest::halves_of_a_pair_are_missed() {
 }
 
 void OpenMeshTest::cancelling_ends_the_import_at_once() {
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(source_file("tests/files/foreign/gmsh22.msh"), {}, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(source_file("tests/files/foreign/gmsh22.msh"), {}, job));
 }
 
 CHAINMAIL_TEST(OpenMeshTest)

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesh/parts.h"
@@ -15,6 +16,7 @@ namespace chainmail {
 
 struct Lesson;
 struct Session;
+class ChangeExecutor;
 class Document;
 
 /// What the user sets: it stays when another object is opened.
@@ -26,6 +28,8 @@ struct Settings {
   ElasticOptions elastic;
   int panels = 0;
   std::array<Algorithm, maxPanels> algorithms{};  // one per panel; the last one of a removed panel
+
+  std::span<const Algorithm> running() const { return std::span(algorithms).first(std::size_t(panels)); }
 };
 
 /// The object of a document without its positions. Cuts and pins change in place, so the time for a change depends on
@@ -88,7 +92,7 @@ class Edit : public QUndoCommand {
  public:
   /// `state` identifies the saved state; none if the step will be merged into the previous one. `kept` is true if the
   /// solvers have saved it already.
-  Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept = false);
+  Edit(ChangeExecutor& executor, Change change, std::optional<commands::StateId> state, bool kept = false);
   ~Edit() override;
 
   void redo() override;
@@ -100,7 +104,7 @@ class Edit : public QUndoCommand {
   void exchange(const Contents& from, const Contents& to, bool done);
   void show(const Contents& from, const Contents& to, bool done);
 
-  Document& document_;
+  ChangeExecutor& executor_;
   Contents before_;
   Change change_;
   std::optional<commands::StateId> state_;

@@ -45,7 +45,7 @@ struct MovePlayer::Work {
   Replayed replayed;
 };
 
-MovePlayer::MovePlayer(Document& document) : document_(document) {}
+MovePlayer::MovePlayer(Document& document, ChangeExecutor& executor) : document_(document), executor_(executor) {}
 MovePlayer::~MovePlayer() = default;
 
 const MoveHistory& MovePlayer::history() const { return std::as_const(document_).solvers().log().history(); }
@@ -112,7 +112,7 @@ Change MovePlayer::travelTo(std::size_t position) {
   Change edit;
   edit.text = QStringLiteral("replay");
   edit.gesture = travelGesture;
-  edit.after = document_.contents_;
+  edit.after = executor_.contents();
   edit.after.relaxation.on = false;
   const MeshPointer first = history().first_mesh();
   if (first) {
@@ -126,14 +126,14 @@ Change MovePlayer::travelTo(std::size_t position) {
 void MovePlayer::beginFilm() {
   noteRelaxation();
   document_.solvers().setAside();
-  work_ = std::make_unique<Work>(Work{document_.contents_, std::exchange(replayed_, {})});
+  work_ = std::make_unique<Work>(Work{executor_.contents(), std::exchange(replayed_, {})});
 }
 
 void MovePlayer::showInFilm(std::size_t position) {
   Change edit = travelTo(position);
-  const Contents before = document_.contents_;
-  document_.carryOut(edit, before);
-  document_.show(edit, before, edit.after, true);
+  const Contents before = executor_.contents();
+  executor_.carryOut(edit, before);
+  executor_.show(edit, before, edit.after, true);
 }
 
 void MovePlayer::endFilm() {
@@ -142,8 +142,8 @@ void MovePlayer::endFilm() {
     replayed_ = work->replayed;
     Change back;
     back.followsMoves = true;
-    const Contents shown = document_.contents_;
-    Application::guarded([&] { document_.show(back, shown, work->contents, true); });
+    const Contents shown = executor_.contents();
+    Application::guarded([&] { executor_.show(back, shown, work->contents, true); });
     emit filmEnded();
     emit changed();
   }
@@ -183,7 +183,7 @@ bool MovePlayer::recordsLesson() const {
 bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
   return recordsLesson() && replayed_.isCurrent && !document_.handle().isActive() && !document_.relaxation().on &&
          document_.elastic() == document_.lesson().session->elastic &&
-         std::ranges::equal(algorithms, document_.runningAlgorithms());
+         std::ranges::equal(algorithms, executor_.contents().running());
 }
 
 bool MovePlayer::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
@@ -201,7 +201,7 @@ void MovePlayer::noteRecorded(const Session* lesson) {
   lessonTimeline_ = history().timeline();
 }
 
-void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
+void MovePlayer::noteLessonStep(std::size_t step) { executor_.noteLessonStep(step); }
 
 void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step) {
   if (!document_.lesson().session || isInLesson(position, algorithms)) {
@@ -284,7 +284,7 @@ void MovePlayer::keepWaypoint(std::size_t position) {
   const std::size_t last = replayed_.waypoints.empty() ? 0 : std::prev(replayed_.waypoints.end())->first;
   if (!replayed_.hasRelaxed && position >= last + apart &&
       std::holds_alternative<commands::Grab>(history().at(position))) {
-    replayed_.waypoints[position] = document_.newState();
+    replayed_.waypoints[position] = executor_.newState();
     document_.solvers().log().replay(commands::KeepState{replayed_.waypoints[position]});
   }
 }

@@ -691,12 +691,12 @@ void ContestantsTest::cancelling_keeps_the_last_answer() {
   const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)));
   drag(*solver, *mesh, far);
   const std::vector<double> answer = solver->displacements();
-  JobState job;
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  job.cancel();
   const auto n = std::size_t(mesh->space_dimension);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), job));
   QVERIFY(solver->displacements() == answer);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)), job));
 }
 
 CHAINMAIL_TEST(ContestantsTest)
