@@ -2,6 +2,7 @@
 
 #include "files/formats/bare_picture.h"
 #include "files/support.h"
+#include "files/text/regular_file.h"
 #include "program.h"
 
 namespace chainmail::test_pictures {
@@ -66,7 +67,7 @@ class PicturesTest : public QObject {
   BarePicture bare(const std::string& bytes) const {
     const std::string path = folder_.filePath("picture").toStdString();
     put_file(path, bytes);
-    return read_bare_picture(path);
+    return read_bare_picture(RegularFile(path));
   }
 
   QTemporaryDir folder_;

@@ -204,8 +204,8 @@ BarePicture bare_picture(std::string bytes, const std::filesystem::path& path) {
   return picture;
 }
 
-BarePicture read_bare_picture(const std::filesystem::path& path) {
-  RegularFile file(path);
+BarePicture read_bare_picture(RegularFile file) {
+  const std::filesystem::path& path = file.path();
   std::string bytes(picture_signature_size, '\0');
   bytes.resize(file.read(bytes));
   if (!picture_format(bytes)) {

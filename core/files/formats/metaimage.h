@@ -12,6 +12,8 @@
 
 namespace chainmail {
 
+class RegularFile;
+
 /// The header of a MetaImage file (.mha, .mhd): lines `Key = Value`, ending with ElementDataFile.
 struct MetaImageHead {
   std::array<std::uint64_t, 3> size{};
@@ -36,6 +38,6 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
                         const Progress& progress = {});
 
 /// Reads a .mha, or a .mhd and its data files, which must be in its folder unless `outside` is true.
-Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress = {});
+Volume read_metaimage(RegularFile file, bool outside, const Progress& progress = {});
 
 }  // namespace chainmail

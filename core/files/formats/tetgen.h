@@ -8,6 +8,8 @@
 
 namespace chainmail {
 
+class RegularFile;
+
 /// A text and the path of its file, for errors.
 struct NamedText {
   std::string_view text;
@@ -20,6 +22,6 @@ ImportedMesh read_tetgen(const NamedText& nodes, const NamedText& elements, cons
 
 /// Reads the pair that one of the two files belongs to: both have the same name, up to the ending. Throws Error if the
 /// other file is missing.
-ImportedMesh read_tetgen(const std::filesystem::path& path, const Progress& progress);
+ImportedMesh read_tetgen(RegularFile one, const Progress& progress);
 
 }  // namespace chainmail

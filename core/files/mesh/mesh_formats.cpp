@@ -1,6 +1,7 @@
 #include "files/mesh/mesh_formats.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "files/formats/dat.h"
@@ -16,7 +17,6 @@
 #include "files/formats/vtk.h"
 #include "files/formats/vtu.h"
 #include "files/import/import_file.h"
-#include "files/mesh/foreign.h"
 #include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -26,21 +26,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t sign_bytes = 512;  // bytes at the beginning of a file that are read to recognise its format
-
 template <auto Read>
-ImportedMesh read_text_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
-  return Read(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+ImportedMesh read_text_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
+  const fs::path path = file.path();
+  return Read(read_text(std::move(file), "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
 }
 
-ImportedMesh read_dat_file(const fs::path& path, const ReadOptions& options, const Progress& progress) {
-  return read_dat(read_text(path, "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
+ImportedMesh read_dat_file(RegularFile file, const ReadOptions& options, const Progress& progress) {
+  const fs::path path = file.path();
+  return read_dat(read_text(std::move(file), "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
 }
 
 /// Reads a file that may be binary.
 template <auto Read>
-ImportedMesh read_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
-  return Read(read_bytes(path, "a mesh", progress.part(0, 0.2)), path, progress.part(0.2, 1));
+ImportedMesh read_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
+  const fs::path path = file.path();
+  return Read(read_bytes(std::move(file), "a mesh", progress.part(0, 0.2)), path, progress.part(0.2, 1));
 }
 
 constexpr std::array formats{
@@ -63,8 +64,8 @@ constexpr std::array formats{
                .help = "all cells; written with displacement and violation as fields, for ParaView",
                .signs = {"<VTKFile"},
                .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("vtu", path, 1, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("vtu", std::move(file), 1, progress, options.import_program);
                    },
                .write = write_vtu},
     MeshFormat{.name = "Gmsh",
@@ -72,8 +73,8 @@ constexpr std::array formats{
                .help = "lines, triangles, quadrangles, tetrahedra and hexahedra",
                .signs = {"$MeshFormat", "$NOD"},
                .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("msh", path, 2, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("msh", std::move(file), 2, progress, options.import_program);
                    },
                .write = write_msh},
     MeshFormat{.name = "legacy VTK",
@@ -101,23 +102,24 @@ constexpr std::array formats{
     MeshFormat{.name = "TetGen",
                .endings = ".node .ele",
                .help = "tetrahedra, in a pair of files",
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return read_tetgen(path, progress); }},
+               .read_mesh = [](RegularFile file, const ReadOptions& /*options*/,
+                               const Progress& progress) { return read_tetgen(std::move(file), progress); }},
     MeshFormat{.name = "NRRD",
                .endings = ".nrrd .nhdr",
                .help = "volumes of voxels",
                .signs = {"NRRD000"},
                .read_volume =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_nrrd(path, options.data_outside, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_nrrd(std::move(file), options.data_outside, progress, options.import_program);
                    }},
-    MeshFormat{
-        .name = "MetaImage",
-        .endings = ".mha .mhd",
-        .help = "volumes of voxels",
-        .signs = {"ObjectType", "NDims"},
-        .read_volume = [](const fs::path& path, const ReadOptions& options,
-                          const Progress& progress) { return read_metaimage(path, options.data_outside, progress); }},
+    MeshFormat{.name = "MetaImage",
+               .endings = ".mha .mhd",
+               .help = "volumes of voxels",
+               .signs = {"ObjectType", "NDims"},
+               .read_volume =
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return read_metaimage(std::move(file), options.data_outside, progress);
+                   }},
     MeshFormat{.name = "Links of a lattice",
                .endings = ".dat",
                .help = "the links of a line, a grid or a block, as in Dean's thesis",
@@ -147,30 +149,6 @@ const MeshFormat* find_by_ending(std::string_view wanted) {
   };
   const auto found = std::find_if(formats.begin(), formats.end(), has_ending);
   return found == formats.end() ? nullptr : &*found;
-}
-
-const MeshFormat* find_by_sign(std::string_view beginning) {
-  const auto has_sign = [beginning](const MeshFormat& format) {
-    return std::any_of(format.signs.begin(), format.signs.end(),
-                       [beginning](std::string_view sign) { return !sign.empty() && beginning.starts_with(sign); });
-  };
-  const auto found = std::find_if(formats.begin(), formats.end(), has_sign);
-  return found == formats.end() ? nullptr : &*found;
-}
-
-/// Passes over blank lines, comments, a byte order mark and the declaration of XML.
-std::string_view without_comments(std::string_view beginning) {
-  beginning.remove_prefix(mark_length(beginning));
-  for (;;) {
-    beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
-    const char end = beginning.starts_with('#')                                     ? '\n'
-                     : beginning.starts_with("<?") || beginning.starts_with("<!--") ? '>'
-                                                                                    : '\0';
-    if (end == '\0') {
-      return beginning;
-    }
-    beginning.remove_prefix(std::min(beginning.find_first_of(end == '\n' ? "\r\n" : ">"), beginning.size() - 1) + 1);
-  }
 }
 
 /// Returns the reason why a file with this ending does not have this use. `format` is the format of the ending; null if
@@ -252,20 +230,6 @@ const MeshFormat& mesh_format(const fs::path& path, FormatUse use) {
               use == FormatUse::read    ? "open a mesh in one of these formats: " + mesh_endings(use)
               : use == FormatUse::write ? "write the mesh in one of these formats: " + mesh_endings(use)
                                         : "write positions in one of these formats: " + mesh_endings(use));
-}
-
-const MeshFormat& detect_format(const fs::path& path) {
-  std::array<char, sign_bytes> bytes{};
-  const std::string_view beginning(bytes.data(), RegularFile(path).read(bytes));
-  if (beginning.empty()) {
-    throw Error(shown(path), "it is empty", "use a file that contains a mesh");
-  }
-  const MeshFormat* by_comment = find_by_sign(beginning);
-  const MeshFormat* by_sign = by_comment != nullptr ? by_comment : find_by_sign(without_comments(beginning));
-  if (by_sign == nullptr) {
-    refuse_foreign(beginning, path);
-  }
-  return by_sign != nullptr ? *by_sign : mesh_format(path);
 }
 
 }  // namespace chainmail
