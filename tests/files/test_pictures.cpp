@@ -2,7 +2,6 @@
 
 #include "files/formats/bare_picture.h"
 #include "files/support.h"
-#include "files/text/regular_file.h"
 #include "program.h"
 
 namespace chainmail::test_pictures {

@@ -203,38 +203,29 @@ void FileActions::open() {
   }
 }
 
-void FileActions::openPath(const QString& path, bool first) {
-  read(path, first ? edits::Opening::first : edits::Opening::next, true);
-}
-
-void FileActions::openSample(const QString& path) { read(path, edits::Opening::next, false); }
-
-/// Opens the file, once, in a job. `asks`: asks for the options of a volume.
-void FileActions::read(const QString& path, edits::Opening opening, bool asks) {
+void FileActions::openPath(const QString& path, edits::Opening opening, bool asks) {
+  const auto read = [this, path, opening, asks](const Progress& progress) -> Jobs::Finish {
+    InputFile input = open_file(asPath(path));
+    switch (input.kind) {
+      case FileKind::session:
+        return sessions_.read(std::move(input.file), path, opening, progress);
+      case FileKind::picture:
+        return readPicture(std::move(input.file), path, opening, progress);
+      case FileKind::volume:
+        return volumes_->read(std::move(input), path, opening, asks, progress);
+      case FileKind::mesh:
+        break;
+    }
+    return readMesh(std::move(input), path, opening, progress);
+  };
   jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
-              [this, path, opening, asks](const Progress& progress) -> Jobs::Finish {
+              [this, path, read](const Progress& progress) -> Jobs::Finish {
                 const auto state = stateOf(path);  // before it is read
-                return [this, path, state, show = readAs(open_file(asPath(path)), path, opening, asks, progress)] {
+                return [this, path, state, show = read(progress)] {
                   show();
                   sessions_.know(path, state);
                 };
               });
-}
-
-/// Passes the file to the reader of its kind.
-Jobs::Finish FileActions::readAs(InputFile input, const QString& path, edits::Opening opening, bool asks,
-                                 const Progress& progress) {
-  switch (input.kind) {
-    case FileKind::session:
-      return sessions_.read(std::move(input.file), path, opening, progress);
-    case FileKind::picture:
-      return readPicture(std::move(input.file), path, opening, progress);
-    case FileKind::volume:
-      return volumes_->read(std::move(input), path, opening, asks, progress);
-    case FileKind::mesh:
-      break;
-  }
-  return readMesh(std::move(input), path, opening, progress);
 }
 
 /// Opens a picture as a sheet.

@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

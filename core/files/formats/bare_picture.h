@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace chainmail {
+#include "files/text/regular_file.h"
 
-class RegularFile;
+namespace chainmail {
 
 /// The formats of pictures that open. No other format is tried: some name other files, which their readers open.
 enum class PictureFormat { png, jpeg };

@@ -15,7 +15,6 @@
 #include "files/formats/data_file.h"
 #include "files/text/limits.h"
 #include "files/text/number_type.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "files/formats/volume.h"
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-class RegularFile;
 
 /// The header of a MetaImage file (.mha, .mhd): lines `Key = Value`, ending with ElementDataFile.
 struct MetaImageHead {

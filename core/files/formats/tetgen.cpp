@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

@@ -4,11 +4,10 @@
 #include <string_view>
 
 #include "files/formats/imported.h"
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-class RegularFile;
 
 /// A text and the path of its file, for errors.
 struct NamedText {

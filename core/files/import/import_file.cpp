@@ -7,7 +7,6 @@
 #include "files/formats/nrrd_head.h"
 #include "files/import/import_process.h"
 #include "files/text/limits.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

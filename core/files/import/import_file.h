@@ -5,11 +5,10 @@
 
 #include "files/formats/imported.h"
 #include "files/formats/volume.h"
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-class RegularFile;
 
 /// Reads a mesh by a library in the import program. `task` is the program's word for the format. `passes` is the number
 /// of times that the library reads the file; `program` is where the import program is, as for run_import. Throws the

@@ -17,7 +17,6 @@
 #include "files/formats/vtk.h"
 #include "files/formats/vtu.h"
 #include "files/import/import_file.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 

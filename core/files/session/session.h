@@ -12,14 +12,13 @@
 #include "body/softness.h"
 #include "files/session/lesson.h"
 #include "files/text/outputs.h"
+#include "files/text/regular_file.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
 #include "solver/deformer.h"
 
 namespace chainmail {
-
-class RegularFile;
 
 /// The content of a window, to be saved and restored: an object, its moves, and the positions of its elements in each
 /// panel.

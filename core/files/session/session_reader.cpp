@@ -10,7 +10,6 @@
 #include "files/session/session_json.h"
 #include "files/session/session_mesh.h"
 #include "files/text/limits.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "simulate/move_history.h"

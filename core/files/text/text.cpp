@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "files/text/limits.h"
-#include "files/text/regular_file.h"
 #include "mesh/error.h"
 
 namespace chainmail {

@@ -10,11 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
-
-class RegularFile;
 
 /// Makes a text from outside safe for a message: control characters and invalid UTF-8 become \xNN. So a message has one
 /// line and cannot control a terminal.
