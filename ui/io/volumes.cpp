@@ -135,15 +135,15 @@ Volumes::Volumes(Document& document, Jobs& jobs)
 
 Jobs::Finish Volumes::read(InputFile input, const QString& path, edits::Opening opening, bool asks,
                            const Progress& progress) {
-  Volume volume = input.format->read_volume(std::move(input.file), {}, progress.part(0, 0.5));
+  Volume volume = input.format->read_volume(std::move(input.file), {}, progress.part(0, asks ? 1 : 0.5));
   if (!asks) {
     return objectOf(volume, {}, path, opening, progress.part(0.5, 1));
   }
-  return [this, path, opening, counted = std::make_shared<const OpenedVolume>(std::move(volume))] {
+  return [this, path, opening, voxels = std::make_shared<const OpenedVolume>(std::move(volume))] {
     path_ = path;
     opening_ = opening;
-    volume_ = counted;
-    bar_->ask(shownName(path), counted);
+    volume_ = voxels;
+    bar_->ask(shownName(path), voxels);
   };
 }
 
