@@ -25,10 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <auto Read>
-ImportedMesh read_text_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
+/// Reads a whole file, and its content with the reader of a format. Binary files need read_bytes.
+template <auto Read, std::string (*Take)(RegularFile, const std::string&, const Progress&) = read_text>
+ImportedMesh read_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
   const fs::path path = file.path();
-  return Read(read_text(std::move(file), "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+  return Read(Take(std::move(file), "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
 }
 
 ImportedMesh read_dat_file(RegularFile file, const ReadOptions& options, const Progress& progress) {
@@ -36,26 +37,19 @@ ImportedMesh read_dat_file(RegularFile file, const ReadOptions& options, const P
   return read_dat(read_text(std::move(file), "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
 }
 
-/// Reads a file that may be binary.
-template <auto Read>
-ImportedMesh read_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
-  const fs::path path = file.path();
-  return Read(read_bytes(std::move(file), "a mesh", progress.part(0, 0.2)), path, progress.part(0.2, 1));
-}
-
 constexpr std::array formats{
     MeshFormat{.name = "Wavefront OBJ",
                .endings = ".obj",
                .help = "surfaces and lines",
                .signs = {"v ", "o ", "g ", "mtllib ", "vn "},
-               .read_mesh = read_text_file<read_obj>,
+               .read_mesh = read_file<read_obj>,
                .write = write_obj,
                .holds = MeshFormat::Holds::faces_and_links},
     MeshFormat{.name = "Stanford PLY",
                .endings = ".ply",
                .help = "surfaces; links along no face as edges",
                .signs = {"ply\n", "ply\r"},
-               .read_mesh = read_file<read_ply>,
+               .read_mesh = read_file<read_ply, read_bytes>,
                .write = write_ply,
                .holds = MeshFormat::Holds::faces_and_links},
     MeshFormat{.name = "VTK XML",
@@ -80,22 +74,22 @@ constexpr std::array formats{
                .endings = ".vtk",
                .help = "lines, surfaces and volumes",
                .signs = {"# vtk DataFile"},
-               .read_mesh = read_file<read_vtk>},
+               .read_mesh = read_file<read_vtk, read_bytes>},
     MeshFormat{.name = "Medit",
                .endings = ".mesh",
                .help = "lines, surfaces and volumes",
                .signs = {"MeshVersionFormatted"},
-               .read_mesh = read_text_file<read_medit>},
+               .read_mesh = read_file<read_medit>},
     MeshFormat{.name = "OFF",
                .endings = ".off",
                .help = "surfaces",
                .signs = {"OFF", "COFF", "NOFF", "CNOFF", "NCOFF", "STOFF", "nOFF"},
-               .read_mesh = read_text_file<read_off>},
+               .read_mesh = read_file<read_off>},
     MeshFormat{.name = "STL",
                .endings = ".stl",
                .help = "surfaces, triangle by triangle",
                .signs = {"solid "},
-               .read_mesh = read_file<read_stl>,
+               .read_mesh = read_file<read_stl, read_bytes>,
                .write = write_stl,
                .holds = MeshFormat::Holds::faces},
     MeshFormat{.name = "TetGen",
