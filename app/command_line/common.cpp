@@ -238,16 +238,17 @@ double tolerance_of(const std::string& text) {
   return tolerance;
 }
 
-OpenedMesh open_mesh(const MeshOptions& options) {
+OpenedMesh open_mesh(const MeshOptions& options) { return open_mesh(options, open_file(*value_of(options.path))); }
+
+OpenedMesh open_mesh(const MeshOptions& options, InputFile input) {
   const ReadOptions how = read_options_of(options);
-  const std::filesystem::path path = *value_of(options.path);
-  Watch watch("reading " + shown(path));
+  Watch watch("reading " + shown(input.file.path()));
   return in_options({{"space dimension", "--space"},
                      {"size", "--size"},
                      {"spacing", "--spacing"},
                      {"threshold", "--threshold"},
                      {"every", "--voxels"}},
-                    [&] { return chainmail::open_mesh(path, how, watch.progress()); });
+                    [&] { return chainmail::open_mesh(std::move(input), how, watch.progress()); });
 }
 
 CLI::Option* add_mesh_target(CLI::App& app, const std::string& name) {

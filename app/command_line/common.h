@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/mesh/open_mesh.h"
+#include "files/mesh/input_file.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -146,6 +146,7 @@ MeshOptions add_mesh_options(CLI::App& app, Welding welding = Welding::by_reader
 double tolerance_of(const std::string& text);
 /// Reads the mesh. Throws Error, with the option.
 OpenedMesh open_mesh(const MeshOptions& options);
+OpenedMesh open_mesh(const MeshOptions& options, InputFile input);
 /// Returns the folder of the samples that come with the programs. It may be missing.
 std::filesystem::path samples_folder();
 

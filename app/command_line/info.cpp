@@ -9,11 +9,12 @@ namespace {
 /// names is beside it or among the samples.
 OpenedMesh contents_of(const MeshOptions& options) {
   const std::filesystem::path path = *value_of(options.path);
-  if (!is_session(path)) {
-    return open_mesh(options);
+  InputFile input = open_file(path);
+  if (input.kind != FileKind::session) {
+    return open_mesh(options, std::move(input));
   }
-  const Session session =
-      read_session(path, {}, [&](const std::string& name, std::uint32_t /*across*/, const Progress& /*progress*/) {
+  const Session session = read_session(
+      std::move(input.file), {}, [&](const std::string& name, std::uint32_t /*across*/, const Progress& /*progress*/) {
         const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
         std::error_code none;
         return read_mesh(!exists(beside, none) && exists(sample, none) ? sample : beside);

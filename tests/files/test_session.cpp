@@ -39,7 +39,6 @@ class SessionTest : public QObject {
   void numbers_that_are_none_are_not_written();
   void saving_is_whole_or_not_at_all();
   void long_work_comes_to_its_end_and_is_cancelled();
-  void endings_are_known_in_any_case();
 
  private:
   static void compare(const Session& again, const Session& session);
@@ -348,11 +347,6 @@ void SessionTest::long_work_comes_to_its_end_and_is_cancelled() {
   fs::remove(path);
   QVERIFY_THROWS_EXCEPTION(Cancelled, save_session(path, session, cancelled));
   QCOMPARE(files_in(folder.path().toStdString()), 0);
-}
-
-void SessionTest::endings_are_known_in_any_case() {
-  QVERIFY(is_session("a.chainmail") && is_session("b/A.ChainMail"));
-  QVERIFY(!is_session("a.obj") && !is_session("chainmail") && !is_session("a.chainmail.obj"));
 }
 
 CHAINMAIL_TEST(SessionTest)
