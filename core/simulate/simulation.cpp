@@ -6,10 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "body/split_state.h"
-#include "measure/inverted_cells.h"
+#include "body/snapshot.h"
+#include "measure/shape_measures.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "mesh/parameters.h"
 
 namespace chainmail {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/distance.h"
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "measure/violation.h"
 #include "report/run/cases.h"
 #include "report/run/clocks.h"
