@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "body/energy_kind.h"
 #include "command_line/script.h"
 #include "mesh/layers.h"
 

@@ -7,8 +7,7 @@
 #include "command_line/common.h"
 #include "command_line/progress_line.h"
 #include "files/results/report_json.h"
-#include "report/page/ramp_plot.h"
-#include "report/page/ramp_table.h"
+#include "report/page/ramp_page.h"
 #include "report/page/svg.h"
 #include "report/run/machine.h"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "body/energy_kind.h"
+#include "body/softness.h"
 #include "python/object.h"
 
 namespace chainmail::python {

@@ -5,13 +5,12 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "body/positions.h"
+#include "body/region.h"
 #include "body/region_axes.h"
-#include "body/region_table.h"
 #include "body/snapshot.h"
 #include "body/softness.h"
 #include "elastic/material.h"

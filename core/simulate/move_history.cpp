@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "body/split_state.h"
+#include "body/snapshot.h"
 
 namespace chainmail {
 namespace {

@@ -6,9 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "measure/inverted_cells.h"
+#include "measure/shape_measures.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "mesh/parameters.h"
 
 namespace chainmail {

@@ -6,7 +6,6 @@
 
 #include "exact/thread_team.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "mesh/generate.h"
 
 namespace chainmail {

@@ -11,7 +11,6 @@
 
 #include "body/body.h"
 #include "body/method.h"
-#include "body/trace.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/relaxation.h"
 #include "mesh/progress.h"

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "files/import/channels.h"
+#include "files/import/handover.h"
 #include "files/import/import_process.h"
 #include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"

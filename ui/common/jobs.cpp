@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 

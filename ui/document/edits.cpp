@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "body/positions.h"
-#include "body/split_state.h"
+#include "body/snapshot.h"
 #include "common/text.h"
 #include "document/document.h"
 #include "files/session/session.h"

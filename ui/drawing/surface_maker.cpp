@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {

@@ -12,7 +12,7 @@
 #include "document/session_draft.h"
 #include "files/session/session.h"
 #include "io/unsaved_work.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 #include "mesh/progress.h"
 
 namespace chainmail {

@@ -7,10 +7,7 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "files/formats/data_file.h"
 #include "files/text/limits.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "files/formats/data_file.h"
-#include "files/formats/msh_check.h"
+#include "files/formats/msh.h"
 #include "files/formats/nrrd_head.h"
 #include "files/import/import_process.h"
 #include "files/text/limits.h"

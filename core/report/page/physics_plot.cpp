@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "report/page/format.h"
-#include "report/page/physics_means.h"
+#include "report/page/physics_table.h"
 
 namespace chainmail::report {
 namespace {

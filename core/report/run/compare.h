@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "measure/distance.h"
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "measure/violation.h"
 #include "mesh/progress.h"
 #include "report/run/cases.h"

@@ -3,8 +3,8 @@
 #include "core/elastic/elastic_problems.h"
 #include "core/pinned.h"
 #include "core/spheres.h"
+#include "elastic/boundary_elements.h"
 #include "elastic/closed_surface.h"
-#include "elastic/pinned_solid.h"
 #include "program.h"
 
 namespace chainmail::test_boundary_elements {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "body/split_state.h"
+#include "body/snapshot.h"
 #include "core/families.h"
 #include "core/simulations.h"
 #include "mesh/error.h"

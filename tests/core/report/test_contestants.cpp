@@ -9,7 +9,6 @@
 
 #include "core/elastic/elastic_problems.h"
 #include "core/report/plain_minimum.h"
-#include "elastic/neo_hookean_xpbd.h"
 #include "elastic/xpbd.h"
 #include "mesh/error.h"
 #include "program.h"

@@ -4,7 +4,7 @@
 
 #include "core/families.h"
 #include "program.h"
-#include "report/page/ramp_table.h"
+#include "report/page/ramp_page.h"
 #include "report/run/growth.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"

@@ -8,7 +8,6 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/front.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"

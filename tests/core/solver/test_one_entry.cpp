@@ -7,7 +7,7 @@
 #include "core/chainmail/recorded.h"
 #include "files/results/report_json.h"
 #include "report/page/compared_figures.h"
-#include "report/page/plot_style.h"
+#include "report/page/plot.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"
 #include "solver/algorithms.h"

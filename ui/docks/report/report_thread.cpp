@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/jobs.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 #include "report/run/drags.h"
 
 namespace chainmail {

@@ -1,9 +1,7 @@
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 #include <new>
 #include <system_error>
-
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {

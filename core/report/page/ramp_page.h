@@ -4,6 +4,7 @@
 #include <span>
 
 #include "report/page/figures.h"
+#include "report/page/plot.h"
 #include "report/run/machine.h"
 #include "report/run/ramp.h"
 
@@ -17,5 +18,9 @@ std::span<const Figure<RampRow>> ramp_figures();
 
 /// Writes a header, then one row per algorithm and size. Numbers have all digits.
 void write_csv(std::ostream& out, const Ramp& ramp);
+
+/// Returns a plot of the number of elements against the 99th percentile of the pass times, with a line for each
+/// algorithm and real time as a strip. Times above the budget are hollow.
+Plot ramp_plot(const Ramp& ramp);
 
 }  // namespace chainmail::report

@@ -1,4 +1,4 @@
-#include "chainmail/waiting_history.h"
+#include "chainmail/recorded_pass.h"
 
 #include <algorithm>
 
