@@ -115,11 +115,7 @@ RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh) {
   }
   require(text.find(':') != std::string::npos, "--frame", "'" + printable(text) + "' is not known",
           "use axes, object, or a rotation such as z:45 or 1,2,3:30");
-  try {
-    return given_axes(text, mesh);
-  } catch (const Error& error) {
-    throw error.at("--frame");
-  }
+  return error_at("--frame", [&] { return given_axes(text, mesh); });
 }
 
 Rotation parse_rotation(const std::string& where, std::string_view text) {
