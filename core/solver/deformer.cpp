@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "body/split_state.h"
+#include "body/snapshot.h"
 #include "exact/thread_team.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
