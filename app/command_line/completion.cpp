@@ -34,7 +34,7 @@ std::string value_name(const CLI::Option& option) {
 }
 
 /// Returns the names with dashes; none for a positional argument.
-Names names_of(const CLI::Option& option) {
+Names names_in(const CLI::Option& option) {
   Names names;
   std::ranges::transform(option.get_snames(), std::back_inserter(names), [](const auto& name) { return "-" + name; });
   std::ranges::transform(option.get_lnames(), std::back_inserter(names), [](const auto& name) { return "--" + name; });
@@ -65,7 +65,7 @@ std::vector<const CLI::Option*> positionals_of(const CLI::App& app) {
 std::string option_names(const CLI::App& app) {
   Names all;
   for (const CLI::Option* option : options_of(app)) {
-    std::ranges::copy(names_of(*option), std::back_inserter(all));
+    std::ranges::copy(names_in(*option), std::back_inserter(all));
   }
   return spaced(all);
 }
@@ -96,7 +96,7 @@ void write_bash(std::ostream& out, const CLI::App& root, const Apps& commands) {
          "  case \"${COMP_WORDS[1]} $before\" in\n";
   for (const CLI::App* command : commands) {
     for (const CLI::Option* option : options_of(*command)) {
-      for (const std::string& name : names_of(*option)) {
+      for (const std::string& name : names_in(*option)) {
         write_bash_values(out, command->get_name() + ' ' + name, *option);
       }
     }
@@ -139,7 +139,7 @@ std::string zsh_action(const CLI::Option& option) {
 
 void write_zsh_option(std::ostream& out, const CLI::Option& option) {
   const std::string type = value_name(option), help = for_zsh(help_of(option));
-  for (const std::string& name : names_of(option)) {
+  for (const std::string& name : names_in(option)) {
     out << " \\\n        "
         << quoted("*" + name + "[" + help + "]" + (type.empty() ? "" : ":" + for_zsh(type) + ":" + zsh_action(option)));
   }
@@ -178,7 +178,7 @@ void write_zsh(std::ostream& out, const CLI::App& root, const Apps& commands) {
 
 /// Writes the names, the values and the help of an option.
 void write_fish_option(std::ostream& out, const CLI::Option& option, bool with_value) {
-  for (const std::string& name : names_of(option)) {
+  for (const std::string& name : names_in(option)) {
     out << (name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1));
   }
   if (const std::string choices = choices_of(option); with_value && !value_name(option).empty()) {

@@ -1,6 +1,7 @@
 """A drag against the closed form, and against the command line."""
 
 import csv
+import json
 import subprocess
 
 import chainmail
@@ -41,6 +42,40 @@ def test_a_handle_of_many_equals_the_command_line(program, tmp_path):
     deformer.body.reset()
     handle = deformer.grab(bar.side("right"))
     deformer.move(handle, handle.after((1, 0.5, 0)))
+    assert np.array_equal(deformer.body.positions(), expected)
+
+
+@pytest.mark.parametrize("method", ["natural-queue", "exact", "ffd"])
+@pytest.mark.parametrize("scheme", ["mean", "link", "equilibrium"])
+def test_recorded_moves_end_at_the_same_bits(program, tmp_path, method, scheme):
+    """tests/cli/test_one_engine.cpp has the same for the window's thread and for comparisons."""
+    chainmail.write_mesh(tmp_path / "bar.msh", chainmail.make_tetra(4, 3, 3))
+    bar = chainmail.read_mesh(tmp_path / "bar.msh")
+    left, right = (bar.side(side).tolist() for side in ("left", "right"))
+    links = [bar.links()[link].tolist() for link in (2, 5, 11)]
+    relax = {"do": "relax", "sweeps": 4, "scheme": scheme, "until": 0}
+    moves = [
+        {"do": "pin", "elements": left},
+        {"do": "grab", "elements": right}, {"do": "drag", "target": [3.5, 1.25, 1]}, relax,
+        {"do": "drag", "target": [4.25, 1.5, 0.75]}, relax, {"do": "release"},
+        {"do": "cut", "links": links},
+        {"do": "grab", "element": right[0]}, {"do": "drag", "target": [5, 0.5, 0.25]}, relax, {"do": "release"},
+    ]
+    (tmp_path / "moves.json").write_text(json.dumps({"version": 1, "commands": moves}))
+    expected = positions_of_program(
+        program, tmp_path, tmp_path / "bar.msh", "--algorithm", method, "--script", tmp_path / "moves.json"
+    )
+
+    deformer = chainmail.Deformer(bar, method)
+    deformer.body.pin(left)
+    handle = deformer.grab(right)
+    for target in [(3.5, 1.25, 1), (4.25, 1.5, 0.75)]:
+        deformer.move(handle, chainmail.Pose(target))
+        deformer.relax(4, scheme=scheme, until=0)
+    deformer.release()
+    deformer.body.cut([2, 5, 11])
+    deformer.move(right[0], (5, 0.5, 0.25))
+    deformer.relax(4, scheme=scheme, until=0)
     assert np.array_equal(deformer.body.positions(), expected)
 
 
