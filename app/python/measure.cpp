@@ -1,11 +1,9 @@
 // Figures of a body, and reference solutions.
-#include <pybind11/stl.h>
-
 #include "files/formats/mesh_state.h"
 #include "measure/distance.h"
 #include "measure/physical_error.h"
 #include "measure/violation.h"
-#include "python/arrays.h"
+#include "python/arguments.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
@@ -19,32 +17,25 @@ struct ReferenceObject {
   ReferenceSolution solution;
 };
 
-/// Returns a view of coordinates, space_dimension for each element (mesh units).
-PositionView view_of(const Mesh& mesh, const std::vector<double>& coordinates) {
-  return {coordinates.data(), sizeof(double) * std::size_t(mesh.space_dimension), Precision::double_precision};
-}
-
 template <class Figures>
 py::dict max_and_rms(const Figures& figures) {
-  return dict_of({{"max", figures.max}, {"rms", figures.rms}});
+  return py::dict(py::arg("max") = figures.max, py::arg("rms") = figures.rms);
 }
 
 py::dict errors_in(const PhysicalError& error) {
-  return dict_of({{"relative", error.relative}, {"rms", error.rms}, {"max", error.max}});
+  return py::dict(py::arg("relative") = error.relative, py::arg("rms") = error.rms, py::arg("max") = error.max);
 }
 
 /// Computes a figure of a body without the lock of Python.
 template <class Figure>
-auto figure_of(Object& object, Figure figure) {
-  const UseObject use(object);
+auto figure_of(const Used<Object>& object, Figure figure) {
   const Unlocked unlocked;
-  return figure(std::as_const(object.body()));
+  return figure(std::as_const(object->body()));
 }
 
-py::object violation(Object& object, const py::object& link) {
-  if (!link.is_none()) {
-    const LinkId id = id_of(link, "link");
-    return py::float_(figure_of(object, [id](const Body& body) { return link_violation(body, id); }));
+py::object violation(const Used<Object>& object, const std::optional<Link>& link) {
+  if (link) {
+    return py::float_(figure_of(object, [&](const Body& body) { return link_violation(body, link->number); }));
   }
   const Violation all = figure_of(object, [](const Body& body) { return measure_violation(body); });
   py::dict numbers = max_and_rms(all);
@@ -53,15 +44,17 @@ py::object violation(Object& object, const py::object& link) {
   return numbers;
 }
 
-Distance distance_to_positions(Object& object, const py::object& values) {
-  const UseObject use(object);
-  const std::vector<double> positions = positions_on(object.mesh(), values);
-  const Unlocked unlocked;
-  const std::vector<double> coordinates = coordinates_of(object.mesh(), positions, Precision::double_precision);
-  return measure_distance(object.mesh(), object.body().positions(), view_of(object.mesh(), coordinates));
+Distance distance_to_positions(const Used<Object>& object, const py::object& values) {
+  const std::vector<double> positions = positions_on(object->mesh(), values);
+  return figure_of(object, [&](const Body& body) {
+    const Mesh& mesh = body.mesh();
+    const std::vector<double> other = coordinates_of(mesh, positions, Precision::double_precision);
+    const std::size_t bytes = sizeof(double) * std::size_t(mesh.space_dimension);
+    return measure_distance(mesh, body.positions(), PositionView{other.data(), bytes, Precision::double_precision});
+  });
 }
 
-Distance distance_between(Object& one, Object& other) {
+Distance distance_between(const Used<Object>& one, Object& other) {
   const Body& second = other.body();
   return figure_of(one, [&](const Body& body) {
     if (body.mesh_pointer() != second.mesh_pointer()) {
@@ -71,43 +64,34 @@ Distance distance_between(Object& one, Object& other) {
   });
 }
 
-py::dict distance(Object& object, const py::object& other) {
+py::dict distance(const Used<Object>& object, const py::object& other) {
   if (!py::isinstance<Object>(other)) {
     return max_and_rms(distance_to_positions(object, other));
   }
   Object& second = other.cast<Object&>();
-  if (&second == &object) {
-    return max_and_rms(distance_between(object, object));
+  std::optional<Used<Object>> use;
+  if (&second != &*object) {
+    use.emplace(second);
   }
-  const UseObject use(second);
   return max_and_rms(distance_between(object, second));
 }
 
-ReferenceObject solve_reference(Object& object, const py::object& handle, const JobPointer& job,
+ReferenceObject solve_reference(const Used<Object>& object, const Elements& handle, const JobPointer& job,
                                 const py::object& progress) {
-  const UseObject use(object);
-  const auto ids = ids_of(handle, "element");
-  const JobPointer watched = job_or_new(job);
-  return {object.body().mesh_pointer(), run_long(*watched, progress, [&] {
-            return reference_solution(object.body(), ids, Progress(watched->state));
-          })};
+  const Body& body = object->body();
+  return {body.mesh_pointer(),
+          run_long(job, progress, [&](Job& run) { return reference_solution(body, handle, run.progress()); })};
 }
 
 py::array_t<double> positions_of_solution(const ReferenceObject& one) {
   const Mesh& mesh = *one.mesh;
-  std::vector<double> coordinates = mesh.rest;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    coordinates[i] += one.solution.displacements[i];
-  }
-  py::array_t<double> positions({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
-  double* out = positions.mutable_data();
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    out = std::ranges::copy(mesh.to_point(&coordinates[std::size_t{e} * std::size_t(mesh.space_dimension)]), out).out;
-  }
-  return positions;
+  std::vector<double> all = mesh.rest;
+  std::ranges::transform(all, one.solution.displacements, all.begin(), std::plus<>());
+  return array_of_points(
+      mesh, [&](ElementId e) { return mesh.to_point(&all[std::size_t{e} * std::size_t(mesh.space_dimension)]); });
 }
 
-py::dict error_of(Object& object, const ReferenceObject& reference) {
+py::dict error_of(const Used<Object>& object, const ReferenceObject& reference) {
   return errors_in(figure_of(object, [&](const Body& body) {
     if (reference.mesh != body.mesh_pointer()) {
       throw Error("reference solution", "it is of another mesh", "compute it for this object");
@@ -125,7 +109,7 @@ void add_figures(py::module_& module) {
       "its violation.");
   module.def(
       "displacement",
-      [](Object& object) {
+      [](const Used<Object>& object) {
         return max_and_rms(
             figure_of(object, [](const Body& body) { return measure_displacement(body.mesh(), body.positions()); }));
       },
@@ -141,7 +125,9 @@ void add_figures(py::module_& module) {
              "shapes differ.");
   module.def(
       "elastic_energy",
-      [](Object& object) { return figure_of(object, [](const Body& body) { return elastic_energy(body); }); },
+      [](const Used<Object>& object) {
+        return figure_of(object, [](const Body& body) { return elastic_energy(body); });
+      },
       py::arg("body"), "Returns the elastic energy of the body's kind over the uncut links (see the C++ interface).");
 }
 

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "body/energy_kind.h"
+#include "python/arrays.h"
+#include "python/object.h"
+
+namespace chainmail::python {
+
+// Types of arguments of the functions that Python calls.
+
+enum class IdKind { element, link };
+constexpr const char* word_for(IdKind kind) { return kind == IdKind::element ? "element" : "link"; }
+
+/// An id, which may exist in no mesh.
+template <IdKind Kind>
+struct Id {
+  std::uint32_t number = 0;
+
+  /// Returns the number. Throws Error if the mesh has no such element or link.
+  std::uint32_t in(const Mesh& mesh) const {
+    if constexpr (Kind == IdKind::element) {
+      check_element(mesh, number);
+    } else {
+      check_links(mesh, std::span(&number, 1));
+    }
+    return number;
+  }
+};
+using Element = Id<IdKind::element>;
+using Link = Id<IdKind::link>;
+
+/// Ids from a sequence, from an array, or a single one. They may exist in no mesh.
+template <IdKind Kind>
+struct Ids : std::vector<std::uint32_t> {};
+using Elements = Ids<IdKind::element>;
+using Links = Ids<IdKind::link>;
+
+/// An enumeration is a word in Python.
+struct Words {
+  const char* name;                   // in errors
+  std::vector<std::string_view> all;  // in the order of the constants
+};
+template <class Kind>
+const Words& words();
+template <>
+const Words& words<Precision>();
+template <>
+const Words& words<RelaxationScheme>();
+template <>
+const Words& words<EnergyKind>();
+template <>
+const Words& words<StrainLaw::Kind>();
+/// Returns the index of a word. Throws Error, with all words, if it is not in the list.
+std::size_t index_of(const Words& words, std::string_view word);
+
+template <class Kind>
+std::string_view word_for(Kind kind) {
+  return words<Kind>().all[std::size_t(kind)];
+}
+
+}  // namespace chainmail::python
+
+namespace pybind11::detail {
+
+template <chainmail::python::IdKind Kind>
+struct type_caster<chainmail::python::Id<Kind>> {
+  PYBIND11_TYPE_CASTER(chainmail::python::Id<Kind>, const_name("object"));
+  bool load(handle source, bool /*convert*/) {
+    value.number = chainmail::python::id_of(source, word_for(Kind));
+    return true;
+  }
+};
+
+template <chainmail::python::IdKind Kind>
+struct type_caster<chainmail::python::Ids<Kind>> {
+  PYBIND11_TYPE_CASTER(chainmail::python::Ids<Kind>, const_name("object"));
+  bool load(handle source, bool /*convert*/) {
+    value = {chainmail::python::ids_of(source, word_for(Kind))};
+    return true;
+  }
+};
+
+template <class Kind>
+requires std::is_enum_v<Kind>
+struct type_caster<Kind> {
+  PYBIND11_TYPE_CASTER(Kind, const_name("str"));
+  bool load(handle source, bool convert) {
+    make_caster<std::string> word;
+    if (!word.load(source, convert)) {
+      return false;
+    }
+    value = Kind(chainmail::python::index_of(chainmail::python::words<Kind>(), cast_op<std::string&>(word)));
+    return true;
+  }
+  static handle cast(Kind kind, return_value_policy /*policy*/, handle /*parent*/) {
+    return pybind11::cast(chainmail::python::word_for(kind)).release();
+  }
+};
+
+/// A method is its name, which Error is thrown for if there is none.
+template <>
+struct type_caster<chainmail::Algorithm> {
+  PYBIND11_TYPE_CASTER(chainmail::Algorithm, const_name("str"));
+  bool load(handle source, bool convert) {
+    make_caster<std::string> word;
+    if (!word.load(source, convert)) {
+      return false;
+    }
+    value = chainmail::algorithm_of(cast_op<std::string&>(word));
+    return true;
+  }
+  static handle cast(chainmail::Algorithm method, return_value_policy /*policy*/, handle /*parent*/) {
+    return pybind11::cast(chainmail::info(method).offered_name()).release();
+  }
+};
+
+template <class Owner>
+struct type_caster<chainmail::python::Used<Owner>> {
+  using Used = chainmail::python::Used<Owner>;
+  static constexpr auto name = make_caster<Owner>::name;
+  template <class>
+  using cast_op_type = Used&;
+
+  bool load(handle source, bool convert) {
+    make_caster<Owner> owner;
+    if (source.is_none() || !owner.load(source, convert)) {
+      return false;
+    }
+    used.emplace(cast_op<Owner&>(owner));
+    return true;
+  }
+  operator Used&() { return *used; }
+
+  std::optional<Used> used;
+};
+
+}  // namespace pybind11::detail
