@@ -259,9 +259,8 @@ void add_state(BodyClass& body) {
 void add_cuts_and_pins(BodyClass& body) {
   body.def("cut", &cut, py::arg("links"), py::arg("other") = py::none(),
            "cut(links) cuts links by their ids. cut(a, b) cuts the link between two elements.\n\n"
-           "Nothing is renumbered. Links that are cut already stay cut. Raises Error for an id that does not exist, "
-           "and\n"
-           "if the two elements are not linked. Nothing has changed then.")
+           "Nothing is renumbered. Links that are cut already stay cut. Raises Error for an id that does not exist,\n"
+           "and if the two elements are not linked. Nothing has changed then.")
       .def(
           "uncut", [](UsedBody one, const Links& ids) { one->deformer().uncut(ids); }, py::arg("links"),
           "Restores cut links.")
@@ -288,8 +287,8 @@ void add_cuts_and_pins(BodyClass& body) {
 void add_energy(BodyClass& body) {
   body.def_property_readonly(
           "energy", [](UsedBody one) { return one->body().softness().energy; },
-          "The kind of elastic energy, which relaxation lowers: `material` for a new body,\n"
-          "`isotropic`, `axial` or `corotated`.")
+          "The kind of elastic energy, which relaxation lowers: `material` for a new body, `isotropic`, `axial` or\n"
+          "`corotated`.")
       .def(
           "set_energy",
           [](UsedBody one, EnergyKind kind) {
@@ -331,8 +330,8 @@ void add_frame(BodyClass& body) {
             change_softness(one, [&](Softness& softness) { softness.axes = principal.axes; });
             return principal.are_unique;
           },
-          "Turns these axes to the principal axes of the object at rest. Returns False if some do not exist, as for a\n"
-          "cube: the axes nearest to those of the world are used then.");
+          "Turns these axes to the principal axes of the object at rest. Returns False if some do not exist, as for\n"
+          "a cube: the axes nearest to those of the world are used then.");
 }
 
 void add_softness(BodyClass& body) {
@@ -345,40 +344,36 @@ void add_softness(BodyClass& body) {
       .def("set_link_softness", &set_link_softness, py::arg("links") = py::none(),
            "Gives links their own softness from arrays: compression, stretch, shear, lateral, stiffness, exponent.\n\n"
            "`links` are ids; default: all links in the order of their ids. Each other argument is one number, or an\n"
-           "array with one number per link: shape (links,). Numbers that are left out stay as they are. Raises Error "
-           "for\n"
-           "another shape, a value out of its range, and a link that is given twice. Nothing has changed then.")
+           "array with one number per link: shape (links,). Numbers that are left out stay as they are. Raises\n"
+           "Error for another shape, a value out of its range, and a link that is given twice. Nothing has changed\n"
+           "then.")
       .def("clear_softness", &clear_softness, py::arg("links") = py::none(),
            "Takes their own softness away from these links, or from all: the common one applies to them.")
       .def(
           "softness_of", [](UsedBody one, Link link) { return one->body().softness().of(link.in(one->mesh())); },
           py::arg("link"), "Returns the softness of a link.")
       .def("link_softness", &link_softness,
-           "Returns the softness of each link: a dictionary of arrays of the shape (link_count,), dtype float64, by "
-           "the\n"
-           "names of set_link_softness(). Copies.");
+           "Returns the softness of each link: a dictionary of arrays of the shape (link_count,), dtype float64, by\n"
+           "the names of set_link_softness(). Copies.");
 }
 
 void add_position_view(BodyClass& body) {
   body.def("positions", &positions, py::arg("out") = py::none(),
            "Returns the positions of all elements: shape (element_count, 3), dtype float64 (mesh units). A copy.\n\n"
-           "`out` is an array that receives them, if given: writable and C-contiguous, of this shape and dtype. "
-           "Nothing\n"
-           "is allocated then.")
+           "`out` is an array that receives them, if given: writable and C-contiguous, of this shape and dtype.\n"
+           "Nothing is allocated then.")
       .def("view", &view,
-           "Returns a read-only view of the positions as they are stored: shape (element_count, space_dimension), "
-           "dtype\n"
-           "float64 or float32 (mesh units). Its columns are the axes that exist (Mesh.axes).\n\n"
-           "Nothing is copied: the array shows every later move, and keeps the body alive. Do not read it while "
-           "another\n"
-           "thread moves the body. Raises Error if the body does not store positions: with the method `exact`, which\n"
-           "stores displacements from rest, in float32 far from the origin, and along turned axes. While a view\n"
-           "exists, such a method and other axes are refused.")
+           "Returns a read-only view of the positions as they are stored: shape (element_count, space_dimension),\n"
+           "dtype float64 or float32 (mesh units). Its columns are the axes that exist (Mesh.axes).\n\n"
+           "Nothing is copied: the array shows every later move, and keeps the body alive. Do not read it while\n"
+           "another thread moves the body. Raises Error if the body does not store positions: with the method\n"
+           "`exact`, which stores displacements from rest, in float32 far from the origin, and along turned axes.\n"
+           "While a view exists, such a method and other axes are refused.")
       .def("set_positions", &set_positions, py::arg("positions"),
            "Sets the positions of all elements, also of pinned ones: shape (element_count, 3) or, for the axes that\n"
            "exist, (element_count, space_dimension) (mesh units). They are rounded to the precision.\n\n"
-           "Raises Error for another shape, a coordinate that is not finite, and one on an axis that does not exist.\n"
-           "Nothing has changed then.");
+           "Raises Error for another shape, a coordinate that is not finite, and one on an axis that does not\n"
+           "exist. Nothing has changed then.");
 }
 
 }  // namespace
@@ -391,10 +386,10 @@ void add_body(py::module_& module) {
   BodyClass body(
       module, "Body",
       "The state of one object: positions, cuts, pins and softness.\n\n"
-      "Body(mesh, precision='double') is an object at rest, without cuts and pins. One thread at a time may\n"
-      "use a body: Error is raised in a thread that tries while another one moves it. Ids are whole numbers;\n"
-      "many ids are a sequence or a one-dimensional array. Every function that takes ids raises Error if one\n"
-      "does not exist; nothing has changed then.");
+      "Body(mesh, precision='double') is an object at rest, without cuts and pins. One thread at a time may use a\n"
+      "body: Error is raised in a thread that tries while another one moves it. Ids are whole numbers; many ids are\n"
+      "a sequence or a one-dimensional array. Every function that takes ids raises Error if one does not exist;\n"
+      "nothing has changed then.");
   add_state(body);
   add_cuts_and_pins(body);
   add_softness(body);

@@ -166,13 +166,11 @@ void add_moves(MoverClass& deformer) {
       .def("grab", &grab<Mover>, py::arg("elements"), "Grabs elements; the same as Handle(deformer.body, elements).")
       .def("move", &move, py::arg("what"), py::arg("target"),
            "Moves the handle, and the method answers: one pass.\n\n"
-           "move(element, (x, y, z)) moves one element to a position (mesh units). move(handle, pose) moves a handle "
-           "to a\n"
-           "pose, such as handle.after((1, 0, 0)). Coordinates that are left out are 0.\n\n"
-           "Raises Error if an id does not exist, the handle is of another mesh, an element of it is pinned, the "
-           "target\n"
-           "is not finite or would leave the space of the object, and if the method has no answer; and Cancelled.\n"
-           "Nothing has moved then.")
+           "move(element, (x, y, z)) moves one element to a position (mesh units). move(handle, pose) moves a\n"
+           "handle to a pose, such as handle.after((1, 0, 0)). Coordinates that are left out are 0.\n\n"
+           "Raises Error if an id does not exist, the handle is of another mesh, an element of it is pinned, the\n"
+           "target is not finite or would leave the space of the object, and if the method has no answer; and\n"
+           "Cancelled. Nothing has moved then.")
       .def(
           "moved", [](Used<Mover>& object) { return array_of(object->deformer().moved()); },
           "Returns the elements that the last move moved, in order of update, without the handle: shape (n,), dtype\n"
@@ -184,26 +182,23 @@ void add_moves(MoverClass& deformer) {
           "set_tracing", [](Used<Mover>& object, bool on) { object->set_tracing(on); }, py::arg("on"),
           "Turns on or off that moves are traced.")
       .def("trace", &trace_of,
-           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The "
-           "columns\n"
-           "are the element, its sponsor (-1: none) and 1 if it moved. A copy.");
+           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The\n"
+           "columns are the element, its sponsor (-1: none) and 1 if it moved. A copy.");
 }
 
 void add_relaxation(MoverClass& deformer) {
   const RelaxOptions defaults;
   deformer
-      .def(
-          "relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = defaults.step,
-          py::arg("scheme") = defaults.scheme, py::arg("until") = defaults.until,
-          "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have "
-          "run.\n\n"
-          "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is the\n"
-          "share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or "
-          "`equilibrium`,\n"
-          "which runs iterations instead, for all elements, until the distance from the equilibrium is at most "
-          "`until`.\n"
-          "Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers are equilibria. Raises\n"
-          "Error for a number out of its range; and Cancelled, which keeps the positions that were reached.")
+      .def("relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = defaults.step,
+           py::arg("scheme") = defaults.scheme, py::arg("until") = defaults.until,
+           "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have\n"
+           "run.\n\n"
+           "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is\n"
+           "the share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or\n"
+           "`equilibrium`, which runs iterations instead, for all elements, until the distance from the equilibrium\n"
+           "is at most `until`. Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers\n"
+           "are equilibria. Raises Error for a number out of its range; and Cancelled, which keeps the positions\n"
+           "that were reached.")
       .def(
           "certificate",
           [](Used<Mover>& object) {
@@ -224,13 +219,11 @@ void add_settings(MoverClass& deformer) {
           [](const Mover& mover) { return mover.object()->method(); }, "Name of the method.")
       .def(
           "set_method", [](Used<Mover>& object, Algorithm method) { object->set_method(method); }, py::arg("method"),
-          "Continues with another method from the current positions. Raises Error if there is none with this name, if "
-          "it\n"
-          "does not work on the mesh, and if a view of the positions would not show positions any more.")
+          "Continues with another method from the current positions. Raises Error if there is none with this name,\n"
+          "if it does not work on the mesh, and if a view of the positions would not show positions any more.")
       .def("set_threads", &set_threads, py::arg("threads"),
-           "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses more, "
-           "for\n"
-           "large objects, and no result depends on it.")
+           "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses\n"
+           "more, for large objects, and no result depends on it.")
       .def(
           "set_job", [](Used<Mover>& object, const JobPointer& job) { object->set_job(job); },
           py::arg("job").none(false),
@@ -257,11 +250,9 @@ void add_handle(py::module_& module) {
   py::class_<HeldHandle, std::shared_ptr<HeldHandle>> handle(
       module, "Handle",
       "What is grabbed: one element, or many that move together as one rigid body.\n\n"
-      "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of "
-      "these\n"
-      "positions. Raises Error if there is none, or if one does not exist, is given twice or is pinned. After "
-      "positions\n"
-      "were set, restored or reset, grab again.");
+      "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of\n"
+      "these positions. Raises Error if there is none, or if one does not exist, is given twice or is pinned. After\n"
+      "positions were set, restored or reset, grab again.");
   handle.def(py::init(&grab<Object>), py::arg("body"), py::arg("elements"))
       .def_property_readonly(
           "elements", [](Used<HeldHandle>& one) { return array_of(one->handle.elements()); },
@@ -278,9 +269,8 @@ void add_handle(py::module_& module) {
             return UserPose{held->handle.grabbed().pivot + vector_of(by, "by"), rotation};
           },
           py::arg("by"), py::arg("rotation") = Rotation(),
-          "Returns the pose after a motion from where it was grabbed: a displacement (x, y, z) of the pivot (mesh "
-          "units)\n"
-          "and a rotation about the pivot.")
+          "Returns the pose after a motion from where it was grabbed: a displacement (x, y, z) of the pivot (mesh\n"
+          "units) and a rotation about the pivot.")
       .def("__repr__", &handle_in_words);
   refuse_pickling(handle, "it is of a mesh of this process", "grab its elements there");
 }
@@ -305,10 +295,10 @@ void add_deformer(py::module_& module) {
   MoverClass deformer(
       module, "Deformer",
       "Deforms one object with one method.\n\n"
-      "Deformer(body, method) moves this body: `deformer.body` is the same object. A body has one deformer\n"
-      "at a time. Deformer(mesh, method, precision) makes a body at rest. Raises Error if there is no such\n"
-      "method, or if it does not work on the mesh. One thread at a time may use a deformer and its body.\n"
-      "A move lets other Python threads run.");
+      "Deformer(body, method) moves this body: `deformer.body` is the same object. A body has one deformer at a\n"
+      "time. Deformer(mesh, method, precision) makes a body at rest. Raises Error if there is no such method, or if\n"
+      "it does not work on the mesh. One thread at a time may use a deformer and its body. A move lets other Python\n"
+      "threads run.");
   deformer
       .def(py::init([](const ObjectPointer& body, Algorithm method) { return std::make_unique<Mover>(body, method); }),
            py::arg("body").none(false), py::arg("method") = Algorithm::natural_queue)

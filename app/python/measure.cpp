@@ -105,8 +105,8 @@ void add_figures(py::module_& module) {
       "violation", &violation, py::arg("body"), py::arg("link") = py::none(),
       "Returns how far links lie outside their valid regions, in rest lengths of the link. Cut links do not count.\n\n"
       "Without a link, a dictionary: the largest violation `max`, the root of the mean square `rms`, the share\n"
-      "`fraction` of the links that are violated by more than 1e-4, and the number of measured `links`. With a link,\n"
-      "its violation.");
+      "`fraction` of the links that are violated by more than 1e-4, and the number of measured `links`. With a\n"
+      "link, its violation.");
   module.def(
       "displacement",
       [](const Used<Object>& object) {
@@ -114,15 +114,12 @@ void add_figures(py::module_& module) {
             figure_of(object, [](const Body& body) { return measure_displacement(body.mesh(), body.positions()); }));
       },
       py::arg("body"),
-      "Returns the displacement of the elements from rest (mesh units): a dictionary with the largest one `max` and "
-      "the\n"
-      "root of the mean square `rms`.");
+      "Returns the displacement of the elements from rest (mesh units): a dictionary with the largest one `max` and\n"
+      "the root of the mean square `rms`.");
   module.def("distance", &distance, py::arg("body"), py::arg("other"),
-             "Returns the distance between the elements of two states of the same mesh, in mean rest lengths: a "
-             "dictionary with\n"
-             "`max` and `rms`. `other` is a body, or positions of the shape (element_count, 3). Raises Error if the "
-             "meshes or\n"
-             "shapes differ.");
+             "Returns the distance between the elements of two states of the same mesh, in mean rest lengths: a\n"
+             "dictionary with `max` and `rms`. `other` is a body, or positions of the shape (element_count, 3).\n"
+             "Raises Error if the meshes or shapes differ.");
   module.def(
       "elastic_energy",
       [](const Used<Object>& object) {
@@ -134,8 +131,8 @@ void add_figures(py::module_& module) {
 void add_reference(py::module_& module) {
   py::class_<ReferenceObject> reference(
       module, "ReferenceSolution",
-      "The positions that a neo-Hookean elastic object has: converged finite elements on\n"
-      "the object's own cells or faces.");
+      "The positions that a neo-Hookean elastic object has: converged finite elements on the object's own cells or\n"
+      "faces.");
   reference
       .def("positions", &positions_of_solution,
            "Returns the positions: shape (element_count, 3), dtype float64 (mesh units). A copy.")
@@ -150,8 +147,8 @@ void add_reference(py::module_& module) {
       py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Returns the reference solution with the pins and these elements, the handle, at their current positions.\n\n"
       "`progress` is called with the share that is done, 0 to 1. Raises Error if an element does not exist, is\n"
-      "given twice or is pinned, if the handle is at rest, if there are no cells or faces, if the pins are too\n"
-      "few, or if it does not converge; and Cancelled.");
+      "given twice or is pinned, if the handle is at rest, if there are no cells or faces, if the pins are too few,\n"
+      "or if it does not converge; and Cancelled.");
   module.def(
       "physical_error", &error_of, py::arg("body"), py::arg("reference"),
       "Returns the error of the current positions: a dictionary with `relative` (RMS of the error over RMS of the\n"

@@ -91,8 +91,8 @@ void add_content(MeshClass& mesh) {
                              "Number of links. Their ids are 0 to link_count - 1.")
       .def_property_readonly(
           "links", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->links)); },
-          "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32.\n"
-          "A read-only view.")
+          "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32. A read-only\n"
+          "view.")
       .def_property_readonly(
           "triangles",
           [](const MeshObject& one) {
@@ -198,8 +198,8 @@ void add_generators(py::module_& module) {
                 "Returns a grid in the plane of x and y, with links along the axes. See make_line() for the options.",
                 "width", "height");
   add_generator(module, "make_cloth", MeshKind::cloth,
-                "Returns a sheet of triangles: a grid whose squares are split by a diagonal. See make_line() for the\n"
-                "options.",
+                "Returns a sheet of triangles: a grid whose squares are split by a diagonal. See make_line() for\n"
+                "the options.",
                 "width", "height");
   add_generator(module, "make_block", MeshKind::block,
                 "Returns a block of elements with links along the three axes. See make_line() for the options.",
@@ -297,10 +297,9 @@ void add_mesh(py::module_& module) {
       py::arg("space_dimension") = py::none(),
       "Returns a mesh from arrays, which are copied.\n\n"
       "`positions` has the shape (n, 3), (n, 2) or (n, 1): x, y and z at rest (mesh units). The others are ids:\n"
-      "`links` (m, 2), `triangles` (k, 3), `tetrahedra` (k, 4) and `hexahedra` (k, 8). The edges of faces and\n"
-      "cells are links, too. Raises Error for a wrong shape or type, a coordinate that is not finite, an id\n"
-      "without a position, a link, face or cell that uses an element twice or is there twice, and if there is\n"
-      "no link.");
+      "`links` (m, 2), `triangles` (k, 3), `tetrahedra` (k, 4) and `hexahedra` (k, 8). The edges of faces and cells\n"
+      "are links, too. Raises Error for a wrong shape or type, a coordinate that is not finite, an id without a\n"
+      "position, a link, face or cell that uses an element twice or is there twice, and if there is no link.");
 }
 
 }  // namespace chainmail::python

@@ -423,8 +423,8 @@ void add_drag(py::module_& module) {
   py::class_<Drag> type(
       module, "Drag",
       "A drag from rest: grabs elements, then moves them along a path, one pass per motion.\n\n"
-      "Each motion of the path is a displacement (x, y, z) from where they were grabbed (mesh units), or a\n"
-      "pair of a displacement and a Rotation.");
+      "Each motion of the path is a displacement (x, y, z) from where they were grabbed (mesh units), or a pair of\n"
+      "a displacement and a Rotation.");
   type.def(py::init(&drag_from), py::arg("name"), py::arg("elements"), py::arg("path"))
       .def_readonly("name", &Drag::name, "Name in tables.")
       .def_property_readonly(
@@ -453,26 +453,20 @@ void add_compare(py::module_& module) {
       py::arg("title") = "object", py::arg("folder") = py::none(), py::arg("job") = py::none(),
       py::arg("progress") = py::none(),
       "Compares methods on an object and drags: times, and errors at the end of each drag.\n\n"
-      "The object gives its mesh, cuts, pins, softness and elasticity; drags start at rest, whatever its positions "
-      "are.\n"
-      "Without drags, there are three standard ones. `methods` are names; default: the ChainMail family, and against\n"
-      "`physics` all. `sweeps` are numbers of sweeps of relaxation after each move, a row for each. `against` is "
-      "`exact`\n"
-      "(Exact ChainMail in double) or `physics` (neo-Hookean finite elements; the object needs pins). `seconds` is "
-      "the\n"
-      "time for all runs of one drag, unless `repetitions` is given. `folder` receives report.html, report.json and\n"
-      "report.csv. `progress` is called with the share that is done, 0 to 1.\n\n"
-      "Returns a dictionary of columns (lists of equal length), one row per drag and method, for pandas.DataFrame: "
-      "drag,\n"
-      "method, label, sweeps, equilibrium, refusal (the reason why there is no result), ms_per_move, "
-      "ms_lower_quartile,\n"
-      "ms_upper_quartile, prepare_ms (ms), violation_max, violation_rms (rest lengths), violation_fraction,\n"
-      "exact_distance_max, exact_distance_rms, float_double_max, float_double_rms (mean rest lengths),\n"
-      "energy_over_exact, relative_error, physical_error_rms and physical_error_max. A figure that was not measured "
-      "is\n"
-      "None. All figures except times are the same on every machine.\n\n"
-      "Raises Error for an unknown method, an option out of its range, or a drag that is empty, not finite, or grabs\n"
-      "elements that do not exist or are pinned; against physics also if the object has cuts or no pins; and "
+      "The object gives its mesh, cuts, pins, softness and elasticity; drags start at rest, whatever its positions\n"
+      "are. Without drags, there are three standard ones. `methods` are names; default: the ChainMail family, and\n"
+      "against `physics` all. `sweeps` are numbers of sweeps of relaxation after each move, a row for each.\n"
+      "`against` is `exact` (Exact ChainMail in double) or `physics` (neo-Hookean finite elements; the object needs\n"
+      "pins). `seconds` is the time for all runs of one drag, unless `repetitions` is given. `folder` receives\n"
+      "report.html, report.json and report.csv. `progress` is called with the share that is done, 0 to 1.\n\n"
+      "Returns a dictionary of columns (lists of equal length), one row per drag and method, for pandas.DataFrame:\n"
+      "drag, method, label, sweeps, equilibrium, refusal (the reason why there is no result), ms_per_move,\n"
+      "ms_lower_quartile, ms_upper_quartile, prepare_ms (ms), violation_max, violation_rms (rest lengths),\n"
+      "violation_fraction, exact_distance_max, exact_distance_rms, float_double_max, float_double_rms (mean rest\n"
+      "lengths), energy_over_exact, relative_error, physical_error_rms and physical_error_max. A figure that was\n"
+      "not measured is None. All figures except times are the same on every machine.\n\n"
+      "Raises Error for an unknown method, an option out of its range, or a drag that is empty, not finite, or\n"
+      "grabs elements that do not exist or are pinned; against physics also if the object has cuts or no pins; and\n"
       "Cancelled.");
 }
 
@@ -483,19 +477,18 @@ void add_calibrate(py::module_& module) {
       py::arg("seed") = defaults.seed, py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
       py::arg("evaluations") = defaults.evaluations, py::arg("most_sweeps") = defaults.max_sweeps,
       py::arg("scheme") = defaults.scheme, py::arg("job") = py::none(), py::arg("progress") = py::none(),
-      "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error\n"
-      "against neo-Hookean finite elements on the same cells.\n\n"
-      "The object gives its mesh, cuts, pins, elasticity and kind of energy; it does not change. `drags` and "
-      "`held_out`\n"
-      "are numbers of drags, for the search and to test the result. The same options give the same result on every\n"
-      "machine. `progress` is called with the share that is done, 0 to 1.\n\n"
-      "Returns a dictionary: `softness` (LinkSoftness), `sweeps` after each move, the number of `evaluations`, "
-      "`errors`,\n"
-      "and `json` with all figures, drag by drag. `errors` is a dictionary of columns for pandas.DataFrame: drags\n"
-      "(`fitted` or `held_out`), state (`nothing` moves but the handle, `before`, `after`), relative, rms and max.\n\n"
-      "Raises Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is "
-      "out\n"
-      "of its range, if the object has no static solution, and if no reference solution converges; and Cancelled.");
+      "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative\n"
+      "error against neo-Hookean finite elements on the same cells.\n\n"
+      "The object gives its mesh, cuts, pins, elasticity and kind of energy; it does not change. `drags` and\n"
+      "`held_out` are numbers of drags, for the search and to test the result. The same options give the same\n"
+      "result on every machine. `progress` is called with the share that is done, 0 to 1.\n\n"
+      "Returns a dictionary: `softness` (LinkSoftness), `sweeps` after each move, the number of `evaluations`,\n"
+      "`errors`, and `json` with all figures, drag by drag. `errors` is a dictionary of columns for\n"
+      "pandas.DataFrame: drags (`fitted` or `held_out`), state (`nothing` moves but the handle, `before`, `after`),\n"
+      "relative, rms and max.\n\n"
+      "Raises Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is\n"
+      "out of its range, if the object has no static solution, and if no reference solution converges; and\n"
+      "Cancelled.");
   module.def(
       "write_preset",
       [](const std::filesystem::path& path, const std::string& name, const LinkSoftness& softness) {
@@ -514,18 +507,14 @@ void add_ramp(py::module_& module) {
       py::arg("moves") = defaults.moves, py::arg("precision") = defaults.precision,
       py::arg("softness") = LinkSoftness(), py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds the largest square grid on which each method runs in real time (Dean 2004, chapter 6).\n\n"
-      "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops "
-      "when\n"
-      "the 99th percentile of its pass times exceeds the `budget` (s) in two attempts. `methods` are names; default: "
-      "the\n"
-      "ChainMail family. `progress` is called with the share of the largest grid, 0 to 1.\n\n"
-      "Returns a dictionary: `sizes` and `methods`, which are dictionaries of columns for pandas.DataFrame, and "
-      "`seconds`.\n"
-      "The columns of `sizes` are width, elements, links, method, passes, median_ms, p99_ms, mean_moved, repeated and\n"
-      "real_time; those of `methods` are method, largest_width (None: never in real time), lost (False: there was no\n"
-      "next size) and growth_exponent of the median. Raises Error for an unknown method or an option out of its "
-      "range;\n"
-      "and Cancelled.");
+      "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops\n"
+      "when the 99th percentile of its pass times exceeds the `budget` (s) in two attempts. `methods` are names;\n"
+      "default: the ChainMail family. `progress` is called with the share of the largest grid, 0 to 1.\n\n"
+      "Returns a dictionary: `sizes` and `methods`, which are dictionaries of columns for pandas.DataFrame, and\n"
+      "`seconds`. The columns of `sizes` are width, elements, links, method, passes, median_ms, p99_ms, mean_moved,\n"
+      "repeated and real_time; those of `methods` are method, largest_width (None: never in real time), lost\n"
+      "(False: there was no next size) and growth_exponent of the median. Raises Error for an unknown method or an\n"
+      "option out of its range; and Cancelled.");
 }
 
 }  // namespace

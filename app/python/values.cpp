@@ -78,6 +78,7 @@ void add_link_softness(py::module_& module, std::index_sequence<I...> /*numbers*
 void add_elasticity(py::module_& module) {
   using One = ElasticOptions;
   py::class_<One> elasticity(module, "Elasticity",
+
                              "Settings of the methods of elasticity, of free-form deformation and of relaxation to\n"
                              "the material. A value object: it does not change.");
   const auto add = [&](const auto&... parts) {
@@ -111,15 +112,15 @@ void add_elasticity(py::module_& module) {
 , "With `fung`: factor of I1 - 3 in the exponent."
 },
       Part{"thickness", &One::thickness,
-           "Thickness of a surface in space in relaxation to the material, as a share of the longest side\n"
-           "of its bounds: 0.0001 to 1."});
+           "Thickness of a surface in space in relaxation to the material, as a share of the longest side of its\n"
+           "bounds: 0.0001 to 1."});
 }
 
 void add_job(py::module_& module) {
   py::class_<Job, JobPointer> job(
       module, "Job",
-      "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to\n"
-      "use from any thread.");
+      "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to use from any\n"
+      "thread.");
   job.def(py::init<>())
       .def_property_readonly(
           "share", [](const Job& one) { return one.state.share.load(); },
