@@ -1,8 +1,12 @@
 #include <QtTest>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <string>
+#include <utility>
 
 #include "core/support.h"
+#include "measure/violation.h"
 #include "mesh/error.h"
 #include "mesh/layers.h"
 #include "program.h"
@@ -49,7 +53,10 @@ class DeformerTest : public QObject {
   void positions_go_in_and_out();
   void copies_are_independent_data();
   void copies_are_independent();
+  void a_random_life_stays_valid_and_a_copy_lives_alike_data() { copies_are_independent_data(); }
+  void a_random_life_stays_valid_and_a_copy_lives_alike();
   void another_energy_wakes_the_object();
+  void bad_moves_change_nothing();
   void bad_input_changes_nothing();
   void sides_have_names();
 };
@@ -100,6 +107,45 @@ void DeformerTest::copies_are_independent() {
   QVERIFY(deformer.body().is_pinned(29));
 }
 
+/// Moves, cuts, pins, relaxation and restored positions in random order, the same ones in every run.
+void DeformerTest::a_random_life_stays_valid_and_a_copy_lives_alike() {
+  QFETCH(Algorithm, algorithm);
+  const MeshPointer mesh = make_mesh(MeshKind::grid, {6, 5, 1});
+  Deformer deformer(mesh, algorithm);
+  std::mt19937_64 random(2004);
+  const auto below = [&](std::uint32_t count) { return std::uint32_t(random() % count); };
+  Snapshot kept = deformer.body().snapshot();
+  for (int step = 0; step < 200; ++step) {
+    const std::vector<ElementId> element{below(mesh->element_count())};
+    const std::vector<LinkId> link{below(mesh->link_count())};
+    const Point target = mesh->rest_position(element[0]) + Point(below(7), below(7), 0) - Point(3, 3, 0);
+    switch (below(8)) {
+      case 0:
+        deformer.cut(link);
+        deformer.pin(element);
+        break;
+      case 1:
+        deformer.relax(2);
+        break;
+      case 2:
+        deformer.restore(std::exchange(kept, deformer.body().snapshot()));
+        break;
+      default: {
+        deformer.unpin(element);
+        Deformer copy = deformer.copy();
+        const PassCount count = deformer.move(element[0], target), again = copy.move(element[0], target);
+        const auto one = positions_of(deformer, *mesh), other = positions_of(copy, *mesh);
+        const bool is_exact = algorithm == Algorithm::exact;  // it keeps regions, which round in their own way
+        QVERIFY(is_exact ? largest_step(one, other) <= 1e-12 * (1 + largest_coordinate(one)) : same_bits(one, other));
+        QVERIFY(is_exact || (count.moved == again.moved && count.checked == again.checked));
+      }
+    }
+    const std::vector<double> positions = positions_of(deformer, *mesh);
+    QVERIFY(std::ranges::all_of(positions, [](double x) { return std::isfinite(x); }));
+    QVERIFY(!info(algorithm).holds_links || measure_violation(deformer.body()).fraction == 0);
+  }
+}
+
 void DeformerTest::another_energy_wakes_the_object() {
   Deformer deformer(make_mesh(MeshKind::grid, {5, 5, 1}), Algorithm::natural_queue);
   deformer.move(0, {-4, -3, 0});
@@ -109,6 +155,31 @@ void DeformerTest::another_energy_wakes_the_object() {
   set_energy(softness, EnergyKind::axial);
   deformer.set_softness(softness);
   QVERIFY(deformer.relax_slice(1, 1000, {}).visited > 0);
+}
+
+void DeformerTest::bad_moves_change_nothing() {
+  const MeshPointer mesh = make_mesh(MeshKind::grid, {4, 4, 1});
+  Deformer deformer(mesh, Algorithm::exact, Precision::single_precision);
+  deformer.pin(std::vector<ElementId>{15});
+  deformer.move(0, {-0.5, 0, 0});
+  Handle handle(deformer.body(), {0, 1});
+  const Pose pose = handle.pose();
+  const std::vector<double> before = points_of(deformer);
+  const auto refused = [&](auto act, const std::string& reason) {
+    const std::string refusal = refusal_of(act);
+    QVERIFY2(has(refusal, reason), refusal.c_str());
+    QVERIFY(same_bits(points_of(deformer), before) && handle.pose() == pose);
+  };
+  refused([&] { deformer.move(16, Point::Zero()); }, "element 16");
+  refused([&] { deformer.move(15, Point::Zero()); }, "it is pinned");
+  refused([&] { deformer.move(0, Point(1e38, 0, 0)); }, "out of the range of the precision");
+  refused([&] { Handle(deformer.body(), {}); }, "it has no elements");
+  refused([&] { Handle(deformer.body(), {0, 0}); }, "grabbed twice");
+  refused([&] { deformer.set_algorithm(Algorithm::boundary_elements); }, "");
+  refused([&] { deformer.relax(-1); }, "below 0");
+  refused([&] { deformer.relax(1, {.step = 0}); }, "relax-step");
+  refused([&] { deformer.relax(1, {.until = 2}); }, "relax-until");
+  QVERIFY(deformer.algorithm() == Algorithm::exact);
 }
 
 void DeformerTest::bad_input_changes_nothing() {
