@@ -310,16 +310,15 @@ constexpr bool has_calibrate = false;
 #endif
 
 void put_errors(py::dict& table, const char* drags, const TestedDrags& tested) {
-  const auto put_one = [&](const char* state, const Residual& residual) {
+  using Errors = std::pair<const char*, const Residual&>;
+  for (const auto& [state, residual] :
+       {Errors("nothing", tested.nothing), Errors("before", tested.before), Errors("after", tested.after)}) {
     put(table, "drags", py::str(drags));
     put(table, "state", py::str(state));
     put(table, "relative", py::float_(residual.relative));
     put(table, "rms", py::float_(residual.rms));
     put(table, "max", py::float_(residual.max));
-  };
-  put_one("nothing", tested.nothing);
-  put_one("before", tested.before);
-  put_one("after", tested.after);
+  }
 }
 
 py::dict result_of(const CalibrationOptions& options, const CalibrationResult& found) {
