@@ -14,7 +14,7 @@
 #include "docks/mesh_dock.h"
 #include "files/text/temporary_folder.h"
 #include "io/sessions.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 #include "panels/panel.h"
 #include "version/version.h"
 #include "window/bars.h"

@@ -4,18 +4,14 @@
 # The public interface: these headers, by room. Each includes only others of this list, Eigen and the standard library.
 set(public_headers
   chainmail.h
-  body/algorithm.h
   body/body.h
-  body/energy_kind.h
   body/handle.h
   body/method.h
   body/positions.h
   body/region.h
   body/region_axes.h
-  body/region_table.h
   body/snapshot.h
   body/softness.h
-  body/trace.h
   calibrate/calibrate.h
   elastic/elastic.h
   elastic/material.h
@@ -23,7 +19,6 @@ set(public_headers
   equilibrium/equilibrium_solver.h
   equilibrium/link_energy.h
   equilibrium/relaxation.h
-  equilibrium/relaxation_result.h
   equilibrium/relaxation_scheme.h
   files/formats/imported.h
   files/formats/mesh_state.h
@@ -45,9 +40,7 @@ set(public_headers
   measure/pass_times.h
   measure/physical_error.h
   measure/reference_solution.h
-  measure/time_spread.h
   measure/violation.h
-  mesh/cell_table.h
   mesh/cells.h
   mesh/cuts.h
   mesh/element_blocks.h

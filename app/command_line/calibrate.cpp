@@ -1,8 +1,6 @@
 #include "calibrate/calibrate.h"
 
-#include "command_line/common.h"
 #include "command_line/model.h"
-#include "command_line/progress_line.h"
 #include "files/results/report_json.h"
 #include "files/results/summary.h"
 #include "files/session/softness_presets.h"
@@ -13,10 +11,10 @@ namespace chainmail::command_line {
 namespace {
 
 struct CalibrateArguments {
-  MeshOptions mesh;
-  ElasticArguments elastic;
-  CLI::Option *pins, *algorithm, *relaxation, *energy, *drags, *seed, *evaluations;
-  CLI::Option *name, *preset, *json;
+  std::shared_ptr<MeshArguments> mesh;
+  CalibrationOptions how = {};
+  std::optional<EnergyKind> energy = {};
+  std::optional<std::string> pins = {}, name = {}, preset = {}, json = {};
 };
 
 constexpr const char* calibrate_footer =
@@ -29,81 +27,57 @@ constexpr const char* calibrate_footer =
     "Example:\n"
     "  chainmail calibrate organ.msh --young 3000 --poisson 0.45 --pins bottom -o liver.json";
 
-CalibrationOptions calibration_options(const CalibrateArguments& options, const std::string& object, const Mesh& mesh) {
-  CalibrationOptions result;
-  result.elastic = elastic_of(options.elastic);
-  result.pins = pins_of(options.pins, object, mesh);
-  result.energy = energy_of_links(energy_of(options.energy, link_energy));
-  if (const auto name = value_of(options.algorithm)) {
-    result.algorithm = algorithm_of("--algorithm", *name, algorithms());
-  }
-  result.scheme = choice_of(options.relaxation, schemes(false), result.scheme);
-  result.drags = int(whole_number_of(options.drags, 1, std::uint32_t(result.drags)));
-  result.seed = whole_number_of(options.seed, 0, std::uint32_t(result.seed));
-  result.evaluations = int(whole_number_of(options.evaluations, 1, std::uint32_t(result.evaluations)));
-  return result;
-}
-
-std::string read_name(const CalibrateArguments& options, const Material& material) {
-  const std::filesystem::path path = *value_of(options.mesh.path);
-  std::string name = printable(path.stem().string()).substr(0, limits::preset_name_bytes - 20);
-  name = value_of(options.name).value_or(name + ", Poisson " + report::figure(material.poisson));
-  if (const std::string fault = fault_of_name(name); !fault.empty()) {
-    throw Error("--name", in_quotes(name) + " cannot name a preset", fault);
-  }
+std::string name_of(const CalibrateArguments& arguments, const std::filesystem::path& path) {
+  const std::string usual = printable(path.stem().string()).substr(0, limits::preset_name_bytes - 20) + ", Poisson " +
+                            report::figure(arguments.how.elastic.material.poisson);
+  const std::string name = arguments.name.value_or(usual), fault = fault_of_name(name);
+  require(fault.empty(), "--name", in_quotes(name) + " cannot name a preset", fault);
   return name;
 }
 
-void calibrate_file(const CalibrateArguments& options) {
-  const MeshPointer mesh = open_mesh(options.mesh).mesh;
-  const std::filesystem::path path = *value_of(options.mesh.path);
+void calibrate_file(CalibrateArguments& arguments) {
+  const MeshPointer mesh = open_mesh(*arguments.mesh).mesh;
+  const std::filesystem::path path = arguments.mesh->path();
   const std::string object = printable(path.filename().string());
-  const CalibrationOptions how = calibration_options(options, object, *mesh);
-  const std::string name = read_name(options, how.elastic.material);
-  const auto preset_file = value_of(options.preset), json_file = value_of(options.json);
-  const CalibrationResult result = [&] {
-    Watch watch("calibrating softness for " + object);
-    return in_options({{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}},
-                      [&] { return calibrate(mesh, Cuts(mesh), how, watch.progress()); });
-  }();
-  Outputs outputs;
-  outputs.keep(path);
-  if (preset_file) {
-    outputs.add(*preset_file, [&](std::ostream& out) {
-      write_presets(out, std::vector{SoftnessPreset{name, result.softness}});
-    });
-  }
-  if (json_file) {
-    outputs.add(*json_file, [&](std::ostream& out) { write_json(out, how, result); });
-  }
-  if (preset_file != "-" && json_file != "-") {
-    outputs.add("-", [&](std::ostream& out) { write_text(out, how, result); });
-  }
-  outputs.commit();
+  CalibrationOptions& how = arguments.how;
+  how.pins = pins_of(arguments.pins, object, *mesh);
+  how.energy = energy_of_links(arguments.energy.value_or(how.energy));
+  const std::string name = name_of(arguments, path);
+  const CalibrationResult result =
+      watched("calibrating softness for " + object,
+              {{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}},
+              [&](const Progress& progress) { return calibrate(mesh, Cuts(mesh), how, progress); });
+  const std::vector presets{SoftnessPreset{name, result.softness}};
+  write_outputs({path}, {{arguments.preset, [&](std::ostream& out) { write_presets(out, presets); }},
+                         {arguments.json, [&](std::ostream& out) { write_json(out, how, result); }},
+                         {free_output({arguments.preset, arguments.json}),
+                          [&](std::ostream& out) { write_text(out, how, result); }}});
 }
 
 }  // namespace
 
 Command add_calibrate(CLI::App& root) {
   CLI::App* app = root.add_subcommand("calibrate", "Find the softness that is closest to an elastic material");
-  CalibrateArguments options{};
-  options.mesh = add_mesh_options(*app);
-  options.mesh.space = add_space(*app);
-  options.elastic = add_material(*app);
-  options.pins = add_pins(*app);
-  options.algorithm =
-      add_value(*app, "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]");
-  options.relaxation = add_relaxation(*app, false, CalibrationOptions().scheme);
-  options.energy = add_energy(*app, link_energy);
-  options.drags = add_value(*app, "--drags", "N", "number of drags to fit [4]");
-  options.seed = add_value(*app, "--seed", "S", "random seed of the drags [1]");
-  options.evaluations =
-      add_value(*app, "--evaluations", "N", "largest number of evaluations; each runs all drags [200]");
-  options.name = add_value(*app, "--name", "NAME", "name of the preset [the mesh and Poisson's ratio]");
-  options.preset = add_value(*app, "-o", "FILE", "write the softness as a preset (JSON)");
-  options.json = add_value(*app, "--json", "FILE", "write softness, sweeps and residuals as JSON");
+  const auto arguments = std::make_shared<CalibrateArguments>(CalibrateArguments{add_mesh(*app)});
+  Options& options = arguments->mesh->options;
+  CalibrationOptions& how = arguments->how;
+  add_space(*arguments->mesh);
+  add_material(options, how.elastic.material);
+  add_pins(options, arguments->pins);
+  options.add(
+      "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]", how.algorithm,
+      [](const std::string& where, const std::string& name) { return algorithm_of(where, name, algorithms()); });
+  add_relaxation(options, false, how.scheme);
+  add_energy(options, link_energy, arguments->energy);
+  options.add("--drags", "N", "number of drags to fit [4]", how.drags, count_from(1));
+  options.add("--seed", "S", "random seed of the drags [1]", how.seed, count_from(0));
+  options.add("--evaluations", "N", "largest number of evaluations; each runs all drags [200]", how.evaluations,
+              count_from(1));
+  options.add("--name", "NAME", "name of the preset [the mesh and Poisson's ratio]", arguments->name);
+  options.add("-o", "FILE", "write the softness as a preset (JSON)", arguments->preset);
+  options.add("--json", "FILE", "write softness, sweeps and residuals as JSON", arguments->json);
   app->footer(calibrate_footer);
-  return {app, [options] { calibrate_file(options); }};
+  return {app, [arguments] { calibrate_file(*arguments); }};
 }
 
 }  // namespace chainmail::command_line

@@ -1,109 +1,21 @@
 #include "command_line/common.h"
 
-#include <algorithm>
 #include <iostream>
 
-#include "command_line/progress_line.h"
-
 namespace chainmail::command_line {
-namespace {
 
-std::string name_of(const Parameter& parameter) { return "--" + std::string(parameter.name); }
-
-VoxelOptions voxels_of(const MeshOptions& options) {
-  VoxelOptions voxels;
-  if (options.threshold->count() > 0) {
-    voxels.threshold = number_of(options.threshold, 0);
+void require(bool holds, const std::string& where, const std::string& problem, const std::string& remedy) {
+  if (!holds) {
+    throw Error(where, problem, remedy);
   }
-  if (options.voxels->count() > 0) {
-    voxels.every = whole_number_of(options.voxels, 1, 1);
-  }
-  voxels.stiff_where_dense = choice_of(options.by_density, on_or_off, true);
-  return voxels;
 }
 
-ReadOptions read_options_of(const MeshOptions& options) {
-  ReadOptions how;
-  if (const auto size = value_of(options.size)) {
-    how.size = parse_size(*size);
-    if (!how.size) {
-      throw Error("--size", in_quotes(*size) + " is not a size", "write WxH or WxHxD with whole numbers from 1");
-    }
-  }
-  if (const double spacing = value_of(options.spacing, parameters::spacing); options.spacing->count() > 0) {
-    how.spacing = spacing;
-  }
-  how.space_dimension = choice_of(options.space, spaces, {});
-  how.voxels = voxels_of(options);
-  how.data_outside = choice_of(options.data_outside, {{"allow", true}, {"refuse", false}}, false);
-  if (const auto tolerance = value_of(options.weld)) {
-    how.weld = tolerance_of(*tolerance);
-  }
-  return how;
-}
+// Values
 
-}  // namespace
-
-CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help) {
-  return app.add_option(name, help)
-      ->type_name(type)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-std::string help_of(const Parameter& parameter) {
-  std::string help = std::string(parameter.help) + " [";
-  append_number(help, parameter.default_value);
-  return help + "]";
-}
-
-CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter) {
-  return add_value(app, name_of(parameter), "NUMBER", help_of(parameter));
-}
-
-std::optional<std::string> value_of(const CLI::Option* option) {
-  if (option == nullptr || option->results().empty()) {
-    return std::nullopt;
-  }
-  const auto& values = option->results();
-  if (values.size() > 1) {
-    throw Error(option->get_name(), "it was given " + std::to_string(values.size()) + " times", "use it once");
-  }
-  return values.front();
-}
-
-double parse_number_of(const std::string& where, std::string_view text) {
-  const auto number = parse_number(text);
-  if (!number) {
-    throw Error(where, in_quotes(text) + " is not a finite number", "write a decimal number like 0.5 or -2e3");
-  }
-  return *number;
-}
-
-double number_of(const CLI::Option* option, double default_value) {
-  const auto text = value_of(option);
-  return text ? parse_number_of(option->get_name(), *text) : default_value;
-}
-
-double value_of(const CLI::Option* option, const Parameter& parameter) {
-  const double number = number_of(option, parameter.default_value);
-  in_options({{std::string(parameter.name), name_of(parameter)}}, [&] { check(parameter, number); });
-  return number;
-}
-
-std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
-                              std::uint32_t highest) {
-  const auto text = value_of(option);
-  if (!text) {
-    return default_value;
-  }
-  const auto number = parse_count(*text);
-  if (!number || *number < lowest || *number > highest) {
-    throw Error(option->get_name(), in_quotes(*text) + " is not a whole number in range",
-                "use " + std::to_string(lowest) + " to " + std::to_string(highest));
-  }
-  return *number;
+void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
+  const std::vector<std::string> first(words.begin(), words.end() - 1);
+  require(std::ranges::find(words, word) != words.end(), where, in_quotes(word) + " is not known",
+          "use " + joined_words(first, ", ") + (first.empty() ? "" : " or ") + words.back());
 }
 
 std::vector<std::string_view> split(std::string_view text, char mark) {
@@ -117,57 +29,92 @@ std::vector<std::string_view> split(std::string_view text, char mark) {
 std::vector<std::string> words_of(const std::string& where, const std::string& list) {
   std::vector<std::string> words;
   for (const std::string_view word : split(list)) {
-    if (std::ranges::find(words, word) != words.end()) {
-      throw Error(where, in_quotes(word) + " is given twice", "write each one once");
-    }
+    require(std::ranges::find(words, word) == words.end(), where, in_quotes(word) + " is given twice",
+            "write each one once");
     words.emplace_back(word);
   }
   return words;
 }
 
-void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words) {
-  if (std::ranges::find(words, word) == words.end()) {
-    const std::vector<std::string> first(words.begin(), words.end() - 1);
-    throw Error(where, in_quotes(word) + " is not known",
-                "use " + joined_words(first, ", ") + (first.empty() ? "" : " or ") + words.back());
-  }
+double parse_number_of(const std::string& where, std::string_view text) {
+  const auto number = parse_number(text);
+  require(number.has_value(), where, in_quotes(text) + " is not a finite number",
+          "write a decimal number like 0.5 or -2e3");
+  return *number;
 }
 
-Choices<Precision> precisions(Precision usual) {
+std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest) {
+  constexpr std::uint32_t highest = 1'000'000'000;
+  return [lowest](const std::string& where, const std::string& text) {
+    const auto number = parse_count(text);
+    require(number && *number >= lowest && *number <= highest, where,
+            in_quotes(text) + " is not a whole number in range",
+            "use " + std::to_string(lowest) + " to " + std::to_string(highest));
+    return *number;
+  };
+}
+
+std::function<double(const std::string& where, const std::string& text)> number_in(const Parameter& parameter) {
+  return [&parameter](const std::string& where, const std::string& text) {
+    const double number = parse_number_of(where, text);
+    check_option(parameter, number);
+    return number;
+  };
+}
+
+void check_option(const Parameter& parameter, double value) {
+  const std::string name(parameter.name);
+  in_options({{name, "--" + name}}, [&] { check(parameter, value); });
+}
+
+std::string help_of(const Parameter& parameter) {
+  std::string help = std::string(parameter.help) + " [";
+  append_number(help, parameter.default_value);
+  return help + "]";
+}
+
+// Options
+
+CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help) {
+  return app.add_option(name, help)
+      ->type_name(type)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+std::optional<std::string> value_of(const CLI::Option* option) {
+  const auto& values = option->results();
+  require(values.size() < 2, option->get_name(), "it was given " + std::to_string(values.size()) + " times",
+          "use it once");
+  return values.empty() ? std::nullopt : std::optional(values.front());
+}
+
+void add_precision(Options& options, Precision& precision) {
   Choices<Precision> all{{"float", Precision::single_precision}, {"double", Precision::double_precision}};
-  if (usual == Precision::double_precision) {
+  if (precision == Precision::double_precision) {
     std::ranges::reverse(all);
   }
-  return all;
+  options.add("--precision", all, "precision of the solver [" + all.front().first + "]", precision);
 }
 
-CLI::Option* add_precision(CLI::App& app, Precision usual) {
-  const auto all = precisions(usual);
-  return add_choice(app, "--precision", all, "precision of the solver [" + all.front().first + "]");
-}
-
-Choices<RelaxationScheme> schemes(bool sweeps_only) {
+void add_relaxation(Options& options, bool sweeps_only, RelaxationScheme& scheme) {
   Choices<RelaxationScheme> all;
+  std::string help = "relaxation scheme";
   for (const RelaxationSchemeInfo& one : relaxation_schemes) {
     if (one.sweeps || !sweeps_only) {
       all.emplace_back(one.name, one.scheme);
+      help += "; " + all.back().first + ": " + std::string(one.summary);
     }
   }
-  return all;
+  options.add("--relaxation", all, help + " [" + std::string(info(scheme).name) + "]", scheme);
 }
 
-CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, RelaxationScheme usual) {
-  const auto all = schemes(sweeps_only);
-  std::string help = "relaxation scheme";
-  for (const auto& [name, scheme] : all) {
-    help += "; " + name + ": " + std::string(info(scheme).summary);
-  }
-  return add_choice(app, "--relaxation", all, help + " [" + std::string(info(usual).name) + "]");
-}
-
-CLI::Option* add_space(CLI::App& app) {
-  return add_choice(app, "--space", spaces,
-                    "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]");
+void add_algorithms(Options& options, const std::string& help, std::span<const AlgorithmInfo> (*offered)(),
+                    std::vector<Algorithm>& algorithms) {
+  options.add("--algorithms", "A,B,…", help, algorithms, [offered](const std::string& where, const std::string& list) {
+    return algorithms_of(where, list, offered());
+  });
 }
 
 std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered) {
@@ -197,62 +144,74 @@ Algorithm algorithm_of(const std::string& where, const std::string& name, std::s
   return *algorithm;
 }
 
-std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered) {
+std::vector<Algorithm> algorithms_of(const std::string& where, const std::string& list,
+                                     std::span<const AlgorithmInfo> offered) {
   std::vector<Algorithm> chosen;
-  if (const auto list = value_of(option)) {
-    for (const std::string& word : words_of(option->get_name(), *list)) {
-      chosen.push_back(algorithm_of(option->get_name(), word, offered));
-      if (std::ranges::count(chosen, chosen.back()) > 1) {
-        throw Error(option->get_name(), in_quotes(word) + " is given twice", "write each algorithm once");
-      }
-    }
+  for (const std::string& word : words_of(where, list)) {
+    chosen.push_back(algorithm_of(where, word, offered));
+    require(std::ranges::count(chosen, chosen.back()) == 1, where, in_quotes(word) + " is given twice",
+            "write each algorithm once");
   }
   return chosen;
 }
 
-MeshOptions add_mesh_options(CLI::App& app, Welding welding) {
-  MeshOptions options;
-  options.path = add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
-  options.size = add_value(app, "--size", "WxH[xD]", "number of elements of a .dat file along each axis");
-  options.spacing =
-      add_value(app, "--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file");
-  options.threshold = add_value(app, "--threshold", "D",
-                                "lowest density that counts as material, for volumes of voxels [Otsu's method]");
-  options.voxels =
-      add_value(app, "--voxels", "N", "voxels per element along each axis [chosen to limit the number of elements]");
-  options.by_density = add_choice(app, "--density-softness", on_or_off, "make denser voxels stiffer [on]");
-  options.data_outside =
-      add_value(app, "--data-outside", "allow|refuse", "data files outside the folder of a volume's header [refuse]");
+// Meshes
+
+std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding) {
+  const auto mesh = std::make_shared<MeshArguments>(MeshArguments{Options(app)});
+  Options& options = mesh->options;
+  ReadOptions& how = mesh->how;
+  add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
+  options.add("--size", "WxH[xD]", "number of elements of a .dat file along each axis", how.size,
+              [](const std::string& where, const std::string& text) {
+                const auto size = parse_size(text);
+                require(size.has_value(), where, in_quotes(text) + " is not a size",
+                        "write WxH or WxHxD with whole numbers from 1");
+                return *size;
+              });
+  options.add("--spacing", "NUMBER", "distance between the elements of a .dat file; overrides the file", how.spacing,
+              number_in(parameters::spacing));
+  options.add("--threshold", "D", "lowest density that counts as material, for volumes of voxels [Otsu's method]",
+              how.voxels.threshold, parse_number_of);
+  options.add("--voxels", "N", "voxels per element along each axis [chosen to limit the number of elements]",
+              how.voxels.every, count_from(1));
+  options.add("--density-softness", on_or_off, "make denser voxels stiffer [on]", how.voxels.stiff_where_dense);
+  options.add("--data-outside", Choices<bool>{{"allow", true}, {"refuse", false}},
+              "data files outside the folder of a volume's header [refuse]", how.data_outside);
   if (welding == Welding::by_reader) {
-    options.weld = add_value(app, "--weld", "TOLERANCE",
-                             "join points this close, in mesh units [STL: 1e-7 of the extent; others: not]");
+    options.add("--weld", "TOLERANCE", "join points this close, in mesh units [STL: 1e-7 of the extent; others: not]",
+                how.weld, tolerance_of);
   }
-  return options;
+  return mesh;
 }
 
-double tolerance_of(const std::string& text) {
-  const double tolerance = parse_number_of("--weld", text);
-  if (tolerance < 0 || tolerance > coordinate_limit) {
-    throw Error("--weld", in_quotes(text) + " is not a distance", "write a number from 0, in mesh units");
-  }
+void add_space(MeshArguments& mesh) {
+  mesh.options.add("--space", spaces,
+                   "number of coordinates [from the file, otherwise the number of axes along which the mesh extends]",
+                   mesh.how.space_dimension);
+}
+
+double tolerance_of(const std::string& where, const std::string& text) {
+  const double tolerance = parse_number_of(where, text);
+  require(tolerance >= 0 && tolerance <= coordinate_limit, where, in_quotes(text) + " is not a distance",
+          "write a number from 0, in mesh units");
   return tolerance;
 }
 
-OpenedMesh open_mesh(const MeshOptions& options) {
-  const ReadOptions how = read_options_of(options);
-  const std::filesystem::path path = *value_of(options.path);
-  Watch watch("reading " + shown(path));
-  return in_options({{"space dimension", "--space"},
-                     {"size", "--size"},
-                     {"spacing", "--spacing"},
-                     {"threshold", "--threshold"},
-                     {"every", "--voxels"}},
-                    [&] { return chainmail::open_mesh(path, how, watch.progress()); });
+OpenedMesh open_mesh(const MeshArguments& mesh) { return open_mesh(mesh, open_file(mesh.path())); }
+
+OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input) {
+  mesh.options.read();
+  return watched("reading " + shown(input.file.path()),
+                 {{"space dimension", "--space"},
+                  {"size", "--size"},
+                  {"spacing", "--spacing"},
+                  {"threshold", "--threshold"},
+                  {"every", "--voxels"}},
+                 [&](const Progress& progress) { return chainmail::open_mesh(std::move(input), mesh.how, progress); });
 }
 
-CLI::Option* add_mesh_target(CLI::App& app, const std::string& name) {
-  return add_value(app, name, "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
-}
+// Outputs
 
 void say_note(const std::string& words) {
   if (!words.empty()) {
@@ -262,20 +221,45 @@ void say_note(const std::string& words) {
 
 void say_flaws(const OpenedMesh& opened) { say_note(in_words(opened.flaws)); }
 
-void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+CLI::Option* add_mesh_target(CLI::App& app, const std::string& name) {
+  return add_value(app, name, "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
+}
+
+void add_mesh_file(Outputs& outputs, const std::string& read, const std::string& target, const MeshPointer& mesh,
                    const OwnSoftness& softness) {
   const MeshFormat& format = mesh_format(target, FormatUse::write);
   check_holds(format, *mesh, target);
   say_note(lost_in(format, *mesh));
-  outputs.keep(*value_of(read.path));
+  outputs.keep(read);
   outputs.add(target, [&format, mesh, softness](std::ostream& out) { write_mesh(out, format, *mesh, softness); });
 }
 
-void write_mesh_file(const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+void write_mesh_file(const std::string& read, const std::string& target, const MeshPointer& mesh,
                      const OwnSoftness& softness) {
   Outputs outputs;
   add_mesh_file(outputs, read, target, mesh, softness);
   outputs.commit();
+}
+
+void add_files(Outputs& outputs, const std::vector<OutputFile>& files) {
+  for (const OutputFile& file : files) {
+    if (file.path) {
+      outputs.add(*file.path, file.writer);
+    }
+  }
+}
+
+void write_outputs(const std::vector<std::string>& read, const std::vector<OutputFile>& files) {
+  Outputs outputs;
+  for (const std::string& input : read) {
+    outputs.keep(input);
+  }
+  add_files(outputs, files);
+  outputs.commit();
+}
+
+std::optional<std::string> free_output(const std::vector<std::optional<std::string>>& paths) {
+  return std::ranges::find(paths, standard_output) == paths.end() ? standard_output : std::nullopt;
 }
 
 Error at_option(const Error& error, const std::map<std::string, std::string>& options) {

@@ -1,17 +1,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "files/mesh/open_mesh.h"
+#include "command_line/progress_line.h"
+#include "files/mesh/input_file.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -46,82 +51,118 @@ Command add_completion(CLI::App& root);
 
 // Options and their values
 
-/// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
-/// and writes all messages.
-CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help);
-/// Adds an option for a number of the parameter table, with its default in the help.
-CLI::Option* add_parameter(CLI::App& app, const Parameter& parameter);
-/// Returns the help of a parameter, with its default.
-std::string help_of(const Parameter& parameter);
-
-/// Returns the value of an option or positional argument; none if it is missing or was not added. Throws Error if it
-/// was given twice.
-std::optional<std::string> value_of(const CLI::Option* option);
-/// Returns the value of a parameter, or its default. Throws Error if it is out of range.
-double value_of(const CLI::Option* option, const Parameter& parameter);
-/// Returns the finite number in `text`. `where` is its option, for error messages.
-double parse_number_of(const std::string& where, std::string_view text);
-/// Returns the finite number of an option; `default_value` without it.
-double number_of(const CLI::Option* option, double default_value);
-/// Returns the whole number of an option, or `default_value` if the option is missing. Throws Error if it is out of
-/// range.
-std::uint32_t whole_number_of(const CLI::Option* option, std::uint32_t lowest, std::uint32_t default_value,
-                              std::uint32_t highest = 1'000'000'000);
-/// Splits a text at each mark. Between two marks, and at both ends, a part may be empty.
-std::vector<std::string_view> split(std::string_view text, char mark = ',');
-/// Splits a list at its commas. Throws Error if a word occurs twice.
-std::vector<std::string> words_of(const std::string& where, const std::string& list);
-/// Throws Error, with the list of words, if the word is not one of them.
-void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
+/// Throws Error unless a condition of the user's input holds.
+void require(bool holds, const std::string& where, const std::string& problem, const std::string& remedy);
 
 /// The words of an option, and what they stand for.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 inline const Choices<bool> on_or_off{{"on", true}, {"off", false}};
+/// The numbers of coordinates of a mesh.
+inline const Choices<int> spaces{{"1", 1}, {"2", 2}, {"3", 3}};
 
+/// Returns the names of the rows of a table of core, and what `value` makes of each row.
+template <class Rows, class Of>
+auto choices_of(const Rows& rows, Of value) {
+  Choices<std::decay_t<std::invoke_result_t<Of, decltype(*std::begin(rows))>>> all;
+  for (const auto& row : rows) {
+    all.emplace_back(row.name, std::invoke(value, row));
+  }
+  return all;
+}
 /// Returns the words, in their order.
 template <class Value>
 std::vector<std::string> names_of(const Choices<Value>& choices) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : choices) {
-    names.push_back(name);
+  for (const auto& choice : choices) {
+    names.push_back(choice.first);
   }
   return names;
 }
-/// Adds an option whose value is one of these words.
+/// Throws Error, with the list of words, if the word is not one of them.
+void check_word(const std::string& where, const std::string& word, const std::vector<std::string>& words);
+/// Returns what a word stands for. Throws Error, with the list of words, for another word.
 template <class Value>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choices<Value>& choices,
-                        const std::string& help) {
-  return add_value(app, name, joined_words(names_of(choices), "|"), help);
-}
-/// Returns what the word of an option stands for; `usual` without it. Throws Error for another word.
-template <class Value>
-Value choice_of(const CLI::Option* option, const Choices<Value>& choices, Value usual) {
-  const auto word = value_of(option);
-  if (!word) {
-    return usual;
-  }
-  check_word(option->get_name(), *word, names_of(choices));
-  for (const auto& [name, value] : choices) {
-    if (name == *word) {
-      return value;
-    }
-  }
-  return usual;
+Value chosen(const std::string& where, const std::string& word, const Choices<Value>& choices) {
+  check_word(where, word, names_of(choices));
+  return std::ranges::find(choices, word, &Choices<Value>::value_type::first)->second;
 }
 
-/// The precisions; the usual one is first.
-Choices<Precision> precisions(Precision usual);
-/// The option for the precision of a solver.
-CLI::Option* add_precision(CLI::App& app, Precision usual);
-/// The relaxation schemes: those that sweep, or all.
-Choices<RelaxationScheme> schemes(bool sweeps_only);
-/// Adds the option --relaxation. Its help names the scheme without the option.
-CLI::Option* add_relaxation(CLI::App& app, bool sweeps_only, RelaxationScheme usual = RelaxationScheme::mean);
-/// The numbers of coordinates of a mesh.
-inline const Choices<std::optional<int>> spaces{{"1", 1}, {"2", 2}, {"3", 3}};
-/// The option for the number of coordinates of a mesh that is read.
-CLI::Option* add_space(CLI::App& app);
+/// Splits a text at each mark. Between two marks, and at both ends, a part may be empty.
+std::vector<std::string_view> split(std::string_view text, char mark = ',');
+/// Splits a list at its commas. Throws Error if a word occurs twice.
+std::vector<std::string> words_of(const std::string& where, const std::string& list);
+/// Returns the finite number in `text`. `where` is its option, for error messages.
+double parse_number_of(const std::string& where, std::string_view text);
+/// Returns a function that parses a whole number from `lowest` to 10^9.
+std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest);
+/// Returns a function that parses a number in the range of a parameter.
+std::function<double(const std::string& where, const std::string& text)> number_in(const Parameter& parameter);
+/// Throws Error, with the option of the parameter, if the value is out of range.
+void check_option(const Parameter& parameter, double value);
+/// Returns the help of a parameter, with its default.
+std::string help_of(const Parameter& parameter);
+
+/// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
+/// and writes all messages.
+CLI::Option* add_value(CLI::App& app, const std::string& name, const std::string& type, const std::string& help);
+/// Returns the value of an option or positional argument; none if it is missing. Throws Error if it was given twice.
+std::optional<std::string> value_of(const CLI::Option* option);
+
+/// Options that set values. What a value has before is the default; it must not move. They are read when the subcommand
+/// runs, because an option that is missing or does not exist is an earlier error than a wrong value.
+class Options {
+ public:
+  explicit Options(CLI::App& app) : app_(&app) {}
+
+  /// Adds an option with a value that `parse` makes of the name of the option and of its text.
+  template <class Value, class Parse>
+  CLI::Option* add(const std::string& name, const std::string& type, const std::string& help, Value& value,
+                   Parse parse) {
+    CLI::Option* option = add_value(*app_, name, type, help);
+    readers_.push_back([=, &value] {
+      if (const auto text = value_of(option)) {
+        value = Value(parse(option->get_name(), *text));
+      }
+    });
+    return option;
+  }
+  /// Adds an option for a number of the parameter table, with its default in the help.
+  template <class Value>
+  CLI::Option* add(const Parameter& parameter, Value& value) {
+    return add("--" + std::string(parameter.name), "NUMBER", help_of(parameter), value, number_in(parameter));
+  }
+  /// Adds an option whose value is one of these words.
+  template <class Choice, class Value>
+  CLI::Option* add(const std::string& name, const Choices<Choice>& choices, const std::string& help, Value& value) {
+    return add(name, joined_words(names_of(choices), "|"), help, value,
+               [choices](const std::string& where, const std::string& word) { return chosen(where, word, choices); });
+  }
+  /// Adds an option for a text, mostly the name of a file.
+  CLI::Option* add(const std::string& name, const std::string& type, const std::string& help,
+                   std::optional<std::string>& value) {
+    return add(name, type, help, value, [](const std::string&, const std::string& text) { return text; });
+  }
+
+  CLI::App& app() const { return *app_; }
+  bool has(const std::string& name) const { return app_->count(name) > 0; }
+  void read() const {
+    std::ranges::for_each(readers_, [](const auto& read) { read(); });
+  }
+
+ private:
+  CLI::App* app_;
+  std::vector<std::function<void()>> readers_;
+};
+
+// Options that several subcommands have. The help names the value that there is without them.
+
+void add_precision(Options& options, Precision& precision);
+/// `sweeps_only`: without the schemes that do not sweep.
+void add_relaxation(Options& options, bool sweeps_only, RelaxationScheme& scheme);
+/// A list of some algorithms, separated by commas. `offered` returns all, with those that a subcommand registers.
+void add_algorithms(Options& options, const std::string& help, std::span<const AlgorithmInfo> (*offered)(),
+                    std::vector<Algorithm>& algorithms);
 
 /// Returns the names that the command line offers for these algorithms.
 std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered);
@@ -129,38 +170,57 @@ std::vector<std::string> names_of(std::span<const AlgorithmInfo> offered);
 std::string algorithms_help(std::span<const AlgorithmInfo> offered);
 /// Returns the algorithm with this name or alias. Throws Error, with the list of names, if it is not in `offered`.
 Algorithm algorithm_of(const std::string& where, const std::string& name, std::span<const AlgorithmInfo> offered);
-/// Returns the algorithms of a list separated by commas; empty if the option is missing.
-std::vector<Algorithm> algorithms_of(const CLI::Option* option, std::span<const AlgorithmInfo> offered);
+/// Returns the algorithms of a list separated by commas.
+std::vector<Algorithm> algorithms_of(const std::string& where, const std::string& list,
+                                     std::span<const AlgorithmInfo> offered);
 
 // Meshes and their files
 
-/// The options for reading a mesh.
-struct MeshOptions {
-  CLI::Option *path = nullptr, *size = nullptr, *spacing = nullptr, *space = nullptr, *weld = nullptr;
-  CLI::Option *threshold = nullptr, *voxels = nullptr, *by_density = nullptr, *data_outside = nullptr;
+/// A mesh that is read, and its options. Those of the subcommand may be among them.
+struct MeshArguments {
+  Options options;
+  ReadOptions how = {};
+
+  std::string path() const { return *value_of(options.app().get_option("MESH")); }
 };
 /// Whether points are joined when a file is opened, or as a repair.
 enum class Welding { by_reader, by_repair };
-MeshOptions add_mesh_options(CLI::App& app, Welding welding = Welding::by_reader);
-/// Returns the value of --weld (mesh units). Throws Error.
-double tolerance_of(const std::string& text);
-/// Reads the mesh. Throws Error, with the option.
-OpenedMesh open_mesh(const MeshOptions& options);
+std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding = Welding::by_reader);
+/// Adds the option for the number of coordinates.
+void add_space(MeshArguments& mesh);
+/// Returns a distance of --weld (mesh units).
+double tolerance_of(const std::string& where, const std::string& text);
+/// Reads the options and the mesh. Throws Error, with the option.
+OpenedMesh open_mesh(const MeshArguments& mesh);
+OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input);
 /// Returns the folder of the samples that come with the programs. It may be missing.
 std::filesystem::path samples_folder();
 
-/// Adds the required option for a mesh file.
-CLI::Option* add_mesh_target(CLI::App& app, const std::string& name = "-o");
 /// Prints a sentence for the user on standard error; nothing if it is empty.
 void say_note(const std::string& words);
+/// Adds the required option for a mesh file.
+CLI::Option* add_mesh_target(CLI::App& app, const std::string& name = "-o");
 /// Prints the flaws of a file on standard error, because the result may have other ids or fewer elements.
 void say_flaws(const OpenedMesh& opened);
 /// Adds a mesh file at rest to the outputs. The file that was read is protected.
-void add_mesh_file(Outputs& outputs, const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+void add_mesh_file(Outputs& outputs, const std::string& read, const std::string& target, const MeshPointer& mesh,
                    const OwnSoftness& softness = {});
 /// Writes this file as the only output.
-void write_mesh_file(const MeshOptions& read, const std::string& target, const MeshPointer& mesh,
+void write_mesh_file(const std::string& read, const std::string& target, const MeshPointer& mesh,
                      const OwnSoftness& softness = {});
+
+/// A file that an option names; without the option, none.
+struct OutputFile {
+  std::optional<std::string> path;
+  Outputs::Writer writer;
+};
+/// Adds the files that are named.
+void add_files(Outputs& outputs, const std::vector<OutputFile>& files);
+/// Writes the files that are named, all or none. Those that were read are protected.
+void write_outputs(const std::vector<std::string>& read, const std::vector<OutputFile>& files);
+inline const std::optional<std::string> standard_output = "-";
+/// Returns standard output unless one of these files is that.
+std::optional<std::string> free_output(const std::vector<std::optional<std::string>>& paths);
 
 // Errors
 
@@ -177,6 +237,21 @@ auto in_options(const std::map<std::string, std::string>& options, Make make) {
   } catch (const Error& error) {
     throw at_option(error, options);
   }
+}
+/// Calls a function of core, whose errors then are at `where`.
+template <class Make>
+auto error_at(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw error.at(where);
+  }
+}
+/// Calls a long function of core with a line of progress that has this text.
+template <class Make>
+auto watched(const std::string& text, const std::map<std::string, std::string>& options, Make make) {
+  Watch watch(text);
+  return in_options(options, [&] { return make(watch.progress()); });
 }
 
 }  // namespace chainmail::command_line

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "command_line/folder.h"
+#include <set>
+
 #include "command_line/model.h"
-#include "command_line/progress_line.h"
 #include "files/results/report_json.h"
 #include "files/results/suite_json.h"
 #include "report/page/compared_figures.h"
@@ -11,30 +11,55 @@
 #include "report/page/physics_html.h"
 #include "report/page/physics_plot.h"
 #include "report/page/physics_table.h"
-#include "report/page/suite_csv.h"
-#include "report/page/suite_html.h"
-#include "report/page/suite_plot.h"
+#include "report/page/suite_page.h"
 #include "report/page/suite_table.h"
 #include "report/page/svg.h"
 #include "report/page/table.h"
 #include "report/run/machine.h"
+#include "report/run/physics.h"
 
 namespace chainmail::command_line {
 
 /// The options of `compare`, for both references and for the suite.
 struct CompareArguments {
-  const CLI::App* app = nullptr;
+  Options options;
   std::string command_line;  // shown in the report
-  CLI::Option *meshes = nullptr, *output = nullptr, *against = nullptr;
-  CLI::Option *algorithms = nullptr, *relax = nullptr, *relaxation = nullptr, *relax_step = nullptr,
-              *precision = nullptr, *repetitions = nullptr;
-  SoftnessArguments softness;
-  CLI::Option *preset = nullptr, *moves = nullptr;
-  ElasticArguments elastic;
-  StrainLawArguments laws;
-  CLI::Option *pins = nullptr, *grow = nullptr, *calibrated = nullptr, *reference = nullptr;
-  CLI::Option *suite = nullptr, *experiments = nullptr, *shard = nullptr, *merge = nullptr;
-  CLI::Option *cases = nullptr, *judge = nullptr;
+  CLI::Option* meshes = nullptr;
+  std::optional<std::string> output = {}, preset = {}, moves = {}, pins = {}, experiments = {}, shard = {};
+  bool against_physics = false,
+       refined = false;  // what errors refer to: physics, on the object's cells or refined ones
+  report::CompareOptions contest = {};
+  SoftnessArguments softness = {};
+  Options elastic_options;  // apart: they are read only for meshes
+  ElasticOptions elastic = {};
+  StrainLawArguments laws = {};
+  double growth_seconds = report::PhysicsOptions().growth_seconds;
+  std::optional<bool> calibrated = {};
+};
+
+/// A folder for results. It is created if it is missing, and removed again if the results are not written.
+class OutputFolder {
+ public:
+  /// Throws Error if the folder cannot be created, so that a wrong name is found before any long work. Does not create
+  /// it yet.
+  explicit OutputFolder(std::filesystem::path path);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  /// Removes the folders that were created, unless the files were written.
+  ~OutputFolder();
+
+  /// Creates the folder and writes the files into it, and a text to standard output. `read` are files that stay.
+  /// Notes on standard error which plots in the folder are of an earlier report. They stay, because only the user knows
+  /// whether somebody needs them.
+  void write(const std::vector<std::pair<std::string, Outputs::Writer>>& files, const Outputs::Writer& text = {},
+             const std::vector<std::string>& read = {});
+
+ private:
+  void make();
+  void say_older_plots(const std::set<std::string>& written) const;
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // outermost first
 };
 
 // Each of these functions throws Error before it writes anything.
@@ -48,33 +73,24 @@ void write_cases(const CompareArguments& arguments);
 /// Judges answers of other solvers to a case.
 void judge_answers(const CompareArguments& arguments);
 
-/// Returns the number of runs of each drag; none if it is left to the comparison.
-std::optional<int> repetitions_of(const CompareArguments& arguments);
 /// Returns where a report comes from, which ends now.
 report::Origin origin_of(const CompareArguments& arguments);
 /// Returns a function that shows the progress of a report on a line.
-report::Progress progress_on(ProgressLine& line);
+Progress progress_on(ProgressLine& line);
 
-/// A file of a report.
-struct ReportFile {
-  std::string name;
-  Outputs::Writer writer;
-};
-/// Writes files into the folder, and a text to standard output. `read` are files that stay.
-void write_files(OutputFolder& folder, const std::vector<ReportFile>& files, const Outputs::Writer& text,
-                 const std::vector<std::filesystem::path>& read = {});
 /// Writes report.html, report.json, report.csv and plots into the folder, and the tables to standard output.
 template <class Report, class... Origin>
 void write_report(OutputFolder& folder, const Report& made, const std::vector<report::PlotFile>& plots,
-                  const std::vector<std::filesystem::path>& read, const Origin&... origin) {
-  std::vector<ReportFile> files{{"report.html", [&](std::ostream& out) { write_html(out, made, origin...); }},
-                                {"report.json", [&](std::ostream& out) { write_json(out, made, origin...); }},
-                                {"report.csv", [&](std::ostream& out) { write_csv(out, made); }}};
+                  const std::vector<std::string>& read, const Origin&... origin) {
+  std::vector<std::pair<std::string, Outputs::Writer>> files{
+      {"report.html", [&](std::ostream& out) { write_html(out, made, origin...); }},
+      {"report.json", [&](std::ostream& out) { write_json(out, made, origin...); }},
+      {"report.csv", [&](std::ostream& out) { write_csv(out, made); }}};
   for (const report::PlotFile& one : plots) {
-    files.push_back({one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); }});
+    files.emplace_back(one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); });
   }
-  write_files(
-      folder, files, [&](std::ostream& out) { write_text(out, made); }, read);
+  folder.write(
+      files, [&](std::ostream& out) { write_text(out, made); }, read);
 }
 
 }  // namespace chainmail::command_line

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "calibrate/for_report.h"
 #include "command_line/compare.h"
 #include "files/results/peer_json.h"
@@ -20,29 +18,25 @@ void add_bullet() {
 #endif
 }
 
-report::Shard shard_of(const CLI::Option* option) {
-  const std::string text = value_of(option).value_or("1/1");
+report::Shard shard_of(const std::string& text) {
   const auto parts = split(text, '/');
   const auto index = parse_count(parts.front()), count = parse_count(parts.back());
-  if (parts.size() != 2 || !index || !count || *index < 1 || *count < 1 || *index > *count || *count > max_shards) {
-    throw Error("--shard", in_quotes(text) + " is not a part of a whole", "write I/N, such as 2/4, with N up to 1000");
-  }
+  require(parts.size() == 2 && index && count && *index >= 1 && *count >= 1 && *index <= *count && *count <= max_shards,
+          "--shard", in_quotes(text) + " is not a part of a whole", "write I/N, such as 2/4, with N up to 1000");
   return {int(*index), int(*count)};
 }
 
 /// Returns the experiments of --experiments, or those that run if none is named, as far as they are in the shard.
 std::vector<std::string> experiments_of(const CompareArguments& arguments) {
-  const auto list = value_of(arguments.experiments);
+  const auto& list = arguments.experiments;
   std::vector<std::string> names = list ? report::all_suite_names() : report::suite_names();
   if (list) {
     const auto wanted = words_of("--experiments", *list);
     std::ranges::for_each(wanted, [&](const std::string& name) { check_word("--experiments", name, names); });
     std::erase_if(names, [&](const std::string& name) { return std::ranges::find(wanted, name) == wanted.end(); });
   }
-  names = report::part_of(names, shard_of(arguments.shard));
-  if (names.empty()) {
-    throw Error("--shard", "no experiment is in this part", "use a smaller number of parts");
-  }
+  names = report::part_of(names, shard_of(arguments.shard.value_or("1/1")));
+  require(!names.empty(), "--shard", "no experiment is in this part", "use a smaller number of parts");
   return names;
 }
 
@@ -52,14 +46,14 @@ bool needs_organ(const std::vector<std::string>& names) {
   });
 }
 
-/// Throws Error for an option that the given mode does not take.
-void refuse_others(const CompareArguments& arguments, const std::string& mode,
-                   const std::vector<const CLI::Option*>& taken) {
-  for (const CLI::Option* option : arguments.app->get_options()) {
-    if (option->count() > 0 && std::ranges::find(taken, option) == taken.end()) {
-      throw Error(option->get_name(), "it does not work with " + mode, "leave it out");
-    }
+/// Throws Error for an option that the given mode does not take, and reads the others.
+void read_only(const CompareArguments& arguments, const std::string& mode, const std::vector<std::string>& taken) {
+  for (const CLI::Option* option : arguments.options.app().get_options()) {
+    const std::string name = option->get_name();
+    require(option->count() == 0 || name == mode || std::ranges::find(taken, name) != taken.end(), name,
+            "it does not work with " + mode, "leave it out");
   }
+  arguments.options.read();
 }
 
 /// Returns the organs of the samples whose files are there.
@@ -75,18 +69,16 @@ report::SampleOrgans sample_organs() {
 }  // namespace
 
 void run_suite(const CompareArguments& arguments) {
-  refuse_others(arguments, "--suite",
-                {arguments.suite, arguments.shard, arguments.experiments, arguments.algorithms, arguments.repetitions,
-                 arguments.calibrated, arguments.output});
   add_bullet();
+  read_only(arguments, "--suite", {"--shard", "--experiments", "--algorithms", "--repetitions", "--calibrated", "-o"});
   report::SuiteOptions options;
-  options.algorithms = algorithms_of(arguments.algorithms, every_algorithm());
-  options.repetitions = repetitions_of(arguments);
-  if (choice_of(arguments.calibrated, on_or_off, false)) {
+  options.algorithms = arguments.contest.algorithms;
+  options.repetitions = arguments.contest.repetitions;
+  if (arguments.calibrated.value_or(false)) {
     options.calibrate = calibrator_for_reports(RelaxationScheme::mean);
   }
   const std::vector<std::string> experiments = experiments_of(arguments);
-  OutputFolder folder(*value_of(arguments.output));
+  OutputFolder folder(*arguments.output);
   if (needs_organ(experiments)) {
     options.organs = sample_organs();
   }
@@ -94,19 +86,16 @@ void run_suite(const CompareArguments& arguments) {
     ProgressLine line;
     return report::run_suite(experiments, options, progress_on(line));
   }();
-  suite.runs = {{origin_of(arguments), value_of(arguments.shard).value_or("1/1"), experiments}};
+  suite.runs = {{origin_of(arguments), arguments.shard.value_or("1/1"), experiments}};
   write_report(folder, suite, plots_of(suite), {});
 }
 
 void merge_suites(const CompareArguments& arguments) {
-  refuse_others(arguments, "--merge", {arguments.merge, arguments.meshes, arguments.output});
-  if (arguments.meshes->count() == 0) {
-    throw Error("--merge", "the files are missing", "name the report.json of each part");
-  }
+  read_only(arguments, "--merge", {"MESH", "-o"});
+  const std::vector<std::string> reports = arguments.meshes->results();
+  require(!reports.empty(), "--merge", "the files are missing", "name the report.json of each part");
   add_bullet();
-  OutputFolder folder(*value_of(arguments.output));
-  const auto& names = arguments.meshes->results();
-  const std::vector<std::filesystem::path> reports(names.begin(), names.end());
+  OutputFolder folder(*arguments.output);
   std::vector<report::Suite> parts;
   std::ranges::transform(reports, std::back_inserter(parts), read_suite);
   const report::Suite suite = report::merged(parts);
@@ -114,24 +103,20 @@ void merge_suites(const CompareArguments& arguments) {
 }
 
 void write_cases(const CompareArguments& arguments) {
-  refuse_others(arguments, "--cases", {arguments.cases, arguments.output});
-  OutputFolder folder(*value_of(arguments.output));
+  read_only(arguments, "--cases", {"-o"});
+  OutputFolder folder(*arguments.output);
   const auto cases = report::peer_cases_of_suite(sample_organs());
-  folder.make();
-  Outputs outputs;
+  std::vector<std::pair<std::string, Outputs::Writer>> files;
   for (const report::PeerCase& one : cases) {
-    outputs.add(folder.path() / (one.name + ".json"), [&one](std::ostream& out) { write_json(out, one); });
+    files.emplace_back(one.name + ".json", [&one](std::ostream& out) { write_json(out, one); });
   }
-  outputs.commit();
-  folder.keep();
+  folder.write(files);
 }
 
 void judge_answers(const CompareArguments& arguments) {
-  refuse_others(arguments, "--judge", {arguments.judge, arguments.meshes});
+  read_only(arguments, "--judge", {"MESH"});
   const std::vector<std::string> files = arguments.meshes->results();
-  if (files.size() < 2) {
-    throw Error("--judge", "the files are missing", "name a case, then one or more answers to it");
-  }
+  require(files.size() >= 2, "--judge", "the files are missing", "name a case, then one or more answers to it");
   const report::PeerCase object = read_peer_case(files.front());
   report::FigureTable table = peer_table(object);
   for (const std::string& file : std::span(files).subspan(1)) {

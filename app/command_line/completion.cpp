@@ -1,24 +1,7 @@
-#include <algorithm>
-#include <array>
-#include <ostream>
-#include <ranges>
-#include <string>
-#include <vector>
-
 #include "command_line/common.h"
 
 namespace chainmail::command_line {
 namespace {
-
-/// An option, or a positional argument, as a shell sees it.
-struct Word {
-  std::vector<std::string> names;  // with dashes; empty for a positional argument
-  std::string help;                // one sentence
-  std::string value;               // as in the help; empty if it has none
-  std::vector<std::string> choices;
-  bool is_file = false;
-  bool repeats = false;
-};
 
 /// Returns the words of "a|b|c"; none for other texts.
 std::vector<std::string> choices_in(const std::string& type) {
@@ -39,56 +22,52 @@ std::string first_sentence(const std::string& help) {
   return line.ends_with(':') ? line.substr(0, line.size() - 1) : line;
 }
 
-Word word_of(const CLI::Option& option) {
-  Word word;
-  for (const std::string& name : option.get_snames()) {
-    word.names.push_back("-" + name);
-  }
-  for (const std::string& name : option.get_lnames()) {
-    word.names.push_back("--" + name);
-  }
-  word.help = first_sentence(option.get_description());
-  word.value = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
-  word.choices = choices_in(word.value);
-  if (word.choices.empty()) {
-    word.choices = choices_in(word.help);
-  }
-  const bool is_mesh = word.names.empty() && option.get_single_name() == "MESH";
-  word.is_file = is_mesh || word.value.find("FILE") != std::string::npos || word.value == "FOLDER";
-  word.repeats = option.get_allow_extra_args();
-  return word;
+using Names = std::vector<std::string>;
+
+std::string spaced(const Names& words) { return CLI::detail::join(words, " "); }
+
+std::string help_of(const CLI::Option& option) { return first_sentence(option.get_description()); }
+
+/// Returns the value as in the help; empty if there is none.
+std::string value_name(const CLI::Option& option) {
+  return option.get_items_expected_max() > 0 ? option.get_type_name() : "";
 }
 
-struct CommandWords {
-  std::string name, help;
-  std::vector<Word> options, positionals;
-};
-
-CommandWords words_of(const CLI::App& app) {
-  CommandWords words{app.get_name(), first_sentence(app.get_description()), {}, {}};
-  for (const CLI::Option* option : app.get_options()) {
-    Word word = word_of(*option);
-    (word.names.empty() ? words.positionals : words.options).push_back(std::move(word));
-  }
-  return words;
+/// Returns the names with dashes; none for a positional argument.
+Names names_of(const CLI::Option& option) {
+  Names names;
+  std::ranges::transform(option.get_snames(), std::back_inserter(names), [](const auto& name) { return "-" + name; });
+  std::ranges::transform(option.get_lnames(), std::back_inserter(names), [](const auto& name) { return "--" + name; });
+  return names;
 }
 
-std::vector<CommandWords> words_of_all(const CLI::App& root) {
-  std::vector<CommandWords> all;
-  for (const CLI::App* app : root.get_subcommands([](const CLI::App*) { return true; })) {
-    all.push_back(words_of(*app));
-  }
-  return all;
+/// Returns the words that the value may be, separated by blanks.
+std::string choices_of(const CLI::Option& option) {
+  const Names choices = choices_in(value_name(option));
+  return spaced(choices.empty() ? choices_in(help_of(option)) : choices);
 }
 
-std::string spaced(const std::vector<std::string>& words) { return CLI::detail::join(words, " "); }
+bool is_file(const CLI::Option& option) {
+  const std::string value = value_name(option);
+  return option.get_name() == "MESH" || value.find("FILE") != std::string::npos || value == "FOLDER";
+}
 
-std::string option_names(const std::vector<Word>& words) {
-  std::vector<std::string> names;
-  for (const Word& word : words) {
-    names.insert(names.end(), word.names.begin(), word.names.end());
+using Apps = std::vector<const CLI::App*>;
+
+std::vector<const CLI::Option*> options_of(const CLI::App& app) {
+  return app.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+}
+
+std::vector<const CLI::Option*> positionals_of(const CLI::App& app) {
+  return app.get_options([](const CLI::Option* option) { return !option->nonpositional(); });
+}
+
+std::string option_names(const CLI::App& app) {
+  Names all;
+  for (const CLI::Option* option : options_of(app)) {
+    std::ranges::copy(names_of(*option), std::back_inserter(all));
   }
-  return spaced(names);
+  return spaced(all);
 }
 
 /// Returns a text in single quotes. A quote inside becomes a typographic one, which means nothing to a shell.
@@ -101,42 +80,38 @@ std::string quoted(std::string text) {
 
 // bash
 
-/// Writes the values of options. After an option with other values, and for positional arguments, bash completes files.
-void write_bash_values(std::ostream& out, const CommandWords& command, const Word& word, bool first_positional) {
-  if (word.choices.empty()) {
-    return;
-  }
-  for (const std::string& name : word.names) {
-    out << "    '" << command.name << ' ' << name << "') words='" << spaced(word.choices) << "' ;;\n";
-  }
-  if (word.names.empty() && first_positional) {
-    out << "    '" << command.name << ' ' << command.name << "') words='" << spaced(word.choices) << "' ;;\n";
+/// Writes the values of an option, or of a positional argument, after this word. After an option with other values, and
+/// for other positional arguments, bash completes files.
+void write_bash_values(std::ostream& out, const std::string& before, const CLI::Option& option) {
+  if (const std::string choices = choices_of(option); !choices.empty()) {
+    out << "    '" << before << "') words='" << choices << "' ;;\n";
   }
 }
 
-void write_bash(std::ostream& out, const CLI::App& root, const std::vector<CommandWords>& commands) {
+void write_bash(std::ostream& out, const CLI::App& root, const Apps& commands) {
   out << "# bash completion for chainmail, made by: chainmail completion bash\n"
          "_chainmail() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=''\n"
          "  COMPREPLY=()\n"
          "  case \"${COMP_WORDS[1]} $before\" in\n";
-  for (const CommandWords& command : commands) {
-    for (const Word& word : command.options) {
-      write_bash_values(out, command, word, false);
+  for (const CLI::App* command : commands) {
+    for (const CLI::Option* option : options_of(*command)) {
+      for (const std::string& name : names_of(*option)) {
+        write_bash_values(out, command->get_name() + ' ' + name, *option);
+      }
     }
-    if (!command.positionals.empty()) {
-      write_bash_values(out, command, command.positionals.front(), true);
+    if (const auto positionals = positionals_of(*command); !positionals.empty()) {
+      write_bash_values(out, command->get_name() + ' ' + command->get_name(), *positionals.front());
     }
   }
   out << "  esac\n"
          "  if [[ $COMP_CWORD -eq 1 ]]; then\n    words='";
-  for (const CommandWords& command : commands) {
-    out << command.name << ' ';
+  for (const CLI::App* command : commands) {
+    out << command->get_name() << ' ';
   }
-  out << option_names(words_of(root).options)
-      << "'\n  elif [[ -z $words && $word == -* ]]; then\n    case ${COMP_WORDS[1]} in\n";
-  for (const CommandWords& command : commands) {
-    out << "      " << command.name << ") words='" << option_names(command.options) << "' ;;\n";
+  out << option_names(root) << "'\n  elif [[ -z $words && $word == -* ]]; then\n    case ${COMP_WORDS[1]} in\n";
+  for (const CLI::App* command : commands) {
+    out << "      " << command->get_name() << ") words='" << option_names(*command) << "' ;;\n";
   }
   out << "    esac\n"
          "  fi\n"
@@ -157,40 +132,40 @@ std::string for_zsh(const std::string& help) {
   return text;
 }
 
-std::string zsh_action(const Word& word) {
-  return word.is_file ? "_files" : word.choices.empty() ? " " : "(" + spaced(word.choices) + ")";
+std::string zsh_action(const CLI::Option& option) {
+  const std::string choices = choices_of(option);
+  return is_file(option) ? "_files" : choices.empty() ? " " : "(" + choices + ")";
 }
 
-std::string zsh_option(const Word& word) {
-  const std::string value = word.value.empty() ? "" : ":" + for_zsh(word.value) + ":" + zsh_action(word);
-  std::string specifications;
-  for (const std::string& name : word.names) {
-    specifications += " \\\n        " + quoted("*" + name + "[" + for_zsh(word.help) + "]" + value);
+void write_zsh_option(std::ostream& out, const CLI::Option& option) {
+  const std::string type = value_name(option), help = for_zsh(help_of(option));
+  for (const std::string& name : names_of(option)) {
+    out << " \\\n        "
+        << quoted("*" + name + "[" + help + "]" + (type.empty() ? "" : ":" + for_zsh(type) + ":" + zsh_action(option)));
   }
-  return specifications;
+  if (!option.nonpositional()) {
+    out << " \\\n        " << quoted((option.get_allow_extra_args() ? "*:" : ":") + help + ":" + zsh_action(option));
+  }
 }
 
-void write_zsh(std::ostream& out, const CLI::App& root, const std::vector<CommandWords>& commands) {
+void write_zsh(std::ostream& out, const CLI::App& root, const Apps& commands) {
   out << "#compdef chainmail\n# zsh completion for chainmail, made by: chainmail completion zsh\n"
          "_chainmail() {\n"
          "  if (( CURRENT == 2 )); then\n"
          "    local -a commands=(";
-  for (const CommandWords& command : commands) {
-    out << "\n      " << quoted(command.name + ":" + command.help);
+  for (const CLI::App* command : commands) {
+    out << "\n      " << quoted(command->get_name() + ":" + first_sentence(command->get_description()));
   }
-  out << ")\n    _describe command commands\n    compadd -- " << option_names(words_of(root).options)
+  out << ")\n    _describe command commands\n    compadd -- " << option_names(root)
       << "\n    return\n  fi\n"
          "  local command=$words[2]\n"
          "  shift words\n"
          "  (( CURRENT-- ))\n"
          "  case $command in\n";
-  for (const CommandWords& command : commands) {
-    out << "    " << command.name << ")\n      _arguments";
-    for (const Word& word : command.options) {
-      out << zsh_option(word);
-    }
-    for (const Word& word : command.positionals) {
-      out << " \\\n        " << quoted((word.repeats ? "*:" : ":") + for_zsh(word.help) + ":" + zsh_action(word));
+  for (const CLI::App* command : commands) {
+    out << "    " << command->get_name() << ")\n      _arguments";
+    for (const auto& options : {options_of(*command), positionals_of(*command)}) {
+      std::ranges::for_each(options, [&](const CLI::Option* option) { write_zsh_option(out, *option); });
     }
     out << " ;;\n";
   }
@@ -201,55 +176,48 @@ void write_zsh(std::ostream& out, const CLI::App& root, const std::vector<Comman
 
 // fish
 
-std::string fish_names(const Word& word) {
-  std::string names;
-  for (const std::string& name : word.names) {
-    names += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+/// Writes the names, the values and the help of an option.
+void write_fish_option(std::ostream& out, const CLI::Option& option, bool with_value) {
+  for (const std::string& name : names_of(option)) {
+    out << (name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1));
   }
-  return names;
+  if (const std::string choices = choices_of(option); with_value && !value_name(option).empty()) {
+    out << (is_file(option) ? " -r -F" : choices.empty() ? " -x" : " -x -a " + quoted(choices));
+  }
+  out << " -d " << quoted(help_of(option)) << '\n';
 }
 
-std::string fish_value(const Word& word) {
-  if (word.value.empty()) {
-    return "";
-  }
-  return word.is_file ? " -r -F" : word.choices.empty() ? " -x" : " -x -a " + quoted(spaced(word.choices));
-}
-
-void write_fish(std::ostream& out, const CLI::App& root, const std::vector<CommandWords>& commands) {
+void write_fish(std::ostream& out, const CLI::App& root, const Apps& commands) {
+  const std::string first = "complete -c chainmail -n __fish_use_subcommand";
   out << "# fish completion for chainmail, made by: chainmail completion fish\n";
-  for (const CommandWords& command : commands) {
-    out << "complete -c chainmail -n __fish_use_subcommand -f -a " << command.name << " -d " << quoted(command.help)
+  for (const CLI::App* command : commands) {
+    out << first << " -f -a " << command->get_name() << " -d " << quoted(first_sentence(command->get_description()))
         << '\n';
   }
-  for (const Word& word : words_of(root).options) {
-    out << "complete -c chainmail -n __fish_use_subcommand" << fish_names(word) << " -d " << quoted(word.help) << '\n';
+  for (const CLI::Option* option : options_of(root)) {
+    write_fish_option(out << first, *option, false);
   }
-  for (const CommandWords& command : commands) {
-    const std::string when = "complete -c chainmail -n '__fish_seen_subcommand_from " + command.name + "'";
-    for (const Word& word : command.options) {
-      out << when << fish_names(word) << fish_value(word) << " -d " << quoted(word.help) << '\n';
+  for (const CLI::App* command : commands) {
+    const std::string when = "complete -c chainmail -n '__fish_seen_subcommand_from " + command->get_name() + "'";
+    for (const CLI::Option* option : options_of(*command)) {
+      write_fish_option(out << when, *option, true);
     }
-    for (const Word& word : command.positionals) {
-      if (!word.choices.empty()) {
-        out << when << " -f -a " << quoted(spaced(word.choices)) << '\n';
+    for (const CLI::Option* option : positionals_of(*command)) {
+      if (const std::string choices = choices_of(*option); !choices.empty()) {
+        out << when << " -f -a " << quoted(choices) << '\n';
       }
     }
   }
 }
 
-struct Shell {
-  const char* name;
-  void (*write)(std::ostream& out, const CLI::App& root, const std::vector<CommandWords>& commands);
-};
-constexpr std::array shells{Shell{"bash", write_bash}, Shell{"zsh", write_zsh}, Shell{"fish", write_fish}};
+const std::map<std::string, void (*)(std::ostream&, const CLI::App&, const Apps&)> shells{
+    {"bash", write_bash}, {"zsh", write_zsh}, {"fish", write_fish}};
 
 void write_completion(const CLI::App& root, const std::string& shell) {
-  const auto* const found = std::ranges::find(shells, shell, &Shell::name);
-  if (found == shells.end()) {
-    throw Error("SHELL", "there is no completion for '" + shell + "'", "use bash, zsh or fish");
-  }
-  write_file("-", [&](std::ostream& out) { found->write(out, root, words_of_all(root)); });
+  const auto found = shells.find(shell);
+  require(found != shells.end(), "SHELL", "there is no completion for '" + shell + "'", "use bash, zsh or fish");
+  const Apps commands = root.get_subcommands([](const CLI::App*) { return true; });
+  write_file("-", [&](std::ostream& out) { found->second(out, root, commands); });
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include "command_line/common.h"
-#include "command_line/progress_line.h"
 #include "files/mesh/fill.h"
 #include "files/repair/simplify.h"
 
@@ -8,58 +7,60 @@ namespace chainmail::command_line {
 
 Command add_convert(CLI::App& root) {
   CLI::App* app = root.add_subcommand("convert", "Write a mesh in another format");
-  MeshOptions options = add_mesh_options(*app);
+  const auto mesh = add_mesh(*app);
   const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail convert liver.msh -o liver.vtu");
-  return {app, [options, target] {
+  return {app, [mesh, target] {
             mesh_format(*value_of(target), FormatUse::write);
-            const OpenedMesh opened = open_mesh(options);
+            const OpenedMesh opened = open_mesh(*mesh);
             say_flaws(opened);
-            write_mesh_file(options, *value_of(target), opened.mesh, opened.softness);
+            write_mesh_file(mesh->path(), *value_of(target), opened.mesh, opened.softness);
           }};
 }
 
 Command add_fill(CLI::App& root) {
   CLI::App* app = root.add_subcommand("fill", "Fill a closed surface with tetrahedra");
-  MeshOptions options;
-  options.path = add_value(*app, "MESH", "", "file of the surface: " + mesh_endings(FormatUse::read))->required();
-  const CLI::Option* size = add_value(
+  const CLI::Option* mesh =
+      add_value(*app, "MESH", "", "file of the surface: " + mesh_endings(FormatUse::read))->required();
+  const CLI::Option* edge = add_value(
       *app, "--edge", "LENGTH", "approximate length of inner edges, in mesh units [the mean edge of the surface]");
   const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
-  return {app, [options, size, target] {
-            const std::string path = *value_of(options.path);
+  return {app, [=] {
+            const std::string path = *value_of(mesh), name = shown(path);
             mesh_format(*value_of(target), FormatUse::write);
             const OpenedMesh surface = chainmail::open_mesh(path);
             say_flaws(surface);
-            Watch watch("filling " + shown(path));
-            const MeshPointer filled = in_options({{"size", "--edge"}, {"surface", shown(path)}}, [&] {
-              return fill(*surface.mesh, number_of(size, surface.mesh->mean_link_length), watch.progress());
-            });
-            write_mesh_file(options, *value_of(target), filled);
+            const auto length = value_of(edge);
+            const double size = length ? parse_number_of("--edge", *length) : surface.mesh->mean_link_length;
+            write_mesh_file(path, *value_of(target),
+                            watched("filling " + name, {{"size", "--edge"}, {"surface", name}},
+                                    [&](const Progress& progress) { return fill(*surface.mesh, size, progress); }));
           }};
 }
 
 Command add_simplify(CLI::App& root) {
   CLI::App* app = root.add_subcommand("simplify", "Give a surface fewer elements");
-  const MeshOptions options = add_mesh_options(*app);
-  const CLI::Option* elements =
-      add_value(*app, "--elements", "N", "number of elements of the result, fewer than the surface has")->required();
+  const auto mesh = add_mesh(*app);
+  const auto count = std::make_shared<std::uint32_t>(0);
+  mesh->options
+      .add("--elements", "N", "number of elements of the result, fewer than the surface has", *count,
+           count_from(fewest_simplified))
+      ->required();
   const CLI::Option* target = add_mesh_target(*app, "-o,--output");
   app->footer(
       "Collapses edges, those that change the shape least first. Faces become triangles. A closed surface stays\n"
       "closed; elements at the border of an open one stay where they are. Simplify before you fill.\n\n"
       "Example:\n  chainmail simplify scan.ply --elements 3000 -o coarse.ply");
-  return {app, [options, elements, target] {
-            const std::uint32_t count = whole_number_of(elements, fewest_simplified, fewest_simplified);
+  return {app, [=] {
             mesh_format(*value_of(target), FormatUse::write);
-            const OpenedMesh opened = open_mesh(options);
+            const OpenedMesh opened = open_mesh(*mesh);
             say_flaws(opened);
-            const std::string name = shown(*value_of(options.path));
-            Watch watch("simplifying " + name);
-            const MeshPointer coarse = in_options({{"elements", "--elements"}, {"surface", name}},
-                                                  [&] { return simplify(*opened.mesh, count, watch.progress()); });
-            write_mesh_file(options, *value_of(target), coarse);
+            const std::string path = mesh->path(), name = shown(path);
+            write_mesh_file(
+                path, *value_of(target),
+                watched("simplifying " + name, {{"elements", "--elements"}, {"surface", name}},
+                        [&](const Progress& progress) { return simplify(*opened.mesh, *count, progress); }));
           }};
 }
 

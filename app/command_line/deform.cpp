@@ -1,9 +1,7 @@
 #include <map>
 #include <ostream>
 
-#include "command_line/common.h"
 #include "command_line/model.h"
-#include "command_line/progress_line.h"
 #include "command_line/script.h"
 #include "files/results/summary.h"
 #include "files/results/trace_csv.h"
@@ -15,25 +13,25 @@
 namespace chainmail::command_line {
 namespace {
 
-struct DeformArguments {
-  CLI::App* app = nullptr;
-  MeshOptions mesh;
-  ElasticArguments elastic;
-  StrainLawArguments law;
-  CLI::Option* thickness;
-  SoftnessArguments global;
-  CLI::Option *algorithm, *precision, *softness;
-  CLI::Option *move, *by, *cut, *pin, *grab, *rotate;
-  CLI::Option* script;
-  CLI::Option *steps, *relax, *relaxation, *relax_step, *relax_until;
-  CLI::Option *positions, *trace, *json;
+/// The passes of each move, and what follows them.
+struct Schedule {
+  std::uint32_t steps = 1;
+  std::optional<int> relax;  // sweeps, or iterations, after each pass
+  commands::SetRelaxation how;
+  double until = parameters::relax_until.default_value;
 };
 
-/// Output files for the results.
-struct Targets {
-  std::optional<std::string> positions, trace, json;
-  std::vector<std::string> inputs;  // input files, which no output may replace
-  bool none() const { return !positions && !trace && !json; }
+struct DeformArguments {
+  std::shared_ptr<MeshArguments> mesh;
+  Algorithm algorithm = {};
+  Precision precision = Precision::double_precision;
+  SoftnessArguments global = {};
+  ElasticOptions elastic = {};
+  StrainLawArguments law = {};
+  Schedule schedule = {};
+  std::map<const CLI::Option*, Action::Kind> actions = {};
+  std::optional<std::string> softness = {}, script = {};
+  std::optional<std::string> positions = {}, trace = {}, json = {};
 };
 
 constexpr const char* example =
@@ -42,34 +40,12 @@ constexpr const char* example =
     "  chainmail deform grid.dat --algorithm natural-queue --cut 30-31 --by 31:3,2 --steps 10 \\\n"
     "      --relax 20 --positions moved.csv --json -";
 
-/// The passes of each move, and what follows them.
-struct Schedule {
-  std::uint32_t steps = 1;
-  int relax = 0;  // sweeps, or iterations, after each pass
-  commands::SetRelaxation how;
-  double until = 0;
-};
-
-Schedule read_schedule(const DeformArguments& options, RelaxationScheme scheme) {
-  const bool sweeps = info(scheme).sweeps;
-  if (sweeps && options.relax_until->count() > 0) {
-    throw Error("--relax-until", "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
-  }
-  return {whole_number_of(options.steps, 1, 1),
-          int(whole_number_of(options.relax, 0, sweeps ? 0 : equilibrium_iterations)),
-          {false, value_of(options.relax_step, parameters::relax_step), scheme},
-          value_of(options.relax_until, parameters::relax_until)};
-}
-
 /// Returns the actions in the order of their options on the command line.
-std::vector<Action> read_actions(const DeformArguments& options) {
-  const std::map<const CLI::Option*, Action::Kind> kinds{
-      {options.move, Action::Kind::move}, {options.by, Action::Kind::by},     {options.cut, Action::Kind::cut},
-      {options.pin, Action::Kind::pin},   {options.grab, Action::Kind::grab}, {options.rotate, Action::Kind::rotate}};
+std::vector<Action> read_actions(const DeformArguments& arguments) {
   std::map<const CLI::Option*, std::size_t> taken;
   std::vector<Action> actions;
-  for (const CLI::Option* option : options.app->parse_order()) {
-    if (const auto kind = kinds.find(option); kind != kinds.end()) {
+  for (const CLI::Option* option : arguments.mesh->options.app().parse_order()) {
+    if (const auto kind = arguments.actions.find(option); kind != arguments.actions.end()) {
       actions.push_back(parse_action(kind->second, option->get_name(), option->results()[taken[option]++]));
     }
   }
@@ -78,117 +54,85 @@ std::vector<Action> read_actions(const DeformArguments& options) {
 
 /// Returns the format of the positions. On standard output, they are a CSV table.
 const MeshFormat& positions_format(const std::string& path) {
-  try {
-    return mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
-  } catch (const Error& error) {
-    throw error.at("--positions " + printable(path));
-  }
+  return *error_at("--positions " + printable(path), [&] {
+    return &mesh_format(path == "-" ? "standard_output.csv" : path, FormatUse::write_positions);
+  });
 }
 
-Targets read_targets(const DeformArguments& options) {
-  Targets targets{
-      value_of(options.positions), value_of(options.trace), value_of(options.json), {*value_of(options.mesh.path)}};
-  for (const CLI::Option* option : {options.softness, options.script}) {
-    if (const auto file = value_of(option)) {
-      targets.inputs.push_back(*file);
-    }
-  }
-  if (targets.positions) {
-    positions_format(*targets.positions);
-  }
-  return targets;
-}
-
-void write_positions(std::ostream& out, const std::string& path, const Simulation& simulation) {
-  const Body& body = simulation.body();
+void write_positions(std::ostream& out, const std::string& path, const Body& body) {
   const MeshFormat& format = positions_format(path);
   check_holds(format, body.mesh(), path);
   write_mesh(out, format, {body.mesh(), body.cuts(), body.positions(), body.softness()});
 }
 
-void write_results(const Targets& targets, Deformation& deformation) {
+void write_results(const DeformArguments& arguments, Deformation& deformation) {
   const DeformSummary summary = deformation.summary();
-  Outputs outputs;
-  for (const std::string& input : targets.inputs) {
-    outputs.keep(input);
+  std::vector<std::string> read{arguments.mesh->path()};
+  for (const auto& input : {arguments.softness, arguments.script}) {
+    read.insert(read.end(), input ? 1 : 0, input.value_or(""));
   }
-  if (targets.positions) {
-    outputs.add(*targets.positions,
-                [&](std::ostream& out) { write_positions(out, *targets.positions, deformation.simulation()); });
+  write_outputs(
+      read, {{arguments.positions,
+              [&](std::ostream& out) { write_positions(out, *arguments.positions, deformation.simulation().body()); }},
+             {arguments.trace, [&](std::ostream& out) { write_trace_csv(out, deformation.traces()); }},
+             {arguments.json, [&](std::ostream& out) { write_json(out, summary); }},
+             {arguments.positions || arguments.trace || arguments.json ? std::nullopt : standard_output,
+              [&](std::ostream& out) { write_text(out, summary); }}});
+  std::ranges::for_each(notes_of(summary), say_note);
+}
+
+/// Checks and completes the options that depend on others. Recorded moves begin with the energy of links.
+void complete(DeformArguments& arguments) {
+  Schedule& schedule = arguments.schedule;
+  const bool sweeps = info(schedule.how.scheme).sweeps;
+  require(!sweeps || !arguments.mesh->options.has("--relax-until"), "--relax-until",
+          "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
+  schedule.relax = schedule.relax.value_or(sweeps ? 0 : equilibrium_iterations);
+  if (arguments.script && !arguments.global.energy) {
+    arguments.global.energy = link_energy;
   }
-  if (targets.trace) {
-    outputs.add(*targets.trace, [&](std::ostream& out) { write_trace_csv(out, deformation.traces()); });
-  }
-  if (targets.json) {
-    outputs.add(*targets.json, [&](std::ostream& out) { write_json(out, summary); });
-  }
-  if (targets.none()) {
-    outputs.add("-", [&](std::ostream& out) { write_text(out, summary); });
-  }
-  outputs.commit();
-  for (const std::string& note : notes_of(summary)) {
-    say_note(note);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.law, arguments.elastic.material);
+  require(laws.size() == 1, "--material", "it names several materials", "name one");
+  arguments.elastic.law = laws.front();
+  if (arguments.positions) {
+    positions_format(*arguments.positions);
   }
 }
 
-/// Returns the softness of the options. Recorded moves begin with the energy of links.
-Softness softness_to_begin_with(const DeformArguments& options) {
-  Softness softness = softness_of(options.global);
-  if (options.script->count() > 0 && options.global.energy->count() == 0) {
-    set_energy(softness, link_energy);
+/// Returns the softness of all links, and of those that have their own by their file or by that of the mesh.
+Softness softness_for(const DeformArguments& arguments, const OpenedMesh& opened) {
+  Softness softness = softness_of(arguments.global);
+  softness.links = opened.softness;
+  softness.axes = axes_of(arguments.global, *opened.mesh);
+  error_at("--algorithm " + *value_of(arguments.mesh->options.app().get_option("--algorithm")),
+           [&] { check(arguments.algorithm, *opened.mesh); });
+  if (arguments.softness) {
+    for (const auto& [link, own] : read_softness(std::filesystem::path(*arguments.softness), *opened.mesh)) {
+      softness.links.set(link, own);
+    }
   }
   return softness;
 }
 
-ElasticOptions elastic_options_of(const DeformArguments& options) {
-  ElasticOptions elastic = elastic_of(options.elastic);
-  elastic.law = own_law_of(options.law, elastic.material);
-  elastic.thickness = value_of(options.thickness, parameters::thickness);
-  return elastic;
-}
-
-/// Throws Error, with the option, if the algorithm does not work on the mesh.
-void check_algorithm(const DeformArguments& options, Algorithm algorithm, const Mesh& mesh) {
-  try {
-    check(algorithm, mesh);
-  } catch (const Error& error) {
-    throw error.at("--algorithm " + *value_of(options.algorithm));
-  }
-}
-
-std::vector<chainmail::Command> recorded_moves(const DeformArguments& options, const MeshPointer& mesh) {
-  const auto file = value_of(options.script);
-  if (!file) {
+std::vector<chainmail::Command> recorded_moves(const DeformArguments& arguments, const MeshPointer& mesh) {
+  if (!arguments.script) {
     return {};
   }
-  Watch watch("reading " + printable(*file));
-  return read_moves(std::filesystem::path(*file), mesh, watch.progress());
+  return watched("reading " + printable(*arguments.script), {}, [&](const Progress& progress) {
+    return read_moves(std::filesystem::path(*arguments.script), mesh, progress);
+  });
 }
 
-void deform(const DeformArguments& options) {
-  const Algorithm algorithm = algorithm_of("--algorithm", *value_of(options.algorithm), every_algorithm());
-  const Precision precision =
-      choice_of(options.precision, precisions(Precision::double_precision), Precision::double_precision);
-  const RelaxationScheme scheme = choice_of(options.relaxation, schemes(false), RelaxationScheme::mean);
-  Softness softness = softness_to_begin_with(options);
-  const ElasticOptions elastic = elastic_options_of(options);
-  const Targets targets = read_targets(options);
-  const Schedule schedule = read_schedule(options, scheme);
-  const std::vector<Action> actions = read_actions(options);
-
-  OpenedMesh opened = open_mesh(options.mesh);
-  const MeshPointer mesh = opened.mesh;
-  check(precision, *mesh);
-  softness.links = std::move(opened.softness);
-  softness.axes = axes_of(options.global, *mesh);
-  check_algorithm(options, algorithm, *mesh);
-  if (const auto file = value_of(options.softness)) {
-    for (const auto& [link, own] : read_softness(std::filesystem::path(*file), *mesh)) {
-      softness.links.set(link, own);
-    }
-  }
-  const std::vector<chainmail::Command> recorded = recorded_moves(options, mesh);
-  check_actions(actions, *last_mesh(mesh, recorded), schedule.steps);
+void deform(DeformArguments& arguments) {
+  arguments.mesh->options.read();
+  complete(arguments);
+  const Schedule& schedule = arguments.schedule;
+  const std::vector<Action> actions = read_actions(arguments);
+  const OpenedMesh opened = open_mesh(*arguments.mesh);
+  check(arguments.precision, *opened.mesh);
+  const Softness softness = softness_for(arguments, opened);
+  const std::vector<chainmail::Command> recorded = recorded_moves(arguments, opened.mesh);
+  check_actions(actions, *last_mesh(opened.mesh, recorded), schedule.steps);
 
   std::optional<ProgressLine> line(std::chrono::seconds(1));
   const std::string of_all = " of " + std::to_string(passes_of(recorded, actions, schedule.steps));
@@ -196,75 +140,78 @@ void deform(const DeformArguments& options) {
     ++done;
     line->show([&] { return "pass " + std::to_string(done) + of_all; });
   };
-  Deformation deformation(mesh, algorithm, precision,
-                          {schedule.relax, schedule.until, targets.trace.has_value(), on_end});
+  Deformation deformation(opened.mesh, arguments.algorithm, arguments.precision,
+                          {*schedule.relax, schedule.until, arguments.trace.has_value(), on_end});
   deformation.apply(commands::SetSoftness{softness});
-  deformation.apply(commands::SetElastic{elastic});
+  deformation.apply(commands::SetElastic{arguments.elastic});
   deformation.apply(schedule.how);
   carry_out(deformation, recorded, actions, schedule.steps);
   line.reset();
-  write_results(targets, deformation);
+  write_results(arguments, deformation);
 }
 
-void add_acts(CLI::App& app, DeformArguments& options) {
-  options.move = add_value(app, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
-  options.by = add_value(app, "--by", "ID:DX[,DY[,DZ]]",
-                         "drag an element by a distance; without ID, drag the handle of --grab: DX,DY[,DZ]");
-  options.grab = add_value(app, "--grab", "IDS|LAYER",
-                           "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
-  options.rotate = add_value(app, "--rotate", "AXIS:DEGREES",
-                             "rotate the handle of --grab about its middle; AXIS is x, y, z or X,Y,Z");
-  options.cut = add_value(app, "--cut", "A-B", "cut the link between two elements");
-  options.pin =
-      add_value(app, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
-  for (CLI::Option* option : {options.move, options.by, options.grab, options.rotate, options.cut, options.pin}) {
+void add_actions(CLI::App& app, DeformArguments& arguments) {
+  using enum Action::Kind;
+  const auto add = [&](Action::Kind kind, const std::string& name, const std::string& type, const std::string& help) {
+    CLI::Option* option = add_value(app, name, type, help);
     option->group("Actions (may be repeated; they run in the given order)");
-  }
-  options.steps = add_value(app, "--steps", "N", "passes per move, in equal steps [1]");
-  options.script =
-      add_value(app, "--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions");
+    arguments.actions[option] = kind;
+  };
+  add(move, "--move", "ID:X[,Y[,Z]]", "drag an element to a position; omitted coordinates stay");
+  add(by, "--by", "ID:DX[,DY[,DZ]]",
+      "drag an element by a distance; without ID, drag the handle of --grab: DX,DY[,DZ]");
+  add(grab, "--grab", "IDS|LAYER", "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
+  add(rotate, "--rotate", "AXIS:DEGREES", "rotate the handle of --grab about its middle; AXIS is x, y, z or X,Y,Z");
+  add(cut, "--cut", "A-B", "cut the link between two elements");
+  add(pin, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
 }
 
-void add_model(CLI::App& app, DeformArguments& options) {
-  options.algorithm = add_value(app, "--algorithm", "NAME", joined_words(names_of(every_algorithm()), "|"))->required();
-  options.global = add_softness(app);
-  options.softness = add_value(app, "--softness", "FILE",
-                               "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) +
-                                   " or a,b," + softness_names(","));
-  options.relax = add_value(app, "--relax", "N",
-                            "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
-                                std::to_string(equilibrium_iterations) + "]");
-  options.relaxation = add_relaxation(app, false);
-  options.relax_step = add_parameter(app, parameters::relax_step);
-  options.relax_until = add_parameter(app, parameters::relax_until);
-  options.precision = add_precision(app, Precision::double_precision);
-  options.elastic = add_elastic(app);
-  options.law = add_strain_law(app);
-  options.thickness = add_parameter(app, parameters::thickness);
-  options.mesh.space = add_space(app);
-}
-
-void add_outputs(CLI::App& app, DeformArguments& options) {
-  options.positions =
-      add_value(app, "--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions));
-  options.trace =
-      add_value(app, "--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved");
-  options.json = add_value(app, "--json", "FILE", "write passes, violation, energy and displacement as JSON");
+void add_model(Options& options, DeformArguments& arguments) {
+  Schedule& schedule = arguments.schedule;
+  options
+      .add("--algorithm", "NAME", joined_words(names_of(every_algorithm()), "|"), arguments.algorithm,
+           [](const std::string& where, const std::string& name) {
+             return algorithm_of(where, name, every_algorithm());
+           })
+      ->required();
+  add_softness(options, arguments.global);
+  options.add("--softness", "FILE",
+              "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) + " or a,b," +
+                  softness_names(","),
+              arguments.softness);
+  options.add("--relax", "N",
+              "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
+                  std::to_string(equilibrium_iterations) + "]",
+              schedule.relax, count_from(0));
+  add_relaxation(options, false, schedule.how.scheme);
+  options.add(parameters::relax_step, schedule.how.step);
+  options.add(parameters::relax_until, schedule.until);
+  add_precision(options, arguments.precision);
+  add_elastic(options, arguments.elastic);
+  add_strain_law(options, arguments.law);
+  options.add(parameters::thickness, arguments.elastic.thickness);
+  add_space(*arguments.mesh);
 }
 
 }  // namespace
 
 Command add_deform(CLI::App& root) {
   CLI::App* app = root.add_subcommand("deform", "Drag elements of a mesh, pin elements, cut links");
-  DeformArguments options{};
-  options.app = app;
-  options.mesh = add_mesh_options(*app);
-  add_model(*app, options);
-  add_acts(*app, options);
-  add_outputs(*app, options);
+  const auto arguments = std::make_shared<DeformArguments>(DeformArguments{add_mesh(*app)});
+  Options& options = arguments->mesh->options;
+  add_model(options, *arguments);
+  add_actions(*app, *arguments);
+  options.add("--steps", "N", "passes per move, in equal steps [1]", arguments->schedule.steps, count_from(1));
+  options.add("--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions",
+              arguments->script);
+  options.add("--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions),
+              arguments->positions);
+  options.add("--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved",
+              arguments->trace);
+  options.add("--json", "FILE", "write passes, violation, energy and displacement as JSON", arguments->json);
   app->footer("Algorithms:\n" + algorithms_help(every_algorithm()) + "\nFormats of positions:\n" +
               mesh_formats_help(FormatUse::write_positions) + "\n" + example);
-  return {app, [options] { deform(options); }};
+  return {app, [arguments] { deform(*arguments); }};
 }
 
 }  // namespace chainmail::command_line

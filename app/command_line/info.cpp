@@ -7,13 +7,14 @@ namespace {
 
 /// Reads a mesh, or the object of a session. Reading a session checks its moves and its lesson, too. A mesh that it
 /// names is beside it or among the samples.
-OpenedMesh contents_of(const MeshOptions& options) {
-  const std::filesystem::path path = *value_of(options.path);
-  if (!is_session(path)) {
-    return open_mesh(options);
+OpenedMesh contents_of(const MeshArguments& mesh) {
+  const std::filesystem::path path = mesh.path();
+  InputFile input = open_file(path);
+  if (input.kind != FileKind::session) {
+    return open_mesh(mesh, std::move(input));
   }
-  const Session session =
-      read_session(path, {}, [&](const std::string& name, std::uint32_t /*across*/, const Progress& /*progress*/) {
+  const Session session = read_session(
+      std::move(input.file), {}, [&](const std::string& name, std::uint32_t /*across*/, const Progress& /*progress*/) {
         const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
         std::error_code none;
         return read_mesh(!exists(beside, none) && exists(sample, none) ? sample : beside);
@@ -25,19 +26,15 @@ OpenedMesh contents_of(const MeshOptions& options) {
 
 Command add_info(CLI::App& root) {
   CLI::App* app = root.add_subcommand("info", "Show the contents of a mesh, or check a session and its lesson");
-  const MeshOptions mesh = add_mesh_options(*app);
-  CLI::Option* json = add_value(*app, "--json", "FILE", "write JSON to this file instead");
+  const auto mesh = add_mesh(*app);
+  const CLI::Option* json = add_value(*app, "--json", "FILE", "write JSON to this file instead");
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
-            const MeshSummary summary = summarize(contents_of(mesh));
-            if (const auto path = value_of(json)) {
-              Outputs outputs;
-              outputs.keep(*value_of(mesh.path));
-              outputs.add(*path, [&](std::ostream& out) { write_json(out, summary); });
-              outputs.commit();
-            } else {
-              write_file("-", [&](std::ostream& out) { write_text(out, summary); });
-            }
+            const MeshSummary summary = summarize(contents_of(*mesh));
+            const auto path = value_of(json);
+            write_outputs({mesh->path()}, {{path, [&](std::ostream& out) { write_json(out, summary); }},
+                                           {path ? std::nullopt : standard_output,
+                                            [&](std::ostream& out) { write_text(out, summary); }}});
           }};
 }
 

@@ -31,7 +31,8 @@ void ProgressLine::write(const std::string& text) {
   next_ = std::chrono::steady_clock::now() + between_lines;
 }
 
-Watch::Watch(std::string text) : text_(std::move(text)) {
+Watch::Watch(std::string text) {
+  job_.say(std::move(text));
   if (line_.is_terminal()) {
     try {
       thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
@@ -45,7 +46,7 @@ void Watch::show(const std::stop_token& stop) {
   try {
     std::unique_lock lock(mutex_);
     while (!over_.wait_for(lock, stop, between_lines, [&] { return stop.stop_requested(); })) {
-      line_.show([&] { return percent(job_.share) + text_; });
+      line_.show([&] { return percent(job_.share()) + job_.text(); });
     }
   } catch (const std::exception&) {
     // A line that cannot be written must not end the work.

@@ -45,13 +45,12 @@ class Watch {
  public:
   explicit Watch(std::string text);
 
-  Progress progress() { return Progress(job_); }
+  const Progress& progress() const { return job_; }
 
  private:
   void show(const std::stop_token& stop);
 
-  std::string text_;
-  JobState job_;
+  Progress job_ = Progress::watched();
   ProgressLine line_;
   std::mutex mutex_;
   std::condition_variable_any over_;

@@ -55,9 +55,7 @@ void refuse_extras(const CLI::App& root) {
     }
     const std::string& word = *found;
     const bool is_name = found != extras.begin();  // behind `--`
-    if (word.size() > 1 && word.front() == '-' && !is_name) {
-      throw Error(word, "there is no such option", help_hint(app));
-    }
+    require(word.size() < 2 || word.front() != '-' || is_name, word, "there is no such option", help_hint(app));
     throw Error(word, with_extras == &root ? "there is no such command" : "unexpected argument", help_hint(app));
   }
 }
@@ -67,9 +65,8 @@ void refuse_extras(const CLI::App& root) {
 void refuse_swallowed_options(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& value : option->results()) {
-      if (!option->get_positional() && value.starts_with("--")) {
-        throw Error(option->get_name(), "its value is missing", help_hint(app));
-      }
+      require(option->get_positional() || !value.starts_with("--"), option->get_name(), "its value is missing",
+              help_hint(app));
     }
   }
 }

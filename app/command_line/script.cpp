@@ -3,81 +3,18 @@
 #include <algorithm>
 #include <set>
 
-#include "command_line/common.h"
 #include "command_line/model.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::command_line {
 namespace {
 
+using enum Action::Kind;
+
 ElementId parse_id(const std::string& where, std::string_view text) {
   const auto id = parse_count(text);
-  if (!id) {
-    throw Error(where, in_quotes(text) + " is not an element's id", "use a whole number from 0");
-  }
+  require(id.has_value(), where, in_quotes(text) + " is not an element's id", "use a whole number from 0");
   return *id;
-}
-
-void check_element(const Action& action, ElementId element, const Mesh& mesh) {
-  if (element >= mesh.element_count()) {
-    throw Error(action.where, "there is no element " + std::to_string(element),
-                "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
-  }
-}
-
-/// Returns the elements that an action pins or grabs, in the given order.
-std::vector<ElementId> elements_of(const Action& action, const Mesh& mesh) {
-  if (action.layer.empty() && action.kind == Action::Kind::pin) {
-    return {action.element};
-  }
-  if (action.layer.empty()) {
-    std::vector<ElementId> elements;
-    for (const auto& [first, last] : action.ranges) {
-      check_element(action, last, mesh);
-      if (elements.size() + (last - first) >= mesh.element_count()) {
-        throw Error(action.where, "it names more elements than the mesh has", "name each element once");
-      }
-      for (ElementId element = first; element <= last; ++element) {
-        elements.push_back(element);
-      }
-    }
-    return elements;
-  }
-  const auto pins = pins_by_name(action.where, action.layer, mesh);
-  if (!pins) {
-    throw Error(action.where, in_quotes(action.layer) + " is not an element's id",
-                "use a whole number from 0, or " + pin_names());
-  }
-  return *pins;
-}
-
-void check_axes(const Action& action, const Mesh& mesh) {
-  for (int k = 0; k < int(action.coordinates.size()); ++k) {
-    const double coordinate = action.coordinates[std::size_t(k)];
-    const bool stays = coordinate == 0 || (action.kind == Action::Kind::move && coordinate == mesh.origin[k]);
-    if (!mesh.has_axis(k) && !stays) {
-      const std::string axis(1, "xyz"[k]);
-      throw Error(action.where, "the object does not extend along " + axis,
-                  "write 0 for " + axis + ", or use more dimensions with --space");
-    }
-  }
-}
-
-void check_link(const Action& action, const Mesh& mesh) {
-  check_element(action, action.other, mesh);
-  if (!find_link(mesh, action.element, action.other)) {
-    throw Error(action.where, "these elements are not linked", "use the ids of the two ends of a link");
-  }
-}
-
-std::vector<double> parse_coordinates(const std::string& where, std::string_view text) {
-  std::vector<double> coordinates;
-  for (const std::string_view number : split(text)) {
-    coordinates.push_back(parse_number_of(where, number));
-    if (coordinates.size() > 3) {
-      throw Error(where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
-    }
-  }
-  return coordinates;
 }
 
 /// Reads `ID,A-B,…`.
@@ -87,16 +24,47 @@ std::vector<std::pair<ElementId, ElementId>> parse_ranges(const std::string& whe
     const std::size_t dash = range.find('-');
     const ElementId first = parse_id(where, range.substr(0, dash));
     const ElementId last = dash == std::string_view::npos ? first : parse_id(where, range.substr(dash + 1));
-    if (last < first) {
-      throw Error(where, in_quotes(range) + " is not a range", "write the smaller id first");
-    }
+    require(first <= last, where, in_quotes(range) + " is not a range", "write the smaller id first");
     ranges.emplace_back(first, last);
   }
   return ranges;
 }
 
-bool is_move(const Action& action) {
-  return action.kind == Action::Kind::move || action.kind == Action::Kind::by || action.kind == Action::Kind::rotate;
+bool is_move(const Action& action) { return action.kind == move || action.kind == by || action.kind == rotate; }
+
+void check_element(const Action& action, ElementId element, const Mesh& mesh) {
+  require(element < mesh.element_count(), action.where, "there is no element " + std::to_string(element),
+          "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
+}
+
+/// Returns the elements that an action pins or grabs, in the given order.
+std::vector<ElementId> elements_of(const Action& action, const Mesh& mesh) {
+  if (!action.layer.empty()) {
+    const auto pins = pins_by_name(action.where, action.layer, mesh);
+    require(pins.has_value(), action.where, in_quotes(action.layer) + " is not an element's id",
+            "use a whole number from 0, or " + pin_names());
+    return *pins;
+  }
+  std::vector<ElementId> elements;
+  for (const auto& [first, last] : action.ranges) {
+    check_element(action, last, mesh);
+    require(elements.size() + (last - first) < mesh.element_count(), action.where,
+            "it names more elements than the mesh has", "name each element once");
+    for (ElementId element = first; element <= last; ++element) {
+      elements.push_back(element);
+    }
+  }
+  return elements;
+}
+
+void check_axes(const Action& action, const Mesh& mesh) {
+  for (int k = 0; k < int(action.coordinates.size()); ++k) {
+    const double coordinate = action.coordinates[std::size_t(k)];
+    const bool stays = coordinate == 0 || (action.kind == move && coordinate == mesh.origin[k]);
+    const std::string axis(1, "xyz"[k]);
+    require(mesh.has_axis(k) || stays, action.where, "the object does not extend along " + axis,
+            "write 0 for " + axis + ", or use more dimensions with --space");
+  }
 }
 
 /// Checks actions one after another, with what the actions before have pinned and grabbed.
@@ -104,57 +72,35 @@ class ActionChecker {
  public:
   ActionChecker(const Mesh& mesh, std::uint32_t steps) : mesh_(mesh), steps_(steps) {}
 
-  void check(const std::vector<Action>& actions) {
-    for (const Action& action : actions) {
-      check_element(action, action.element, mesh_);
-      if (action.of_handle && !is_grabbed_) {
-        throw Error(
-            action.where,
+  void check(const Action& action) {
+    check_element(action, action.element, mesh_);
+    require(!action.of_handle || is_grabbed_, action.where,
             "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
             "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
-      }
-      is_grabbed_ = action.kind == Action::Kind::grab || action.of_handle;
-      check_one(action);
-      count_passes(action);
-    }
+    is_grabbed_ = action.kind == grab || action.of_handle;
+    check_one(action);
+    count_passes(action);
   }
 
  private:
-  /// A pass has a row in the results, which names the elements of the handle.
-  void count_passes(const Action& action) {
-    if (action.kind == Action::Kind::grab) {
-      handle_ = elements_of(action, mesh_).size();
-    } else if (is_move(action)) {
-      passes_ += steps_;
-      named_ += steps_ * (action.of_handle ? handle_ : 1);
-    }
-    if (passes_ > most_passes || named_ > most_named) {
-      throw Error("--steps",
-                  "the moves have more than " + std::to_string(most_passes) + " passes in all, or name more than " +
-                      std::to_string(most_named) + " elements in them",
-                  "use fewer steps");
-    }
-  }
-
   void check_one(const Action& action) {
-    switch (action.kind) {
-      case Action::Kind::cut:
-        return check_link(action, mesh_);
-      case Action::Kind::pin:
-        return pinned_.merge(as_set(elements_of(action, mesh_)));
-      case Action::Kind::grab:
-        return check_grab(action);
-      case Action::Kind::rotate:
-        return check_rotation(action);
-      case Action::Kind::move:
-      case Action::Kind::by:
-        check_axes(action, mesh_);
-        return action.of_handle ? void() : check_free(action, action.element);
+    if (action.kind == cut) {
+      check_element(action, action.other, mesh_);
+      require(find_link(mesh_, action.element, action.other).has_value(), action.where, "these elements are not linked",
+              "use the ids of the two ends of a link");
+    } else if (action.kind == pin) {
+      const std::vector<ElementId> elements = elements_of(action, mesh_);
+      pinned_.insert(elements.begin(), elements.end());
+    } else if (action.kind == grab) {
+      check_grab(action);
+    } else if (action.kind == rotate) {
+      error_at(action.where, [&] { chainmail::check(action.rotation, mesh_); });
+    } else {
+      check_axes(action, mesh_);
+      if (!action.of_handle) {
+        check_free(action, action.element);
+      }
     }
-  }
-
-  static std::set<ElementId> as_set(const std::vector<ElementId>& elements) {
-    return {elements.begin(), elements.end()};
   }
 
   void check_free(const Action& action, ElementId element) const {
@@ -164,7 +110,7 @@ class ActionChecker {
     }
   }
 
-  void check_grab(const Action& action) const {
+  void check_grab(const Action& action) {
     std::set<ElementId> grabbed;
     for (const ElementId element : elements_of(action, mesh_)) {
       check_free(action, element);
@@ -172,14 +118,19 @@ class ActionChecker {
         throw Error(action.where, "element " + std::to_string(element) + " is named twice", "name each element once");
       }
     }
+    handle_ = grabbed.size();
   }
 
-  void check_rotation(const Action& action) const {
-    try {
-      chainmail::check(action.rotation, mesh_);
-    } catch (const Error& error) {
-      throw error.at(action.where);
+  /// A pass has a row in the results, which names the elements of the handle.
+  void count_passes(const Action& action) {
+    if (is_move(action)) {
+      passes_ += steps_;
+      named_ += steps_ * (action.of_handle ? handle_ : 1);
     }
+    require(passes_ <= most_passes && named_ <= most_named, "--steps",
+            "the moves have more than " + std::to_string(most_passes) + " passes in all, or name more than " +
+                std::to_string(most_named) + " elements in them",
+            "use fewer steps");
   }
 
   static constexpr std::uint64_t most_passes = 100'000, most_named = 10'000'000;
@@ -205,22 +156,17 @@ Point target_of(const Action& action, const Mesh& mesh, const Point& start) {
 
 void apply(Deformation& deformation, const Action& action, std::uint32_t steps) {
   const Mesh& mesh = deformation.simulation().mesh();
-  switch (action.kind) {
-    case Action::Kind::cut:
-      return deformation.apply(commands::Cut{{*find_link(mesh, action.element, action.other)}});
-    case Action::Kind::pin:
-      return deformation.apply(commands::Pin{elements_of(action, mesh)});
-    case Action::Kind::grab:
-      return deformation.apply(commands::Grab{elements_of(action, mesh)});
-    case Action::Kind::move:
-    case Action::Kind::by:
-    case Action::Kind::rotate:
-      if (action.of_handle) {
-        deformation.move_handle(target_of(action, mesh, Point::Zero()), action.rotation, steps);
-      } else {
-        const Point start = point_of(mesh, deformation.simulation().body().positions(), action.element);
-        deformation.move(action.element, target_of(action, mesh, start), steps);
-      }
+  if (action.kind == cut) {
+    deformation.apply(commands::Cut{{*find_link(mesh, action.element, action.other)}});
+  } else if (action.kind == pin) {
+    deformation.apply(commands::Pin{elements_of(action, mesh)});
+  } else if (action.kind == grab) {
+    deformation.apply(commands::Grab{elements_of(action, mesh)});
+  } else if (action.of_handle) {
+    deformation.move_handle(target_of(action, mesh, Point::Zero()), action.rotation, steps);
+  } else {
+    const Point start = point_of(mesh, deformation.simulation().body().positions(), action.element);
+    deformation.move(action.element, target_of(action, mesh, start), steps);
   }
 }
 
@@ -237,59 +183,36 @@ void carry_out(Deformation& deformation, const Action& action, std::uint32_t ste
 
 }  // namespace
 
-Rotation parse_rotation(const std::string& where, std::string_view text) {
-  const std::size_t mark = text.find(':');
-  const std::string_view axis = text.substr(0, mark);
-  if (mark == std::string_view::npos) {
-    throw Error(where, "it has no axis or no angle", "write AXIS:DEGREES, such as z:30 or 0,1,1:30");
-  }
-  Rotation rotation{Point::Zero(), parse_number_of(where, text.substr(mark + 1))};
-  if (const std::size_t k = std::string_view("xyz").find(axis); axis.size() == 1 && k != std::string_view::npos) {
-    rotation.axis[int(k)] = 1;
-    return rotation;
-  }
-  if (std::ranges::count(axis, ',') != 2) {
-    throw Error(where, in_quotes(axis) + " is not an axis", "use x, y, z, or three coordinates");
-  }
-  const std::vector<double> coordinates = parse_coordinates(where, axis);
-  rotation.axis = {coordinates[0], coordinates[1], coordinates[2]};
-  if (rotation.axis == Point::Zero()) {
-    throw Error(where, "the rotation has no axis: all its coordinates are 0", "use x, y, z, or other coordinates");
-  }
-  return rotation;
-}
-
 Action parse_action(Action::Kind kind, const std::string& option, const std::string& text) {
-  Action action{kind, option + " " + text, 0, 0, {}, {}};
-  const bool starts_with_digit = text.find_first_of("0123456789") == 0;
-  const bool is_cut = kind == Action::Kind::cut;
-  const std::size_t mark = text.find(is_cut ? '-' : ':');
-  if (kind == Action::Kind::rotate) {
-    action.rotation = parse_rotation(action.where, text);
+  Action action{.kind = kind, .where = option + " " + text};
+  const std::string& where = action.where;
+  const std::size_t mark = text.find(kind == cut ? '-' : ':');
+  if (kind == rotate) {
+    action.rotation = parse_rotation(where, text);
     action.of_handle = true;
-  } else if ((kind == Action::Kind::pin || kind == Action::Kind::grab) && !starts_with_digit) {
+  } else if ((kind == pin || kind == grab) && text.find_first_of("0123456789") != 0) {
     action.layer = text;
-  } else if (kind == Action::Kind::pin) {
-    action.element = parse_id(action.where, text);
-  } else if (kind == Action::Kind::grab) {
-    action.ranges = parse_ranges(action.where, text);
-  } else if (kind == Action::Kind::by && mark == std::string::npos) {
+  } else if (kind == pin) {
+    action.ranges = {{parse_id(where, text), parse_id(where, text)}};
+  } else if (kind == grab) {
+    action.ranges = parse_ranges(where, text);
+  } else if (kind == by && mark == std::string::npos) {
     action.of_handle = true;
-    action.coordinates = parse_coordinates(action.where, text);
-  } else if (mark == std::string::npos) {
-    throw Error(action.where, is_cut ? "it does not name a link" : "it does not name a target",
-                is_cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
+    action.coordinates = parse_coordinates(where, text);
   } else {
-    action.element = parse_id(action.where, std::string_view(text).substr(0, mark));
-    const std::string_view rest = std::string_view(text).substr(mark + 1);
-    is_cut ? void(action.other = parse_id(action.where, rest))
-           : void(action.coordinates = parse_coordinates(action.where, rest));
+    require(mark != std::string::npos, where, kind == cut ? "it does not name a link" : "it does not name a target",
+            kind == cut ? "write A-B with the ids of the two ends" : "write ID:X[,Y[,Z]]");
+    action.element = parse_id(where, text.substr(0, mark));
+    const std::string rest = text.substr(mark + 1);
+    action.other = kind == cut ? parse_id(where, rest) : 0;
+    action.coordinates = kind == cut ? std::vector<double>() : parse_coordinates(where, rest);
   }
   return action;
 }
 
 void check_actions(const std::vector<Action>& actions, const Mesh& mesh, std::uint32_t steps) {
-  ActionChecker(mesh, steps).check(actions);
+  ActionChecker checker(mesh, steps);
+  std::ranges::for_each(actions, [&](const Action& action) { checker.check(action); });
 }
 
 std::uint64_t passes_of(const std::vector<chainmail::Command>& recorded, const std::vector<Action>& actions,

@@ -18,22 +18,18 @@ struct Action {
   Kind kind = Kind::move;
   std::string where;  // the option and its value, for error messages
   ElementId element = 0;
-  ElementId other = 0;              // cut: the other end of the link
-  std::vector<double> coordinates;  // move, by: the given ones of x, y and z
-  std::string layer;                // pin, grab: the name of a layer; empty for elements
-  /// Grab: the first and the last element of each range.
-  std::vector<std::pair<ElementId, ElementId>> ranges = {};
-  Rotation rotation = {};  // rotate
-  bool of_handle = false;  // by, rotate: moves what the last --grab has grabbed
+  ElementId other = 0;                                       // cut: the other end of the link
+  std::vector<double> coordinates = {};                      // move, by: the given ones of x, y and z
+  std::string layer = {};                                    // pin, grab: the name of a layer; empty for elements
+  std::vector<std::pair<ElementId, ElementId>> ranges = {};  // pin, grab: the first and the last element of each range
+  Rotation rotation = {};                                    // rotate
+  bool of_handle = false;                                    // by, rotate: moves what the last --grab has grabbed
 };
 
 /// Reads `ID:X[,Y[,Z]]` for a move, the same or `X[,Y[,Z]]` for a move of what is grabbed, `A-B` for a cut, `ID` or the
 /// name of a layer for a pin, `ID,A-B,…` or the name of a layer for a grab, and `AXIS:DEGREES` for a rotation. Throws
 /// Error naming the option.
 Action parse_action(Action::Kind kind, const std::string& option, const std::string& text);
-
-/// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
-Rotation parse_rotation(const std::string& where, std::string_view text);
 
 /// Throws Error if an action does not fit the mesh or the actions before it: if the element, link or axis does not
 /// exist, or if a moved element is already pinned, if an element is grabbed twice, or if nothing is grabbed. Also if

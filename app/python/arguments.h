@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "body/energy_kind.h"
+#include "body/softness.h"
 #include "python/arrays.h"
 #include "python/object.h"
 
@@ -60,9 +60,18 @@ const Words& words<StrainLaw::Kind>();
 std::size_t index_of(const Words& words, std::string_view word);
 
 template <class Kind>
+Kind constant_for(std::string_view word) {
+  return Kind(index_of(words<Kind>(), word));
+}
+template <>
+inline Algorithm constant_for<Algorithm>(std::string_view word) {
+  return algorithm_of(word);
+}
+template <class Kind>
 std::string_view word_for(Kind kind) {
   return words<Kind>().all[std::size_t(kind)];
 }
+inline std::string_view word_for(Algorithm method) { return info(method).offered_name(); }
 
 }  // namespace chainmail::python
 
@@ -95,7 +104,7 @@ struct type_caster<Kind> {
     if (!word.load(source, convert)) {
       return false;
     }
-    value = Kind(chainmail::python::index_of(chainmail::python::words<Kind>(), cast_op<std::string&>(word)));
+    value = chainmail::python::constant_for<Kind>(cast_op<std::string&>(word));
     return true;
   }
   static handle cast(Kind kind, return_value_policy /*policy*/, handle /*parent*/) {
@@ -103,41 +112,13 @@ struct type_caster<Kind> {
   }
 };
 
-/// A method is its name, which Error is thrown for if there is none.
-template <>
-struct type_caster<chainmail::Algorithm> {
-  PYBIND11_TYPE_CASTER(chainmail::Algorithm, const_name("str"));
-  bool load(handle source, bool convert) {
-    make_caster<std::string> word;
-    if (!word.load(source, convert)) {
-      return false;
-    }
-    value = chainmail::algorithm_of(cast_op<std::string&>(word));
-    return true;
-  }
-  static handle cast(chainmail::Algorithm method, return_value_policy /*policy*/, handle /*parent*/) {
-    return pybind11::cast(chainmail::info(method).offered_name()).release();
-  }
-};
-
+/// The argument is marked when the call begins.
 template <class Owner>
-struct type_caster<chainmail::python::Used<Owner>> {
+struct type_caster<chainmail::python::Used<Owner>> : make_caster<Owner> {
   using Used = chainmail::python::Used<Owner>;
-  static constexpr auto name = make_caster<Owner>::name;
   template <class>
-  using cast_op_type = Used&;
-
-  bool load(handle source, bool convert) {
-    make_caster<Owner> owner;
-    if (source.is_none() || !owner.load(source, convert)) {
-      return false;
-    }
-    used.emplace(cast_op<Owner&>(owner));
-    return true;
-  }
-  operator Used&() { return *used; }
-
-  std::optional<Used> used;
+  using cast_op_type = Used;
+  operator Used() { return Used(make_caster<Owner>::operator Owner&()); }
 };
 
 }  // namespace pybind11::detail

@@ -28,9 +28,9 @@ auto run(Object& object, bool is_slow, Work work) {
     return work(object.deformer());
   }
   try {
-    return run_long(object.job(), py::none(), [&](Job&) { return work(object.deformer()); });
+    return run_long(&object.job(), py::none(), [&](const Progress&) { return work(object.deformer()); });
   } catch (const py::error_already_set&) {
-    object.set_job(std::make_shared<Job>());  // the cancelled one would cancel the next move, too
+    object.set_job(Progress::watched());  // the cancelled one would cancel the next move, too
     throw;
   }
 }
@@ -172,14 +172,14 @@ void add_moves(MoverClass& deformer) {
            "target is not finite or would leave the space of the object, and if the method has no answer; and\n"
            "Cancelled. Nothing has moved then.")
       .def(
-          "moved", [](Used<Mover>& object) { return array_of(object->deformer().moved()); },
+          "moved", [](const Used<Mover>& object) { return array_of(object->deformer().moved()); },
           "Returns the elements that the last move moved, in order of update, without the handle: shape (n,), dtype\n"
           "uint32. A copy.")
       .def(
-          "release", [](Used<Mover>& object) { object->deformer().release(); },
+          "release", [](const Used<Mover>& object) { object->deformer().release(); },
           "Releases the handle of the last move: relaxation may move its elements.")
       .def(
-          "set_tracing", [](Used<Mover>& object, bool on) { object->set_tracing(on); }, py::arg("on"),
+          "set_tracing", [](const Used<Mover>& object, bool on) { object->set_tracing(on); }, py::arg("on"),
           "Turns on or off that moves are traced.")
       .def("trace", &trace_of,
            "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The\n"
@@ -201,7 +201,7 @@ void add_relaxation(MoverClass& deformer) {
            "that were reached.")
       .def(
           "certificate",
-          [](Used<Mover>& object) {
+          [](const Used<Mover>& object) {
             const Unlocked unlocked;
             return object->deformer().certificate().value_or(EquilibriumCertificate());
           },
@@ -218,15 +218,15 @@ void add_settings(MoverClass& deformer) {
           // It changes only with the lock of Python.
           [](const Mover& mover) { return mover.object()->method(); }, "Name of the method.")
       .def(
-          "set_method", [](Used<Mover>& object, Algorithm method) { object->set_method(method); }, py::arg("method"),
+          "set_method", [](const Used<Mover>& object, Algorithm method) { object->set_method(method); },
+          py::arg("method"),
           "Continues with another method from the current positions. Raises Error if there is none with this name,\n"
           "if it does not work on the mesh, and if a view of the positions would not show positions any more.")
       .def("set_threads", &set_threads, py::arg("threads"),
            "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses\n"
            "more, for large objects, and no result depends on it.")
       .def(
-          "set_job", [](Used<Mover>& object, const JobPointer& job) { object->set_job(job); },
-          py::arg("job").none(false),
+          "set_job", [](const Used<Mover>& object, const Progress& job) { object->set_job(job); }, py::arg("job"),
           "Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.")
       .def("__repr__", [](const Mover& mover) {
         return "<Deformer: " + std::string(info(mover.object()->method()).offered_name()) + " on " +
@@ -241,7 +241,7 @@ py::array deform(const MeshObjectPointer& mesh, const Elements& elements, const 
   HeldHandle held(object, elements);
   check_displacement(*mesh->mesh, "displacement", displacement);
   const Pose target{held.handle.grabbed().pivot + displacement, Point::Zero()};
-  run_long(object.job(), py::none(), [&](Job&) { return object.deformer().move(held.handle, target); });
+  run_long(&object.job(), py::none(), [&](const Progress&) { return object.deformer().move(held.handle, target); });
   const PositionView positions = object.body().positions();
   return array_of_points(*mesh->mesh, [&](ElementId e) { return point_of(*mesh->mesh, positions, e); });
 }
@@ -255,17 +255,17 @@ void add_handle(py::module_& module) {
       "positions were set, restored or reset, grab again.");
   handle.def(py::init(&grab<Object>), py::arg("body"), py::arg("elements"))
       .def_property_readonly(
-          "elements", [](Used<HeldHandle>& one) { return array_of(one->handle.elements()); },
+          "elements", [](const Used<HeldHandle>& one) { return array_of(one->handle.elements()); },
           "The grabbed elements, ascending: shape (n,), dtype uint32. A copy.")
       .def_property_readonly(
-          "grabbed", [](Used<HeldHandle>& one) { return UserPose::of(one->handle.grabbed()); },
+          "grabbed", [](const Used<HeldHandle>& one) { return UserPose::of(one->handle.grabbed()); },
           "The pose at which it was grabbed.")
       .def_property_readonly(
-          "pose", [](Used<HeldHandle>& one) { return UserPose::of(one->handle.pose()); },
+          "pose", [](const Used<HeldHandle>& one) { return UserPose::of(one->handle.pose()); },
           "The pose that the last move reached.")
       .def(
           "after",
-          [](Used<HeldHandle>& held, const py::object& by, const Rotation& rotation) {
+          [](const Used<HeldHandle>& held, const py::object& by, const Rotation& rotation) {
             return UserPose{held->handle.grabbed().pivot + vector_of(by, "by"), rotation};
           },
           py::arg("by"), py::arg("rotation") = Rotation(),

@@ -8,12 +8,12 @@ namespace py = pybind11;
 constexpr std::chrono::milliseconds between_looks(50);
 
 /// Reports progress and looks for signals. Throws what Python has raised.
-void look(Job& job, const py::object& progress) {
+void look(const Progress& job, const py::object& progress) {
   if (PyErr_CheckSignals() != 0) {
     throw py::error_already_set();
   }
   if (!progress.is_none()) {
-    const py::float_ share(job.state.share.load());
+    const py::float_ share(job.share());
     const auto shown =
         outlive_python([&] { return PyObject_CallFunctionObjArgs(progress.ptr(), share.ptr(), nullptr); });
     if (!py::reinterpret_steal<py::object>(shown)) {
@@ -24,7 +24,7 @@ void look(Job& job, const py::object& progress) {
 
 }  // namespace
 
-void wait_for_work(Job& job, const py::object& progress,
+void wait_for_work(const Progress& job, const py::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within) {
   const auto is_done = [&](std::chrono::milliseconds time) {
     const Unlocked unlocked;

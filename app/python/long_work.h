@@ -49,29 +49,29 @@ class Unlocked {
 
 /// Waits for work in another thread, without the lock of Python. Calls `progress`, unless it is None, with the share
 /// that is done. Ctrl-C and an exception of `progress` cancel the job; the exception is thrown when the work has ended.
-void wait_for_work(Job& job, const pybind11::object& progress,
+void wait_for_work(const Progress& job, const pybind11::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within);
 
 /// Runs work that may take long in a thread of its own, while this thread looks for Ctrl-C: Python handles signals only
 /// between its own instructions. The work gets the job, or a new one if it is null, and must not touch Python. If the
 /// system has no memory for another thread, the work runs in this one, and Ctrl-C waits for it.
 template <class Work>
-auto run_long(const JobPointer& given, const pybind11::object& progress, Work work) {
-  const JobPointer job = given ? given : std::make_shared<Job>();
+auto run_long(const Progress* given, const pybind11::object& progress, Work work) {
+  const Progress job = given != nullptr ? *given : Progress::watched();
   // The C library ends the program if a thread finds no memory for its first exception, so some is kept for that.
   auto reserve = std::make_unique_for_overwrite<std::array<std::byte, 1 << 20>>();
-  std::future<decltype(work(*job))> result;
+  std::future<decltype(work(job))> result;
   try {
     result = std::async(std::launch::async, [&work, &job, kept = std::move(reserve)]() mutable {
       kept.reset();
       static_cast<void>(std::uncaught_exceptions());  // takes the memory
-      return work(*job);
+      return work(job);
     });
   } catch (const std::system_error&) {
     const Unlocked unlocked;
-    return work(*job);
+    return work(job);
   }
-  wait_for_work(*job, progress,
+  wait_for_work(job, progress,
                 [&](std::chrono::milliseconds time) { return result.wait_for(time) == std::future_status::ready; });
   return result.get();
 }

@@ -68,19 +68,18 @@ py::dict distance(const Used<Object>& object, const py::object& other) {
   if (!py::isinstance<Object>(other)) {
     return max_and_rms(distance_to_positions(object, other));
   }
-  Object& second = other.cast<Object&>();
-  std::optional<Used<Object>> use;
-  if (&second != &*object) {
-    use.emplace(second);
+  auto& second = other.cast<Object&>();
+  if (&second == &*object) {
+    return max_and_rms(distance_between(object, second));
   }
-  return max_and_rms(distance_between(object, second));
+  return max_and_rms(distance_between(object, *Used(second)));
 }
 
-ReferenceObject solve_reference(const Used<Object>& object, const Elements& handle, const JobPointer& job,
+ReferenceObject solve_reference(const Used<Object>& object, const Elements& handle, const Progress* job,
                                 const py::object& progress) {
   const Body& body = object->body();
   return {body.mesh_pointer(),
-          run_long(job, progress, [&](Job& run) { return reference_solution(body, handle, run.progress()); })};
+          run_long(job, progress, [&](const Progress& run) { return reference_solution(body, handle, run); })};
 }
 
 py::array_t<double> positions_of_solution(const ReferenceObject& one) {

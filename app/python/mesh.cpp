@@ -1,6 +1,7 @@
 // Meshes: generated, from arrays, and from files.
 #include <pybind11/stl/filesystem.h>
 
+#include <functional>
 #include <limits>
 
 #include "files/mesh/mesh_arrays.h"
@@ -19,10 +20,10 @@ using MeshClass = py::class_<MeshObject, MeshObjectPointer>;
 
 MeshObjectPointer object_of(MeshPointer mesh) { return std::make_shared<MeshObject>(MeshObject{std::move(mesh)}); }
 
-/// Makes a function of a mesh one of the Python class.
+/// Makes a function or a member of a mesh one of the Python class.
 template <class Function>
 auto on_mesh(Function function) {
-  return [function](const MeshObject& one) { return function(*one.mesh); };
+  return [function](const MeshObject& one) { return std::invoke(function, *one.mesh); };
 }
 
 /// Returns a read-only array that shows groups of ids of a mesh and keeps the mesh alive.
@@ -85,9 +86,9 @@ MeshObjectPointer mesh_from(const py::object& positions, const py::object& links
 }
 
 void add_content(MeshClass& mesh) {
-  mesh.def_property_readonly("element_count", on_mesh([](const Mesh& one) { return one.element_count(); }),
+  mesh.def_property_readonly("element_count", on_mesh(&Mesh::element_count),
                              "Number of elements. Their ids are 0 to element_count - 1.")
-      .def_property_readonly("link_count", on_mesh([](const Mesh& one) { return one.link_count(); }),
+      .def_property_readonly("link_count", on_mesh(&Mesh::link_count),
                              "Number of links. Their ids are 0 to link_count - 1.")
       .def_property_readonly(
           "links", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->links)); },
@@ -144,23 +145,22 @@ void add_connectivity(MeshClass& mesh) {
 }
 
 void add_facts(MeshClass& mesh) {
-  mesh.def_property_readonly("mean_rest_length", on_mesh([](const Mesh& one) { return one.mean_link_length; }),
+  mesh.def_property_readonly("mean_rest_length", on_mesh(&Mesh::mean_link_length),
                              "Mean length of the links at rest (mesh units); 0 without links.")
       .def_property_readonly(
           "bounds", on_mesh([](const Mesh& one) { return py::make_tuple(tuple_of(one.box[0]), tuple_of(one.box[1])); }),
           "Lowest and highest corner (x, y, z) of the box around the rest positions (mesh units).")
-      .def_property_readonly("object_dimension", on_mesh([](const Mesh& one) { return one.object_dimension; }),
+      .def_property_readonly("object_dimension", on_mesh(&Mesh::object_dimension),
                              "1 for a chain, 2 for a surface, 3 for a volume.")
-      .def_property_readonly("space_dimension", on_mesh([](const Mesh& one) { return one.space_dimension; }),
+      .def_property_readonly("space_dimension", on_mesh(&Mesh::space_dimension),
                              "Number of coordinates that exist: on a line there is no y, in a plane no z.")
       .def_property_readonly("axes", on_mesh(&axes_of), "The axes that exist: 'xyz', or 'xy' in a plane.")
-      .def_property_readonly("part_count", on_mesh([](const Mesh& one) { return one.part_count; }),
-                             "Number of parts that no link joins.")
+      .def_property_readonly("part_count", on_mesh(&Mesh::part_count), "Number of parts that no link joins.")
       .def_property_readonly("lattice", on_mesh([](const Mesh& one) -> py::object {
                                return one.lattice ? py::object(py::tuple(py::cast(one.lattice->size))) : py::none();
                              }),
                              "Numbers of elements along x, y and z, if the elements are in a lattice, or None.")
-      .def_property_readonly("is_grid", on_mesh([](const Mesh& one) { return one.is_grid; }),
+      .def_property_readonly("is_grid", on_mesh(&Mesh::is_grid),
                              "True for a lattice whose links run along the axes only. 3D ChainMail needs one.")
       .def_property_readonly(
           "remark", [](const MeshObject& one) { return one.remark; },
@@ -215,7 +215,7 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
                             const std::optional<std::array<std::uint32_t, 3>>& lattice, std::optional<double> spacing,
                             std::optional<int> space_dimension, std::optional<double> threshold,
                             std::optional<std::uint32_t> every, bool data_outside, bool stiff_where_dense,
-                            std::optional<double> weld, const std::string& import_program, const JobPointer& job,
+                            std::optional<double> weld, const std::string& import_program, const Progress* job,
                             const py::object& progress) {
   ReadOptions options;
   options.size = lattice;
@@ -227,7 +227,7 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
   options.data_outside = data_outside;
   options.weld = weld;
   options.import_program = import_program;
-  OpenedMesh opened = run_long(job, progress, [&](Job& run) { return open_mesh(path, options, run.progress()); });
+  OpenedMesh opened = run_long(job, progress, [&](const Progress& run) { return open_mesh(path, options, run); });
   const std::string flaws = in_words(opened.flaws);
   const char* const between = opened.remark.empty() || flaws.empty() ? "" : "; ";
   return std::make_shared<MeshObject>(
@@ -235,7 +235,7 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
 }
 
 void write_state(const std::filesystem::path& path, const MeshState& state) {
-  run_long(nullptr, py::none(), [&](Job& run) { save_mesh(path, state, run.progress()); });
+  run_long(nullptr, py::none(), [&](const Progress& run) { save_mesh(path, state, run); });
 }
 
 void write_body(const std::filesystem::path& path, const Used<Object>& object) {

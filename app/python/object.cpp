@@ -22,11 +22,11 @@ Object::Object(MeshObjectPointer mesh, Precision precision)
   Softness softness = standard_softness();
   softness.links = mesh_->softness;
   body().set_softness(softness);
-  deformer_.set_progress(job()->progress());
+  deformer_.set_progress(job_);
 }
 
 Object::Object(const Object& other) : Busy("body"), mesh_(other.mesh_), deformer_(other.deformer_.copy()) {
-  deformer_.set_progress(job()->progress());
+  deformer_.set_progress(job_);
 }
 
 void Object::check_no_views(const char* before) const {
@@ -54,9 +54,9 @@ void Object::set_method(Algorithm method) {
   deformer_.set_algorithm(method);
 }
 
-void Object::set_job(JobPointer job) {
-  jobs_.push_back(std::move(job));
-  deformer_.set_progress(jobs_.back()->progress());
+void Object::set_job(const Progress& job) {
+  job_ = job;
+  deformer_.set_progress(job);
 }
 
 Trace* Object::new_trace() {

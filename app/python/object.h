@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <memory>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -59,19 +58,6 @@ class Used {
   decltype(std::declval<Owner&>().used()) one_;
 };
 
-/// The progress of long work, which another thread may read and cancel.
-struct Job {
-  JobState state;
-  std::stop_source stop;
-
-  Progress progress() { return Progress(state); }
-  void cancel() {
-    state.cancelled = true;
-    stop.request_stop();
-  }
-};
-using JobPointer = std::shared_ptr<Job>;
-
 /// A mesh, with what its file says beside it.
 struct MeshObject {
   MeshPointer mesh;
@@ -103,8 +89,8 @@ class Object : public Busy {
   void set_method(Algorithm method);
   Algorithm method() const { return deformer_.algorithm(); }
 
-  const JobPointer& job() { return jobs_.back(); }
-  void set_job(JobPointer job);
+  const Progress& job() const { return job_; }
+  void set_job(const Progress& job);
   /// Returns what receives the candidates of the next move, which is emptied; null if moves are not traced.
   Trace* new_trace();
   void set_tracing(bool on) { is_tracing_ = on; }
@@ -120,7 +106,7 @@ class Object : public Busy {
   MeshObjectPointer mesh_;
   Deformer deformer_;
   bool is_attached_ = false;
-  std::vector<JobPointer> jobs_{std::make_shared<Job>()};  // the last one is in use; a method may still know the others
+  Progress job_ = Progress::watched();
   bool is_tracing_ = false;
   Trace trace_;
   int views_ = 0;  // guarded by the lock of Python

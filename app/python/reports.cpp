@@ -22,7 +22,7 @@
 #include "report/page/physics_figures.h"
 #include "report/page/physics_html.h"
 #include "report/page/physics_plot.h"
-#include "report/page/ramp_table.h"
+#include "report/page/ramp_page.h"
 #include "report/page/svg.h"
 #include "report/run/drags.h"
 #include "report/run/physics_cases.h"
@@ -101,7 +101,7 @@ struct CompareOptions {
 };
 
 report::Case case_of(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
-                     const std::stop_token& stop) {
+                     const Progress& progress) {
   const Body& body = object.body();
   const bool physics = options.against == Reference::physics;
   report::Case result = report::case_of(body, printable(options.title));
@@ -116,7 +116,7 @@ report::Case case_of(Object& object, const std::vector<Drag>& drags, const Compa
     }
   }
   if (drags.empty()) {
-    result.drags = physics ? report::physics_drags(result) : report::three_drags(result, stop);
+    result.drags = physics ? report::physics_drags(result) : report::three_drags(result, progress);
   }
   return result;
 }
@@ -153,7 +153,8 @@ void write_report(const std::filesystem::path& folder, const Report& report) {
 
 using AnyReport = std::variant<report::Comparison, report::PhysicsReport>;
 
-AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const CompareOptions& options, Job& job) {
+AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
+                         const Progress& progress) {
   const auto finished = [&](auto report) {
     if (report.stopped) {
       throw Cancelled();
@@ -163,12 +164,9 @@ AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const C
     }
     return AnyReport(std::move(report));
   };
-  const std::stop_token stop = job.stop.get_token();
-  const auto tell = [progress = job.progress()](double share, const std::string& /*text*/) { progress.report(share); };
-  const std::vector<report::Case> cases{case_of(object, drags, options, stop)};
-  return options.against == Reference::exact
-             ? finished(report::compare(cases, options.physics.contest, tell, stop))
-             : finished(report::compare_with_physics(cases, options.physics, tell, stop));
+  const std::vector<report::Case> cases{case_of(object, drags, options, progress)};
+  return options.against == Reference::exact ? finished(report::compare(cases, options.physics.contest, progress))
+                                             : finished(report::compare_with_physics(cases, options.physics, progress));
 }
 
 // Tables: a dictionary of columns, a list for each name, all of one length. pandas.DataFrame takes it as it is.
@@ -278,7 +276,7 @@ py::dict table_of(const report::PhysicsReport& comparison) {
 py::dict compare(const Used<Object>& object, const py::sequence& drags, const py::sequence& methods,
                  const py::sequence& sweeps, bool equilibrium, double relax_step, RelaxationScheme scheme,
                  Precision precision, std::optional<int> repetitions, double seconds, Reference against,
-                 const std::string& title, const std::optional<std::filesystem::path>& folder, const JobPointer& job,
+                 const std::string& title, const std::optional<std::filesystem::path>& folder, const Progress* job,
                  const py::object& progress) {
   CompareOptions options{.physics = {}, .against = against, .title = title, .folder = folder};
   report::CompareOptions& contest = options.physics.contest;
@@ -297,7 +295,7 @@ py::dict compare(const Used<Object>& object, const py::sequence& drags, const py
   check(contest);
   const auto all = list_of<Drag>(drags, "drags");
   const AnyReport report =
-      run_long(job, progress, [&](Job& run) { return compare_bodies(*object, all, options, run); });
+      run_long(job, progress, [&](const Progress& run) { return compare_bodies(*object, all, options, run); });
   return std::visit([](const auto& one) { return table_of(one); }, report);
 }
 
@@ -338,7 +336,7 @@ void check_at_least(int lowest, const char* name, int value) {
 }
 
 py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t seed, int drags, int held_out,
-                   int evaluations, int most_sweeps, RelaxationScheme scheme, const JobPointer& job,
+                   int evaluations, int most_sweeps, RelaxationScheme scheme, const Progress* job,
                    const py::object& progress) {
   if constexpr (!has_calibrate) {
     throw Error("calibrate", "the library was built without NLopt", "install it, and build it again");
@@ -359,8 +357,8 @@ py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t s
                                      .not_these = {},
                                      .scheme = scheme,
                                      .energy = energy_of_links(body.softness().energy)};
-    return result_of(options, run_long(job, progress, [&](Job& run) {
-                       return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run.progress());
+    return result_of(options, run_long(job, progress, [&](const Progress& run) {
+                       return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
                      }));
   }
 }
@@ -390,11 +388,11 @@ py::dict verdicts_of(const report::Ramp& ramp) {
   return table;
 }
 
-report::Ramp run_ramp(const report::RampOptions& options, Job& job) {
+report::Ramp run_ramp(const report::RampOptions& options, const Progress& job) {
   const auto tell = [&](const report::RampProgress& at) {
-    job.progress().report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
+    job.report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
   };
-  report::Ramp made = report::ramp(options, tell, job.stop.get_token());
+  report::Ramp made = report::ramp(options, tell, job);
   if (made.stopped) {
     throw Cancelled();
   }
@@ -402,7 +400,7 @@ report::Ramp run_ramp(const report::RampOptions& options, Job& job) {
 }
 
 py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
-              int moves, Precision precision, const LinkSoftness& softness, const JobPointer& job,
+              int moves, Precision precision, const LinkSoftness& softness, const Progress* job,
               const py::object& progress) {
   const report::RampOptions options{.algorithms = methods_of(methods),
                                     .seed = seed,
@@ -413,7 +411,7 @@ py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, st
                                     .drags = drags,
                                     .moves = moves};
   check(options);
-  const report::Ramp found = run_long(job, progress, [&](Job& run) { return run_ramp(options, run); });
+  const report::Ramp found = run_long(job, progress, [&](const Progress& run) { return run_ramp(options, run); });
   return py::dict(py::arg("sizes") = sizes_of(found), py::arg("methods") = verdicts_of(found),
                   py::arg("seconds") = found.seconds);
 }

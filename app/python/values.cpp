@@ -78,7 +78,6 @@ void add_link_softness(py::module_& module, std::index_sequence<I...> /*numbers*
 void add_elasticity(py::module_& module) {
   using One = ElasticOptions;
   py::class_<One> elasticity(module, "Elasticity",
-
                              "Settings of the methods of elasticity, of free-form deformation and of relaxation to\n"
                              "the material. A value object: it does not change.");
   const auto add = [&](const auto&... parts) {
@@ -88,50 +87,37 @@ void add_elasticity(py::module_& module) {
         .def("__repr__", [parts...](One& one) { return in_words(one, parts...); })
         .attr("__hash__") = py::none();
   };
-  add(Part{"young", [](One& one) -> auto& { return one.material.young;
-}
-, "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape."
-}  // namespace
-, Part{"poisson", [](One& one) -> auto& {return one.material.poisson;
-}  // namespace chainmail::python
-, "Poisson's ratio: 0 to below 0.5."
-}
-, Part{"control_points", &One::lattice, "Number of control points of free-form deformation along x, y and z, 2 to 8."},
-    Part{"iterations", &One::iterations, "Most iterations of a method that iterates, for one move, 1 to 100000."},
-    Part{"law", [](One& one) -> auto& {return one.law.kind;
-}
-, "Law of relaxation to the material and of neo-Hookean FEM: `neo-hookean`, or `gent` or\n"
-  "`fung`, which stiffen as they are stretched."
-}
-, Part{"gent_limit", [](One& one) -> auto& {return one.law.gent_limit;
-}
-, "With `gent`: bound of I1 - 3, the sum of the squared principal stretches less 3."
-}
-, Part{"fung_exponent", [](One& one) -> auto& {return one.law.fung_exponent;
-}
-, "With `fung`: factor of I1 - 3 in the exponent."
-},
+  add(Part{"young", [](One& one) -> double& { return one.material.young; },
+           "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape."},
+      Part{"poisson", [](One& one) -> double& { return one.material.poisson; }, "Poisson's ratio: 0 to below 0.5."},
+      Part{"control_points", &One::lattice,
+           "Number of control points of free-form deformation along x, y and z, 2 to 8."},
+      Part{"iterations", &One::iterations, "Most iterations of a method that iterates, for one move, 1 to 100000."},
+      Part{"law", [](One& one) -> StrainLaw::Kind& { return one.law.kind; },
+           "Law of relaxation to the material and of neo-Hookean FEM: `neo-hookean`, or `gent` or\n"
+           "`fung`, which stiffen as they are stretched."},
+      Part{"gent_limit", [](One& one) -> double& { return one.law.gent_limit; },
+           "With `gent`: bound of I1 - 3, the sum of the squared principal stretches less 3."},
+      Part{"fung_exponent", [](One& one) -> double& { return one.law.fung_exponent; },
+           "With `fung`: factor of I1 - 3 in the exponent."},
       Part{"thickness", &One::thickness,
            "Thickness of a surface in space in relaxation to the material, as a share of the longest side of its\n"
            "bounds: 0.0001 to 1."});
 }
 
 void add_job(py::module_& module) {
-  py::class_<Job, JobPointer> job(
+  py::class_<Progress> job(
       module, "Job",
       "The progress of long work. Another thread may read it, or cancel the work. All of it is safe to use from any\n"
       "thread.");
-  job.def(py::init<>())
-      .def_property_readonly(
-          "share", [](const Job& one) { return one.state.share.load(); },
-          "The share of the work that is done, from 0 to 1.")
-      .def("cancel", &Job::cancel,
-           "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
-      .def_property_readonly(
-          "is_cancelled", [](const Job& one) { return one.state.cancelled.load(); }, "True if cancel() was called.")
-      .def("__repr__", [](const Job& one) {
-        return "<Job: " + std::to_string(int(100 * one.state.share)) + " % done" +
-               (one.state.cancelled ? ", cancelled>" : ">");
+  job.def(py::init([] { return Progress::watched(); }))
+      .def_property_readonly("share", &Progress::share, "The share of the work that is done, from 0 to 1.")
+      .def(
+          "cancel", [](const Progress& one) { one.cancel(); },
+          "Asks the work to stop: it raises Cancelled within about 100 ms. A job that is cancelled stays cancelled.")
+      .def_property_readonly("is_cancelled", &Progress::cancelled, "True if cancel() was called.")
+      .def("__repr__", [](const Progress& one) {
+        return "<Job: " + std::to_string(int(100 * one.share())) + " % done" + (one.cancelled() ? ", cancelled>" : ">");
       });
   refuse_pickling(job, "it belongs to the work of this process", "make another one where it is needed");
 }

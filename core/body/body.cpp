@@ -155,6 +155,25 @@ void Body::set_softness(std::shared_ptr<const Softness> softness) {
   revisions_.energy += change.energy ? 1 : 0;
 }
 
+void Body::restore(const ObjectState& object) {
+  if (object.softness != softness_ && *object.softness != *softness_) {
+    set_softness(object.softness);
+  }
+  const std::vector<LinkId> present = cuts_.links();
+  std::vector<LinkId> excess, missing;
+  std::ranges::set_difference(present, object.cuts, std::back_inserter(excess));
+  std::ranges::set_difference(object.cuts, present, std::back_inserter(missing));
+  if (!excess.empty()) {
+    uncut(excess);
+  }
+  if (!missing.empty()) {
+    cut(missing);
+  }
+  if (object.pins != pins_) {
+    set_pins(object.pins);
+  }
+}
+
 void Body::set_elastic(const ElasticOptions& options) {
   elastic_ = options;
   ++revisions_.elastic;

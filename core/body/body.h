@@ -5,13 +5,12 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "body/positions.h"
+#include "body/region.h"
 #include "body/region_axes.h"
-#include "body/region_table.h"
 #include "body/snapshot.h"
 #include "body/softness.h"
 #include "elastic/material.h"
@@ -78,6 +77,11 @@ class Body {
   /// Sets the softness. If memory runs out, the old one stays.
   void set_softness(std::shared_ptr<const Softness> softness);
   void set_softness(const Softness& softness) { set_softness(std::make_shared<const Softness>(softness)); }
+
+  /// Returns the object without its positions.
+  ObjectState object() const { return {mesh_, cuts_.links(), pins_, softness_}; }
+  /// Restores cuts, pins and softness of an object of this mesh. What stays the same gets no new revision.
+  void restore(const ObjectState& object);
 
   /// Options of the methods of elasticity. The ChainMail family ignores them.
   const ElasticOptions& elastic() const { return elastic_; }

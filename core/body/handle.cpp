@@ -68,6 +68,11 @@ Point Rotation::vector() const {
   return degrees == 0 ? Point(Point::Zero()) : Point(axis.stableNormalized() * (degrees * (std::numbers::pi / 180)));
 }
 
+Rotation Rotation::of(const Point& vector) {
+  const double angle = vector.norm();
+  return angle == 0 ? Rotation() : Rotation{vector / angle, angle * (180 / std::numbers::pi)};
+}
+
 Rotation composed(const Rotation& first, const Rotation& then) {
   if (first.degrees == 0 || then.degrees == 0) {
     return first.degrees == 0 ? then : first;
@@ -99,6 +104,13 @@ void check(const Rotation& rotation, const Mesh& mesh) {
                       : "rotate about the axis across the object's plane, or use more space dimensions");
     }
   }
+}
+
+RegionAxes axes_after(const Rotation& rotation, const Mesh& mesh) {
+  const RegionAxes axes(AxesKind::given, rotation.vector());
+  check(axes, mesh);
+  check(rotation, mesh);
+  return axes;
 }
 
 void check_free(const Body& body, std::span<const ElementId> elements) {

@@ -15,6 +15,7 @@ struct Rotation {
 
   /// The axis of length 1, times the angle (radians).
   Point vector() const;
+  /// The rotation of such a vector; about no axis if its length is 0.
   static Rotation of(const Point& vector);
   bool operator==(const Rotation&) const = default;
 };

@@ -7,10 +7,47 @@
 #include <vector>
 
 #include "body/handle.h"
-#include "body/trace.h"
+#include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
+
+/// Names an algorithm in code. Each one has exactly one entry in the table of solver/algorithms.cpp.
+enum class Algorithm {
+  generalized,
+  spiral,
+  natural_queue,
+  enhanced,
+  chainmail_3d,
+  exact,
+  linear_fem,
+  neo_hookean,
+  boundary_elements,
+  free_form,
+  corotational,
+  arap,
+  xpbd,
+  projective,
+  quasi_newton,
+  neo_hookean_xpbd
+};
+
+/// One processed candidate of a pass.
+struct TraceRow {
+  ElementId element;
+  ElementId sponsor;  // no_element for a candidate without one
+  bool moved;
+};
+using Trace = std::vector<TraceRow>;
+
+/// Numbers of a pass: candidates processed, and elements moved, without the handle.
+struct PassCount {
+  std::uint64_t checked = 0;
+  std::uint64_t moved = 0;
+  /// Exact ChainMail: pins, or in a rotation links outside the handle, stopped it before its target.
+  bool stopped = false;
+  std::uint64_t visits = 0;  // Exact ChainMail: visits of elements, including those before pins stopped the handle
+};
 
 /// What a pass reports besides its numbers.
 struct PassOutput {

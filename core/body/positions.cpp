@@ -1,6 +1,5 @@
 #include "body/positions.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>

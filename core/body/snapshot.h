@@ -1,15 +1,24 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "body/positions.h"
 #include "body/region_axes.h"
+#include "body/softness.h"
 #include "mesh/element_blocks.h"
 #include "mesh/mesh.h"
+#include "mesh/split.h"
 
 namespace chainmail {
+
+/// An object without its positions: what all solvers of an object share.
+struct ObjectState {
+  MeshPointer mesh = {};
+  std::vector<LinkId> cuts = {};     // ascending
+  std::vector<ElementId> pins = {};  // ascending
+  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
+};
 
 /// Positions of an object, as a body stores them. The same body, or another of the same mesh and precision, restores
 /// them to the bit.
@@ -56,5 +65,12 @@ Snapshot snapshot_of(const PositionRuns& positions, const Mesh& mesh, Precision 
 
 /// Throws Error, with the reason, if a snapshot does not fit the mesh or has coordinates beyond position_limit.
 void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision);
+
+/// Returns the object after a split; for cuts and pins see mesh/split.h. A link on an old one has the softness of that
+/// one. A link inside a face has the mean softness of the links on which it ends, if one of them has its own.
+ObjectState object_after(const Split& split, const ObjectState& object);
+
+/// Returns the positions after a split. New elements are between their elements, as they are at rest.
+Snapshot positions_after(const Split& split, const Snapshot& positions, Precision precision);
 
 }  // namespace chainmail

@@ -12,11 +12,9 @@ constexpr int drags = 3, evaluations = 60, max_sweeps = 10;
 // The equilibrium has more numbers to find, and its evaluations are short.
 constexpr int drags_at_equilibrium = 6, evaluations_at_equilibrium = 150;
 
-report::Calibration run(const report::Case& object, const CalibrationOptions& options, const std::stop_token& stop) {
-  JobState job;
-  const std::stop_callback cancel(stop, [&job] { job.cancelled = true; });
+report::Calibration run(const report::Case& object, const CalibrationOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, Progress(job));
+  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, progress.quiet());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {options.algorithm, !info(options.scheme).sweeps, result.softness, result.sweeps,
           options.drags,     result.evaluations,           seconds,         {}};
@@ -26,7 +24,7 @@ report::Calibration run(const report::Case& object, const CalibrationOptions& op
 
 report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
   return [scheme](const report::Case& object, Algorithm algorithm, bool equilibrium,
-                  const std::vector<ElementId>& handles, const std::stop_token& stop) {
+                  const std::vector<ElementId>& handles, const Progress& progress) {
     CalibrationOptions options;
     options.elastic = object.elastic;
     options.law = object.law;
@@ -39,7 +37,7 @@ report::Calibrator calibrator_for_reports(RelaxationScheme scheme) {
     options.evaluations = equilibrium ? evaluations_at_equilibrium : evaluations;
     options.max_sweeps = max_sweeps;
     options.not_these = handles;
-    return run(object, options, stop);
+    return run(object, options, progress);
   };
 }
 

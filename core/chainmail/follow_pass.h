@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "chainmail/propagate.h"
-#include "chainmail/waiting_history.h"
+#include "chainmail/recorded_pass.h"
 
 // How the waiting list of a recorded pass is found: the pass runs again in the loop that every pass runs in, with a
 // list that logs what enters and leaves, and with outcomes that are read from the trace instead of computed.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "body/body_view.h"
-#include "body/trace.h"
+#include "body/method.h"
 #include "chainmail/waiting_list.h"
 #include "mesh/large_pages.h"
 

@@ -44,4 +44,8 @@ class IteratedSolver : public ElasticSolver {
 /// iterations.
 std::string not_converged(std::uint32_t iterations, double step);
 
+/// Returns the displacements of all elements (space_dimension coordinates each) in the rigid motion that comes closest
+/// to those of the pins. The search for the answer to displaced pins starts there.
+std::vector<double> rigid_fit(const ElasticProblem& problem);
+
 }  // namespace chainmail

@@ -1,18 +1,73 @@
-#include "elastic/local_global.h"
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <memory>
+#include <vector>
 
-#include <cmath>
-#include <span>
-
-#include "elastic/anderson.h"
+#include "elastic/cell_edges.h"
 #include "elastic/cholesky.h"
 #include "elastic/closest_rotation.h"
+#include "elastic/elastic.h"
 #include "elastic/elimination.h"
+#include "elastic/energy.h"
 #include "elastic/iterated.h"
+#include "elastic/methods.h"
 #include "elastic/stiffness.h"
 #include "mesh/error.h"
 
 namespace chainmail {
 namespace {
+
+/// Anderson acceleration of a fixed-point iteration x ← x + f(x) (Peng et al. 2018): from the last steps, it
+/// extrapolates to where the next step would be shortest. The limit is the same.
+class Anderson {
+ public:
+  explicit Anderson(Eigen::Index size) : steps_(size, window), ends_(size, window) {}
+
+  void restart() { seen_ = 0; }
+
+  /// Returns the next iterate, from the step f(x) and its end x + f(x).
+  Eigen::VectorXd next(const Eigen::VectorXd& step, const Eigen::VectorXd& end) {
+    if (seen_ > 0) {
+      const Eigen::Index slot = (seen_ - 1) % window;
+      steps_.col(slot) = step - last_step_;
+      ends_.col(slot) = end - last_end_;
+    }
+    last_step_ = step;
+    last_end_ = end;
+    const Eigen::Index used = std::min(seen_++, window);
+    if (used == 0) {
+      return end;
+    }
+    const auto changes = steps_.leftCols(used);
+    Eigen::MatrixXd products = changes.transpose() * changes;
+    products.diagonal() *= 1 + ridge;
+    const Eigen::VectorXd shares = products.ldlt().solve(changes.transpose() * step);
+    return shares.allFinite() ? Eigen::VectorXd(end - ends_.leftCols(used) * shares) : end;
+  }
+
+ private:
+  static constexpr Eigen::Index window = 6;  // 5 to 8 work alike (Peng et al. 2018)
+  static constexpr double ridge = 1e-12;     // steps of nearly the same direction have no unique shares
+
+  Eigen::MatrixXd steps_, ends_;  // changes of the last steps and of their ends
+  Eigen::VectorXd last_step_, last_end_;
+  Eigen::Index seen_ = 0;
+};
+
+/// A local/global energy (Sorkine and Alexa 2007; Bouaziz et al. 2014). With the vector d of an edge and its vector r
+/// at rest, it is
+///
+///     ½ Σ over groups  min over rotations R  Σ over their edges  w |d − R r|²   +   ½ Σ over springs  k (|d| − |r|)²
+///
+/// Its iterations choose the rotations and the directions of the springs for given positions, and then the positions
+/// for these by one solution with a matrix that never changes.
+struct LocalGlobalEnergy {
+  Simplices cells;  // whose elements move
+  std::vector<WeightedEdge> edges;
+  std::vector<std::size_t> group_ends;  // of each group, among `edges`
+  std::vector<WeightedEdge> springs;
+};
 
 // An answer has converged if the next step is below this share of the mean edge length.
 constexpr double last_step_below = 1e-9;
@@ -198,8 +253,7 @@ class LocalGlobal final : public IteratedSolver {
   std::vector<double> gradient_;   // of the energy, by all coordinates
 };
 
-}  // namespace
-
+/// Makes a solver that stops once a step is below a small share of the mean edge length, or after `iterations`.
 std::unique_ptr<ElasticSolver> make_local_global(const char* name, const ElasticProblem& problem,
                                                  LocalGlobalEnergy energy, std::uint32_t iterations,
                                                  const Progress& progress) {
@@ -211,6 +265,80 @@ std::unique_ptr<ElasticSolver> make_local_global(const char* name, const Elastic
     default:
       return std::make_unique<LocalGlobal<3>>(name, problem, std::move(energy), iterations, progress);
   }
+}
+
+/// Returns the edges about each element, as groups. Each cotangent counts as 0 if it is negative, as in CGAL's
+/// Surface_mesh_deformation: negative weights would let an element run away.
+void group_spokes(LocalGlobalEnergy& energy) {
+  std::vector<WeightedEdge> edges = edges_by_cell(energy.cells);
+  for (WeightedEdge& edge : edges) {
+    edge.weight = std::max(edge.weight, 0.0);
+  }
+  std::vector<WeightedEdge> spokes;
+  for (const WeightedEdge& edge : sum_of_edges(std::move(edges))) {
+    if (edge.weight > 0) {
+      spokes.push_back(edge);
+      spokes.push_back({edge.to, edge.from, edge.weight});
+    }
+  }
+  std::ranges::stable_sort(spokes, {}, &WeightedEdge::from);
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    if (i + 1 == spokes.size() || spokes[i + 1].from != spokes[i].from) {
+      energy.group_ends.push_back(i + 1);
+    }
+  }
+  energy.edges = std::move(spokes);
+}
+
+// Springs resist at most with this share of the shear modulus, so that the cells keep some resistance of their own.
+constexpr double max_spring_fraction = 0.75;
+
+}  // namespace
+
+/// As-rigid-as-possible deformation (Sorkine and Alexa 2007): on sheets and surfaces, the edges about each element turn
+/// together, with cotangent weights. In solids, the edges of each tetrahedron do (Chao et al. 2010): with weights of
+/// either sign, groups about elements could lose energy without bound. The material has no effect.
+std::unique_ptr<ElasticSolver> make_arap(const ElasticProblem& problem, const Progress& progress) {
+  LocalGlobalEnergy energy;
+  energy.cells = build_edge_cells(*problem.mesh, problem.cuts, progress.part(0, 0.1));
+  if (energy.cells.dimension == 3) {
+    energy.edges = edges_by_cell(energy.cells);
+    for (std::size_t end = 6; end <= energy.edges.size(); end += 6) {
+      energy.group_ends.push_back(end);
+    }
+  } else {
+    group_spokes(energy);
+  }
+  return make_local_global("ARAP", problem, std::move(energy), problem.options.iterations, progress.part(0.1, 1));
+}
+
+/// Projective Dynamics (Bouaziz et al. 2014) at rest: springs on the edges, and corotated cells,
+///     W = μc |F − R|²  per volume.
+/// Springs of all directions resist like an isotropic solid whose Lamé parameters are equal. They take the material's
+/// λ, or 3/4 of its μ if that is less, and the cells the rest of μ: then the shear modulus is the material's, and so is
+/// Poisson's ratio up to 0.21 in a solid. Above that, the object is more compressible than the material. The answer is
+/// the minimum of the energy, and so has no time step.
+std::unique_ptr<ElasticSolver> make_projective(const ElasticProblem& problem, const Progress& progress) {
+  LocalGlobalEnergy energy;
+  energy.cells = build_edge_cells(*problem.mesh, problem.cuts, progress.part(0, 0.1));
+  const int n = energy.cells.dimension;
+  const Lame material = lame_of_dimension(lame(problem.options.material), n);
+  const double of_springs = n == 1 ? material.mu : std::min(material.lambda, max_spring_fraction * material.mu);
+  if (of_springs > 0) {
+    energy.springs = springs_of(energy.cells, *problem.mesh, spring_modulus(of_springs, n));
+  }
+  if (n > 1) {
+    energy.edges = edges_by_cell(energy.cells);
+    for (WeightedEdge& edge : energy.edges) {
+      edge.weight *= 2 * (material.mu - of_springs);
+    }
+    const auto of_cell = std::size_t(n == 3 ? 6 : 3);
+    for (std::size_t end = of_cell; end <= energy.edges.size(); end += of_cell) {
+      energy.group_ends.push_back(end);
+    }
+  }
+  return make_local_global("Projective Dynamics", problem, std::move(energy), problem.options.iterations,
+                           progress.part(0.1, 1));
 }
 
 }  // namespace chainmail

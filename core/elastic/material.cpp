@@ -1,7 +1,6 @@
 #include "elastic/material.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 #include "mesh/error.h"

@@ -1,6 +1,6 @@
 #include "elastic/methods.h"
 
-#include "elastic/shells.h"
+#include "elastic/closed_surface.h"
 #include "mesh/error.h"
 
 namespace chainmail {

@@ -5,9 +5,8 @@
 #include <span>
 
 #include "elastic/cholesky.h"
-#include "elastic/cofactors.h"
-#include "elastic/corotated.h"
 #include "elastic/elimination.h"
+#include "elastic/energy.h"
 #include "elastic/iterated.h"
 #include "elastic/methods.h"
 #include "elastic/stiffness.h"

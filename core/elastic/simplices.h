@@ -62,4 +62,9 @@ CellSimplices build_cell_simplices(const Mesh& mesh, const Progress& progress = 
 /// elements; the message names one of its elements.
 void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins);
 
+/// Throws Error if an object has no pins.
+void check_pinned(const Mesh& mesh, std::span<const ElementId> pins);
+/// Throws Error, with an element of the part, if the pins of a part leave it free to move as a rigid body.
+void check_part_held(const Mesh& mesh, ElementId part, const std::vector<ElementId>& pins);
+
 }  // namespace chainmail

@@ -17,7 +17,7 @@ namespace chainmail {
 class Unknowns {
  public:
   /// Numbers the unknowns in the order of elimination, which keeps the factor of their matrix sparse (see
-  /// dissection.h) and lists all elements that have a cell.
+  /// elimination.h) and lists all elements that have a cell.
   Unknowns(int dimension, ElementId elements, std::span<const ElementId> elimination,
            std::span<const ElementId> prescribed);
 

@@ -3,16 +3,159 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "elastic/cell_edges.h"
-#include "elastic/cofactors.h"
-#include "elastic/corotated.h"
+#include "elastic/iterated.h"
 #include "elastic/methods.h"
-#include "elastic/time_step_solver.h"
 
 namespace chainmail {
 namespace {
+
+/// The springs that stand for the material of a problem. Their mean decides on the time step, whatever the constraints.
+std::vector<WeightedEdge> material_springs(const ElasticProblem& problem, const Simplices& cells) {
+  const Lame material = lame_of_dimension(lame(problem.options.material), cells.dimension);
+  return springs_of(cells, *problem.mesh, spring_modulus(material.mu, cells.dimension));
+}
+
+/// Extended position based dynamics with small steps (Macklin et al. 2016, 2019), for constraints of any kind.
+///
+/// An iteration is a time step: elements of equal mass go on with their velocities, less damping, and one sweep over
+/// the constraints moves them back, with multipliers that begin at 0. Velocities are kept from move to move.
+template <int N>
+class TimeStepSolver : public IteratedSolver {
+ protected:
+  using Vector = Eigen::Matrix<double, N, 1>;
+  using Square = Eigen::Matrix<double, N, N>;
+  /// What the constraints read and write.
+  struct Element {
+    Vector at;            // from the first element at rest, so that an object far from the origin loses no digits
+    double mobility = 1;  // inverse mass: 1, or 0 if the position is prescribed
+  };
+
+  /// `springs`: those of the material, for the time step.
+  TimeStepSolver(const ElasticProblem& problem, const Simplices& cells, std::span<const WeightedEdge> springs,
+                 const XpbdStep& step)
+      : IteratedSolver(problem, cells),
+        iterations_(problem.options.iterations),
+        kept_velocity_(1 - step.damping),
+        elements_(problem.mesh->element_count()),
+        motions_(elements_.size()),
+        length_(mean_length(springs, *problem.mesh)) {
+    check_held(cells, *problem.mesh, problem.pins);
+    double mean = 0;
+    for (const WeightedEdge& spring : springs) {
+      mean += spring.weight / double(springs.size());
+    }
+    square_ = step.springs_over_inertia / mean;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      elements_[e].at = motions_[e].rest = of(problem.mesh->rest, e) - of(problem.mesh->rest, 0);
+    }
+  }
+
+  /// Moves the elements to meet each constraint once, in turn.
+  virtual void sweep() = 0;
+
+  Element& element(ElementId id) { return elements_[id]; }
+  const Element& element(ElementId id) const { return elements_[id]; }
+  /// The square of the time step, over the mass of an element.
+  double square() const { return square_; }
+
+ private:
+  // The object is at rest if a time step moves no element by more than this (mean edge lengths).
+  static constexpr double at_rest_below = 1e-10;
+  // It diverges if a time step moves one by this.
+  static constexpr double diverging_move = 100;
+
+  struct Motion {
+    Vector rest, before = Vector::Zero(), velocity = Vector::Zero();  // velocity: way in a time step
+  };
+
+  static Eigen::Map<const Vector> of(std::span<const double> all, std::size_t element) {
+    return Eigen::Map<const Vector>(all.data() + element * N);
+  }
+
+  void prescribe(const std::vector<ElementId>& prescribed, const Progress& /*progress*/) override {
+    for (Element& element : elements_) {
+      element.mobility = 1;
+    }
+    for (const ElementId element : prescribed) {
+      elements_[element].mobility = 0;
+    }
+  }
+
+  /// Makes a time step. Returns the longest way of an element; infinity if it is not a number.
+  double step() {
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      motions_[e].before = elements_[e].at;
+      elements_[e].at += elements_[e].mobility * kept_velocity_ * motions_[e].velocity;
+    }
+    sweep();
+    double longest = 0;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      motions_[e].velocity = elements_[e].at - motions_[e].before;
+      const double way = motions_[e].velocity.norm();
+      longest = way <= longest ? longest : way;  // also if it is not a number
+    }
+    return std::isfinite(longest) ? longest : std::numeric_limits<double>::infinity();
+  }
+
+  std::string relax(std::vector<double>& displacements, const Progress& progress) override {
+    begin_at(displacements);
+    double longest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < iterations_ && longest > at_rest_below * length_; ++i) {
+      progress.report(double(i) / iterations_);
+      longest = step();
+      if (longest > diverging_move * length_) {
+        stop();
+        last_ = displacements;
+        return "it diverged; the elements stay, but for the handle";
+      }
+    }
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      if (elements_[e].mobility != 0) {
+        Eigen::Map<Vector>(displacements.data() + e * N) = elements_[e].at - motions_[e].rest;
+      }
+    }
+    last_ = displacements;
+    return longest > at_rest_below * length_ ? not_converged(iterations_, longest / length_) : std::string();
+  }
+
+  void begin_at(const std::vector<double>& displacements) {
+    if (!is_where_it_was(displacements)) {
+      stop();
+    }
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      elements_[e].at = motions_[e].rest + of(displacements, e);
+    }
+  }
+  void stop() {
+    for (Motion& motion : motions_) {
+      motion.velocity.setZero();
+    }
+  }
+
+  /// True if the velocities are those at these displacements. Those of prescribed elements may differ.
+  bool is_where_it_was(const std::vector<double>& displacements) const {
+    for (std::size_t i = 0; i < last_.size(); ++i) {
+      if (elements_[i / N].mobility != 0 && displacements[i] != last_[i]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::uint32_t iterations_;
+  double kept_velocity_;  // share of the velocity that damping leaves
+  double square_ = 0;
+  std::vector<Element> elements_;
+  std::vector<Motion> motions_;
+  double length_ = 1;         // mean of the edges, the unit of moves (mesh units)
+  std::vector<double> last_;  // displacements after the last time step
+};
 
 /// Distance constraints on the edges, and constraints of the volume of tetrahedra, or of the area of triangles in a
 /// plane (Macklin et al. 2016, 2019).
@@ -145,6 +288,108 @@ std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Xp
 
 std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress) {
   return make_xpbd(problem, XpbdStep(), progress);
+}
+
+namespace {
+
+// Half of XPBD's h²: with all of it, the bend of a sheet in a plane ends at an error of 0.58 instead of 0.07, and the
+// indentation of a cube at 0.46 instead of 0.31.
+constexpr XpbdStep neo_hookean_step{.springs_over_inertia = 1};
+
+/// Stable neo-Hookean simplices as constraints (Macklin and Müller 2021): C = √(tr FᵀF) of the shape, with the
+/// compliance 1 / (μ V), and C = det F − γ of the volume, with the compliance 1 / (λ' V). The energy ½ Σ C² / α is that
+/// of quasi-Newton FEM: with λ' = λ + μ and γ = 1 + μ / λ', a simplex is at rest in its rest shape, and small strains
+/// have the material's parameters.
+///
+/// A sweep meets both constraints of a simplex at once (Ton-That et al. 2023). Their forces balance at rest; one after
+/// the other, with multipliers that begin at 0, they would move an object that nothing pulls.
+template <int N>
+class NeoHookeanXpbd final : public TimeStepSolver<N> {
+ public:
+  NeoHookeanXpbd(const ElasticProblem& problem, const Simplices& cells, const XpbdStep& step, const Progress& progress)
+      : Base(problem, cells, material_springs(problem, cells), step) {
+    const Lame material = lame_of_dimension(lame(problem.options.material), N);
+    const double of_volume = material.lambda + material.mu;
+    rest_volume_ = 1 + material.mu / of_volume;
+    for (std::size_t s = 0; s < cells.count(); ++s) {
+      const double inertia = 1 / (cells.volumes[s] * this->square());
+      Cell cell{{}, cells.gradients_of(s).template rightCols<N>(), inertia / material.mu, inertia / of_volume};
+      std::ranges::copy(cells.corners_of(s), cell.corners.begin());
+      cells_.push_back(cell);
+    }
+    this->find_base(progress);
+  }
+
+ private:
+  using Base = TimeStepSolver<N>;
+  using Base::element;
+  using typename Base::Element, typename Base::Square;
+
+  struct Cell {
+    std::array<ElementId, N + 1> corners;
+    Square gradients;                            // of the shape functions of all corners but the first
+    double shape_compliance, volume_compliance;  // over the square of the time step
+  };
+
+  /// Solves for both multipliers. That of the shape is taken over C, which leaves no root and no division by C.
+  void meet(const Cell& cell) {
+    std::array<Element*, N + 1> corners;
+    Square edges;
+    for (std::size_t k = 0; k <= N; ++k) {
+      corners[k] = &element(cell.corners[k]);
+    }
+    for (std::size_t k = 0; k < N; ++k) {
+      edges.col(Eigen::Index(k)) = corners[k + 1]->at - corners[0]->at;
+    }
+    const NeoHookeanConstraints<N> now(edges, cell.gradients);
+    double shapes = cell.shape_compliance * now.shape, both = 0, volumes = cell.volume_compliance;
+    for (std::size_t k = 0; k <= N; ++k) {
+      const auto by_shape = now.by_shape.col(Eigen::Index(k)), by_volume = now.by_volume.col(Eigen::Index(k));
+      shapes += corners[k]->mobility * by_shape.squaredNorm();
+      both += corners[k]->mobility * by_shape.dot(by_volume);
+      volumes += corners[k]->mobility * by_volume.squaredNorm();
+    }
+    const double determinant = shapes * volumes - both * both;
+    if (determinant == 0) {  // all corners are at one point
+      return;
+    }
+    const double beyond = now.volume - rest_volume_;
+    const double of_shape = (both * beyond - volumes * now.shape) / determinant;
+    const double of_volume = (both * now.shape - shapes * beyond) / determinant;
+    for (std::size_t k = 0; k <= N; ++k) {
+      const auto column = Eigen::Index(k);
+      corners[k]->at +=
+          corners[k]->mobility * (of_shape * now.by_shape.col(column) + of_volume * now.by_volume.col(column));
+    }
+  }
+
+  void sweep() override {
+    for (const Cell& cell : cells_) {
+      meet(cell);
+    }
+  }
+
+  double rest_volume_ = 1;  // γ
+  std::vector<Cell> cells_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElasticSolver> make_neo_hookean_xpbd(const ElasticProblem& problem, const XpbdStep& step,
+                                                     const Progress& progress) {
+  const Simplices cells = build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.2));
+  switch (cells.dimension) {
+    case 1:
+      return std::make_unique<NeoHookeanXpbd<1>>(problem, cells, step, progress.part(0.2, 1));
+    case 2:
+      return std::make_unique<NeoHookeanXpbd<2>>(problem, cells, step, progress.part(0.2, 1));
+    default:
+      return std::make_unique<NeoHookeanXpbd<3>>(problem, cells, step, progress.part(0.2, 1));
+  }
+}
+
+std::unique_ptr<ElasticSolver> make_neo_hookean_xpbd(const ElasticProblem& problem, const Progress& progress) {
+  return make_neo_hookean_xpbd(problem, neo_hookean_step, progress);
 }
 
 }  // namespace chainmail

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "body/body_view.h"
@@ -14,9 +13,8 @@
 #include "equilibrium/link_energy.h"
 #include "equilibrium/material_minimum.h"
 #include "equilibrium/quasi_newton.h"
-#include "equilibrium/region_multipliers.h"
+#include "equilibrium/region_constraints.h"
 #include "equilibrium/valid_projection.h"
-#include "exact/path_search.h"
 #include "exact/restore_validity.h"
 #include "mesh/error.h"
 

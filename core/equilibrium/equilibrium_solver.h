@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "body/body.h"
 #include "mesh/progress.h"
@@ -27,7 +26,7 @@ struct EquilibriumCertificate {
 ///
 /// An iteration is one step, preconditioned by multigrid, of conjugate gradients, or of a quasi-Newton method (L-BFGS)
 /// for corotated links and the material. Where valid regions bind, it is one step of the method of multipliers, see
-/// region_multipliers.h and region_penalties.h. Each iteration leaves the body in a valid state.
+/// region_constraints.h. Each iteration leaves the body in a valid state.
 ///
 /// What is kept between iterations is compared with the body's revisions. A cut, a pin or another softness of some
 /// links updates the levels of the multigrid only around them.

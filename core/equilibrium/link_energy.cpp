@@ -1,9 +1,7 @@
 #include "equilibrium/link_energy.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "elastic/surface_cells.h"
 #include "equilibrium/block_vectors.h"

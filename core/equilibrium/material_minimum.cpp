@@ -1,6 +1,5 @@
 #include "equilibrium/material_minimum.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -8,7 +8,7 @@
 #include "equilibrium/laplacian_preconditioner.h"
 #include "equilibrium/material_energy.h"
 #include "equilibrium/quasi_newton.h"
-#include "equilibrium/region_penalties.h"
+#include "equilibrium/region_constraints.h"
 
 namespace chainmail {
 

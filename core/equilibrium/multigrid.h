@@ -3,7 +3,6 @@
 #include <memory>
 #include <span>
 
-#include "equilibrium/link_laplacian.h"
 #include "equilibrium/link_matrix.h"
 #include "equilibrium/shared_loop.h"
 #include "mesh/progress.h"

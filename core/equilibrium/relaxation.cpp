@@ -1,16 +1,13 @@
 #include "equilibrium/relaxation.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "body/body_view.h"
 #include "equilibrium/corotated.h"
 #include "equilibrium/small_quadratic.h"
-#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {

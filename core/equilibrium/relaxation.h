@@ -10,10 +10,20 @@
 
 #include "body/body.h"
 #include "equilibrium/link_energy.h"
-#include "equilibrium/relaxation_result.h"
+#include "equilibrium/relaxation_scheme.h"
 #include "mesh/fixed_matrix.h"
 
 namespace chainmail {
+
+/// Result of a slice of relaxation: a part of a sweep, or one iteration toward the equilibrium.
+struct RelaxationResult {
+  std::uint64_t visited = 0;  // number of visited elements
+  bool sweep_ended = false;   // true if the slice reached the end of a sweep, or was an iteration
+  double largest_step = 0;    // of the sweep so far, Euclidean norm (mesh units)
+  /// After an iteration: the estimated distance from the equilibrium, see EquilibriumCertificate.
+  std::optional<double> residual = {};
+  bool has_prepared = false;  // true if this iteration prepared later ones, which are much faster
+};
 
 /// A set of elements, taken in ascending order. Costs nothing outside the range in use.
 class ActiveSet {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "chainmail/ring.h"
+#include "chainmail/waiting_list.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 
 #include "elastic/elimination.h"
 #include "elastic/methods.h"
-#include "elastic/newton.h"
+#include "elastic/nonlinear_fem.h"
 #include "elastic/simplices.h"
 #include "elastic/stiffening.h"
 #include "mesh/cells.h"

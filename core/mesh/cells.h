@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
@@ -41,5 +45,85 @@ bool is_whole(const Mesh& mesh, const Cuts& cuts, const std::array<ElementId, Co
 
 /// Adds links along the edges of all faces and cells, for files that list no links.
 void add_links_along_edges(MeshParts& parts);
+
+/// Index of a cell: the tetrahedra first, then the hexahedra.
+using CellId = std::uint32_t;
+/// Index of a side, cell by cell: four per tetrahedron, then six per hexahedron.
+using SideId = std::uint32_t;
+
+/// The corners of a side: three, or four in order around it.
+struct Side {
+  std::array<ElementId, 4> corner{};
+  int count = 0;
+
+  std::span<const ElementId> corners() const { return std::span(corner).first(std::size_t(count)); }
+};
+
+/// Neighbourhood of the cells of a mesh. Immutable, made once per mesh. Takes 16 bytes per tetrahedron, the same again
+/// for the cells of each element, and nothing for a mesh without cells.
+class CellTable {
+ public:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// Throws Cancelled.
+  explicit CellTable(MeshPointer mesh, const Progress& progress = {});
+
+  const MeshPointer& mesh() const { return mesh_; }
+  CellId cell_count() const { return static_cast<CellId>(mesh_->tetrahedra.size() + mesh_->hexahedra.size()); }
+  SideId side_count() const { return static_cast<SideId>(twins_.size()); }
+  bool empty() const { return twins_.empty(); }
+
+  std::span<const ElementId> corners_of(CellId cell) const;
+  /// As indices of the corners of the cell.
+  std::span<const CellEdge> edges_of(CellId cell) const;
+  SideId first_side(CellId cell) const { return cell < tetrahedra_ ? 4 * cell : 6 * cell - 2 * tetrahedra_; }
+  SideId end_side(CellId cell) const { return first_side(cell) + (cell < tetrahedra_ ? 4 : 6); }
+  CellId cell_of(SideId side) const { return side < 4 * tetrahedra_ ? side / 4 : (side + 2 * tetrahedra_) / 6; }
+  /// The elements of a side at rest, counterclockwise as seen from outside its cell.
+  Side side(SideId side) const;
+  bool has_corner(SideId side, ElementId element) const;
+  /// Returns the side of another cell with the same corners, if any. If more than two sides have them, they are paired.
+  SideId twin(SideId side) const { return twins_[side]; }
+  /// Returns the cells with this corner, ascending.
+  std::span<const CellId> cells_of(ElementId element) const {
+    return {cells_.data() + first_cell_[element], cells_.data() + first_cell_[element + 1]};
+  }
+  /// Calls visit(cell) for each cell with this link as an edge.
+  template <class Visit>
+  void for_each_cell(LinkId link, Visit visit) const {
+    if (empty()) {
+      return;
+    }
+    const auto [a, b] = mesh_->links[link];
+    for (const CellId cell : cells_of(a)) {
+      if (has_edge(cell, a, b)) {
+        visit(cell);
+      }
+    }
+  }
+  /// Returns the links that are not an edge of a cell, ascending.
+  const std::vector<LinkId>& loose_links() const { return loose_links_; }
+  /// Returns the triangles of the mesh that are not part of a side of a cell, ascending.
+  const std::vector<std::uint32_t>& loose_triangles() const { return loose_triangles_; }
+
+ private:
+  Side side_by_number(SideId side) const;
+  bool is_inverted(CellId cell) const;
+  bool has_edge(CellId cell, ElementId a, ElementId b) const;
+  void list_cells();
+  void pair_sides(const Progress& progress);
+  void find_loose_links();
+  void find_loose_triangles();
+
+  MeshPointer mesh_;
+  std::uint32_t tetrahedra_ = 0;
+  std::vector<SideId> twins_;
+  std::vector<std::uint32_t> first_cell_;  // of each element, among cells_, and the end
+  std::vector<CellId> cells_;
+  std::vector<LinkId> loose_links_;
+  std::vector<std::uint32_t> loose_triangles_;
+};
+
+using CellTablePointer = std::shared_ptr<const CellTable>;
 
 }  // namespace chainmail

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace chainmail {
@@ -22,5 +23,10 @@ class Error : public std::runtime_error {
   std::string where_;
   std::pair<std::string, std::string> rest_;  // the problem and the remedy
 };
+
+/// Returns one sentence about the exception that is being handled: where, what is wrong, and what to do. Call it in a
+/// catch block. An Error brings its own text; for anything else, `where` names what failed. Never throws: if there is
+/// no memory for the sentence, it returns a few words.
+std::string failure_sentence(std::string_view where) noexcept;
 
 }  // namespace chainmail

@@ -1,7 +1,6 @@
 #include "mesh/generate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "mesh/error.h"

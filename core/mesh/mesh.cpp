@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <string>
 
 #include "mesh/error.h"
 #include "mesh/large_pages.h"
 #include "mesh/parts.h"
 #include "mesh/polygon_triangles.h"
-#include "mesh/shapes.h"
 
 namespace chainmail {
 namespace {

@@ -3,6 +3,11 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
 
 namespace chainmail {
 
@@ -12,34 +17,56 @@ class Cancelled : public std::exception {
   const char* what() const noexcept override { return "cancelled"; }
 };
 
-/// State shared by the thread that runs a job and the thread that waits for it.
-struct JobState {
-  std::atomic<double> share = 0;  // done, from 0 to 1
-  std::atomic<bool> cancelled = false;
-};
-
-/// Progress of a job or of a part of it: receives the share done, and throws if the job is cancelled. The default does
-/// nothing.
+/// Progress of long work or of a part of it: the share that is done, a text, and cancel. A cheap value: copies and
+/// parts refer to the same state, so the thread that works has one, and the thread that waits has another. The default
+/// one does nothing, and nobody can cancel it.
 class Progress {
  public:
-  Progress() = default;
-  explicit Progress(JobState& job) : job_(&job) {}
+  /// Receives the share and the text after each change, on the thread that works.
+  using Watcher = std::function<void(double share, const std::string& text)>;
 
-  /// Reports the share of this part that is done, from 0 to 1. Throws Cancelled if the job was cancelled.
+  Progress() = default;
+  /// Returns the progress of new work.
+  static Progress watched(Watcher watcher = {}) {
+    Progress progress;
+    progress.state_ = std::make_shared<State>();
+    progress.state_->watcher = std::move(watcher);
+    return progress;
+  }
+
+  // For the thread that works.
+
+  /// Reports the share of this part that is done, from 0 to 1. Throws Cancelled if the work was cancelled.
   void report(double share) const {
-    if (job_ == nullptr) {
-      return;
-    }
-    if (job_->cancelled.load(std::memory_order_relaxed)) {
+    if (cancelled()) {
       throw Cancelled();
     }
-    job_->share.store(from_ + share * (to_ - from_), std::memory_order_relaxed);
+    show(share);
   }
 
   /// Reports a share. Cheap enough for each iteration of a loop: it acts once per few thousand calls.
   void report(std::size_t done, std::size_t of) const {
     if (done % stride == 0) {
       report(double(done) / double(of));
+    }
+  }
+
+  /// Reports a share without an exception, for work that asks cancelled() and returns what is finished.
+  void show(double share) const {
+    if (state_ == nullptr || is_quiet_) {
+      return;
+    }
+    state_->share.store(from_ + share * (to_ - from_), std::memory_order_relaxed);
+    if (state_->watcher) {
+      state_->watcher(this->share(), text());
+    }
+  }
+
+  /// Sets the text. Watchers receive it with the next share.
+  void say(std::string text) const {
+    if (state_ != nullptr && !is_quiet_) {
+      const std::scoped_lock lock(state_->mutex);
+      state_->text = std::move(text);
     }
   }
 
@@ -51,11 +78,47 @@ class Progress {
     return part;
   }
 
+  /// Returns a progress that only passes on that the work was cancelled: its shares are too small to be shown.
+  Progress quiet() const {
+    Progress quiet = *this;
+    quiet.is_quiet_ = true;
+    return quiet;
+  }
+
+  bool cancelled() const { return state_ != nullptr && state_->cancelled.load(std::memory_order_relaxed); }
+
+  // For the thread that waits.
+
+  /// Cancels the work, or takes that back.
+  void cancel(bool wanted = true) const {
+    if (state_ != nullptr) {
+      state_->cancelled.store(wanted);
+    }
+  }
+  /// The share of the whole work that is done, from 0 to 1.
+  double share() const { return state_ != nullptr ? state_->share.load() : 0; }
+  std::string text() const {
+    if (state_ == nullptr) {
+      return {};
+    }
+    const std::scoped_lock lock(state_->mutex);
+    return state_->text;
+  }
+
  private:
   static constexpr std::size_t stride = 4096;  // takes well below 1 ms in every loop
 
-  JobState* job_ = nullptr;
+  struct State {
+    std::atomic<double> share = 0;
+    std::atomic<bool> cancelled = false;
+    std::mutex mutex;  // guards the text
+    std::string text;
+    Watcher watcher;
+  };
+
+  std::shared_ptr<State> state_;
   double from_ = 0, to_ = 1;
+  bool is_quiet_ = false;
 };
 
 }  // namespace chainmail

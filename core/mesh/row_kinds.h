@@ -10,6 +10,10 @@ namespace chainmail {
 
 struct Mesh;
 
+/// Fills the table of rest vectors of a mesh that has few: the distinct ones, and which one each entry of the
+/// neighbour table has. A mesh with more than Mesh::shape_limit of them keeps both tables empty.
+void number_shapes(Mesh& mesh, const Progress& progress);
+
 /// The kinds of rows of the neighbour table. Two rows are of one kind if their neighbours are as far from their
 /// elements in id, and their rest vectors are the same if they are numbered. A lattice has few kinds, 27 in a solid:
 /// its passes read one byte per element instead of a row.

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/edge_key.h"
 #include "mesh/split.h"
 
 namespace chainmail {

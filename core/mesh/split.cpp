@@ -1,12 +1,9 @@
 #include "mesh/split.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "mesh/edge_key.h"
 #include "mesh/error.h"
 
 namespace chainmail {

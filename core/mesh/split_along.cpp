@@ -16,7 +16,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "mesh/edge_key.h"
 #include "mesh/separate.h"
 
 namespace chainmail {

@@ -2,7 +2,7 @@
 
 #include <unordered_map>
 
-#include "mesh/cell_table.h"
+#include "mesh/cells.h"
 #include "mesh/cuts.h"
 
 namespace chainmail {

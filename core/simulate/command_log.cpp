@@ -84,16 +84,20 @@ void CommandLog::flush() {
 }
 
 void CommandLog::post(const Command& command) {
-  const bool sampled =
-      std::holds_alternative<commands::Drag>(command) || std::holds_alternative<commands::SetSoftness>(command) ||
-      std::holds_alternative<commands::SetRelaxation>(command) || std::holds_alternative<commands::SetElastic>(command);
+  using namespace commands;
   if (waiting_ && waiting_->index() != command.index()) {
     flush();
   }
-  if (sampled) {
-    waiting_ = command;
-  } else {
+  const bool is_sampled = is_one_of<Drag, SetSoftness, SetRelaxation, SetElastic>(command);
+  if (is_sampled) {
+    waiting_ = command;  // also if the solvers are idle: if it cannot be sent now, it is sent later
+  }
+  if (!is_sampled || solvers_are_idle()) {
     send(command);
+    waiting_.reset();
+  }
+  if (posted_) {
+    posted_(command);
   }
 }
 
@@ -120,9 +124,11 @@ void CommandLog::remove(const SolverThread& solver) {
 }
 
 void CommandLog::sample() {
-  if (std::all_of(solvers_.begin(), solvers_.end(), [](const SolverThread* one) { return one->idle(); })) {
+  if (solvers_are_idle()) {
     flush();
   }
 }
+
+bool CommandLog::solvers_are_idle() const { return std::ranges::all_of(solvers_, &SolverThread::idle); }
 
 }  // namespace chainmail

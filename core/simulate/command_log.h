@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,8 +16,11 @@ namespace chainmail {
 /// lags behind. All other commands are sent at once, after any waiting command. Only one thread may use this object.
 class CommandLog {
  public:
-  explicit CommandLog(std::vector<SolverThread*> solvers) : solvers_(std::move(solvers)) {}
+  /// `posted` is called after each command that was posted.
+  explicit CommandLog(std::vector<SolverThread*> solvers, std::function<void(const Command&)> posted = {})
+      : solvers_(std::move(solvers)), posted_(std::move(posted)) {}
 
+  /// Sends a command to all solvers and records it, or lets it wait.
   void post(const Command& command);
   /// Sends a command to one solver only, after any waiting command.
   void post_to(SolverThread& solver, const Command& command);
@@ -33,11 +37,12 @@ class CommandLog {
   void ask_all(const std::vector<SolverThread::Question>& questions);
   /// Sends the waiting command. Call this before you use a solver directly.
   void flush();
-  /// Sends the waiting command if every solver is idle. Call this after each post, and each time a solver becomes idle.
+  /// Sends the waiting command if every solver is idle. Call this each time a solver becomes idle.
   void sample();
   bool waits() const { return waiting_.has_value(); }
 
  private:
+  bool solvers_are_idle() const;
   void send(const Command& command);
   void send_to_all(const Command& command, const std::shared_ptr<commands::SliceCounts>& counts);
   std::shared_ptr<commands::SliceCounts> new_counts() const;
@@ -45,6 +50,7 @@ class CommandLog {
   void follow(const Command& command);
 
   std::vector<SolverThread*> solvers_;
+  std::function<void(const Command&)> posted_;
   std::optional<Command> waiting_;
   MoveHistory history_;
   commands::SetRelaxation relaxation_;  // as sent last

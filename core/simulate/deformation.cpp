@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "equilibrium/link_energy.h"
-#include "measure/inverted_cells.h"
-#include "measure/principal_stretch.h"
-#include "measure/volume_change.h"
+#include "measure/shape_measures.h"
 #include "mesh/error.h"
 
 namespace chainmail {

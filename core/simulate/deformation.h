@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "body/trace.h"
+#include "body/method.h"
 #include "simulate/simulation.h"
 
 namespace chainmail {

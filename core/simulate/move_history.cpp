@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "body/split_state.h"
+#include "body/snapshot.h"
 
 namespace chainmail {
 namespace {
@@ -182,10 +182,10 @@ MeshPointer MoveHistory::first_mesh() const {
   return first;
 }
 
-MoveHistory::Object MoveHistory::object(std::size_t position) const {
+ObjectState MoveHistory::object(std::size_t position) const {
   std::set<LinkId> cuts;
   std::set<ElementId> pins;
-  Object object;
+  ObjectState object;
   const auto toggle = [](auto& all, const auto& some, bool add) {
     for (const auto one : some) {
       add ? void(all.insert(one)) : void(all.erase(one));
@@ -205,13 +205,11 @@ MoveHistory::Object MoveHistory::object(std::size_t position) const {
     } else if (const auto* softness = std::get_if<commands::SetSoftness>(&command)) {
       object.softness = softness->softness;
     } else if (const auto* split = std::get_if<commands::Split>(&command)) {
-      const chainmail::Split& one = *split->split;
-      const auto open = cuts_after(one, std::vector(cuts.begin(), cuts.end()));
-      const auto pinned = pins_after(one, std::vector(pins.begin(), pins.end()));
-      cuts = {open.begin(), open.end()};
-      pins = {pinned.begin(), pinned.end()};
-      object.softness = softness_after(one, object.softness);
-      object.mesh = one.after;
+      object.cuts.assign(cuts.begin(), cuts.end());
+      object.pins.assign(pins.begin(), pins.end());
+      object = object_after(*split->split, object);
+      cuts = {object.cuts.begin(), object.cuts.end()};
+      pins = {object.pins.begin(), object.pins.end()};
     }
   }
   object.cuts.assign(cuts.begin(), cuts.end());

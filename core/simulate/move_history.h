@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "body/snapshot.h"
 #include "simulate/command.h"
 
 namespace chainmail {
@@ -54,17 +55,11 @@ class MoveHistory {
   /// Returns a number that changes when commands after the current position are replaced, or others are loaded.
   std::uint64_t timeline() const { return timeline_number_; }
 
-  /// The state of the object without positions; cuts and pins are in ascending order.
-  struct Object {
-    MeshPointer mesh;  // null if no command splits the object: it is the same at all positions
-    std::vector<LinkId> cuts;
-    std::vector<ElementId> pins;
-    std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
-  };
-  /// Returns the object at the current position.
-  Object object() const { return object(position_); }
+  /// Returns the object at the current position. Its mesh is null if no command splits it: it is the same at all
+  /// positions.
+  ObjectState object() const { return object(position_); }
   /// Returns the object after the first `position` commands.
-  Object object(std::size_t position) const;
+  ObjectState object(std::size_t position) const;
 
  private:
   using Node = std::uint32_t;  // index into nodes_

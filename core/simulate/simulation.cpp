@@ -6,10 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "body/split_state.h"
-#include "measure/inverted_cells.h"
+#include "measure/shape_measures.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "mesh/parameters.h"
 
 namespace chainmail {
@@ -30,31 +28,23 @@ constexpr LinkId links_per_slice = 50'000;
 }  // namespace
 
 Simulation::Simulation(MeshPointer mesh, Algorithm algorithm, Precision precision)
-    : mesh_(std::move(mesh)),
-      algorithm_(algorithm),
-      precision_(precision),
-      deformer_(std::make_unique<Deformer>(mesh_, algorithm, precision)),
-      changed_(mesh_->element_count()),
-      unmeasured_(mesh_->element_count()),
-      away_(mesh_->element_count()),
-      unkept_(mesh_->element_count()) {
+    : deformer_(std::move(mesh), algorithm, precision),
+      changed_(this->mesh().element_count()),
+      unmeasured_(changed_),
+      away_(changed_),
+      unkept_(changed_) {
   changed_.insert_all();
   statistics_.algorithm = algorithm;
 }
 
 void Simulation::set_progress(const Progress& progress) {
   progress_ = progress;
-  deformer_->set_progress(progress);
-}
-
-void Simulation::set_threads(int threads) {
-  threads_ = threads;
-  deformer_->set_threads(threads);
+  deformer_.set_progress(progress);
 }
 
 void Simulation::prepare(ElementId element) {
-  if (!grabbed_ && element < mesh_->element_count() && !body().is_pinned(element)) {
-    deformer_->prepare(element);
+  if (!grabbed_ && element < mesh().element_count()) {
+    deformer_.prepare(element);
   }
 }
 
@@ -64,15 +54,15 @@ void Simulation::apply(const Command& command) {
 
 void Simulation::pass(const std::shared_ptr<Handle>& handle, const Pose& target) {
   const bool was_valid = valid_;
-  time_pass([&] { return deformer_->move(*handle, target, trace_); });
+  time_pass([&] { return deformer_.move(*handle, target, trace_); });
   last_handle_ = handle;
   if (!grabbed_) {
-    deformer_->release();  // a pass that follows an edit
+    deformer_.release();  // a pass that follows an edit
   }
   // Links inside a handle of many stay as they are. A rotation may violate them.
   valid_ =
-      info(algorithm_).holds_links && (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
-  for (const auto& moved : {handle->elements(), deformer_->moved()}) {
+      info(algorithm()).holds_links && (handle->has_one() || (was_valid && handle->pose().rotation == Point::Zero()));
+  for (const auto& moved : {handle->elements(), deformer_.moved()}) {
     mark(moved);
     wake(moved);
   }
@@ -97,7 +87,7 @@ void Simulation::time_pass(Move move) {
   statistics_.last_pass_ms = std::chrono::duration<double, std::milli>(end - start).count();
   times_.add(end, statistics_.last_pass_ms);
   ++statistics_.passes;
-  statistics_.remark = deformer_->remark();
+  statistics_.remark = deformer_.remark();
   relaxation_fails_ = false;
 }
 
@@ -162,18 +152,18 @@ bool Simulation::run_slice() {
   if (std::exchange(woken_, false)) {
     return false;
   }
-  const double length = mesh_->mean_link_length;
+  const double length = mesh().mean_link_length;
   const double distance = slice.residual.value_or(length > 0 ? slice.largest_step / length : slice.largest_step);
   const bool has_settled =
       slice.largest_step <= asleep_below * length && (!slice.residual || *slice.residual <= settled_below);
   if (!has_settled && comes_closer(distance)) {
     return false;
   }
-  const auto turned = softness().energy == EnergyKind::material ? inverted_cells(*mesh_, body().positions()) : 0;
+  const auto turned = softness().energy == EnergyKind::material ? inverted_cells(mesh(), body().positions()) : 0;
   if ((!has_settled || turned.value_or(0) > 0) && !std::exchange(has_begun_again_, true)) {
     closest_sweep_ = 0;  // another start may find a way out
-    deformer_->forget_relaxation();
-    deformer_->wake_all();
+    deformer_.forget_relaxation();
+    deformer_.wake_all();
     return false;
   }
   if (!has_settled) {
@@ -191,23 +181,23 @@ bool Simulation::comes_closer(double distance) {
     closest_ = distance;
     closest_sweep_ = statistics_.sweeps;
   }
-  return statistics_.sweeps - closest_sweep_ < (info(relaxation_scheme_).sweeps ? most_sweeps : most_iterations);
+  return statistics_.sweeps - closest_sweep_ < (info(deformer_.relaxation()).sweeps ? most_sweeps : most_iterations);
 }
 
 /// Begins relaxation as if it had done nothing before, with all elements or with none.
 void Simulation::begin_relaxation(bool awake) {
   fall_asleep();
-  deformer_->forget_relaxation();
-  if (awake && info(algorithm_).relaxes()) {
-    deformer_->wake_all();
+  deformer_.forget_relaxation();
+  if (awake && info(algorithm()).relaxes()) {
+    deformer_.wake_all();
     wake({});
   }
 }
 
 RelaxationResult Simulation::relax_slice(double step) {
   return take_relaxed([&] {
-    const RelaxationResult slice = deformer_->relax_slice(step, Deformer::elements_per_slice, grabbed());
-    mark(deformer_->relaxed());
+    const RelaxationResult slice = deformer_.relax_slice(step, Deformer::elements_per_slice, grabbed());
+    mark(deformer_.relaxed());
     return slice;
   });
 }
@@ -240,23 +230,23 @@ void Simulation::refuse_relaxation(const std::string& reason) {
 }
 
 void Simulation::relax(int count, const RelaxOptions& options) {
-  if (count == 0 || !info(algorithm_).relaxes()) {
-    deformer_->relax(count, options);  // checks the options; what is known of the last relaxation stays
+  if (count == 0 || !info(algorithm()).relaxes()) {
+    deformer_.relax(count, options);  // checks the options; what is known of the last relaxation stays
     return;
   }
   take_relaxed([&] {
     RelaxationResult result;
-    result.residual = deformer_->relax(count, options, [this] { mark(deformer_->relaxed()); }).residual;
+    result.residual = deformer_.relax(count, options, [this] { mark(deformer_.relaxed()); }).residual;
     return result;
   });
 }
 
 bool Simulation::measure() {
   if (!unmeasured_.empty()) {
-    meter_.forget(*mesh_, unmeasured_);
+    meter_.forget(mesh(), unmeasured_);
     unmeasured_.clear();
   }
-  statistics_.violation = meter_.measure(*mesh_, softness(), body().cuts(), body().positions(), links_per_slice);
+  statistics_.violation = meter_.measure(mesh(), softness(), body().cuts(), body().positions(), links_per_slice);
   statistics_.last_second = times_.summary(Clock::now());
   if (statistics_.violation.is_whole) {
     valid_ = statistics_.violation.fraction == 0;
@@ -269,38 +259,31 @@ void Simulation::measure_all() {
   }
 }
 
-void Simulation::take_mesh(MeshPointer mesh) {
-  const Algorithm algorithm = fits(algorithm_, *mesh) ? algorithm_ : Algorithm::natural_queue;
-  // This may run out of memory, so it comes before any change.
-  auto deformer = std::make_unique<Deformer>(mesh, algorithm, precision_);
-  deformer->body().set_elastic(elastic());
-  deformer_ = std::move(deformer);
-  deformer_->set_relaxation(relaxation_scheme_);
-  deformer_->set_progress(progress_);
-  deformer_->set_threads(threads_);
-  algorithm_ = statistics_.algorithm = algorithm;
-  mesh_ = std::move(mesh);
-  away_ = changed_ = unkept_ = unmeasured_ = ElementBlocks(mesh_->element_count());
+/// Call this after the deformer got another object.
+void Simulation::follow_mesh() {
+  statistics_.algorithm = algorithm();
+  away_ = changed_ = unkept_ = unmeasured_ = ElementBlocks(mesh().element_count());
   meter_ = {};
   statistics_.violation = {};
   last_kept_ = {};
   changed_.insert_all();
-  let_go();
+  grabbed_.reset();
+  last_handle_.reset();
   valid_ = true;
   forget_passes();
-  fall_asleep();
+  statistics_.relaxing = false;
 }
 
 /// Call this after positions were set: no handle was moved since.
 void Simulation::let_go() {
   grabbed_.reset();
   set_last_handle(nullptr);
-  deformer_->release();
+  deformer_.release();
 }
 
 void Simulation::set_last_handle(std::shared_ptr<Handle> handle) {
   last_handle_ = std::move(handle);
-  deformer_->set_last_handle(elements_of(last_handle_));
+  deformer_.set_last_handle(elements_of(last_handle_));
 }
 
 /// Clears the statistics of passes of another object or algorithm.
@@ -316,8 +299,8 @@ void Simulation::forget_passes() {
 }
 
 void Simulation::wake(std::span<const ElementId> elements) {
-  if (relaxation_on_ && info(algorithm_).relaxes()) {
-    deformer_->wake(elements);
+  if (relaxation_on_ && info(algorithm()).relaxes()) {
+    deformer_.wake(elements);
     woken_ = true;
     statistics_.relaxing = true;
     has_begun_again_ = false;
@@ -327,7 +310,7 @@ void Simulation::wake(std::span<const ElementId> elements) {
 }
 
 void Simulation::fall_asleep() {
-  deformer_->sleep();
+  deformer_.sleep();
   statistics_.relaxing = false;
 }
 
@@ -335,14 +318,14 @@ void Simulation::fall_asleep() {
 
 void Simulation::carry_out(const commands::Grab& command) {
   grabbed_ = std::make_shared<Handle>(body(), command.elements);
-  deformer_->hold(grabbed());
+  deformer_.hold(grabbed());
 }
 
 void Simulation::carry_out(const commands::Drag& command) {
   if (!grabbed_) {
     throw Error("drag", "no element is grabbed", "grab one first");
   }
-  check(command.rotation, *mesh_);
+  check(command.rotation, mesh());
   const Point from = command.relative ? grabbed_->grabbed().pivot : Point(Point::Zero());
   pass(grabbed_, {command.relative ? Point(from + command.target) : command.target, command.rotation.vector()});
 }
@@ -350,11 +333,11 @@ void Simulation::carry_out(const commands::Drag& command) {
 void Simulation::carry_out(const commands::Release&) {
   if (grabbed_) {
     // The released elements may follow their neighbours, in idle time or in requested sweeps.
-    deformer_->wake(grabbed());
+    deformer_.wake(grabbed());
     wake({});
   }
   grabbed_.reset();
-  deformer_->release();
+  deformer_.release();
   if (std::exchange(statistics_.last_pass.stopped, false)) {
     statistics_.remark.clear();  // the handle no longer pulls
   }
@@ -362,9 +345,9 @@ void Simulation::carry_out(const commands::Release&) {
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
   check(command.softness->global);
-  check(command.softness->axes, *mesh_);
+  check(command.softness->axes, mesh());
   for (const auto& [link, softness] : command.softness->links) {
-    check_links(*mesh_, std::span(&link, 1));
+    check_links(mesh(), std::span(&link, 1));
     check(softness);
   }
   const Revisions before = body().revisions();
@@ -372,15 +355,15 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
   const bool new_energy = body().revisions().energy != before.energy;
   if (!new_energy || body().revisions().softness != before.softness) {
     valid_ = false;
-    if (info(algorithm_).uses_softness()) {
+    if (info(algorithm()).uses_softness()) {
       answer();
     }
   }
   if (new_energy && last_handle_) {  // otherwise all elements are at rest, where every energy is least
-    deformer_->wake_all();
+    deformer_.wake_all();
     wake({});
   }
-  if (!info(relaxation_scheme_).sweeps && last_handle_) {
+  if (!info(deformer_.relaxation()).sweeps && last_handle_) {
     wake({});  // the equilibrium depends on the softness, even if no pass can answer
   }
 }
@@ -389,7 +372,7 @@ void Simulation::carry_out(const commands::SetSoftness& command) {
 void Simulation::set_softness(const std::shared_ptr<const Softness>& softness) {
   if (softness != body().shared_softness() && *softness != this->softness()) {
     const RegionAxes before = body().region_axes();
-    deformer_->body().set_softness(softness);
+    deformer_.body().set_softness(softness);
     meter_.forget_all();
     note_axes(before);
   }
@@ -423,7 +406,7 @@ void Simulation::answer() {
   }
   try {
     if (about->has_one()) {
-      pass(about, {point_of(*mesh_, body().positions(), about->elements()[0]), Point::Zero()});
+      pass(about, {point_of(mesh(), body().positions(), about->elements()[0]), Point::Zero()});
     } else if (grabbed_) {
       pass(grabbed_, grabbed_->pose());
     } else {  // its elements may have moved apart since it was released
@@ -439,11 +422,11 @@ void Simulation::answer() {
 void Simulation::carry_out(const commands::SetElastic& command) {
   check(command.options);
   if (command.options != elastic()) {
-    deformer_->body().set_elastic(command.options);
-    if (info(algorithm_).family() == Family::elastic) {
+    deformer_.body().set_elastic(command.options);
+    if (info(algorithm()).family() == Family::elastic) {
       answer();
     }
-    if (softness().energy == EnergyKind::material && !info(relaxation_scheme_).sweeps && last_handle_) {
+    if (softness().energy == EnergyKind::material && !info(deformer_.relaxation()).sweeps && last_handle_) {
       wake({});  // the equilibrium depends on the material
     }
   }
@@ -457,12 +440,11 @@ void Simulation::carry_out(const commands::Relaxed& command) {
   check(parameters::relax_step, command.step);
   relaxation_on_ = repeats_slices_ = true;
   relaxation_step_ = command.step;
-  relaxation_scheme_ = command.scheme;
-  deformer_->set_relaxation(command.scheme);
+  deformer_.set_relaxation(command.scheme);
   if (command.start != commands::Relaxed::Start::goes_on) {
     begin_relaxation(command.start == commands::Relaxed::Start::awake);
   }
-  const std::uint32_t count = command.counts->slices_for(command.panel, algorithm_);
+  const std::uint32_t count = command.counts->slices_for(command.panel, algorithm());
   for (std::uint32_t i = 0; i < count && statistics_.relaxing; ++i) {
     progress_.report(double(i) / double(count));  // a slice is long
     try_slice();
@@ -474,9 +456,9 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
   relaxation_ = {command.on, command.step, command.scheme};
   repeats_slices_ = false;
   const bool was_on = std::exchange(relaxation_on_, command.on);
-  const bool is_other = std::exchange(relaxation_scheme_, command.scheme) != command.scheme;
+  const bool is_other = deformer_.relaxation() != command.scheme;
   relaxation_step_ = command.step;
-  deformer_->set_relaxation(command.scheme);
+  deformer_.set_relaxation(command.scheme);
   if (is_other) {
     statistics_.residual.reset();
   }
@@ -491,33 +473,33 @@ void Simulation::carry_out(const commands::SetRelaxation& command) {
 void Simulation::carry_out(const commands::SetAlgorithm& command) {
   const RegionAxes axes = body().region_axes();
   const bool stored_displacements = body().stores_displacements();
-  deformer_->set_algorithm(command.algorithm);
+  const Algorithm before = algorithm();
+  deformer_.set_algorithm(command.algorithm);
   note_axes(axes);
-  const Algorithm before = std::exchange(algorithm_, command.algorithm);
-  if (before == algorithm_) {
+  if (before == command.algorithm) {
     return;
   }
   if (stored_displacements != body().stores_displacements() && (!away_.empty() || body().region_axes().is_turned())) {
     note_rounding();  // by converting between displacements and positions
   }
-  statistics_.algorithm = algorithm_;
+  statistics_.algorithm = command.algorithm;
   forget_passes();
-  if (!info(algorithm_).relaxes()) {
+  if (!info(algorithm()).relaxes()) {
     fall_asleep();
   }
-  if (info(algorithm_).answers_any_state()) {
+  if (info(algorithm()).answers_any_state()) {
     answer();
   }
 }
 
 void Simulation::carry_out(const commands::Cut& command) {
-  deformer_->cut(command.links);
+  deformer_.cut(command.links);
   meter_.forget(command.links);
   wake({});
 }
 
 void Simulation::carry_out(const commands::Uncut& command) {
-  deformer_->uncut(command.links);
+  deformer_.uncut(command.links);
   meter_.forget(command.links);
   valid_ = false;  // the ends may have moved too far apart while the link was cut
   wake({});
@@ -529,16 +511,16 @@ void Simulation::carry_out(const commands::Pin& command) {
       throw Error("element " + std::to_string(element), "it is grabbed", "release it, then pin it");
     }
   }
-  deformer_->pin(command.elements);
+  deformer_.pin(command.elements);
 }
 
 void Simulation::carry_out(const commands::Unpin& command) {
-  deformer_->unpin(command.elements);
+  deformer_.unpin(command.elements);
   wake({});
 }
 
 void Simulation::carry_out(const commands::Reset&) {
-  deformer_->body().reset(away_);
+  deformer_.body().reset(away_);
   note_change(away_);
   unkept_.insert(away_);
   away_.clear();
@@ -555,41 +537,23 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
   if (!command.mesh) {
     throw Error("replace mesh", "the command contains no mesh", "use a command with a mesh");
   }
-  const auto softness = std::make_shared<const Softness>(kept_for(*command.mesh, this->softness()));
-  take_mesh(command.mesh);
-  set_softness(softness);
+  const auto kept = std::make_shared<const Softness>(kept_for(*command.mesh, softness()));
+  deformer_.replace({command.mesh, {}, {}, kept}, algorithm());
+  follow_mesh();
 }
 
 void Simulation::carry_out(const commands::Split& command) {
-  if (!command.split || command.split->before != mesh_) {
-    throw Error("split", "the object is not the one that was split", "split this object");
-  }
-  const Split& split = *command.split;
-  State state = current_state();
-  state.valid = state.valid && away_.empty();  // links inside faces are new
-  state.mesh = split.after;
-  state.cuts = cuts_after(split, state.cuts);
-  state.pins = pins_after(split, state.pins);
-  state.softness = softness_after(split, state.softness);
-  state.positions = positions_after(split, state.positions, precision_);
-  const auto handle = last_handle_;
+  const bool was_valid = valid_ && away_.empty();  // links inside faces are new
   const bool was_relaxing = statistics_.relaxing;
-  take_state(state);
-  if (handle && std::ranges::none_of(handle->elements(), [this](ElementId one) { return body().is_pinned(one); })) {
-    const auto elements = handle->elements();
-    set_last_handle(std::make_shared<Handle>(body(), std::vector<ElementId>(elements.begin(), elements.end())));
+  Snapshot positions = deformer_.split(command.split, current_positions());
+  follow_mesh();
+  note_kept(std::move(positions));
+  valid_ = was_valid;
+  if (const auto last = deformer_.last_handle(); !last.empty()) {
+    last_handle_ = std::make_shared<Handle>(body(), std::vector<ElementId>(last.begin(), last.end()));
   }
   if (was_relaxing) {
-    deformer_->wake_all();
-  }
-  wake_new(split.before->element_count());
-}
-
-/// Wakes the elements from this one on, and their neighbours.
-void Simulation::wake_new(ElementId first) {
-  for (ElementId e = first; e < mesh_->element_count(); ++e) {
-    deformer_->wake(std::span(&e, 1));
-    deformer_->wake(mesh_->neighbours_of(e));
+    deformer_.wake_all();
   }
   wake({});
 }
@@ -602,36 +566,25 @@ void Simulation::carry_out(const commands::KeepState& command) {
   try {
     kept_[command.state] = current_state();
   } catch (const std::bad_alloc&) {
-    kept_[command.state] = last_kept_state();
+    kept_[command.state] = {body().object(), last_kept_, valid_};
     throw Error("undo", "there is not enough memory to keep these positions",
                 "save your work; undoing the next step returns to earlier positions");
   }
 }
 
-void Simulation::carry_out(const commands::RestoreState& command) { take_state(kept(command.state)); }
+void Simulation::carry_out(const commands::RestoreState& command) {
+  const auto found = kept_.find(command.state);
+  if (found == kept_.end()) {
+    throw Error("state " + std::to_string(command.state), "this saved state does not exist", "save it first");
+  }
+  restore(found->second);
+}
 
 void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }
 
 void Simulation::carry_out(const commands::SetPositions& command) {
-  check(*command.snapshot, *mesh_, precision_);
-  ElementBlocks away = command.snapshot->away(*mesh_), changed = away_;
-  changed.insert(away);
-  deformer_->body().restore(*command.snapshot, changed);
-  note_change(changed);
-  unkept_.insert(changed);
-  away_ = std::move(away);
-  valid_ = command.snapshot->is_at_rest();
-  forget_passes();
-  let_go();
-  begin_relaxation(false);
-}
-
-Simulation::State& Simulation::kept(commands::StateId state) {
-  const auto found = kept_.find(state);
-  if (found == kept_.end()) {
-    throw Error("state " + std::to_string(state), "this saved state does not exist", "save it first");
-  }
-  return found->second;
+  check(*command.snapshot, mesh(), body().precision());
+  restore({body().object(), *command.snapshot, command.snapshot->is_at_rest()});
 }
 
 SimulationState Simulation::hand_over() {
@@ -642,89 +595,64 @@ SimulationState Simulation::hand_over() {
 }
 
 void Simulation::take(const SimulationState& state, Algorithm algorithm) {
-  algorithm_ = algorithm;
-  deformer_->body().set_elastic(state.elastic);
-  take_mesh(state.object.mesh);
-  take_state(state.object);
+  deformer_.replace(state.object, algorithm);
+  deformer_.body().set_elastic(state.elastic);
+  follow_mesh();
+  restore(state.object);
   kept_ = state.kept;
   carry_out(state.relaxation);
   grabbed_ = state.grabbed ? std::make_shared<Handle>(*state.grabbed) : nullptr;
-  deformer_->hold(grabbed());
+  deformer_.hold(grabbed());
   set_last_handle(state.last_handle ? std::make_shared<Handle>(*state.last_handle) : nullptr);
 }
 
-Simulation::State Simulation::current_state() {
-  State state = last_kept_state();
-  body().update(state.positions, unkept_, away_);  // may run out of memory, so it comes before any change
-  unkept_.for_each_block([&](std::size_t block, ElementId /*first*/, ElementId /*end*/) {
-    last_kept_.blocks[block] = state.positions.blocks[block];
-  });
-  last_kept_.from_rest = state.positions.from_rest;
-  last_kept_.axes = state.positions.axes;
+KeptState Simulation::current_state() { return {body().object(), current_positions(), valid_}; }
+
+/// Returns the positions. They share the blocks that did not change since they were last saved or restored.
+const Snapshot& Simulation::current_positions() {
+  Snapshot positions = last_kept_;
+  body().update(positions, unkept_, away_);  // may run out of memory, so it comes before any change
+  last_kept_ = std::move(positions);
   unkept_.clear();
-  return state;
+  return last_kept_;
 }
 
-/// Returns the state of the object with the positions that were last saved or restored.
-Simulation::State Simulation::last_kept_state() {
-  last_kept_.blocks.resize(away_.block_count());
-  const auto pins = body().pins();
-  return {mesh_, body().cuts().links(), {pins.begin(), pins.end()}, body().shared_softness(), last_kept_, valid_};
-}
-
-void Simulation::take_state(const State& state) {
-  if (state.mesh != mesh_) {
-    take_mesh(state.mesh);
-  }
-  set_softness(state.softness);
-  take_cuts(state.cuts);
-  if (!std::ranges::equal(state.pins, body().pins())) {
-    deformer_->body().unpin(std::vector<ElementId>(body().pins().begin(), body().pins().end()));
-    deformer_->body().pin(state.pins);
-  }
-  take_positions(state.positions);
-  valid_ = state.valid;
-  forget_passes();
-  let_go();
-  begin_relaxation(false);
-}
-
-void Simulation::take_cuts(const std::vector<LinkId>& cuts) {
-  const std::vector<LinkId> present = body().cuts().links();
-  std::vector<LinkId> excess, missing;
-  std::ranges::set_difference(present, cuts, std::back_inserter(excess));
-  std::ranges::set_difference(cuts, present, std::back_inserter(missing));
-  // Makes only the calls that change something: a method of elasticity prepares again after each of them.
-  if (!excess.empty()) {
-    deformer_->body().uncut(excess);
-    meter_.forget(excess);
-  }
-  if (!missing.empty()) {
-    deformer_->body().cut(missing);
-    meter_.forget(missing);
+/// Call this when the positions have become those of a snapshot.
+void Simulation::note_kept(Snapshot positions) {
+  away_ = positions.away(mesh());
+  last_kept_ = std::move(positions);
+  unkept_.clear();
+  if (last_kept_.from_rest != body().stores_displacements() ||
+      last_kept_.axes.rotation() != body().region_axes().rotation()) {
+    unkept_ = away_;  // the positions have been converted and rounded
   }
 }
 
 /// Copies only blocks that the two states do not share, or in which a position has changed since they were saved.
-void Simulation::take_positions(const Snapshot& positions) {
+void Simulation::restore(const KeptState& state) {
+  if (state.mesh != mesh_pointer()) {
+    deformer_.replace(state, algorithm());
+    follow_mesh();
+  }
+  set_softness(state.softness);
+  std::vector<LinkId> differing;
+  std::ranges::set_symmetric_difference(body().cuts().links(), state.cuts, std::back_inserter(differing));
+  meter_.forget(differing);
+  Snapshot positions = state.positions;
+  positions.blocks.resize(away_.block_count());
   last_kept_.blocks.resize(away_.block_count());
-  away_.clear();
   for (std::size_t block = 0; block < away_.block_count(); ++block) {
     if (positions.blocks[block] != last_kept_.blocks[block]) {
       unkept_.insert_block(block);
     }
-    if (positions.blocks[block] != nullptr) {
-      away_.insert_block(block);
-    }
   }
-  deformer_->body().restore(positions, unkept_);
+  deformer_.restore(state, positions, unkept_);
   note_change(unkept_);
-  last_kept_ = positions;
-  unkept_.clear();
-  if (positions.from_rest != body().stores_displacements() ||
-      positions.axes.rotation() != body().region_axes().rotation()) {
-    unkept_ = away_;  // the positions have been converted and rounded
-  }
+  note_kept(std::move(positions));
+  valid_ = state.valid;
+  forget_passes();
+  let_go();
+  begin_relaxation(false);
 }
 
 }  // namespace chainmail

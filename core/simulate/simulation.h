@@ -65,7 +65,7 @@ class Simulation {
   /// elasticity moves nothing. Sweeps of relaxation end within some milliseconds and keep the positions reached.
   void set_progress(const Progress& progress);
   /// Sets the number of threads that a pass may use: see Deformer::set_threads.
-  void set_threads(int threads);
+  void set_threads(int threads) { deformer_.set_threads(threads); }
   /// Prepares a drag of an element, in idle time: see Deformer::prepare. Nothing happens while something is grabbed.
   void prepare(ElementId element);
   /// Sets the trace that receives every candidate that a pass processes; null: none.
@@ -73,12 +73,12 @@ class Simulation {
   /// Runs sweeps or iterations of relaxation at once, even if relaxation is off: see Deformer::relax.
   void relax(int count, const RelaxOptions& options);
   /// Returns how close the object is to the equilibrium; none if the scheme `equilibrium` has not relaxed it.
-  std::optional<EquilibriumCertificate> certificate() { return deformer_->certificate(); }
+  std::optional<EquilibriumCertificate> certificate() { return deformer_.certificate(); }
 
-  const Mesh& mesh() const { return *mesh_; }
-  const MeshPointer& mesh_pointer() const { return mesh_; }
-  const Deformer& deformer() const { return *deformer_; }
-  const Body& body() const { return deformer_->body(); }
+  const Mesh& mesh() const { return body().mesh(); }
+  const MeshPointer& mesh_pointer() const { return body().mesh_pointer(); }
+  const Deformer& deformer() const { return deformer_; }
+  const Body& body() const { return deformer_.body(); }
   const Softness& softness() const { return body().softness(); }
   const ElasticOptions& elastic() const { return body().elastic(); }
   /// Returns the relaxation that was set last.
@@ -108,8 +108,6 @@ class Simulation {
   bool is_measured() const { return statistics_.violation.is_whole && meter_.is_complete() && unmeasured_.empty(); }
 
  private:
-  using State = ObjectState;
-
   void carry_out(const commands::Grab& command);
   void carry_out(const commands::Drag& command);
   void carry_out(const commands::Release& command);
@@ -155,21 +153,16 @@ class Simulation {
   void note_change(const ElementBlocks& blocks);
   void mark(std::span<const ElementId> moved);
   void mark_all();
-  State& kept(commands::StateId state);
-  void take_mesh(MeshPointer mesh);
+  Algorithm algorithm() const { return deformer_.algorithm(); }
+  void follow_mesh();
   void wake(std::span<const ElementId> elements);
-  void wake_new(ElementId first);
   void fall_asleep();
-  State current_state();
-  State last_kept_state();
-  void take_state(const State& state);
-  void take_cuts(const std::vector<LinkId>& cuts);
-  void take_positions(const Snapshot& positions);
+  KeptState current_state();
+  const Snapshot& current_positions();
+  void note_kept(Snapshot positions);
+  void restore(const KeptState& state);
 
-  MeshPointer mesh_;
-  Algorithm algorithm_;
-  Precision precision_;
-  std::unique_ptr<Deformer> deformer_;
+  Deformer deformer_;
   ElementBlocks changed_;                // changed blocks since forget_changes()
   ElementBlocks unmeasured_;             // changed blocks since the violation was measured
   ElementBlocks away_;                   // all elements outside these blocks are at rest
@@ -182,7 +175,6 @@ class Simulation {
   // What runs: a repetition may have other values.
   bool relaxation_on_ = false;
   double relaxation_step_ = 1;
-  RelaxationScheme relaxation_scheme_ = RelaxationScheme::mean;
   bool woken_ = false;             // true if elements became active since the last sweep ended
   bool prepared_ = false;          // true if the last slice prepared later ones
   bool relaxation_fails_ = false;  // true if the remark is about relaxation
@@ -191,13 +183,12 @@ class Simulation {
   double closest_ = 0;               // residual, or largest step in mean rest lengths, that relaxation has reached
   std::uint64_t closest_sweep_ = 0;  // when: see Statistics::sweeps. 0: not yet
   bool has_begun_again_ = false;     // because it came no closer
-  std::map<commands::StateId, State> kept_;
+  std::map<commands::StateId, KeptState> kept_;
   PassTimes times_;
   ViolationMeter meter_;
   Statistics statistics_;
   Trace* trace_ = nullptr;
   Progress progress_;
-  int threads_ = 1;
 };
 
 }  // namespace chainmail

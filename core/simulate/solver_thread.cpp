@@ -6,7 +6,6 @@
 
 #include "exact/thread_team.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "mesh/generate.h"
 
 namespace chainmail {
@@ -52,7 +51,7 @@ SolverThread::SolverThread(MeshPointer mesh, Algorithm algorithm, std::function<
     : simulation_(std::move(mesh), algorithm, Precision::single_precision),
       frame_ready_(std::move(frame_ready)),
       became_idle_(std::move(became_idle)) {
-  simulation_.set_progress(Progress(work_));
+  simulation_.set_progress(work_);
   simulation_.set_threads(core_count());
   publish();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -72,7 +71,7 @@ SolverThread::SolverThread(SolverThread& other, Algorithm algorithm, std::functi
 SolverThread::~SolverThread() {
   thread_.request_stop();
   const std::lock_guard lock(mutex_);  // tasks that begin later see the stop request
-  work_.cancelled = true;
+  work_.cancel(true);
 }
 
 void SolverThread::post(Command command, const SliceNote& note) { add(std::move(command), note); }
@@ -96,7 +95,7 @@ void SolverThread::add(Task task, const SliceNote& note) {
       throw;
     }
     overrulers_ += more;
-    work_.cancelled = work_.cancelled || overrulers_ > 0 || preparing_;
+    work_.cancel(work_.cancelled() || overrulers_ > 0 || preparing_);
     posted_ += std::size_t(count);
     waiting_.fetch_add(count, std::memory_order_release);
   }
@@ -117,7 +116,7 @@ void SolverThread::prepare(std::optional<ElementId> element) {
     next_grabbed_ = element;
     is_prepared_ = false;
     pointed_at_ = Clock::now();
-    work_.cancelled = work_.cancelled || preparing_;
+    work_.cancel(work_.cancelled() || preparing_);
   }
   changed_.notify_one();
 }
@@ -125,12 +124,13 @@ void SolverThread::prepare(std::optional<ElementId> element) {
 void SolverThread::cut_sweeps() {
   const std::lock_guard lock(mutex_);
   sweeps_cut_ = posted_;
-  work_.cancelled = work_.cancelled || sweeping_;
+  work_.cancel(work_.cancelled() || sweeping_);
 }
 
 void SolverThread::abandon() {
   const std::lock_guard lock(mutex_);
-  abandoned_ = work_.cancelled = true;
+  abandoned_ = true;
+  work_.cancel();
 }
 
 void SolverThread::go_on() {
@@ -183,7 +183,7 @@ void SolverThread::carry_out(const Task& task) {
 
 void SolverThread::run_task(const Task& task) {
   const auto* command = std::get_if<Command>(&task);
-  work_.share = 0;
+  work_.show(0);
   stopped_ = stopped_ && command == nullptr;
   try {
     if (command != nullptr) {
@@ -234,7 +234,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   sweeping_ = is_one_of<Relax, Relaxed>(std::get_if<Command>(&task));
   is_prepared_ = is_prepared_ && std::holds_alternative<Question>(task);
   const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
-  work_.cancelled = stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut;
+  work_.cancel(stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut);
   return task;
 }
 
@@ -263,7 +263,7 @@ void SolverThread::take_turn(std::unique_lock<std::mutex>& lock, const std::stop
     lock.unlock();
     carry_out(task);
   } else if (may_relax()) {
-    work_.cancelled = abandoned_ || stop.stop_requested();  // the last task may have been cancelled
+    work_.cancel(abandoned_ || stop.stop_requested());  // the last task may have been cancelled
     lock.unlock();
     relax();
   } else if (is_still && must_prepare() && Clock::now() >= time_to_prepare()) {
@@ -340,7 +340,7 @@ PassTimes::Clock::time_point SolverThread::time_to_prepare() const {
 void SolverThread::prepare_next(std::unique_lock<std::mutex>& lock) {
   const ElementId element = *next_grabbed_;
   preparing_ = is_prepared_ = true;
-  work_.cancelled = abandoned_.load();
+  work_.cancel(abandoned_.load());
   lock.unlock();
   bool is_cancelled = false;
   try {

@@ -66,7 +66,7 @@ class SolverThread {
   /// Returns the number of commands and questions that are not done, including the running one.
   int waiting() const { return waiting_.load(std::memory_order_acquire); }
   /// Share of the running task that is done, if it reports any; from 0 to 1.
-  double share() const { return work_.share; }
+  double share() const { return work_.share(); }
   /// Returns true if idle and the newest frame is up to date.
   bool settled() const { return idle() && !unseen_.load(std::memory_order_acquire); }
   /// Returns the number of the newest frame. A reader that has an older one is about to be told.
@@ -113,7 +113,7 @@ class SolverThread {
   void show();
   void publish();
 
-  JobState work_;  // state of a long pass
+  Progress work_ = Progress::watched();  // state of a long pass
   Simulation simulation_;
   std::function<void()> frame_ready_, became_idle_;
   FrameExchange frames_;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "chainmail/direction_lists.h"
 #include "chainmail/follow_pass.h"
 #include "chainmail/list_method.h"
+#include "chainmail/waiting_list.h"
 #include "elastic/methods.h"
 #include "exact/exact_method.h"
 #include "mesh/error.h"

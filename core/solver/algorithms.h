@@ -5,7 +5,6 @@
 #include <span>
 #include <string_view>
 
-#include "body/algorithm.h"
 #include "body/method.h"
 #include "elastic/elastic.h"
 #include "mesh/mesh.h"
@@ -22,7 +21,7 @@ struct PlotStyle {
 };
 
 struct RecordedPass;   // see chainmail/recorded_pass.h
-class WaitingHistory;  // see chainmail/waiting_history.h
+class WaitingHistory;  // see chainmail/recorded_pass.h
 
 /// One row of the algorithm table: everything that other code knows about an algorithm.
 struct AlgorithmInfo {

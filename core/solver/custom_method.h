@@ -11,7 +11,6 @@
 #include "body/body.h"
 #include "body/handle.h"
 #include "body/method.h"
-#include "body/trace.h"
 #include "mesh/mesh.h"
 #include "solver/algorithms.h"
 

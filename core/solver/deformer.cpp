@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "body/snapshot.h"
 #include "exact/thread_team.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
@@ -176,6 +177,42 @@ void Deformer::reset() {
 void Deformer::restore(const Snapshot& snapshot) {
   body_.restore(snapshot);
   forget_handle();
+}
+
+void Deformer::restore(const ObjectState& object, const Snapshot& positions, const ElementBlocks& changed) {
+  const RegionAxes axes = body_.region_axes();
+  body_.restore(object);
+  const bool has_turned = body_.region_axes().rotation() != axes.rotation();  // which rounds all positions
+  has_turned ? body_.restore(positions) : body_.restore(positions, changed);
+  forget_handle();
+}
+
+void Deformer::replace(const ObjectState& object, Algorithm algorithm) {
+  Deformer other(object.mesh, fits(algorithm, *object.mesh) ? algorithm : Algorithm::natural_queue, body_.precision());
+  other.body_.set_elastic(body_.elastic());
+  other.body_.restore(object);
+  other.set_relaxation(scheme_);
+  other.progress_ = progress_;
+  other.threads_ = threads_;
+  *this = std::move(other);
+}
+
+Snapshot Deformer::split(const SplitPointer& split, const Snapshot& positions) {
+  if (!split || split->before != body_.mesh_pointer()) {
+    throw Error("split", "the object is not the one that was split", "split this object");
+  }
+  Snapshot after = positions_after(*split, positions, body_.precision());
+  const std::vector<ElementId> handle = last_handle_;
+  replace(object_after(*split, body_.object()), algorithm());
+  body_.restore(after);
+  if (std::ranges::none_of(handle, [this](ElementId one) { return body_.is_pinned(one); })) {
+    set_last_handle(handle);
+  }
+  for (ElementId e = split->before->element_count(); e < body_.mesh().element_count(); ++e) {
+    wake(std::span(&e, 1));
+    wake(body_.mesh().neighbours_of(e));
+  }
+  return after;
 }
 
 void Deformer::forget_handle() {

@@ -11,10 +11,10 @@
 
 #include "body/body.h"
 #include "body/method.h"
-#include "body/trace.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/relaxation.h"
 #include "mesh/progress.h"
+#include "mesh/split.h"
 #include "solver/algorithms.h"
 
 namespace chainmail {
@@ -65,6 +65,17 @@ class Deformer {
   void reset();
   /// Restores a snapshot of this mesh and precision.
   void restore(const Snapshot& snapshot);
+  /// Restores an object of this mesh. Outside the blocks `changed`, the positions must be as in the snapshot.
+  void restore(const ObjectState& object, const Snapshot& positions, const ElementBlocks& changed);
+
+  // Replace the object. Options of elasticity, the scheme of relaxation, progress and threads stay.
+  /// Puts another object at rest in its place. Natural Queue runs if the algorithm does not work on its mesh. If memory
+  /// runs out, nothing has changed.
+  void replace(const ObjectState& object, Algorithm algorithm);
+  /// Splits faces: positions, cuts, pins and softness go over to the new elements and links, and so does the last
+  /// handle unless it is pinned now. Wakes the new elements. `positions` are the present ones; returns those after it.
+  /// Throws Error if the object does not have the mesh before the split; nothing has changed then.
+  Snapshot split(const SplitPointer& split, const Snapshot& positions);
 
   /// Throws Error if the algorithm does not work on the mesh; nothing has changed then.
   void set_algorithm(Algorithm algorithm);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "body/body_view.h"
-#include "elastic/cut_update.h"
+#include "elastic/methods.h"
 #include "mesh/error.h"
 #include "solver/algorithms.h"
 

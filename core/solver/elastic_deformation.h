@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "body/algorithm.h"
 #include "body/method.h"
 #include "elastic/elastic.h"
 

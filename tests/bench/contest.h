@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 
 namespace chainmail::bench {
 

@@ -72,13 +72,13 @@ inline std::ptrdiff_t files_in(const std::filesystem::path& folder) {
 /// Cancels a job that takes too long, so that its test fails soon.
 class Patience {
  public:
-  explicit Patience(JobState& job, std::chrono::seconds most = std::chrono::seconds(20))
-      : thread_([&job, most](const std::stop_token& stop) {
+  explicit Patience(const Progress& job, std::chrono::seconds most = std::chrono::seconds(20))
+      : thread_([job, most](const std::stop_token& stop) {
           std::mutex mutex;
           std::unique_lock lock(mutex);
           std::condition_variable_any over;
           over.wait_for(lock, stop, most, [] { return false; });
-          job.cancelled = true;
+          job.cancel();
         }) {}
 
  private:

@@ -92,10 +92,10 @@ void FillTest::surfaces_that_enclose_nothing_are_refused() {
 /// Edges of 0.01 in a volume of 36 need more elements than the limit of 20 million. This would take hours, and is
 /// refused at once. Edges of 0.1 are accepted.
 void FillTest::too_many_tetrahedra_are_refused_before_they_are_made() {
-  JobState job;
+  const Progress job = Progress::watched();
   const Patience patience(job);
   try {
-    fill(*obj(octahedron(8)), 0.01, Progress(job));
+    fill(*obj(octahedron(8)), 0.01, job);
     QFAIL("it was filled");
   } catch (const Error& error) {
     QCOMPARE(
@@ -115,9 +115,9 @@ void FillTest::sizes_are_numbers_above_0() {
 }
 
 void FillTest::it_can_be_cancelled() {
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, fill(*obj(octahedron(8)), 0.05, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, fill(*obj(octahedron(8)), 0.05, job));
 }
 
 CHAINMAIL_TEST(FillTest)

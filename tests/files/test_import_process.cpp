@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "files/import/channels.h"
+#include "files/import/handover.h"
 #include "files/import/import_process.h"
 #include "files/import/sandbox.h"
 #include "files/mesh/open_mesh.h"
@@ -37,11 +37,11 @@ void put_work(ImportInput& input) {
 }
 
 /// Begins to fill an object, which takes long, on another thread.
-std::future<void> fill_beside(JobState& job) {
-  return std::async(std::launch::async, [&job] {
+std::future<void> fill_beside(const Progress& job) {
+  return std::async(std::launch::async, [job] {
     ImportInput input("ball.obj");
     put_work(input);
-    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, Progress(job));
+    run_import("fill", input, {work}, {std::uint64_t{12} << 30, 1000, 1000}, job);
   });
 }
 
@@ -151,11 +151,11 @@ void ImportProcessTest::it_may_take_so_much_time() {
   ImportInput input("ball.obj");
   put_work(input);
   const ImportLimits limits{std::uint64_t{12} << 30, processor, wall};
-  JobState job;
+  const Progress job = Progress::watched();
   const Patience patience(job);
   const QString error = error_of([&] {
     try {
-      run_import("fill", input, {work}, limits, Progress(job));
+      run_import("fill", input, {work}, limits, job);
     } catch (const Cancelled&) {
     }
   });
@@ -186,7 +186,7 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   const int open_here = open(open_file.c_str(), O_RDWR);  // some shells leave open descriptors to their programs
   const int as_an_input = fcntl(open_here, F_DUPFD, import::last_input);
   QVERIFY(open_here >= 0 && as_an_input == import::last_input);
-  JobState job;
+  const Progress job = Progress::watched();
   const Patience patience(job);
   auto running = fill_beside(job);
   const fs::path confined = sandboxed_process(running);
@@ -194,7 +194,7 @@ void ImportProcessTest::it_runs_in_the_sandbox_and_inherits_nothing() {
   const std::string threads = confined.empty() ? "" : status_of(confined, "Threads");
   const QStringList descriptors = descriptors_of(confined);
   const std::string environment = file_text(confined / "environ");
-  job.cancelled = true;
+  job.cancel();
   QVERIFY_THROWS_EXCEPTION(Cancelled, running.get());
   close(open_here);
   close(as_an_input);
@@ -212,11 +212,11 @@ void ImportProcessTest::its_stack_may_grow_as_far_as_the_system_allows() {
   QCOMPARE(getrlimit(RLIMIT_STACK, &usual), 0);
   const rlimit low{rlim_t{4} << 20, usual.rlim_max};  // the process inherits it
   QCOMPARE(setrlimit(RLIMIT_STACK, &low), 0);
-  JobState job;
+  const Progress job = Progress::watched();
   const Patience patience(job);
   auto running = fill_beside(job);
   const std::vector<std::string> limits = stack_limits_of(sandboxed_process(running));
-  job.cancelled = true;
+  job.cancel();
   QVERIFY_THROWS_EXCEPTION(Cancelled, running.get());
   QCOMPARE(setrlimit(RLIMIT_STACK, &usual), 0);
   QCOMPARE(limits.size(), std::size_t{2});
@@ -241,14 +241,14 @@ void ImportProcessTest::it_says_how_much_it_has_read() {
   const QTemporaryDir folder;
   const fs::path path = fs::path(folder.path().toStdString()) / "large.msh";
   put_file(path, msh_of(points));
-  JobState job;
+  const Progress job = Progress::watched();
   ImportInput input(path);
   input.link("mesh.msh", RegularFile(path));
-  auto running = std::async(
-      std::launch::async, [&] { return run_import("msh", input, {}, limits_for(input.linked_size()), Progress(job)); });
+  auto running = std::async(std::launch::async,
+                            [&] { return run_import("msh", input, {}, limits_for(input.linked_size()), job); });
   std::set<double> shares;
   while (running.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
-    shares.insert(job.share.load());
+    shares.insert(job.share());
   }
   running.get();
   shares.erase(0.0);
@@ -258,14 +258,14 @@ void ImportProcessTest::it_says_how_much_it_has_read() {
 
 /// Filling reads little and takes long. The first tenth is reading and checking the surface.
 void ImportProcessTest::it_says_how_much_of_its_work_is_done() {
-  JobState job;
+  const Progress job = Progress::watched();
   const Patience patience(job);
   auto running = fill_beside(job);
   double share = 0;
   while (share <= 0.1 && running.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
-    share = job.share.load();
+    share = job.share();
   }
-  job.cancelled = true;
+  job.cancel();
   QVERIFY_THROWS_EXCEPTION(Cancelled, running.get());
   QVERIFY2(share > 0.1 && share < 1, qPrintable(QString::number(share)));
 }
@@ -280,9 +280,9 @@ void ImportProcessTest::no_temporary_folder_stays() {
   QCOMPARE(files_in(path), 0);
   QVERIFY(!error_of([&] { open_mesh(elsewhere.filePath("script.msh").toStdString()); }).isEmpty());
   QCOMPARE(files_in(path), 0);
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(elsewhere.filePath("good.msh").toStdString(), {}, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(elsewhere.filePath("good.msh").toStdString(), {}, job));
   QCOMPARE(files_in(path), 0);
   qunsetenv("TMPDIR");
 }

@@ -7,6 +7,7 @@
 #include "elastic/simplices.h"
 #include "files/mesh/fill.h"
 #include "files/repair/repair.h"
+#include "files/text/text.h"
 #include "files/support.h"
 #include "files/volume_of.h"
 #include "folders.h"
@@ -493,12 +494,12 @@ void MeshRepairTest::random_triangles_are_repaired_or_refused() {
 }
 
 void MeshRepairTest::it_can_be_cancelled() {
-  JobState job;
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  job.cancel();
   const auto mesh = obj(corners + sides);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, closed(*mesh, Progress(job)));
-  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, 0, Progress(job)));
-  QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, closed(*mesh, job));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, weld(*mesh, 0, job));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, find_defects(*mesh, job));
 }
 
 CHAINMAIL_TEST(MeshRepairTest)

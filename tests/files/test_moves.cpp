@@ -477,11 +477,11 @@ void MovesTest::frames_of_the_object_are_found_once() {
 
 void MovesTest::reading_and_writing_can_be_cancelled() {
   const auto moves = read(every_command);
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", mesh_, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, read_moves(every_command, "m.json", mesh_, job));
   std::ostringstream out;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, write_moves(out, moves, *mesh_, Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, write_moves(out, moves, *mesh_, job));
 }
 
 void MovesTest::files() {

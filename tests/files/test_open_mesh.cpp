@@ -2,7 +2,7 @@
 #include <QtTest>
 #include <numeric>
 
-#include "files/mesh/open_mesh.h"
+#include "files/mesh/input_file.h"
 #include "files/support.h"
 #include "files/volume_of.h"
 #include "folders.h"
@@ -25,6 +25,7 @@ class OpenMeshTest : public QObject {
   void ids_are_the_files_order();
   void content_goes_before_the_name();
   void each_format_is_known_by_its_signs();
+  void sessions_and_pictures_are_no_meshes();
   void what_we_write_comes_back_data();
   void what_we_write_comes_back();
   void voxels_and_pixels_have_corners_in_an_order_of_their_own();
@@ -144,12 +145,30 @@ void OpenMeshTest::each_format_is_known_by_its_signs() {
     for (const std::string_view sign : format.signs) {
       const std::string begin = (signs % 2 == 0 || sign.starts_with('#') ? "" : "# a comment\n\n") + std::string(sign);
       put_file(path("unnamed"), begin + " and more");
-      QVERIFY2(sign.empty() || &detect_format(path("unnamed")) == &format, begin.c_str());
+      QVERIFY2(sign.empty() || open_file(path("unnamed")).format == &format, begin.c_str());
       signs += sign.empty() ? 0 : 1;
     }
     QVERIFY(format.reads() || format.signs.front().empty());
   }
   QVERIFY(signs > 10);
+}
+
+/// A session is known by its name in any case, a picture by its name or its content.
+void OpenMeshTest::sessions_and_pictures_are_no_meshes() {
+  const std::string line = "v 0 0 0\nv 1 0 0\nl 1 2\n", png = "\x89PNG\r\n\x1a\n";
+  const auto kind = [&](const char* name, const std::string& text) {
+    put_file(path(name), text);
+    return open_file(path(name)).kind;
+  };
+  QVERIFY(kind("a.chainmail", line) == FileKind::session && kind("A.ChainMail", "") == FileKind::session);
+  QVERIFY(kind("a.png", line) == FileKind::picture && kind("a.JPEG", "") == FileKind::picture);
+  QVERIFY(kind("png.dat", png) == FileKind::picture);
+  QVERIFY(kind("chainmail", line) == FileKind::mesh && kind("a.chainmail.obj", "# none") == FileKind::mesh);
+  QVERIFY(open_file(source_file("meshes/scan.mha")).kind == FileKind::volume);
+  QVERIFY(refusal("a.chainmail", "{}").contains("a.chainmail: the ending .chainmail is not known; open a mesh in "));
+  QVERIFY(refusal("png.obj", png)
+              .endsWith("png.obj: it is a picture; use a mesh; the workbench opens PNG and JPEG "
+                        "pictures as sheets"));
 }
 
 void OpenMeshTest::what_we_write_comes_back_data() {
@@ -335,9 +354,9 @@ void OpenMeshTest::halves_of_a_pair_are_missed() {
 }
 
 void OpenMeshTest::cancelling_ends_the_import_at_once() {
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(source_file("tests/files/foreign/gmsh22.msh"), {}, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, open_mesh(source_file("tests/files/foreign/gmsh22.msh"), {}, job));
 }
 
 CHAINMAIL_TEST(OpenMeshTest)

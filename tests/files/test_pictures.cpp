@@ -66,7 +66,7 @@ class PicturesTest : public QObject {
   BarePicture bare(const std::string& bytes) const {
     const std::string path = folder_.filePath("picture").toStdString();
     put_file(path, bytes);
-    return read_bare_picture(path);
+    return read_bare_picture(RegularFile(path));
   }
 
   QTemporaryDir folder_;

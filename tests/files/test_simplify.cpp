@@ -171,9 +171,9 @@ void SimplifyTest::random_triangles_are_simplified_or_refused() {
 }
 
 void SimplifyTest::it_can_be_cancelled() {
-  JobState job;
-  job.cancelled = true;
-  QVERIFY_THROWS_EXCEPTION(Cancelled, simplify(*sample("torus.obj"), 100, Progress(job)));
+  const Progress job = Progress::watched();
+  job.cancel();
+  QVERIFY_THROWS_EXCEPTION(Cancelled, simplify(*sample("torus.obj"), 100, job));
 }
 
 CHAINMAIL_TEST(SimplifyTest)

@@ -1,4 +1,4 @@
-#include "files/formats/msh_check.h"
+#include "files/formats/msh.h"
 #include "fuzz/target.h"
 
 namespace chainmail::fuzz_msh {

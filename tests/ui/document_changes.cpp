@@ -150,8 +150,8 @@ void DocumentChangesTest::a_panel_may_be_removed_while_saving() {
                      QStringLiteral("build"));
   const SessionDraft draft(document, {});
   document.removePanel();
-  JobState job;
-  const Session session = draft.finished(Progress(job));
+  const Progress job = Progress::watched();
+  const Session session = draft.finished(job);
   QVERIFY(session.panels.size() == 2 || session.panels.size() == 3);
   QCOMPARE(session.mesh, document.mesh());
 }

@@ -3,8 +3,9 @@
 #include <QImage>
 #include <QPainter>
 
+#include "common/as_path.h"
+#include "files/mesh/input_file.h"
 #include "io/file_actions.h"
-#include "io/picture_file.h"
 #include "io/samples.h"
 #include "window.h"
 
@@ -16,7 +17,7 @@ constexpr QSize thumbnail{104, 78};  // device pixels, two per logical pixel
 constexpr QSize drawn{200, 150};     // small enough that links of one pixel are still visible in the thumbnail
 
 QImage pictureOf(const QString& path) {
-  if (isPicture(path)) {
+  if (open_file(asPath(path)).kind == FileKind::picture) {
     return QImage(path);
   }
   Workbench bench;

@@ -115,9 +115,9 @@ class Picking : public QObject {
     const auto first = levels.at(mesh, 1);
     QVERIFY(takePreparedLevels(mesh).empty());  // they have been taken
     QVERIFY(levels.at(mesh, 1) == first);
-    JobState job;
-    job.cancelled = true;
-    QVERIFY_THROWS_EXCEPTION(Cancelled, prepareLevels(mesh, Progress(job)));
+    const Progress job = Progress::watched();
+    job.cancel();
+    QVERIFY_THROWS_EXCEPTION(Cancelled, prepareLevels(mesh, job));
     QVERIFY(takePreparedLevels(mesh).empty());
   }
 

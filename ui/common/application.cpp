@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {

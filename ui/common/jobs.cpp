@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 
@@ -48,7 +48,7 @@ void TaskThread::run(const std::stop_token& stop) {
 struct Jobs::Job {
   Kind kind;
   std::string text;
-  JobState state;
+  Progress progress = Progress::watched();
   QString replaces;  // a sentence about the computation that it has cancelled
   // Written by the thread before it sets `done`; read by the window after that.
   Finish finish;
@@ -88,7 +88,7 @@ void Jobs::start(Kind kind, const QString& text, Work work) {
 
 void Jobs::cancel() {
   if (running()) {
-    current_->state.cancelled = true;
+    current_->progress.cancel();
     const auto job = std::exchange(current_, nullptr);
     emit changed();
     announceReplaced(*job);
@@ -101,11 +101,11 @@ void Jobs::close() {
   }
 }
 
-double Jobs::share() const { return current_->state.share; }
+double Jobs::share() const { return current_->progress.share(); }
 
 void Jobs::run(Job& job, const Work& work) {
   try {
-    job.finish = work(Progress(job.state));
+    job.finish = work(job.progress);
   } catch (const Cancelled&) {
     return;
   } catch (...) {

@@ -10,7 +10,6 @@
 #include "common/colours.h"
 #include "common/text.h"
 #include "common/theme.h"
-#include "report/page/plot_style.h"
 
 namespace chainmail {
 namespace {

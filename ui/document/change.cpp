@@ -3,24 +3,22 @@
 #include <utility>
 
 #include "common/application.h"
-#include "document/document.h"
+#include "document/change_executor.h"
 
 namespace chainmail {
 
-std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
-                                         const std::vector<LinkId>& cuts, std::vector<ElementId> pins) {
-  auto result = std::make_shared<DocumentObject>(mesh, object.name);
-  result->unsplit = object.unsplit;
-  result->before = object.before;
-  result->parts.cut(result->cuts, cuts);
-  result->pins = std::move(pins);
-  return result;
+void Contents::goTo(const ObjectState& state) {
+  auto other = std::make_shared<DocumentObject>(state, object->name);
+  other->unsplit = object->unsplit;
+  other->before = object->before;
+  object = std::move(other);
+  softness = state.softness;
 }
 
-Edit::Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept)
+Edit::Edit(ChangeExecutor& executor, Change change, std::optional<commands::StateId> state, bool kept)
     : QUndoCommand(change.text),
-      document_(document),
-      before_(document.contents_),
+      executor_(executor),
+      before_(executor.contents()),
       change_(std::move(change)),
       state_(state),
       kept_(kept) {}
@@ -28,7 +26,7 @@ Edit::Edit(Document& document, Change change, std::optional<commands::StateId> s
 Edit::~Edit() {
   try {
     if (state_) {
-      document_.post(commands::DropState{*state_});
+      executor_.post(commands::DropState{*state_});
     }
   } catch (...) {
     // No memory for the command: the solvers keep a state that nobody needs.
@@ -42,13 +40,13 @@ void Edit::redo() {
   }
   done_ = true;
   if (state_ && !kept_) {
-    document_.post(commands::KeepState{*state_});
+    executor_.post(commands::KeepState{*state_});
   }
   try {
-    document_.carryOut(change_, before_);
+    executor_.carryOut(change_, before_);
   } catch (...) {  // no memory for a command: the solvers return to the state before
     if (state_) {
-      document_.post(commands::RestoreState{*state_});
+      executor_.post(commands::RestoreState{*state_});
     }
     throw;
   }
@@ -68,19 +66,20 @@ bool Edit::mergeWith(const QUndoCommand* later) {
 }
 
 void Edit::exchange(const Contents& from, const Contents& to, bool done) {
-  const commands::StateId now = document_.newState();
-  document_.post(commands::KeepState{now});
-  document_.postSettings(
-      from, to, from.object != to.object ? Document::SolversHave::anotherObject : Document::SolversHave::thisObject);
-  document_.post(commands::RestoreState{*state_});
-  document_.post(commands::DropState{*state_});
+  const commands::StateId now = executor_.newState();
+  executor_.post(commands::KeepState{now});
+  executor_.postSettings(
+      from, to,
+      from.object != to.object ? ChangeExecutor::SolversHave::anotherObject : ChangeExecutor::SolversHave::thisObject);
+  executor_.post(commands::RestoreState{*state_});
+  executor_.post(commands::DropState{*state_});
   state_ = now;
   show(from, to, done);
 }
 
 /// The step must reach the stack, or leave it, whatever fails here.
 void Edit::show(const Contents& from, const Contents& to, bool done) {
-  Application::guarded([&] { document_.show(change_, from, to, done); });
+  Application::guarded([&] { executor_.show(change_, from, to, done); });
 }
 
 }  // namespace chainmail

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesh/parts.h"
@@ -15,29 +16,37 @@ namespace chainmail {
 
 struct Lesson;
 struct Session;
+class ChangeExecutor;
 class Document;
 
-/// The settings that a lesson replaces while it is open.
-struct SettingsBefore {
-  std::shared_ptr<const Softness> softness;
+/// What the user sets: it stays when another object is opened.
+struct Settings {
+  static constexpr int minPanels = 2, maxPanels = 4;
+
+  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
-  std::vector<Algorithm> algorithms;  // one per panel
+  int panels = 0;
+  std::array<Algorithm, maxPanels> algorithms{};  // one per panel; the last one of a removed panel
+
+  std::span<const Algorithm> running() const { return std::span(algorithms).first(std::size_t(panels)); }
 };
 
 /// The object of a document without its positions. Cuts and pins change in place, so the time for a change depends on
 /// the size of the change, not of the object.
 struct DocumentObject {
-  DocumentObject(MeshPointer shown, QString called)
-      : mesh(std::move(shown)), unsplit(mesh), name(std::move(called)), cuts(mesh), parts(mesh) {}
+  DocumentObject(const ObjectState& object, QString called)
+      : mesh(object.mesh), unsplit(mesh), name(std::move(called)), cuts(mesh), parts(mesh), pins(object.pins) {
+    parts.cut(cuts, object.cuts);
+  }
 
   MeshPointer mesh;
   MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
   Cuts cuts;
-  Parts parts;                                        // connected parts of the object with these cuts
-  std::vector<ElementId> pins;                        // ascending
-  std::shared_ptr<const SettingsBefore> before = {};  // of a lesson that was opened
+  Parts parts;                                  // connected parts of the object with these cuts
+  std::vector<ElementId> pins;                  // ascending
+  std::shared_ptr<const Settings> before = {};  // which a lesson replaces while it is open
 };
 
 /// The lesson of an object, if it is one. Captions and step change alone, so that they are small.
@@ -49,22 +58,14 @@ struct OpenLesson {
   bool operator==(const OpenLesson&) const = default;
 };
 
-/// Returns a copy of an object with another mesh, from before or after splits, and with these cuts and pins.
-std::shared_ptr<DocumentObject> withMesh(const DocumentObject& object, const MeshPointer& mesh,
-                                         const std::vector<LinkId>& cuts, std::vector<ElementId> pins);
-
 /// The values that undo restores, except the positions: each solver stores its own. Copying this copies pointers, not
 /// elements or links.
-struct Contents {
-  static constexpr int minPanels = 2, maxPanels = 4;
-
+struct Contents : Settings {
   std::shared_ptr<DocumentObject> object;
   OpenLesson lesson;
-  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
-  commands::SetRelaxation relaxation;
-  ElasticOptions elastic;
-  int panels = 0;
-  std::array<Algorithm, maxPanels> algorithms{};  // one per panel; the last one of a removed panel
+
+  /// Lets the object become the same before or after splits, with the softness that it has there.
+  void goTo(const ObjectState& state);
 };
 
 /// One undo step, as data. Document::apply carries it out.
@@ -91,7 +92,7 @@ class Edit : public QUndoCommand {
  public:
   /// `state` identifies the saved state; none if the step will be merged into the previous one. `kept` is true if the
   /// solvers have saved it already.
-  Edit(Document& document, Change change, std::optional<commands::StateId> state, bool kept = false);
+  Edit(ChangeExecutor& executor, Change change, std::optional<commands::StateId> state, bool kept = false);
   ~Edit() override;
 
   void redo() override;
@@ -103,7 +104,7 @@ class Edit : public QUndoCommand {
   void exchange(const Contents& from, const Contents& to, bool done);
   void show(const Contents& from, const Contents& to, bool done);
 
-  Document& document_;
+  ChangeExecutor& executor_;
   Contents before_;
   Change change_;
   std::optional<commands::StateId> state_;

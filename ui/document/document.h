@@ -3,13 +3,11 @@
 #include <QObject>
 #include <QString>
 #include <QUndoStack>
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 
-#include "document/change.h"
+#include "document/change_executor.h"
 #include "document/drag_session.h"
 #include "document/move_player.h"
 #include "document/panel_solvers.h"
@@ -40,7 +38,8 @@ class DocumentFiles : public QObject {
 /// The object, its parameters, their undo stack, and one solver per panel that deforms the object.
 ///
 /// Every edit (edits.h) is a Change that is passed to apply(). It becomes one undo step, which changes the contents and
-/// all solvers. Moves of the handle go directly to the log that feeds all solvers.
+/// all solvers. Moves of the handle go directly to the log that feeds all solvers. Both are
+/// carried out by one ChangeExecutor.
 class Document : public QObject {
   Q_OBJECT
 
@@ -62,6 +61,7 @@ class Document : public QObject {
   /// The global softness. It applies to all links without a softness of their own.
   const LinkSoftness& softness() const { return contents_.softness->global; }
   const std::shared_ptr<const Softness>& wholeSoftness() const { return contents_.softness; }
+  ObjectState object() const { return {mesh(), cuts().links(), pins(), wholeSoftness()}; }
   const commands::SetRelaxation& relaxation() const { return contents_.relaxation; }
   const ElasticOptions& elastic() const { return contents_.elastic; }
   /// The lesson of the object; without a session if the object is none.
@@ -137,46 +137,17 @@ class Document : public QObject {
   void noticed(const QString& sentence);
 
  private:
-  friend class DragSession;
-  friend class Edit;
-  friend class MovePlayer;
-
-  // Apply changes to the solvers and the contents.
   std::optional<commands::StateId> stateFor(int gesture, const QString& text);
-  void carryOut(const Change& change, const Contents& before);
-  /// The object of the solvers when settings are posted: undo and redo post them before they restore another one.
-  enum class SolversHave { thisObject, anotherObject };
-  void postSettings(const Contents& from, const Contents& to, SolversHave have);
-  void show(Change& change, const Contents& from, const Contents& to, bool done);
-  void showParts(const Change& change, bool done);
-  void showCuts(const std::vector<LinkId>& links, bool cut);
-  void showPins(const std::vector<ElementId>& elements, bool pinned);
-  std::vector<int> panelsToSwitch(const Contents& from, const Contents& to) const;
-  void postAlgorithm(int panel, Algorithm algorithm);
-  void replaceUnfitAlgorithms();
-
-  /// Sends a command to all solvers, and records it. The contents do not follow.
-  void post(const Command& command);
-  /// The algorithms of all panels.
-  std::span<const Algorithm> runningAlgorithms() const {
-    return std::span(contents_.algorithms).first(std::size_t(panels()));
-  }
-  void showMoves();
-  void addDone(Change change, commands::StateId before);
   void addSolver(Algorithm algorithm);
   Algorithm unusedAlgorithm() const;
-  void reportRefusal(int panel, const QString& sentence);
-  void forgetRefusals() { lastRefusal_ = {}; }
-  commands::StateId newState() { return nextState_++; }
 
   Contents contents_;
   std::function<bool()> keeper_;
-  commands::StateId nextState_ = 1;
-  std::array<QString, maxPanels> lastRefusal_;  // one per panel, during the current drag or edit
   DocumentFiles files_;
   Highlight highlight_;
   Selection selection_;
   PanelSolvers solvers_;
+  ChangeExecutor executor_;
   DragSession handle_;
   MovePlayer moves_;
   QUndoStack undoStack_;  // the last member: its edits post to the log when they are deleted

@@ -15,39 +15,33 @@ void DragSession::grab(std::vector<ElementId> elements) {
   std::vector<ElementId> free;
   std::ranges::set_difference(elements, document_.pins(), std::back_inserter(free));
   if (free.empty()) {
-    document_.forgetRefusals();  // each attempt is answered
+    executor_.forgetRefusals();  // each attempt is answered
     // The solvers refuse it, and nothing is recorded.
     document_.solvers().log().replay(commands::Grab{std::move(elements)});
     return;
   }
   begin(free, free.size() == 1 ? QStringLiteral("drag of element %1").arg(free.front())
                                : counted(QStringLiteral("drag of"), free.size(), QStringLiteral("element")));
-  document_.post(commands::Grab{std::move(free)});
+  executor_.post(commands::Grab{std::move(free)});
 }
 
 void DragSession::begin(std::vector<ElementId> elements, const QString& text) {
   document_.moves().endFilm();
-  document_.forgetRefusals();
-  handle_ = Handle{std::move(elements), text, document_.newState()};
-  document_.post(commands::KeepState{handle_->before});
+  executor_.forgetRefusals();
+  handle_ = Handle{std::move(elements), text, executor_.newState()};
+  executor_.post(commands::KeepState{handle_->before});
 }
 
-void DragSession::drag(const Point& target) { post({target}); }
-
-void DragSession::dragBy(const Point& by, const Rotation& rotation) { post({by, rotation, true}); }
-
-/// A drag of nothing, for example after all elements of a grab were pinned, must not be recorded: no session with it
-/// could be opened.
-void DragSession::post(const commands::Drag& drag) {
+void DragSession::drag(const commands::Drag& drag) {
   if (handle_) {
     handle_->moved = true;
-    document_.post(drag);
+    document_.solvers().log().post(drag);
   }
 }
 
 void DragSession::release() {
   if (!handle_ && document_.moves().history().holds()) {  // a session that was saved while dragging
-    document_.post(commands::Release{});
+    executor_.post(commands::Release{});
   }
   end();
 }
@@ -57,20 +51,20 @@ void DragSession::cancel() {
   if (!handle) {
     return;
   }
-  document_.post(commands::Release{});
+  executor_.post(commands::Release{});
   if (handle->moved) {
-    document_.post(commands::RestoreState{handle->before});
+    executor_.post(commands::RestoreState{handle->before});
   }
-  document_.post(commands::DropState{handle->before});
+  executor_.post(commands::DropState{handle->before});
 }
 
 void DragSession::end() {
   if (const auto handle = std::exchange(handle_, {})) {
-    document_.post(commands::Release{});
+    executor_.post(commands::Release{});
     if (handle->moved) {
-      document_.addDone(document_.change(handle->text), handle->before);
+      document_.undoStack().push(new Edit(executor_, document_.change(handle->text), handle->before, true));
     } else {
-      document_.post(commands::DropState{handle->before});
+      executor_.post(commands::DropState{handle->before});
     }
   }
 }

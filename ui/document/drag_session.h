@@ -9,22 +9,26 @@
 
 namespace chainmail {
 
+class ChangeExecutor;
 class Document;
 
 /// The handle of a document. A drag, from grab() to release(), goes directly to the solvers and becomes one undo step
 /// if anything moved. Targets are in mesh units.
 class DragSession {
  public:
-  explicit DragSession(Document& document) : document_(document) {}
+  DragSession(Document& document, ChangeExecutor& executor) : document_(document), executor_(executor) {}
 
   void grab(ElementId element) { grab(std::vector{element}); }
   /// Grabs elements, which move together as one rigid body. Leaves pinned elements out; if all are pinned, the solvers
   /// refuse the grab.
   void grab(std::vector<ElementId> elements);
+  /// Moves the handle. A drag of nothing, for example after all elements of a grab were pinned, is not recorded: no
+  /// session with it could be opened.
+  void drag(const commands::Drag& drag);
   /// Moves a handle of one element to a position.
-  void drag(const Point& target);
+  void drag(const Point& target) { drag(commands::Drag{target}); }
   /// Moves the handle by a displacement and a rotation about its pivot, both since it was grabbed.
-  void dragBy(const Point& by, const Rotation& rotation = {});
+  void dragBy(const Point& by, const Rotation& rotation = {}) { drag(commands::Drag{by, rotation, true}); }
   void release();
   /// Ends the drag and restores the object as it was before. It does not become an undo step.
   void cancel();
@@ -46,9 +50,9 @@ class DragSession {
   };
 
   void begin(std::vector<ElementId> elements, const QString& text);
-  void post(const commands::Drag& drag);
 
   Document& document_;
+  ChangeExecutor& executor_;
   std::optional<Handle> handle_;
 };
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "body/positions.h"
-#include "body/split_state.h"
+#include "body/snapshot.h"
 #include "common/text.h"
 #include "document/document.h"
 #include "files/session/session.h"
@@ -36,14 +36,8 @@ void requireDrawable(const Session& session) {
 }
 
 /// Returns the user's settings: during a lesson, those from before it.
-std::shared_ptr<const SettingsBefore> ownSettings(const Contents& contents) {
-  if (contents.object->before) {
-    return contents.object->before;
-  }
-  const auto& algorithms = contents.algorithms;
-  return std::make_shared<const SettingsBefore>(
-      SettingsBefore{contents.softness, contents.relaxation, contents.elastic,
-                     std::vector(algorithms.begin(), algorithms.begin() + contents.panels)});
+std::shared_ptr<const Settings> ownSettings(const Contents& contents) {
+  return contents.object->before ? contents.object->before : std::make_shared<const Settings>(contents);
 }
 
 /// The object after a lesson gets the user's settings, not those of the lesson.
@@ -52,16 +46,14 @@ void takeOwnSettings(Contents& after) {
   after.softness = own->softness;
   after.relaxation = own->relaxation;
   after.elastic = own->elastic;
-  for (std::size_t panel = 0; panel < std::min(own->algorithms.size(), std::size_t(after.panels)); ++panel) {
-    after.algorithms[panel] = own->algorithms[panel];
-  }
+  std::copy_n(own->algorithms.begin(), std::min(own->panels, after.panels), after.algorithms.begin());
 }
 
 Change meshChange(Document& document, const MeshPointer& mesh, const QString& name, const QString& text,
                   OwnSoftness own) {
   Change edit = document.change(text);
   takeOwnSettings(edit.after);
-  edit.after.object = std::make_shared<DocumentObject>(mesh, name);
+  edit.after.object = std::make_shared<DocumentObject>(ObjectState{mesh}, name);
   edit.after.lesson = {};
   Softness kept = kept_for(*mesh, *edit.after.softness);
   kept.links = std::move(own);
@@ -126,9 +118,7 @@ std::size_t stepAt(const Lesson& lesson, std::size_t position) {
 Change sessionChange(Document& document, const std::shared_ptr<const Session>& session, const QString& file,
                      const QString& text) {
   Change edit = document.change(text);
-  auto object = std::make_shared<DocumentObject>(session->mesh, QString::fromStdString(session->name));
-  object->parts.cut(object->cuts, session->cuts);
-  object->pins = session->pins;
+  auto object = std::make_shared<DocumentObject>(*session, QString::fromStdString(session->name));
   edit.after.lesson = {};
   if (!session->lesson.steps.empty()) {
     edit.after.lesson = {session, std::shared_ptr<const Lesson>(session, &session->lesson),
@@ -281,12 +271,12 @@ void cut(Document& document, const std::vector<LinkId>& links) {
 
 void split(Document& document, const SplitPointer& split, const std::vector<LinkId>& cut) {
   Change edit = document.change(QStringLiteral("cut along a stroke"));
-  std::vector<LinkId> all = cuts_after(*split, document.cuts().links());
+  ObjectState after = object_after(*split, document.object());
+  std::vector<LinkId>& all = after.cuts;
   std::ranges::set_difference(cuts_after(*split, cut), all, std::back_inserter(edit.cut));
   const auto old = all.insert(all.end(), edit.cut.begin(), edit.cut.end());
   std::inplace_merge(all.begin(), old, all.end());
-  edit.after.object = withMesh(*edit.after.object, split->after, all, pins_after(*split, document.pins()));
-  edit.after.softness = softness_after(*split, document.wholeSoftness());
+  edit.after.goTo(after);
   edit.split = split;
   document.apply(std::move(edit));
 }

@@ -26,14 +26,13 @@ bool startsFromRest(const Session& session) {
 }
 
 /// Returns the commands that lead from the beginning of recorded moves to an object at rest.
-std::vector<Command> commandsFor(const std::shared_ptr<const Softness>& softness, const std::vector<LinkId>& cuts,
-                                 const std::vector<ElementId>& pins) {
-  std::vector<Command> commands{commands::SetSoftness{softness}};
-  if (!cuts.empty()) {
-    commands.push_back(commands::Cut{cuts});
+std::vector<Command> commandsFor(const ObjectState& object) {
+  std::vector<Command> commands{commands::SetSoftness{object.softness}};
+  if (!object.cuts.empty()) {
+    commands.push_back(commands::Cut{object.cuts});
   }
-  if (!pins.empty()) {
-    commands.push_back(commands::Pin{pins});
+  if (!object.pins.empty()) {
+    commands.push_back(commands::Pin{object.pins});
   }
   return commands;
 }
@@ -46,14 +45,14 @@ struct MovePlayer::Work {
   Replayed replayed;
 };
 
-MovePlayer::MovePlayer(Document& document) : document_(document) {}
+MovePlayer::MovePlayer(Document& document, ChangeExecutor& executor) : document_(document), executor_(executor) {}
 MovePlayer::~MovePlayer() = default;
 
 const MoveHistory& MovePlayer::history() const { return std::as_const(document_).solvers().log().history(); }
 
 /// A session without moves gets recorded commands that start with the object at rest.
 void MovePlayer::open(const Session& session) {
-  const std::vector<Command> object = commandsFor(session.softness, session.cuts, session.pins);
+  const std::vector<Command> object = commandsFor(session);
   const bool hasMoves = !session.moves.empty();
   CommandLog& log = document_.solvers().log();
   log.flush();  // to the history that is replaced below
@@ -74,7 +73,7 @@ void MovePlayer::noteDeparture() {
 }
 
 void MovePlayer::forget() {
-  const auto object = commandsFor(document_.wholeSoftness(), document_.cuts().links(), document_.pins());
+  const auto object = commandsFor(document_.object());
   MoveHistory& history = document_.solvers().log().history();
   history.load(object);
   history.go_to(object.size());
@@ -113,7 +112,7 @@ Change MovePlayer::travelTo(std::size_t position) {
   Change edit;
   edit.text = QStringLiteral("replay");
   edit.gesture = travelGesture;
-  edit.after = document_.contents_;
+  edit.after = executor_.contents();
   edit.after.relaxation.on = false;
   const MeshPointer first = history().first_mesh();
   if (first) {
@@ -127,14 +126,14 @@ Change MovePlayer::travelTo(std::size_t position) {
 void MovePlayer::beginFilm() {
   noteRelaxation();
   document_.solvers().setAside();
-  work_ = std::make_unique<Work>(Work{document_.contents_, std::exchange(replayed_, {})});
+  work_ = std::make_unique<Work>(Work{executor_.contents(), std::exchange(replayed_, {})});
 }
 
 void MovePlayer::showInFilm(std::size_t position) {
   Change edit = travelTo(position);
-  const Contents before = document_.contents_;
-  document_.carryOut(edit, before);
-  document_.show(edit, before, edit.after, true);
+  const Contents before = executor_.contents();
+  executor_.carryOut(edit, before);
+  executor_.show(edit, before, edit.after, true);
 }
 
 void MovePlayer::endFilm() {
@@ -143,8 +142,8 @@ void MovePlayer::endFilm() {
     replayed_ = work->replayed;
     Change back;
     back.followsMoves = true;
-    const Contents shown = document_.contents_;
-    Application::guarded([&] { document_.show(back, shown, work->contents, true); });
+    const Contents shown = executor_.contents();
+    Application::guarded([&] { executor_.show(back, shown, work->contents, true); });
     emit filmEnded();
     emit changed();
   }
@@ -152,10 +151,10 @@ void MovePlayer::endFilm() {
 
 /// Lets a change lead to the mesh that the object has then, before or after splits. `first` is the mesh with which the
 /// recorded commands begin; null if that is the present one.
-void MovePlayer::replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const {
-  if (const MeshPointer& other = then.mesh ? then.mesh : first; other && other != document_.mesh()) {
-    edit.after.object = withMesh(*edit.after.object, other, then.cuts, then.pins);
-    edit.after.softness = then.softness;
+void MovePlayer::replaceSplit(Change& edit, ObjectState then, const MeshPointer& first) const {
+  then.mesh = then.mesh ? then.mesh : first;
+  if (then.mesh && then.mesh != document_.mesh()) {
+    edit.after.goTo(then);
   }
 }
 
@@ -184,7 +183,7 @@ bool MovePlayer::recordsLesson() const {
 bool MovePlayer::followsLesson(const std::vector<Algorithm>& algorithms) const {
   return recordsLesson() && replayed_.isCurrent && !document_.handle().isActive() && !document_.relaxation().on &&
          document_.elastic() == document_.lesson().session->elastic &&
-         std::ranges::equal(algorithms, document_.runningAlgorithms());
+         std::ranges::equal(algorithms, executor_.contents().running());
 }
 
 bool MovePlayer::isInLesson(std::size_t position, const std::vector<Algorithm>& algorithms) const {
@@ -202,7 +201,7 @@ void MovePlayer::noteRecorded(const Session* lesson) {
   lessonTimeline_ = history().timeline();
 }
 
-void MovePlayer::noteLessonStep(std::size_t step) { document_.contents_.lesson.step = step; }
+void MovePlayer::noteLessonStep(std::size_t step) { executor_.noteLessonStep(step); }
 
 void MovePlayer::goToInLesson(std::size_t position, const std::vector<Algorithm>& algorithms, std::size_t step) {
   if (!document_.lesson().session || isInLesson(position, algorithms)) {
@@ -285,7 +284,7 @@ void MovePlayer::keepWaypoint(std::size_t position) {
   const std::size_t last = replayed_.waypoints.empty() ? 0 : std::prev(replayed_.waypoints.end())->first;
   if (!replayed_.hasRelaxed && position >= last + apart &&
       std::holds_alternative<commands::Grab>(history().at(position))) {
-    replayed_.waypoints[position] = document_.newState();
+    replayed_.waypoints[position] = executor_.newState();
     document_.solvers().log().replay(commands::KeepState{replayed_.waypoints[position]});
   }
 }

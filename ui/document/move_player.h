@@ -10,6 +10,7 @@
 
 namespace chainmail {
 
+class ChangeExecutor;
 class Document;
 
 /// Records the commands of a document, and brings the object to any position in them.
@@ -17,7 +18,7 @@ class MovePlayer : public QObject {
   Q_OBJECT
 
  public:
-  explicit MovePlayer(Document& document);
+  MovePlayer(Document& document, ChangeExecutor& executor);
   ~MovePlayer() override;
 
   /// The commands carried out since the object was at rest, and the current position in them.
@@ -59,7 +60,7 @@ class MovePlayer : public QObject {
 
   /// Replaces the recorded commands with those of a session, whose object the solvers have.
   void open(const Session& session);
-  /// Call this after a command was sent to the solvers.
+  /// A command was posted to the log of the solvers, which calls this.
   void noteSent(const Command& command);
   /// Drops the waypoints. Call this when the solvers do something other than a replay: its result may differ.
   void noteDeparture();
@@ -78,7 +79,7 @@ class MovePlayer : public QObject {
 
   Change travelTo(std::size_t position);
   void travel(std::size_t position, const MeshPointer& first);
-  void replaceSplit(Change& edit, const MoveHistory::Object& then, const MeshPointer& first) const;
+  void replaceSplit(Change& edit, ObjectState then, const MeshPointer& first) const;
   void goToBeginning(const MeshPointer& first);
   void noteRecorded(const Session* lesson);
   bool followsLesson(const std::vector<Algorithm>& algorithms) const;
@@ -86,6 +87,7 @@ class MovePlayer : public QObject {
   void dropWaypoints();
 
   Document& document_;
+  ChangeExecutor& executor_;
   /// What the solvers have replayed.
   struct Replayed {
     // States that the solvers have saved, by position in the recorded commands. A replay backwards starts at one of

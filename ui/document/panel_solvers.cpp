@@ -41,7 +41,7 @@ void PanelSolvers::setAside() {
                                                     idleAnnouncer()));
     targets.push_back(copies.back().get());
   }
-  CommandLog log(targets);
+  CommandLog log(targets, posted_);
   log.history() = log_.history();
   aside_ = std::exchange(solvers_, std::move(copies));
   logAside_ = std::exchange(log_, std::move(log));

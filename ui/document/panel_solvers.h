@@ -4,9 +4,11 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "document/change.h"
@@ -20,7 +22,9 @@ class PanelSolvers : public QObject {
   Q_OBJECT
 
  public:
-  explicit PanelSolvers(const Contents& contents) : contents_(contents) {}
+  /// `posted` is called after each command that is posted to the log.
+  PanelSolvers(const Contents& contents, std::function<void(const Command&)> posted)
+      : contents_(contents), posted_(std::move(posted)) {}
 
   /// Number of solvers.
   int count() const { return int(solvers_.size()); }
@@ -93,6 +97,7 @@ class PanelSolvers : public QObject {
   std::function<void()> idleAnnouncer();
 
   const Contents& contents_;
+  std::function<void(const Command&)> posted_;
   // True while an announcement of a solver thread (new frame, idle) waits in the event queue. Prevents a second one.
   std::array<std::atomic<bool>, Contents::maxPanels> frameAnnounced_{};
   std::atomic<bool> idleAnnounced_ = false;
@@ -100,7 +105,7 @@ class PanelSolvers : public QObject {
   std::array<const Frame*, Contents::maxPanels> frames_{};
   std::array<const Frame*, Contents::maxPanels> instead_{};  // null if the panel shows its own frame
   bool recordsPasses_ = false;
-  CommandLog log_{{}};
+  CommandLog log_{{}, posted_};
   std::vector<std::unique_ptr<SolverThread>> aside_;  // see setAside()
   CommandLog logAside_{{}};
 };

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "chainmail/waiting_history.h"
+#include "chainmail/recorded_pass.h"
 #include "document/document.h"
 #include "simulate/frame.h"
 

@@ -9,11 +9,8 @@ SessionDraft::SessionDraft(Document& document, std::string layout) {
   for (auto& snapshot : document.solvers().snapshots()) {  // first: this records what relaxation has done
     snapshots_.push_back(snapshot.share());
   }
+  static_cast<ObjectState&>(session_) = document.object();
   session_.name = document.name().toStdString();
-  session_.mesh = document.mesh();
-  session_.cuts = document.cuts().links();
-  session_.pins = document.pins();
-  session_.softness = document.wholeSoftness();
   session_.relaxation = document.relaxation();
   session_.elastic = document.elastic();
   session_.moves = document.moves().history().commands();

@@ -18,7 +18,7 @@
 #include "common/colours.h"
 #include "drawing/colour_map.h"
 #include "mesh/cuts.h"
-#include "mesh/section_plane.h"
+#include "mesh/section.h"
 #include "simulate/frame.h"
 
 class QPainter;

@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -65,12 +65,12 @@ void SurfaceMaker::begin(const MeshPointer& mesh) {
 
 /// Returns false if the system starts no thread.
 bool SurfaceMaker::beginInBackground(const MeshPointer& mesh) {
-  job_ = std::make_unique<JobState>();
+  job_ = Progress::watched();
   const auto promise = std::make_shared<std::promise<std::unique_ptr<Surface>>>();
   try {
-    thread_.add([this, mesh, promise] {
+    thread_.add([this, mesh, job = job_, promise] {
       try {
-        promise->set_value(makeSurface(mesh, Progress(*job_)));
+        promise->set_value(makeSurface(mesh, job));
       } catch (...) {  // cancelled, or out of memory: take() throws the exception
         promise->set_exception(std::current_exception());
       }
@@ -96,10 +96,8 @@ void SurfaceMaker::receive() {
 }
 
 void SurfaceMaker::giveUp() {
-  if (job_ != nullptr) {
-    job_->cancelled = true;
-    thread_.finish();
-  }
+  job_.cancel();
+  thread_.finish();
   result_ = {};
 }
 

@@ -41,7 +41,7 @@ class SurfaceMaker : public QObject {
   MeshPointer mesh_;
   std::unique_ptr<Surface> surface_;  // until take()
   CellTablePointer table_;            // for another surface of the same mesh
-  std::unique_ptr<JobState> job_;
+  Progress job_;
   std::future<std::unique_ptr<Surface>> result_;  // valid while it is being computed
   std::exception_ptr failure_;                    // why there is none
   TaskThread thread_;                             // last: ends before the members that its tasks use

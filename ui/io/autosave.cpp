@@ -12,7 +12,7 @@
 #include "document/session_draft.h"
 #include "files/session/session.h"
 #include "io/unsaved_work.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -30,7 +30,7 @@ QString failure() { return QString::fromStdString(failure_sentence("unsaved work
 }  // namespace
 
 struct Autosave::Writing {
-  JobState job;
+  Progress job = Progress::watched();
   QString path;
   // The thread writes them before it sets `done`; the window reads them after that.
   Object object;  // in its file, before and after
@@ -81,7 +81,7 @@ void Autosave::discardAdopted(const MeshPointer& mesh) {
 
 void Autosave::cancelWriting() {
   if (writing_) {
-    writing_->job.cancelled = true;
+    writing_->job.cancel();
   }
 }
 
@@ -231,7 +231,7 @@ void Autosave::startWriting(Mark now) {
 
 /// Runs on the thread.
 void Autosave::write(Writing& writing, const SessionDraft& draft) {
-  const Progress progress(writing.job);
+  const Progress& progress = writing.job;
   try {
     writeFiles(writing, draft.finished(progress), progress);
     writing.isWritten = true;

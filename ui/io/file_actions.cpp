@@ -6,16 +6,13 @@
 #include <QLocale>
 #include <QSettings>
 #include <QToolBar>
-#include <filesystem>
+#include <utility>
 
 #include "common/as_path.h"
 #include "common/text.h"
-#include "document/edits.h"
 #include "drawing/camera.h"
 #include "drawing/mesh_levels.h"
 #include "files/mesh/mesh_formats.h"
-#include "files/mesh/open_mesh.h"
-#include "files/session/session.h"
 #include "io/mesh_repair.h"
 #include "io/picture_file.h"
 #include "io/questions.h"
@@ -24,7 +21,6 @@
 #include "io/unsaved_work.h"
 #include "io/volumes.h"
 #include "mesh/error.h"
-#include "mesh/sheet.h"
 
 namespace chainmail {
 namespace {
@@ -52,13 +48,16 @@ QStringList saveFilters(FormatUse use, bool lattice = false) {
 
 /// Returns one filter for all files that can be opened.
 QString openFilter() {
-  QString endings = QStringLiteral("*.chainmail");
+  QString endings = QLatin1Char('*') + asText(session_ending);
   for (const MeshFormat& format : mesh_formats()) {
     if (format.reads()) {
       endings += QStringLiteral(" *") + endingsOf(format).join(QStringLiteral(" *"));
     }
   }
-  return QStringLiteral("Sessions, meshes and pictures (%1 *.png *.jpg *.jpeg);;All files (*)").arg(endings);
+  for (const std::string_view ending : picture_endings) {
+    endings += QStringLiteral(" *") + asText(ending);
+  }
+  return QStringLiteral("Sessions, meshes and pictures (%1);;All files (*)").arg(endings);
 }
 
 /// Describes an opened object: its size, extents and flaws.
@@ -204,73 +203,56 @@ void FileActions::open() {
   }
 }
 
-void FileActions::openPath(const QString& path, bool first) {
-  if (is_session(asPath(path))) {
-    sessions_.openPath(path, first);
-    return;
-  }
-  if (isPicture(path)) {
-    readPicture(path, first);
-    return;
-  }
-  read(path, first, true);
-}
-
-void FileActions::openSample(const QString& path) {
-  if (isPicture(path)) {
-    readPicture(path, false);
-  } else if (is_session(asPath(path))) {
-    sessions_.openPath(path, false);
-  } else {
-    read(path, false, false);
-  }
+void FileActions::openPath(const QString& path, edits::Opening opening, bool asks) {
+  const auto read = [this, path, opening, asks](const Progress& progress) -> Jobs::Finish {
+    InputFile input = open_file(asPath(path));
+    switch (input.kind) {
+      case FileKind::session:
+        return sessions_.read(std::move(input.file), path, opening, progress);
+      case FileKind::picture:
+        return readPicture(std::move(input.file), path, opening, progress);
+      case FileKind::volume:
+        return volumes_->read(std::move(input), path, opening, asks, progress);
+      case FileKind::mesh:
+        break;
+    }
+    return readMesh(std::move(input), path, opening, progress);
+  };
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
+              [this, path, read](const Progress& progress) -> Jobs::Finish {
+                const auto state = stateOf(path);  // before it is read
+                return [this, path, state, show = read(progress)] {
+                  show();
+                  sessions_.know(path, state);
+                };
+              });
 }
 
 /// Opens a picture as a sheet.
-void FileActions::readPicture(const QString& path, bool first) {
-  const QString name = shownName(path);
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
-              [this, path, name, first](const Progress& progress) -> Jobs::Finish {
-                const MeshPointer sheet =
-                    make_sheet(readPictureFile(path, progress.part(0, 0.7)), elementsAcross, progress.part(0.7, 0.9));
-                prepareLevels(sheet, progress.part(0.9, 1));
-                return [this, path, name, first, sheet] {
-                  edits::replaceMesh(document_, sheet, name, QStringLiteral("open %1").arg(name),
-                                     first ? edits::Opening::first : edits::Opening::next);
-                  remember(path);
-                };
-              });
+Jobs::Finish FileActions::readPicture(RegularFile file, const QString& path, edits::Opening opening,
+                                      const Progress& progress) {
+  const MeshPointer sheet = readSheet(std::move(file), elementsAcross, progress.part(0, 0.9));
+  prepareLevels(sheet, progress.part(0.9, 1));
+  return [this, path, opening, sheet] {
+    edits::replaceMesh(document_, sheet, shownName(path), QStringLiteral("open %1").arg(shownName(path)), opening);
+    remember(path);
+  };
 }
 
-/// Reads a mesh, or a volume; `ask`: asks for the options of a volume.
-void FileActions::read(const QString& path, bool first, bool ask) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
-              [this, path, first, ask](const Progress& progress) -> Jobs::Finish {
-                if (is_volume(asPath(path))) {
-                  return ask ? volumes_->read(path, first, progress) : volumes_->readAsOffered(path, progress);
-                }
-                const auto state = stateOf(path);  // before it is read
-                const OpenedMesh opened = open_mesh(asPath(path), {}, progress.part(0, 0.8));
-                const Defects defects = find_defects(*opened.mesh, progress.part(0.8, 0.9));
-                prepareLevels(opened.mesh, progress.part(0.9, 1));
-                return [this, opened, defects, path, first, state] {
-                  show(opened, defects, path, first);
-                  if (!isSample(path)) {
-                    sessions_.know(path, state);
-                  }
-                };
-              });
-}
-
-void FileActions::show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first) {
-  const QString name = shownName(path);
-  repair_->remember(opened.mesh, defects);
-  edits::replaceMesh(document_, opened.mesh, name, QStringLiteral("open %1").arg(name),
-                     first ? edits::Opening::first : edits::Opening::next);
-  remember(path);
-  if (!isSample(path)) {
-    emit noted(openingReport(name, opened, document_.parts()));
-  }
+Jobs::Finish FileActions::readMesh(InputFile input, const QString& path, edits::Opening opening,
+                                   const Progress& progress) {
+  const OpenedMesh opened = open_mesh(std::move(input), {}, progress.part(0, 0.8));
+  const Defects defects = find_defects(*opened.mesh, progress.part(0.8, 0.9));
+  prepareLevels(opened.mesh, progress.part(0.9, 1));
+  return [this, opened, defects, path, opening] {
+    const QString name = shownName(path);
+    repair_->remember(opened.mesh, defects);
+    edits::replaceMesh(document_, opened.mesh, name, QStringLiteral("open %1").arg(name), opening);
+    remember(path);
+    if (!isSample(path)) {
+      emit noted(openingReport(name, opened, document_.parts()));
+    }
+  };
 }
 
 void FileActions::save() {

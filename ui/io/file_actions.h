@@ -5,16 +5,16 @@
 
 #include "common/jobs.h"
 #include "document/document.h"
+#include "document/edits.h"
+#include "files/mesh/input_file.h"
 
 class QToolBar;
 
 namespace chainmail {
 
-struct Defects;
 class MeshRepair;
 class Sessions;
 class Volumes;
-struct OpenedMesh;
 
 /// The File menu: open, recent files, save. Reads and writes sessions, meshes and pictures in the background. An error
 /// changes nothing.
@@ -35,11 +35,11 @@ class FileActions : public QObject {
   void saveSession();
   /// Asks for a file, and saves the session to it. Returns false if the user cancels.
   bool saveSessionAs();
-  /// Opens a session (recognized by its extension), or a mesh, volume or picture (recognized by content). The first
-  /// object of a window is not an undo step.
-  void openPath(const QString& path, bool first = false);
+  /// Opens a file in the background, once, and passes it to the reader of its kind. The first object of a window is not
+  /// an undo step. `asks`: asks for the options of a volume.
+  void openPath(const QString& path, edits::Opening opening = edits::Opening::next, bool asks = true);
   /// Opens a sample with default options, without asking.
-  void openSample(const QString& path);
+  void openSample(const QString& path) { openPath(path, edits::Opening::next, false); }
   void save();
   /// Saves the object at rest, without cut links, in the format of the extension.
   void savePath(const QString& path);
@@ -57,9 +57,8 @@ class FileActions : public QObject {
  private:
   void addSaveActions(QMenu& menu);
   void addShapeActions(QMenu& menu);
-  void read(const QString& path, bool first, bool ask);
-  void readPicture(const QString& path, bool first);
-  void show(const OpenedMesh& opened, const Defects& defects, const QString& path, bool first);
+  Jobs::Finish readPicture(RegularFile file, const QString& path, edits::Opening opening, const Progress& progress);
+  Jobs::Finish readMesh(InputFile input, const QString& path, edits::Opening opening, const Progress& progress);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
   void fillRecent();
   void remember(const QString& path);

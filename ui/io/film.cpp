@@ -12,7 +12,7 @@
 #include "common/as_path.h"
 #include "files/text/outputs.h"
 #include "io/pictures.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {

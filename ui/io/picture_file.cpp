@@ -1,15 +1,14 @@
 #include "io/picture_file.h"
 
 #include <QBuffer>
-#include <QFileInfo>
 #include <QImageReader>
-#include <array>
+#include <utility>
 
-#include "common/as_path.h"
 #include "files/formats/bare_picture.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "mesh/sheet.h"
+#include "mesh/texture.h"
 
 namespace chainmail {
 namespace {
@@ -21,19 +20,14 @@ constexpr double pictureLimit = 100e6;
 constexpr double scannedPixelLimit = 12 * pictureLimit;
 constexpr int megabyte = 1 << 20;
 
-bool endsAsPicture(const QString& path) {
-  const QString ending = QFileInfo(path).suffix().toLower();
-  return ending == QLatin1String("png") || ending == QLatin1String("jpg") || ending == QLatin1String("jpeg");
-}
-
-[[noreturn]] void failPicture(const QString& path, const QString& problem, const char* remedy) {
-  throw Error(shown(asPath(path)), problem.toStdString(), remedy);
+[[noreturn]] void failPicture(const std::filesystem::path& path, const QString& problem, const char* remedy) {
+  throw Error(shown(path), problem.toStdString(), remedy);
 }
 
 /// A picture in memory, with Qt's reader for its format. Qt tries no other format: some open other files.
 class PictureReader {
  public:
-  explicit PictureReader(const QString& path) : path_(path), picture_(read_bare_picture(asPath(path))) {
+  explicit PictureReader(RegularFile file) : path_(file.path()), picture_(read_bare_picture(std::move(file))) {
     QImageReader::setAllocationLimit(int(4 * pictureLimit / megabyte) +
                                      1);  // in MB, a limit for all readers; pictures here are smaller
     bytes_.setData(QByteArray::fromRawData(picture_.bytes.data(), qsizetype(picture_.bytes.size())));
@@ -43,7 +37,7 @@ class PictureReader {
     reader_.setDevice(&bytes_);
     reader_.setFormat(picture_.format == PictureFormat::png ? "png" : "jpeg");
     if (!reader_.canRead() || size().isEmpty()) {
-      failPicture(path, QStringLiteral("its header is damaged"), "open a complete PNG or JPEG file");
+      failPicture(path_, QStringLiteral("its header is damaged"), "open a complete PNG or JPEG file");
     }
     checkSize();
   }
@@ -83,32 +77,15 @@ class PictureReader {
     }
   }
 
-  QString path_;
+  std::filesystem::path path_;
   BarePicture picture_;
   QBuffer bytes_;  // of picture_
   QImageReader reader_;
 };
 
-}  // namespace
-
-bool isPicture(const QString& path) {
-  if (endsAsPicture(path)) {
-    return true;
-  }
-  if (std::error_code none; !std::filesystem::is_regular_file(asPath(path), none)) {
-    return false;
-  }
-  try {
-    std::array<char, picture_signature_size> beginning{};
-    const std::size_t count = RegularFile(asPath(path)).read(beginning);
-    return picture_format({beginning.data(), count}).has_value();
-  } catch (const Error&) {
-    return false;  // opening it as a mesh shows the reason
-  }
-}
-
-Texture readPictureFile(const QString& path, const Progress& progress) {
-  QImage image = PictureReader(path).read();
+/// Returns a picture with four channels, the bottom row first. It has no box: make_sheet() sets one.
+Texture readPicture(RegularFile file, const Progress& progress) {
+  QImage image = PictureReader(std::move(file)).read();
   progress.report(0.5);
   image.convertTo(QImage::Format_RGBA8888);
   progress.report(0.8);
@@ -121,6 +98,12 @@ Texture readPictureFile(const QString& path, const Progress& progress) {
   }
   progress.report(1);
   return picture;
+}
+
+}  // namespace
+
+MeshPointer readSheet(RegularFile file, std::uint32_t across, const Progress& progress) {
+  return make_sheet(readPicture(std::move(file), progress.part(0, 0.7)), across, progress.part(0.7, 1));
 }
 
 }  // namespace chainmail

@@ -1,20 +1,19 @@
 #pragma once
 
-#include <QString>
+#include <cstdint>
 
+#include "files/text/regular_file.h"
+#include "mesh/mesh.h"
 #include "mesh/progress.h"
-#include "mesh/texture.h"
 
 namespace chainmail {
 
-/// Pictures in PNG and JPEG files. Both functions can run on any thread.
+/// Number of elements along the width of a picture.
+inline constexpr std::uint32_t elementsAcross = 32;
 
-/// True if the extension or the content of a file is that of a PNG or JPEG.
-bool isPicture(const QString& path);
-
-/// Reads a picture with four channels, the bottom row first, with the rotation that the camera stored. It has no box:
-/// make_sheet() sets one. Throws Error if the file is not a PNG or JPEG by its signature, has more than 100 million
-/// pixels or is damaged, and Cancelled.
-Texture readPictureFile(const QString& path, const Progress& progress = {});
+/// Reads a picture, with the rotation that the camera stored, and makes a sheet of it. It can run on any thread. Throws
+/// Error if the file is not a PNG or JPEG by its signature, has more than 100 million pixels or is damaged, and
+/// Cancelled.
+MeshPointer readSheet(RegularFile file, std::uint32_t across, const Progress& progress);
 
 }  // namespace chainmail

@@ -8,16 +8,14 @@
 #include <QJsonObject>
 
 #include "common/as_path.h"
-#include "document/edits.h"
 #include "document/session_draft.h"
 #include "drawing/mesh_levels.h"
-#include "files/mesh/open_mesh.h"
+#include "files/mesh/input_file.h"
 #include "files/text/text.h"
 #include "io/picture_file.h"
 #include "io/samples.h"
 #include "io/unsaved_work.h"
 #include "mesh/error.h"
-#include "mesh/sheet.h"
 
 namespace chainmail {
 namespace {
@@ -69,12 +67,10 @@ namespace {
 /// Returns what opens the meshes and pictures that a session names: in the folder of the session, or among the samples.
 MeshOpener meshesNear(const QString& session) {
   return [session](const std::string& name, std::uint32_t across, const Progress& progress) -> MeshPointer {
-    const QString path = found(session, QString::fromStdString(name));
-    if (!isPicture(path)) {
-      return open_mesh(asPath(path), {}, progress).mesh;
-    }
-    return make_sheet(readPictureFile(path, progress.part(0, 0.7)), across > 0 ? across : elementsAcross,
-                      progress.part(0.7, 1));
+    InputFile input = open_file(asPath(found(session, QString::fromStdString(name))));
+    return input.kind == FileKind::picture
+               ? readSheet(std::move(input.file), across > 0 ? across : elementsAcross, progress)
+               : open_mesh(std::move(input), {}, progress).mesh;
   };
 }
 
@@ -93,26 +89,16 @@ Sessions::Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject*
 
 Sessions::~Sessions() = default;
 
-void Sessions::openPath(const QString& path, bool first) {
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path)),
-              [this, path, first](const Progress& progress) -> Jobs::Finish {
-                const auto state = stateOf(path);  // before it is read
-                const auto session = std::make_shared<const Session>(
-                    read_session(asPath(path), progress.part(0, 0.9), meshesNear(path)));
-                prepareLevels(session->mesh, progress.part(0.9, 1));
-                return [this, session, path, state, first] {
-                  know(path, state);
-                  show(session, path, first);
-                };
-              });
-}
-
-void Sessions::show(const std::shared_ptr<const Session>& session, const QString& path, bool first) {
-  const QString file = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
-  edits::restore(document_, session, file, QStringLiteral("open %1").arg(shownName(path)),
-                 first ? edits::Opening::first : edits::Opening::next);
-  layout_.set(session->ui);
-  emit opened(path);
+Jobs::Finish Sessions::read(RegularFile file, const QString& path, edits::Opening opening, const Progress& progress) {
+  const auto session =
+      std::make_shared<const Session>(read_session(std::move(file), progress.part(0, 0.9), meshesNear(path)));
+  prepareLevels(session->mesh, progress.part(0.9, 1));
+  return [this, session, path, opening] {
+    const QString own = isSample(path) ? QString() : QFileInfo(path).absoluteFilePath();
+    edits::restore(document_, session, own, QStringLiteral("open %1").arg(shownName(path)), opening);
+    layout_.set(session->ui);
+    emit opened(path);
+  };
 }
 
 void Sessions::savePath(const QString& path) {

@@ -8,6 +8,7 @@
 
 #include "common/jobs.h"
 #include "document/document.h"
+#include "document/edits.h"
 #include "files/session/session.h"
 #include "io/autosave.h"
 
@@ -39,9 +40,6 @@ class KnownFiles {
   std::map<QString, FileState> known_;
 };
 
-/// Number of elements along the width of a picture.
-inline constexpr std::uint32_t elementsAcross = 32;
-
 /// Sessions of a window: opens and saves them in the background, saves unsaved work automatically, and offers it at the
 /// next start.
 class Sessions : public QObject {
@@ -51,8 +49,8 @@ class Sessions : public QObject {
   Sessions(Document& document, Jobs& jobs, LayoutAccess layout, QObject* parent);
   ~Sessions() override;
 
-  /// Opens a session in the background: as one undo step, or as the first object of the window.
-  void openPath(const QString& path, bool first);
+  /// Reads a session in the thread of a job. The returned function shows it in the window.
+  Jobs::Finish read(RegularFile file, const QString& path, edits::Opening opening, const Progress& progress);
   /// Saves the session in the background.
   void savePath(const QString& path);
   /// The window has read or written a file, which was in this state then.
@@ -82,7 +80,6 @@ class Sessions : public QObject {
   void opened(const QString& path);
 
  private:
-  void show(const std::shared_ptr<const Session>& session, const QString& path, bool first);
   void restore(const QString& path);
 
   Document& document_;

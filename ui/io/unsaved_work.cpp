@@ -14,6 +14,7 @@
 
 #include "common/as_path.h"
 #include "common/colours.h"
+#include "files/mesh/input_file.h"
 
 namespace chainmail::unsaved_work {
 namespace {

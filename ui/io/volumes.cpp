@@ -1,15 +1,13 @@
 #include "io/volumes.h"
 
-#include <QFileInfo>
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
 #include "common/as_path.h"
 #include "common/number_field.h"
-#include "document/edits.h"
-#include "files/mesh/open_mesh.h"
+#include "files/mesh/mesh_formats.h"
 #include "files/text/text.h"
 
 namespace chainmail {
@@ -135,38 +133,35 @@ Volumes::Volumes(Document& document, Jobs& jobs)
   connect(bar_, &AskBar::agreed, this, &Volumes::build);
 }
 
-Jobs::Finish Volumes::read(const QString& path, bool first, const Progress& progress) {
-  auto volume = std::make_shared<const OpenedVolume>(read_volume(asPath(path), progress));
-  return [this, path, first, volume] {
+Jobs::Finish Volumes::read(InputFile input, const QString& path, edits::Opening opening, bool asks,
+                           const Progress& progress) {
+  Volume volume = input.format->read_volume(std::move(input.file), {}, progress.part(0, asks ? 1 : 0.5));
+  if (!asks) {
+    return objectOf(volume, {}, path, opening, progress.part(0.5, 1));
+  }
+  return [this, path, opening, voxels = std::make_shared<const OpenedVolume>(std::move(volume))] {
     path_ = path;
-    first_ = first;
-    volume_ = volume;
-    bar_->ask(shownName(path), volume);
+    opening_ = opening;
+    volume_ = voxels;
+    bar_->ask(shownName(path), voxels);
   };
 }
 
 void Volumes::build() {
-  const QString name = shownName(path_);
-  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(name),
-              [this, path = path_, first = first_, volume = std::move(volume_),
-               options = bar_->options()](const Progress& progress) -> Jobs::Finish {
-                auto block =
-                    std::make_shared<VoxelBlock>(voxel_block(volume->volume, options, shown(asPath(path)), progress));
-                return [this, path, first, block] { show(*block, path, first); };
-              });
+  jobs_.start(Jobs::Kind::load, QStringLiteral("Opening %1").arg(shownName(path_)),
+              [this, path = path_, opening = opening_, volume = std::move(volume_), options = bar_->options()](
+                  const Progress& progress) { return objectOf(volume->volume, options, path, opening, progress); });
 }
 
-Jobs::Finish Volumes::readAsOffered(const QString& path, const Progress& progress) {
-  const auto volume = read_volume(asPath(path), progress.part(0, 0.5));
-  auto block = std::make_shared<VoxelBlock>(voxel_block(volume, {}, shown(asPath(path)), progress.part(0.5, 1)));
-  return [this, path, block] { show(*block, path, false); };
-}
-
-void Volumes::show(VoxelBlock& block, const QString& path, bool first) {
-  const QString name = shownName(path);
-  edits::replaceMesh(document_, block.mesh, name, QStringLiteral("open %1").arg(name),
-                     first ? edits::Opening::first : edits::Opening::next, std::move(block.softness));
-  emit opened(path);
+Jobs::Finish Volumes::objectOf(const Volume& volume, const VoxelOptions& options, const QString& path,
+                               edits::Opening opening, const Progress& progress) {
+  const auto block = std::make_shared<VoxelBlock>(voxel_block(volume, options, shown(asPath(path)), progress));
+  return [this, path, opening, block] {
+    const QString name = shownName(path);
+    edits::replaceMesh(document_, block->mesh, name, QStringLiteral("open %1").arg(name), opening,
+                       std::move(block->softness));
+    emit opened(path);
+  };
 }
 
 }  // namespace chainmail

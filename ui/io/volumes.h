@@ -11,11 +11,11 @@
 #include "common/ask_bar.h"
 #include "common/jobs.h"
 #include "document/document.h"
+#include "document/edits.h"
 #include "files/formats/voxel_block.h"
+#include "files/mesh/input_file.h"
 
 namespace chainmail {
-
-struct VoxelBlock;
 
 /// A volume before it becomes an object, with the number of voxels above each density.
 struct OpenedVolume {
@@ -61,24 +61,23 @@ class Volumes : public QObject {
   Volumes(Document& document, Jobs& jobs);
 
   VolumeBar& bar() { return *bar_; }
-  /// Reads a volume in the thread of a job. The returned function runs in the window and asks for the options. The
-  /// object becomes one undo step, or the first object of the window.
-  Jobs::Finish read(const QString& path, bool first, const Progress& progress);
-  /// Reads a volume and makes the object with the default options, without asking.
-  Jobs::Finish readAsOffered(const QString& path, const Progress& progress);
+  /// Reads a volume in the thread of a job. The returned function runs in the window: it asks for the options, or shows
+  /// the object that the default options make.
+  Jobs::Finish read(InputFile input, const QString& path, edits::Opening opening, bool asks, const Progress& progress);
 
  signals:
   void opened(const QString& path);
 
  private:
   void build();
-  void show(VoxelBlock& block, const QString& path, bool first);
+  Jobs::Finish objectOf(const Volume& volume, const VoxelOptions& options, const QString& path, edits::Opening opening,
+                        const Progress& progress);
 
   Document& document_;
   Jobs& jobs_;
   VolumeBar* bar_;
   QString path_;
-  bool first_ = false;
+  edits::Opening opening_ = edits::Opening::next;
   std::shared_ptr<const OpenedVolume> volume_;  // while the bar asks about it
 };
 

@@ -11,7 +11,6 @@
 #include "drawing/colour_map.h"
 #include "drawing/vector_painter.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "panels/orientation_cube.h"
 #include "panels/view.h"
 

@@ -239,13 +239,15 @@ void DragTool::move(View& view, QPointF position, Qt::KeyboardModifiers modifier
   }
   if (grip_ == Grip::handle || grip_ == Grip::ring) {
     const bool shift = (modifiers & Qt::ShiftModifier) != 0;
-    moveHandle(view, position, grip_ == Grip::ring || (shift && RotationRing::canRotate(*document_.mesh())));
-    return;
+    followCursor(view, position, grip_ == Grip::ring || (shift && RotationRing::canRotate(*document_.mesh())));
+    document_.handle().drag(commands::Drag{motion_.by, motion_.rotation, true});
+  } else {
+    document_.handle().drag(commands::Drag{start_ + (view.pointAt(position, start_) - gripAt_)});
   }
-  document_.handle().drag(start_ + (view.pointAt(position, start_) - gripAt_));
 }
 
-void DragTool::moveHandle(View& view, QPointF position, bool turns) {
+/// Moves or rotates the handle with the cursor.
+void DragTool::followCursor(View& view, QPointF position, bool turns) {
   if (turns != motion_.turns) {
     change(view, turns);
   }
@@ -262,7 +264,6 @@ void DragTool::moveHandle(View& view, QPointF position, bool turns) {
     }
   }
   motion_.cursor = position;
-  document_.handle().dragBy(motion_.by, motion_.rotation);
 }
 
 /// Changes between translation and rotation at the last position of the cursor, so that the handle does not jump.

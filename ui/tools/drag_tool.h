@@ -95,7 +95,7 @@ class DragTool : public Tool {
   void prepare(std::optional<ElementId> element);
   void outline(View& view, QPointF position);
   void setRingHovered(View* view);
-  void moveHandle(View& view, QPointF position, bool turns);
+  void followCursor(View& view, QPointF position, bool turns);
   void change(const View& view, bool turns);
   void turn(const View& view, QPointF position);
   std::optional<double> angleAt(const View& view, QPointF position) const;

@@ -483,7 +483,9 @@ void MainWindow::restoreLayout() {
 
 // The window as a whole.
 
-void MainWindow::openFile(const QString& path, bool first) { files_->openPath(path, first); }
+void MainWindow::openFile(const QString& path, bool first) {
+  files_->openPath(path, first ? edits::Opening::first : edits::Opening::next);
+}
 
 void MainWindow::welcome() {
   if (help_->welcome()) {

@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -204,21 +203,18 @@ BarePicture bare_picture(std::string bytes, const std::filesystem::path& path) {
   return picture;
 }
 
-BarePicture read_bare_picture(const std::filesystem::path& path) {
-  RegularFile file(path);
-  std::string bytes(picture_signature_size, '\0');
-  bytes.resize(file.read(bytes));
-  if (!picture_format(bytes)) {
-    refuse_format(path);  // before memory is taken for the rest
+BarePicture read_bare_picture(RegularFile file) {
+  const std::filesystem::path path = file.path();
+  std::string beginning(picture_signature_size, '\0');
+  beginning.resize(file.read_at(0, beginning));
+  if (!picture_format(beginning)) {
+    refuse_format(path);  // before memory is taken for the whole
   }
   if (file.size() > picture_file_limit) {
     throw Error(shown(path), "it is larger than " + std::to_string(picture_file_limit >> 20) + " MiB",
                 "scale the picture down first");
   }
-  const std::size_t begun = bytes.size();
-  bytes.resize(std::max<std::size_t>(begun, file.size()));
-  bytes.resize(begun + file.read(std::span(bytes).subspan(begun)));
-  return bare_picture(std::move(bytes), path);
+  return bare_picture(read_bytes(std::move(file), "a picture"), path);
 }
 
 }  // namespace chainmail

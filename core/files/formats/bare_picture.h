@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "files/text/regular_file.h"
+
 namespace chainmail {
 
 /// The formats of pictures that open. No other format is tried: some name other files, which their readers open.
@@ -32,6 +34,6 @@ struct BarePicture {
 /// rotation. Throws Error about `path` if this is not a picture by its signature, or if its parts are not complete.
 BarePicture bare_picture(std::string bytes, const std::filesystem::path& path);
 /// Reads a file and prepares it. Also throws Error if it is larger than picture_file_limit.
-BarePicture read_bare_picture(const std::filesystem::path& path);
+BarePicture read_bare_picture(RegularFile file);
 
 }  // namespace chainmail

@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 
-#include "mesh/cells.h"
 #include "mesh/surface.h"
 
 namespace chainmail {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/cell_table.h"
+#include "mesh/cells.h"
 #include "mesh/cuts.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"

@@ -7,15 +7,11 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "files/formats/data_file.h"
 #include "files/text/limits.h"
 #include "files/text/number_type.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -447,8 +443,8 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
   return volume_of(head, {data.size(), read, path}, progress);
 }
 
-Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress) {
-  RegularFile file(path);
+Volume read_metaimage(RegularFile file, bool outside, const Progress& progress) {
+  const std::filesystem::path& path = file.path();
   std::string beginning(std::min<std::uint64_t>(limits::metaimage_header_bytes, file.size()), '\0');
   beginning.resize(file.read(beginning));
   const MetaImageHead head = read_metaimage_head(beginning, path);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/formats/volume.h"
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -36,6 +37,6 @@ Volume metaimage_volume(const MetaImageHead& head, std::span<const char> data, c
                         const Progress& progress = {});
 
 /// Reads a .mha, or a .mhd and its data files, which must be in its folder unless `outside` is true.
-Volume read_metaimage(const std::filesystem::path& path, bool outside, const Progress& progress = {});
+Volume read_metaimage(RegularFile file, bool outside, const Progress& progress = {});
 
 }  // namespace chainmail

@@ -1,7 +1,6 @@
 #include "files/formats/nrrd_head.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "files/formats/data_file.h"
 #include "files/text/limits.h"

@@ -1,7 +1,6 @@
 #include "files/formats/off.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "files/text/text.h"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -126,8 +127,8 @@ void read_tetgen_cells(const NamedText& elements, std::uint32_t first_point, Mes
   }
 }
 
-/// Returns the path of one file of the pair.
-std::filesystem::path tetgen_file(const std::filesystem::path& path, const char* ending) {
+/// Returns the path of the other file of the pair, which has this ending.
+std::filesystem::path other_of_pair(const std::filesystem::path& path, const char* ending) {
   auto file = path;
   file.replace_extension(ending);
   std::error_code none;
@@ -147,11 +148,14 @@ ImportedMesh read_tetgen(const NamedText& nodes, const NamedText& elements, cons
   return mesh;
 }
 
-ImportedMesh read_tetgen(const std::filesystem::path& path, const Progress& progress) {
-  const auto nodes = tetgen_file(path, ".node"), elements = tetgen_file(path, ".ele");
-  const std::string points = read_text(nodes, "points", progress.part(0, 0.2));
-  const std::string cells = read_text(elements, "tetrahedra", progress.part(0.2, 0.4));
-  return read_tetgen({points, nodes}, {cells, elements}, progress.part(0.4, 1));
+ImportedMesh read_tetgen(RegularFile one, const Progress& progress) {
+  const bool has_points = lower_case(one.path().extension().string()) == ".node";
+  RegularFile other(other_of_pair(one.path(), has_points ? ".ele" : ".node"));
+  RegularFile &nodes = has_points ? one : other, &elements = has_points ? other : one;
+  const std::filesystem::path nodes_path = nodes.path(), elements_path = elements.path();
+  const std::string points = read_text(std::move(nodes), "points", progress.part(0, 0.2));
+  const std::string cells = read_text(std::move(elements), "tetrahedra", progress.part(0.2, 0.4));
+  return read_tetgen({points, nodes_path}, {cells, elements_path}, progress.part(0.4, 1));
 }
 
 }  // namespace chainmail

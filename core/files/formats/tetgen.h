@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "files/formats/imported.h"
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -20,6 +21,6 @@ ImportedMesh read_tetgen(const NamedText& nodes, const NamedText& elements, cons
 
 /// Reads the pair that one of the two files belongs to: both have the same name, up to the ending. Throws Error if the
 /// other file is missing.
-ImportedMesh read_tetgen(const std::filesystem::path& path, const Progress& progress);
+ImportedMesh read_tetgen(RegularFile one, const Progress& progress);
 
 }  // namespace chainmail

@@ -1,8 +1,6 @@
 #include "files/formats/volume.h"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 
 #include "mesh/error.h"
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include "files/text/limits.h"
 #include "files/text/text.h"
 
 namespace chainmail {

@@ -9,6 +9,7 @@
 
 #include "files/formats/imported.h"
 #include "files/formats/volume.h"
+#include "files/text/limits.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -35,3 +36,14 @@ Error damaged_answer(const std::filesystem::path& path);
 Imported decode_imported(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
 }  // namespace chainmail
+
+// Numbers that the import program and its caller share.
+namespace chainmail::import {
+
+inline constexpr int result_channel = 30;  // receives the result
+inline constexpr int share_channel = 31;   // receives the share that is done, doubles from 0 to 1
+inline constexpr int first_input = 32;     // the files that it reads, in order
+inline constexpr int last_input = first_input + int(limits::nrrd_files) - 1;
+inline constexpr int out_of_memory = 3;  // its exit status
+
+}  // namespace chainmail::import

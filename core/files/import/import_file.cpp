@@ -3,11 +3,10 @@
 #include <utility>
 
 #include "files/formats/data_file.h"
-#include "files/formats/msh_check.h"
+#include "files/formats/msh.h"
 #include "files/formats/nrrd_head.h"
 #include "files/import/import_process.h"
 #include "files/text/limits.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -32,34 +31,33 @@ void refuse_decimal_commas(std::string_view text, const std::filesystem::path& p
 }
 
 /// Throws Error at the line that is wrong, where it can be found: libraries do not say where it is.
-void find_fault(const std::string& task, const std::filesystem::path& path) {
+void find_fault(const std::string& task, const RegularFile& file) {
   std::string text(max_text, '\0');
-  text.resize(RegularFile(path).read(text));
-  refuse_decimal_commas(std::string_view(text).substr(0, max_maybe_binary), path);
+  text.resize(file.read_at(0, text));
+  refuse_decimal_commas(std::string_view(text).substr(0, max_maybe_binary), file.path());
   if (task == "msh" && text.size() < max_text) {
-    check_msh(text, path);
+    check_msh(text, file.path());
   }
 }
 
 }  // namespace
 
 /// Libraries recognise a format by the name: the file is linked under one with the right ending.
-ImportedMesh import_mesh(const std::string& task, const std::filesystem::path& path, int passes,
-                         const Progress& progress, const std::filesystem::path& program) {
-  ImportInput input(path, passes);
-  input.link("mesh." + task, RegularFile(path));
+ImportedMesh import_mesh(const std::string& task, RegularFile file, int passes, const Progress& progress,
+                         const std::filesystem::path& program) {
+  ImportInput input(file.path(), passes);
+  input.link("mesh." + task, std::move(file));
   try {
     return run_import_of<ImportedMesh>(task, input, {}, limits_for(input.linked_size()), progress, program);
   } catch (const Error&) {
-    find_fault(task, path);
+    find_fault(task, input.linked().front());
     throw;
   }
 }
 
 /// If the data are in files of their own, teem gets a header that names links to them.
-Volume import_nrrd(const std::filesystem::path& path, bool outside, const Progress& progress,
-                   const std::filesystem::path& program) {
-  RegularFile file(path);
+Volume import_nrrd(RegularFile file, bool outside, const Progress& progress, const std::filesystem::path& program) {
+  const std::filesystem::path path = file.path();
   std::string beginning(limits::nrrd_header_bytes, '\0');
   beginning.resize(file.read(beginning));
   const NrrdHead head = read_nrrd_head(beginning, path);

@@ -1,6 +1,7 @@
 #include "files/mesh/mesh_formats.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "files/formats/dat.h"
@@ -16,8 +17,6 @@
 #include "files/formats/vtk.h"
 #include "files/formats/vtu.h"
 #include "files/import/import_file.h"
-#include "files/mesh/foreign.h"
-#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 
@@ -26,21 +25,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t sign_bytes = 512;  // bytes at the beginning of a file that are read to recognise its format
-
-template <auto Read>
-ImportedMesh read_text_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
-  return Read(read_text(path, "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
+/// Reads a whole file, and its content with the reader of a format. Binary files need read_bytes.
+template <auto Read, std::string (*Take)(RegularFile, const std::string&, const Progress&) = read_text>
+ImportedMesh read_file(RegularFile file, const ReadOptions& /*options*/, const Progress& progress) {
+  const fs::path path = file.path();
+  return Read(Take(std::move(file), "a mesh", progress.part(0, 0.1)), path, progress.part(0.1, 1));
 }
 
-ImportedMesh read_dat_file(const fs::path& path, const ReadOptions& options, const Progress& progress) {
-  return read_dat(read_text(path, "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
-}
-
-/// Reads a file that may be binary.
-template <auto Read>
-ImportedMesh read_file(const fs::path& path, const ReadOptions& /*options*/, const Progress& progress) {
-  return Read(read_bytes(path, "a mesh", progress.part(0, 0.2)), path, progress.part(0.2, 1));
+ImportedMesh read_dat_file(RegularFile file, const ReadOptions& options, const Progress& progress) {
+  const fs::path path = file.path();
+  return read_dat(read_text(std::move(file), "a mesh", progress.part(0, 0.1)), path, options, progress.part(0.1, 1));
 }
 
 constexpr std::array formats{
@@ -48,14 +42,14 @@ constexpr std::array formats{
                .endings = ".obj",
                .help = "surfaces and lines",
                .signs = {"v ", "o ", "g ", "mtllib ", "vn "},
-               .read_mesh = read_text_file<read_obj>,
+               .read_mesh = read_file<read_obj>,
                .write = write_obj,
                .holds = MeshFormat::Holds::faces_and_links},
     MeshFormat{.name = "Stanford PLY",
                .endings = ".ply",
                .help = "surfaces; links along no face as edges",
                .signs = {"ply\n", "ply\r"},
-               .read_mesh = read_file<read_ply>,
+               .read_mesh = read_file<read_ply, read_bytes>,
                .write = write_ply,
                .holds = MeshFormat::Holds::faces_and_links},
     MeshFormat{.name = "VTK XML",
@@ -63,8 +57,8 @@ constexpr std::array formats{
                .help = "all cells; written with displacement and violation as fields, for ParaView",
                .signs = {"<VTKFile"},
                .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("vtu", path, 1, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("vtu", std::move(file), 1, progress, options.import_program);
                    },
                .write = write_vtu},
     MeshFormat{.name = "Gmsh",
@@ -72,52 +66,53 @@ constexpr std::array formats{
                .help = "lines, triangles, quadrangles, tetrahedra and hexahedra",
                .signs = {"$MeshFormat", "$NOD"},
                .read_mesh =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_mesh("msh", path, 2, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_mesh("msh", std::move(file), 2, progress, options.import_program);
                    },
                .write = write_msh},
     MeshFormat{.name = "legacy VTK",
                .endings = ".vtk",
                .help = "lines, surfaces and volumes",
                .signs = {"# vtk DataFile"},
-               .read_mesh = read_file<read_vtk>},
+               .read_mesh = read_file<read_vtk, read_bytes>},
     MeshFormat{.name = "Medit",
                .endings = ".mesh",
                .help = "lines, surfaces and volumes",
                .signs = {"MeshVersionFormatted"},
-               .read_mesh = read_text_file<read_medit>},
+               .read_mesh = read_file<read_medit>},
     MeshFormat{.name = "OFF",
                .endings = ".off",
                .help = "surfaces",
                .signs = {"OFF", "COFF", "NOFF", "CNOFF", "NCOFF", "STOFF", "nOFF"},
-               .read_mesh = read_text_file<read_off>},
+               .read_mesh = read_file<read_off>},
     MeshFormat{.name = "STL",
                .endings = ".stl",
                .help = "surfaces, triangle by triangle",
                .signs = {"solid "},
-               .read_mesh = read_file<read_stl>,
+               .read_mesh = read_file<read_stl, read_bytes>,
                .write = write_stl,
                .holds = MeshFormat::Holds::faces},
     MeshFormat{.name = "TetGen",
                .endings = ".node .ele",
                .help = "tetrahedra, in a pair of files",
-               .read_mesh = [](const fs::path& path, const ReadOptions& /*options*/,
-                               const Progress& progress) { return read_tetgen(path, progress); }},
+               .read_mesh = [](RegularFile file, const ReadOptions& /*options*/,
+                               const Progress& progress) { return read_tetgen(std::move(file), progress); }},
     MeshFormat{.name = "NRRD",
                .endings = ".nrrd .nhdr",
                .help = "volumes of voxels",
                .signs = {"NRRD000"},
                .read_volume =
-                   [](const fs::path& path, const ReadOptions& options, const Progress& progress) {
-                     return import_nrrd(path, options.data_outside, progress, options.import_program);
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return import_nrrd(std::move(file), options.data_outside, progress, options.import_program);
                    }},
-    MeshFormat{
-        .name = "MetaImage",
-        .endings = ".mha .mhd",
-        .help = "volumes of voxels",
-        .signs = {"ObjectType", "NDims"},
-        .read_volume = [](const fs::path& path, const ReadOptions& options,
-                          const Progress& progress) { return read_metaimage(path, options.data_outside, progress); }},
+    MeshFormat{.name = "MetaImage",
+               .endings = ".mha .mhd",
+               .help = "volumes of voxels",
+               .signs = {"ObjectType", "NDims"},
+               .read_volume =
+                   [](RegularFile file, const ReadOptions& options, const Progress& progress) {
+                     return read_metaimage(std::move(file), options.data_outside, progress);
+                   }},
     MeshFormat{.name = "Links of a lattice",
                .endings = ".dat",
                .help = "the links of a line, a grid or a block, as in Dean's thesis",
@@ -147,30 +142,6 @@ const MeshFormat* find_by_ending(std::string_view wanted) {
   };
   const auto found = std::find_if(formats.begin(), formats.end(), has_ending);
   return found == formats.end() ? nullptr : &*found;
-}
-
-const MeshFormat* find_by_sign(std::string_view beginning) {
-  const auto has_sign = [beginning](const MeshFormat& format) {
-    return std::any_of(format.signs.begin(), format.signs.end(),
-                       [beginning](std::string_view sign) { return !sign.empty() && beginning.starts_with(sign); });
-  };
-  const auto found = std::find_if(formats.begin(), formats.end(), has_sign);
-  return found == formats.end() ? nullptr : &*found;
-}
-
-/// Passes over blank lines, comments, a byte order mark and the declaration of XML.
-std::string_view without_comments(std::string_view beginning) {
-  beginning.remove_prefix(mark_length(beginning));
-  for (;;) {
-    beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
-    const char end = beginning.starts_with('#')                                     ? '\n'
-                     : beginning.starts_with("<?") || beginning.starts_with("<!--") ? '>'
-                                                                                    : '\0';
-    if (end == '\0') {
-      return beginning;
-    }
-    beginning.remove_prefix(std::min(beginning.find_first_of(end == '\n' ? "\r\n" : ">"), beginning.size() - 1) + 1);
-  }
 }
 
 /// Returns the reason why a file with this ending does not have this use. `format` is the format of the ending; null if
@@ -252,20 +223,6 @@ const MeshFormat& mesh_format(const fs::path& path, FormatUse use) {
               use == FormatUse::read    ? "open a mesh in one of these formats: " + mesh_endings(use)
               : use == FormatUse::write ? "write the mesh in one of these formats: " + mesh_endings(use)
                                         : "write positions in one of these formats: " + mesh_endings(use));
-}
-
-const MeshFormat& detect_format(const fs::path& path) {
-  std::array<char, sign_bytes> bytes{};
-  const std::string_view beginning(bytes.data(), RegularFile(path).read(bytes));
-  if (beginning.empty()) {
-    throw Error(shown(path), "it is empty", "use a file that contains a mesh");
-  }
-  const MeshFormat* by_comment = find_by_sign(beginning);
-  const MeshFormat* by_sign = by_comment != nullptr ? by_comment : find_by_sign(without_comments(beginning));
-  if (by_sign == nullptr) {
-    refuse_foreign(beginning, path);
-  }
-  return by_sign != nullptr ? *by_sign : mesh_format(path);
 }
 
 }  // namespace chainmail

@@ -15,6 +15,8 @@
 
 namespace chainmail {
 
+class RegularFile;
+
 /// The use of a file: to read an object, to write an object, or to write the current positions of its elements.
 enum class FormatUse { read, write, write_positions };
 
@@ -27,10 +29,10 @@ struct MeshFormat {
   /// Texts at the beginning of a file that identify the format, after or within blank lines and comments. Unused
   /// entries are empty.
   std::array<std::string_view, 7> signs{};
-  /// The reader of a mesh or of a volume. A format has one of the two, or none if it is only written. They throw Error,
-  /// with the line if the file is text, and Cancelled.
-  ImportedMesh (*read_mesh)(const std::filesystem::path&, const ReadOptions&, const Progress&) = nullptr;
-  Volume (*read_volume)(const std::filesystem::path&, const ReadOptions&, const Progress&) = nullptr;
+  /// The reader of a mesh or of a volume. A format has one of the two, or none if it is only written. They take over
+  /// the open file, and throw Error, with the line if the file is text, and Cancelled.
+  ImportedMesh (*read_mesh)(RegularFile, const ReadOptions&, const Progress&) = nullptr;
+  Volume (*read_volume)(RegularFile, const ReadOptions&, const Progress&) = nullptr;
   /// The writer; null if the format is only read. Throws Error if the format cannot store the mesh, and Cancelled.
   void (*write)(std::ostream&, const MeshState&, const Progress&) = nullptr;
   /// False if the format stores no positions, but only a lattice.
@@ -62,9 +64,5 @@ std::string lost_in(const MeshFormat& format, const Mesh& mesh);
 /// Returns the format with the ending of a file, in upper or lower case. Throws Error if no format has this ending, or
 /// if the format does not have this use.
 const MeshFormat& mesh_format(const std::filesystem::path& path, FormatUse use = FormatUse::read);
-
-/// Returns the format of an existing file. It is recognised by its content, else by its ending. Throws Error if the
-/// file does not exist, or if the format is not known.
-const MeshFormat& detect_format(const std::filesystem::path& path);
 
 }  // namespace chainmail

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "files/mesh/input_file.h"
 #include "files/mesh/join.h"
-#include "files/mesh/mesh_formats.h"
 #include "files/text/text.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
@@ -29,12 +29,11 @@ std::optional<double> join_tolerance(const ImportedMesh& imported, const ReadOpt
                                    : std::nullopt;
 }
 
-OpenedMesh open_volume(const MeshFormat& format, const std::filesystem::path& path, const ReadOptions& options,
-                       const Progress& progress) {
-  const Volume volume = format.read_volume(path, options, progress.part(0, 0.5));
+OpenedMesh opened(const Volume& volume, const std::filesystem::path& path, const VoxelOptions& options,
+                  const Progress& progress) {
   // Without options, the threshold and the number of voxels per element fit the volume.
-  const std::string where = options.voxels.threshold ? "threshold" : options.voxels.every ? "every" : shown(path);
-  VoxelBlock block = voxel_block(volume, options.voxels, where, progress.part(0.5, 1));
+  const std::string where = options.threshold ? "threshold" : options.every ? "every" : shown(path);
+  VoxelBlock block = voxel_block(volume, options, where, progress);
   std::string words = in_words(block);
   return {std::move(block.mesh), std::move(block.softness), {}, std::move(words)};
 }
@@ -42,11 +41,18 @@ OpenedMesh open_volume(const MeshFormat& format, const std::filesystem::path& pa
 }  // namespace
 
 OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
-  const MeshFormat& format = detect_format(path);
+  return open_mesh(open_file(path), options, progress);
+}
+
+OpenedMesh open_mesh(InputFile input, const ReadOptions& options, const Progress& progress) {
+  const std::filesystem::path path = input.file.path();
+  const MeshFormat& format = format_of(input);
   check_options(format, path, options);
-  OpenedMesh result = format.read_volume != nullptr ? open_volume(format, path, options, progress.part(0, 0.95))
-                                                    : opened(format.read_mesh(path, options, progress.part(0, 0.5)),
-                                                             path, options, progress.part(0.5, 0.95));
+  const Progress reading = progress.part(0, 0.5), building = progress.part(0.5, 0.95);
+  OpenedMesh result =
+      input.kind == FileKind::volume
+          ? opened(format.read_volume(std::move(input.file), options, reading), path, options.voxels, building)
+          : opened(format.read_mesh(std::move(input.file), options, reading), path, options, building);
   count_flaws(*result.mesh, result.flaws);
   return result;
 }
@@ -75,16 +81,6 @@ OpenedMesh opened(ImportedMesh imported, const std::filesystem::path& path, cons
   parts.space_dimension = chosen_space(parts, options.space_dimension, imported.space, path);
   result.mesh = build_mesh(std::move(parts), progress);
   return result;
-}
-
-bool is_volume(const std::filesystem::path& path) { return detect_format(path).read_volume != nullptr; }
-
-Volume read_volume(const std::filesystem::path& path, const Progress& progress) {
-  const MeshFormat& format = detect_format(path);
-  if (format.read_volume == nullptr) {
-    throw Error(shown(path), "it is not a volume of voxels", "open a volume");
-  }
-  return format.read_volume(path, {}, progress);
 }
 
 std::string in_words(const VoxelBlock& block) {

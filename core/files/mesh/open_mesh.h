@@ -27,12 +27,6 @@ struct OpenedMesh {
 /// limited memory and time.
 OpenedMesh open_mesh(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
-/// Returns true if the file is a volume of voxels. Throws like detect_format.
-bool is_volume(const std::filesystem::path& path);
-
-/// Returns the voxels of a file that is a volume. Throws like open_mesh.
-Volume read_volume(const std::filesystem::path& path, const Progress& progress = {});
-
 /// Describes the conversion of voxels to elements: 'voxels from a density of 250, 2 along each axis to an element'.
 std::string in_words(const VoxelBlock& block);
 

@@ -7,7 +7,7 @@
 #include "files/results/json_kind.h"
 #include "report/page/compared_figures.h"
 #include "report/page/physics_figures.h"
-#include "report/page/ramp_table.h"
+#include "report/page/ramp_page.h"
 
 namespace chainmail {
 namespace {

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <vector>
 
-#include "body/trace.h"
+#include "body/method.h"
 
 namespace chainmail {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "body/snapshot.h"
-#include "body/softness.h"
 #include "files/session/lesson.h"
 #include "files/text/outputs.h"
+#include "files/text/regular_file.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "simulate/command.h"
@@ -21,7 +21,7 @@ namespace chainmail {
 
 /// The content of a window, to be saved and restored: an object, its moves, and the positions of its elements in each
 /// panel.
-struct Session {
+struct Session : ObjectState {
   struct Panel {
     Algorithm algorithm = Algorithm::natural_queue;
     /// Precision of the coordinates in `positions`. In single precision they are floats.
@@ -30,12 +30,8 @@ struct Session {
   };
 
   std::string name;  // name of the object, as in titles; a file has its first limits::name_bytes bytes
-  MeshPointer mesh;
   /// If not empty, a file that has the mesh: the session is then written with this name in place of the mesh.
   std::string mesh_file;
-  std::vector<LinkId> cuts;     // ascending
-  std::vector<ElementId> pins;  // ascending
-  std::shared_ptr<const Softness> softness = std::make_shared<const Softness>();
   commands::SetRelaxation relaxation;
   ElasticOptions elastic;
   std::vector<Panel> panels;  // 1 to limits::session_panels
@@ -52,12 +48,6 @@ struct Session {
 MeshPointer first_mesh(const Session& session);
 /// Returns the mesh that is written: the first one, or the present one if the moves are left out.
 MeshPointer written_mesh(const Session& session);
-
-/// The ending of session files, with the dot.
-inline constexpr std::string_view session_ending = ".chainmail";
-
-/// True if a file has the ending of a session, in upper or lower case.
-bool is_session(const std::filesystem::path& path);
 
 /// Writes a session as JSON, with numbers in the fewest digits that read back exactly:
 ///
@@ -109,6 +99,7 @@ using MeshOpener = std::function<MeshPointer(const std::string& name, std::uint3
 
 /// Reads a session. Throws Error, with the member, for anything that write_session does not write, and for a newer
 /// version; and Cancelled. Without `open`, a session that names its mesh is refused.
+Session read_session(RegularFile file, const Progress& progress = {}, const MeshOpener& open = {});
 Session read_session(const std::filesystem::path& path, const Progress& progress = {}, const MeshOpener& open = {});
 /// Reads a session from the text of a file. `path` appears in errors.
 Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress = {},

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "files/session/lesson_json.h"
 #include "files/session/moves.h"
@@ -296,8 +297,14 @@ Session parse_session(std::string_view text, const std::filesystem::path& path, 
   return SessionReader(json, path, open).read(progress.part(0.6, 1));
 }
 
+Session read_session(RegularFile file, const Progress& progress, const MeshOpener& open) {
+  const std::filesystem::path path = file.path();
+  return parse_session(read_text(std::move(file), "a session", progress.part(0, 0.1)), path, progress.part(0.1, 1),
+                       open);
+}
+
 Session read_session(const std::filesystem::path& path, const Progress& progress, const MeshOpener& open) {
-  return parse_session(read_text(path, "a session", progress.part(0, 0.1)), path, progress.part(0.1, 1), open);
+  return read_session(RegularFile(path), progress, open);
 }
 
 }  // namespace chainmail

@@ -314,8 +314,6 @@ MeshPointer written_mesh(const Session& session) {
   return moves_fit(session.moves) ? first_mesh(session) : session.mesh;
 }
 
-bool is_session(const std::filesystem::path& path) { return lower_case(path.extension().string()) == session_ending; }
-
 void write_session(std::ostream& out, const Session& session, const Progress& progress) {
   SessionWriter(out, session).write(progress);
 }

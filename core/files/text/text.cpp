@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "files/text/limits.h"
-#include "files/text/regular_file.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -124,9 +124,8 @@ bool is_binary(std::string_view text, std::size_t from) {
   return zero != std::string_view::npos && text.find_first_not_of(padding_and_blanks, zero) != std::string_view::npos;
 }
 
-std::string read_whole(const std::filesystem::path& path, bool is_text, const std::string& content,
-                       const Progress& progress) {
-  RegularFile file(path);
+std::string read_whole(RegularFile file, bool is_text, const std::string& content, const Progress& progress) {
+  const std::filesystem::path& path = file.path();
   const Error too_large(shown(path), "it is larger than 4 GiB", "use a smaller file");
   const Error no_text(shown(path), "it is not a text file", "use a text file with " + content);
   if (file.size() > limits::file_bytes) {
@@ -160,12 +159,16 @@ std::string read_whole(const std::filesystem::path& path, bool is_text, const st
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
-  return read_whole(path, true, content, progress);
+std::string read_text(RegularFile file, const std::string& content, const Progress& progress) {
+  return read_whole(std::move(file), true, content, progress);
 }
 
-std::string read_bytes(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
-  return read_whole(path, false, content, progress);
+std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress) {
+  return read_text(RegularFile(path), content, progress);
+}
+
+std::string read_bytes(RegularFile file, const std::string& content, const Progress& progress) {
+  return read_whole(std::move(file), false, content, progress);
 }
 
 std::size_t mark_length(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/text/regular_file.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -32,13 +33,12 @@ std::string joined_words(const std::vector<std::string>& words, const std::strin
 std::string shown(const std::filesystem::path& path);
 std::string shown(const std::filesystem::path& path, std::size_t line);
 
-/// Reads a whole text file. Throws Error if it is not a regular file, or if it is empty, too large or not text.
-/// `content` describes the expected content in error messages.
-std::string read_text(const std::filesystem::path& path, const std::string& content = "a mesh",
-                      const Progress& progress = {});
+/// Reads a whole text file and closes it. Throws Error if it is not a regular file, or if it is empty, too large or not
+/// text. `content` describes the expected content in error messages.
+std::string read_text(RegularFile file, const std::string& content, const Progress& progress = {});
+std::string read_text(const std::filesystem::path& path, const std::string& content, const Progress& progress = {});
 /// Reads a whole file that may be binary.
-std::string read_bytes(const std::filesystem::path& path, const std::string& content = "a mesh",
-                       const Progress& progress = {});
+std::string read_bytes(RegularFile file, const std::string& content, const Progress& progress = {});
 
 /// Reads a text line by line. Lines end with \n, \r\n or \r, and their numbers start at 1. A byte order mark at the
 /// beginning is passed over.

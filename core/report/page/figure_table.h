@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/converging_reference.h"
+
 namespace chainmail::report {
 
 /// A table of figures as text, for a page or a terminal.
@@ -36,5 +38,9 @@ void write_text(std::ostream& out, const FigureTable& table);
 /// Writes rows as aligned text. Each column is as wide as its widest cell; the first column is left-aligned. A row of
 /// two cells is a name and a sentence.
 void write_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows);
+
+/// Describes the levels of the references of some drags, of which there is at least one: elements, changes, how many
+/// converged, and the observed orders.
+std::string convergence_in_words(const std::vector<Convergence>& references);
 
 }  // namespace chainmail::report

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <iterator>
 #include <optional>
+#include <ostream>
+#include <ranges>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "report/page/format.h"
 
 namespace chainmail::report {
@@ -60,6 +66,29 @@ std::string cell_of(const FigureValue& value, std::string (*of_number)(const std
 template <class Row>
 std::string cell_of(const Figure<Row>& figure, const Row& row) {
   return cell_of(figure.value(row), figure.cell);
+}
+
+/// A figure that only CSV shows.
+template <class Row>
+using CsvColumn = Figure<Row>;
+
+/// Writes the names of the columns, then the rows.
+template <std::ranges::range Figures, std::ranges::range Rows>
+void write_csv(std::ostream& out, const Figures& figures, const Rows& rows) {
+  std::vector<std::ranges::range_value_t<Figures>> columns;
+  std::ranges::copy_if(figures, std::back_inserter(columns), [](const auto& one) { return !one.column.empty(); });
+  std::string_view comma;
+  for (const auto& figure : columns) {
+    out << std::exchange(comma, ",") << figure.column;
+  }
+  out << '\n';
+  for (const auto& row : rows) {
+    comma = {};
+    for (const auto& figure : columns) {
+      out << std::exchange(comma, ",") << csv_text(figure.value(row));
+    }
+    out << '\n';
+  }
 }
 
 }  // namespace chainmail::report

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "report/page/csv_table.h"
-
 namespace chainmail::report {
 namespace physics {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "report/page/format.h"
-#include "report/page/physics_means.h"
+#include "report/page/physics_table.h"
 
 namespace chainmail::report {
 namespace {
@@ -185,15 +185,15 @@ std::string object_plot(std::size_t number) { return "object-" + std::to_string(
 std::vector<PlotFile> plots_of(const PhysicsReport& report) {
   std::vector<PlotFile> plots;
   if (report.objects.size() > 1) {
-    plots.push_back({"overview.svg", physics_overview(report)});
+    plots.push_back({physics_plots[0], physics_overview(report)});
   }
   for (std::size_t i = 0; i < report.objects.size(); ++i) {
     plots.push_back({object_plot(i + 1), physics_plot(report.objects[i])});
   }
   if (!report.growths.empty()) {
-    plots.push_back({"growth-time.svg", growth_time_plot(report.growths)});
-    plots.push_back({"growth-prepare.svg", growth_prepare_plot(report.growths)});
-    plots.push_back({"growth-error.svg", growth_error_plot(report.growths)});
+    plots.push_back({physics_plots[1], growth_time_plot(report.growths)});
+    plots.push_back({physics_plots[2], growth_prepare_plot(report.growths)});
+    plots.push_back({physics_plots[3], growth_error_plot(report.growths)});
   }
   return plots;
 }

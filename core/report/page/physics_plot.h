@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "report/page/plot.h"
 #include "report/run/physics.h"
 
@@ -16,6 +18,8 @@ Plot growth_time_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_prepare_plot(const std::vector<PhysicsGrowth>& growths);
 Plot growth_error_plot(const std::vector<PhysicsGrowth>& growths);
 
+/// The files with the overview, and with the three plots of growth in the order above.
+inline constexpr std::array physics_plots{"overview.svg", "growth-time.svg", "growth-prepare.svg", "growth-error.svg"};
 /// Returns the name of the file with the plot of an object; the first object is 1.
 std::string object_plot(std::size_t number);
 /// Returns the plots that a report has as files of their own.

@@ -7,6 +7,13 @@
 
 namespace chainmail::report {
 
+/// Returns one drag per name, with the means of errors and times over its handles, the maximum of the largest
+/// errors and the worst figures of shape. Drags without a reference solution do not count. A mean says how many
+/// drags it leaves out because the contestant has no measurement there.
+std::vector<PhysicsDrag> means_by_name(const PhysicsObject& object);
+/// Returns the mean of all drags without a cut.
+PhysicsDrag mean_of_drags(const PhysicsObject& object);
+
 /// Returns relative errors and times of all objects for a terminal, for contestants without sweeps and calibrated ones.
 FigureTable physics_summary(const PhysicsReport& report);
 /// Returns the main table of one object: relative errors and times. The table of a page also has the errors divided by

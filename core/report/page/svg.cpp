@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "report/page/format.h"
-#include "report/page/plot_style.h"
 
 namespace chainmail::report {
 namespace {

@@ -64,8 +64,8 @@ struct Participant {
 /// Runs one drag on one object with all contestants.
 class Experiment {
  public:
-  Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const std::stop_token& stop)
-      : object_(object), moves_(moves), options_(options), stop_(stop) {
+  Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const Progress& progress)
+      : object_(object), moves_(moves), options_(options), progress_(progress) {
     result_ = {moves.name, moves.description, count_moves(moves), {}, {}};
     for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
       if (!info(options.algorithms[i]).relaxes()) {
@@ -82,12 +82,12 @@ class Experiment {
     times_.resize(result_.entries.size());
   }
 
-  /// Calls `tell` with the share of the work that is done, 0 to 1. Returns nothing if it was stopped.
-  std::optional<DragResult> run(const std::function<void(double)>& tell) {
+  /// Returns nothing if it was cancelled.
+  std::optional<DragResult> run() {
     make_runners();
-    measure_errors(tell);
-    for (int repetition = 0; repetition < repetitions_ && !stop_.stop_requested(); ++repetition) {
-      tell(warm_up_share + (1 - warm_up_share) * repetition / repetitions_);
+    measure_errors();
+    for (int repetition = 0; repetition < repetitions_ && !progress_.cancelled(); ++repetition) {
+      progress_.show(warm_up_share + (1 - warm_up_share) * repetition / repetitions_);
       repeat(static_cast<std::size_t>(repetition));
     }
     for (std::size_t i = 0; i < times_.size(); ++i) {
@@ -96,7 +96,7 @@ class Experiment {
         measurement->worst_move_ms = times_[i].worst();
       }
     }
-    return stop_.stop_requested() ? std::nullopt : std::optional(std::move(result_));
+    return progress_.cancelled() ? std::nullopt : std::optional(std::move(result_));
   }
 
  private:
@@ -119,12 +119,12 @@ class Experiment {
   }
 
   /// Runs the warm-up, which is not timed, and measures the errors, which are the same in every repetition.
-  void measure_errors(const std::function<void(double)>& tell) {
-    References references(object_, moves_, options_, stop_);
+  void measure_errors() {
+    References references(object_, moves_, options_, progress_);
     result_.no_exact = references.no_exact();
     double seconds = 0;
-    for (std::size_t i = 0; i < result_.entries.size() && !stop_.stop_requested(); ++i) {
-      tell(warm_up_share * double(i) / double(result_.entries.size()));
+    for (std::size_t i = 0; i < result_.entries.size() && !progress_.cancelled(); ++i) {
+      progress_.show(warm_up_share * double(i) / double(result_.entries.size()));
       Entry& entry = result_.entries[i];
       entry.refusal = participant_of(i).refusal;
       if (participant_of(i).runner) {
@@ -139,7 +139,7 @@ class Experiment {
   double try_out(Entry& entry, Runner& runner, References& references) {
     const auto start = Clock::now();
     try {
-      const Runner::Run run = runner.run(moves_, entry.contestant.relaxing(), stop_);
+      const Runner::Run run = runner.try_run(moves_, entry.contestant.relaxing(), progress_);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       if (const std::string remark = runner.simulation().statistics().remark;
           !remark.empty() && info(entry.contestant.algorithm).elastic) {
@@ -157,10 +157,10 @@ class Experiment {
   /// Runs each contestant once. Rotates the order so that order effects cancel.
   void repeat(std::size_t repetition) {
     const std::size_t count = result_.entries.size();
-    for (std::size_t turn = 0; turn < count && !stop_.stop_requested(); ++turn) {
+    for (std::size_t turn = 0; turn < count && !progress_.cancelled(); ++turn) {
       const std::size_t i = (turn + repetition) % count;
       if (result_.entries[i].measurement) {
-        auto run = participant_of(i).runner->run(moves_, result_.entries[i].contestant.relaxing(), stop_);
+        auto run = participant_of(i).runner->try_run(moves_, result_.entries[i].contestant.relaxing(), progress_);
         if (!run.stopped) {
           times_[i].add(std::move(run.ms));
         }
@@ -171,7 +171,7 @@ class Experiment {
   const Case& object_;
   const RecordedMoves& moves_;
   const CompareOptions& options_;
-  const std::stop_token& stop_;
+  const Progress& progress_;
   DragResult result_;
   std::vector<Participant> participants_;    // one per algorithm
   std::vector<std::size_t> participant_of_;  // of each contestant: the index of its participant
@@ -228,8 +228,7 @@ std::string label(const Contestant& contestant) {
                                                               : ", " + std::to_string(contestant.sweeps) + " sweeps");
 }
 
-Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress,
-                   const std::stop_token& stop) {
+Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress) {
   Comparison comparison{checked(cases, options), {}, false};
   std::size_t drags = 0, done = 0;
   for (const Case& object : cases) {
@@ -243,13 +242,10 @@ Comparison compare(const std::vector<Case>& cases, const CompareOptions& options
               object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
               {}};
     for (const RecordedMoves& moves : object.drags) {
-      const auto tell = [&](double share) {
-        if (progress) {
-          progress((double(done) + share) / double(drags), object.name + ", " + moves.name);
-        }
-      };
-      tell(0);
-      auto drag = Experiment(object, moves, comparison.options, stop).run(tell);
+      const Progress of_drag = progress.part(double(done) / double(drags), double(done + 1) / double(drags));
+      of_drag.say(object.name + ", " + moves.name);
+      of_drag.show(0);
+      auto drag = Experiment(object, moves, comparison.options, of_drag).run();
       if (!drag) {
         comparison.stopped = true;
         return comparison;
@@ -258,9 +254,8 @@ Comparison compare(const std::vector<Case>& cases, const CompareOptions& options
       ++done;
     }
   }
-  if (progress) {
-    progress(1, "done");
-  }
+  progress.say("done");
+  progress.show(1);
   return comparison;
 }
 

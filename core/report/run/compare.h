@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "measure/distance.h"
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "measure/violation.h"
+#include "mesh/progress.h"
 #include "report/run/cases.h"
 #include "report/run/clocks.h"
 #include "report/run/shape_figures.h"
@@ -126,10 +125,6 @@ struct Comparison {
   bool stopped = false;
 };
 
-/// Called on the comparing thread between repetitions, with the share that is done (0 to 1) and a text for the next
-/// drag.
-using Progress = std::function<void(double fraction, const std::string& text)>;
-
 /// Runs the comparison on the calling thread. In each repetition, all contestants run the same recorded moves from
 /// rest, one contestant after another. All figures except the times are the same on every machine.
 /// The commands SetAlgorithm and SetRelaxation are ignored, because each contestant has its own; KeepState and
@@ -137,8 +132,8 @@ using Progress = std::function<void(double fraction, const std::string& text)>;
 /// RestoreState), or if a number in the options is out of its range. A contestant that cannot run the moves is listed
 /// with the reason.
 ///
-/// `stop` is checked between passes, between sweeps and between iterations.
-Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress = {},
-                   const std::stop_token& stop = {});
+/// `progress` receives a share between repetitions, and the names of the object and the drag as text. Cancelling takes
+/// effect between passes, between sweeps and between iterations.
+Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress = {});
 
 }  // namespace chainmail::report

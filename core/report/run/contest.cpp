@@ -67,7 +67,7 @@ class Contest::Participant {
 
   /// Runs a drag for the first time and measures the errors. `preparations` is null if nothing is timed.
   void try_out(const RecordedMoves& moves, const ReferenceSolution& reference, Preparations* preparations,
-               const std::stop_token& stop) {
+               const Progress& progress) {
     entry_ = {contestant_, std::nullopt, refusal_};
     times_ = {};
     warm_ = false;
@@ -88,10 +88,10 @@ class Contest::Participant {
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
       if (is_timed_ && !prepares(contestant_)) {
-        run(stop);  // prepares, so that no time of the next run contains this
+        run(progress);  // prepares, so that no time of the next run contains this
         times_ = {};
       }
-      run(stop);
+      run(progress);
       bytes_ = has_run_ ? bytes_ : sum_of(bytes_, bytes_since(before));
       has_run_ = true;
       measure(reference);
@@ -105,7 +105,7 @@ class Contest::Participant {
 
   /// Call this after try_out(). From now on the drag runs with the least number of iterations per move with which the
   /// answer at its end is close to that of try_out(), the own limit.
-  void limit_iterations(const RecordedMoves& moves, const ReferenceSolution& reference, const std::stop_token& stop) {
+  void limit_iterations(const RecordedMoves& moves, const ReferenceSolution& reference, const Progress& progress) {
     if (!entry_.measurement || !runner_ || contestant_.limit > 0) {
       return;
     }
@@ -113,7 +113,7 @@ class Contest::Participant {
     own.displacements = displacements();
     for (const int limit : limits_of(contestant_)) {
       Participant& one = limited_to(limit);
-      one.try_out(moves, own, nullptr, stop);
+      one.try_out(moves, own, nullptr, progress);
       if (one.entry_.measurement && one.entry_.measurement->error.relative <= options_.own_limit) {
         one.measure(reference);
         const Preparation prepare = entry_.measurement->prepare;
@@ -136,16 +136,16 @@ class Contest::Participant {
     return std::clamp(int(seconds / std::max(seconds_, 1e-6)), min_repetitions, max_repetitions);
   }
 
-  void repeat(const std::stop_token& stop) {
+  void repeat(const Progress& progress) {
     if (limited_ != nullptr) {
-      limited_->repeat(stop);
+      limited_->repeat(progress);
       return;
     }
     if (!warm_) {
       times_ = {};  // the first run was a warm-up
       warm_ = true;
     }
-    run(stop);
+    run(progress);
   }
 
   PhysicsEntry result() {
@@ -205,9 +205,9 @@ class Contest::Participant {
     return relaxing;
   }
 
-  void run(const std::stop_token& stop) {
+  void run(const Progress& progress) {
     const double start = clocks_.wall();
-    const Runner::Run run = runner_->run(moves_, relaxing(), stop, contestant_.limit == 0);
+    const Runner::Run run = runner_->try_run(moves_, relaxing(), progress, contestant_.limit == 0);
     stopped_ = run.stopped;
     if (run.stopped) {
       return;
@@ -286,13 +286,13 @@ Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& conte
 Contest::~Contest() = default;
 
 std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const ReferenceSolution& reference,
-                                       const std::function<void(double)>& tell, const std::stop_token& stop) {
+                                       const Progress& progress) {
   const double count = double(participants_.size());
-  for (std::size_t i = 0; i < participants_.size() && !stop.stop_requested(); ++i) {
-    tell(0.5 * double(i) / count);
-    participants_[i]->try_out(moves, reference, measured_ == Measured::errors ? nullptr : &preparations_, stop);
+  for (std::size_t i = 0; i < participants_.size() && !progress.cancelled(); ++i) {
+    progress.show(0.5 * double(i) / count);
+    participants_[i]->try_out(moves, reference, measured_ == Measured::errors ? nullptr : &preparations_, progress);
     if (options_.own_limit > 0 && measured_ != Measured::errors) {
-      participants_[i]->limit_iterations(moves, reference, stop);
+      participants_[i]->limit_iterations(moves, reference, progress);
     }
   }
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
@@ -302,11 +302,11 @@ std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const Referen
            : options_.repetitions        ? std::min(one.repetitions(1e9), *options_.repetitions)
                                          : one.repetitions(options_.seconds / count);
   };
-  for (int repetition = 0; repetition < max_repetitions && !stop.stop_requested(); ++repetition) {
-    tell(0.5 + 0.5 * repetition / max_repetitions);
+  for (int repetition = 0; repetition < max_repetitions && !progress.cancelled(); ++repetition) {
+    progress.show(0.5 + 0.5 * repetition / max_repetitions);
     for (const auto& participant : participants_) {
-      if (repetition < wanted(*participant) && !stop.stop_requested()) {
-        participant->repeat(stop);
+      if (repetition < wanted(*participant) && !progress.cancelled()) {
+        participant->repeat(progress);
       }
     }
   }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -28,7 +26,7 @@ class Contest {
 
   /// Runs a drag with all contestants, and compares them with the reference solution at its end.
   std::vector<PhysicsEntry> run(const RecordedMoves& moves, const ReferenceSolution& reference,
-                                const std::function<void(double)>& tell, const std::stop_token& stop);
+                                const Progress& progress);
 
  private:
   class Participant;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "report/run/cases.h"
 
 namespace chainmail::report {

@@ -48,8 +48,10 @@ ElementId element_with_smallest(const Case& object, Measure measure) {
 /// Pulls one element from rest by different distances, each in one move of Exact ChainMail.
 class Trial {
  public:
-  Trial(const Case& object, ElementId element, const std::stop_token& stop)
-      : simulation_(object.mesh, Algorithm::exact, Precision::double_precision), element_(element), stop_(stop) {
+  Trial(const Case& object, ElementId element, const Progress& progress)
+      : simulation_(object.mesh, Algorithm::exact, Precision::double_precision),
+        element_(element),
+        progress_(progress) {
     simulation_.apply(commands::SetSoftness{object.softness});
     simulation_.apply(commands::Cut{object.cuts});
     simulation_.apply(commands::Pin{object.pins});
@@ -76,7 +78,7 @@ class Trial {
         most = moved;
         best = distance;
       }
-      if (moved >= wanted || stop_.stop_requested()) {
+      if (moved >= wanted || progress_.cancelled()) {
         break;
       }
     }
@@ -86,7 +88,7 @@ class Trial {
  private:
   Simulation simulation_;
   ElementId element_;
-  const std::stop_token& stop_;
+  const Progress& progress_;
 };
 
 /// Adds moves of equal length, from share `from` to share `to` of the displacement `way`.
@@ -107,13 +109,13 @@ std::string named(ElementId element) { return "element " + std::to_string(elemen
 
 }  // namespace
 
-std::vector<RecordedMoves> three_drags(const Case& object, const std::stop_token& stop) {
+std::vector<RecordedMoves> three_drags(const Case& object, const Progress& progress) {
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
   const Point centre = (low + high) / 2, outward = direction_in(mesh);
   const ElementId middle = element_with_smallest(object, [&](const Point& at) { return (at - centre).squaredNorm(); });
   const ElementId edge = element_with_smallest(object, [&](const Point& at) { return -at.dot(outward); });
-  Trial from_middle(object, middle, stop), from_edge(object, edge, stop);
+  Trial from_middle(object, middle, progress), from_edge(object, edge, progress);
   const std::uint64_t all = mesh.element_count() - 1;
 
   RecordedMoves local = drag_out(mesh, middle, from_middle.distance_for(std::clamp<std::uint64_t>(all / 8, 12, 300)));

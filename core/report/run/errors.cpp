@@ -24,11 +24,11 @@ Distance between(const Runner& one, const Runner& other) {
 }  // namespace
 
 References::References(const Case& object, const RecordedMoves& moves, const CompareOptions& options,
-                       const std::stop_token& stop)
-    : object_(object), moves_(moves), options_(options), stop_(stop) {
+                       const Progress& progress)
+    : object_(object), moves_(moves), options_(options), progress_(progress) {
   try {
     exact_ = std::make_unique<Runner>(object, Algorithm::exact, Precision::double_precision, options);
-    exact_->run(moves, 0, stop);
+    exact_->try_run(moves, 0, progress);
     energy_of_exact_ = energy_of(exact_->simulation());
     find_equilibrium();
   } catch (const Error& error) {
@@ -46,12 +46,10 @@ void References::find_equilibrium() {
   if (simulation.mesh().element_count() > equilibrium_limit) {
     return;
   }
-  JobState job;
-  const std::stop_callback cancel(stop_, [&job] { job.cancelled = true; });
   try {
-    equilibrium_ = equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
-                               simulation.body().positions(), simulation.body().elastic(), cholesky_limit,
-                               chainmail::Progress(job));
+    equilibrium_ =
+        equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
+                    simulation.body().positions(), simulation.body().elastic(), cholesky_limit, progress_.quiet());
   } catch (const Cancelled&) {
     return;  // the result is not needed then
   }
@@ -88,7 +86,7 @@ Distance References::float_to_double(const Runner& runner, const Contestant& con
     other_ = std::make_unique<Runner>(object_, contestant.algorithm,
                                       in_float ? Precision::double_precision : Precision::single_precision, options_);
   }
-  other_->run(moves_, contestant.relaxing(), stop_);
+  other_->try_run(moves_, contestant.relaxing(), progress_);
   return between(runner, *other_);
 }
 

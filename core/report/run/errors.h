@@ -12,8 +12,7 @@ namespace chainmail::report {
 /// the other precision.
 class References {
  public:
-  References(const Case& object, const RecordedMoves& moves, const CompareOptions& options,
-             const std::stop_token& stop);
+  References(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const Progress& progress);
 
   /// Reason why there is no result of Exact ChainMail for comparison; empty if there is one.
   const std::string& no_exact() const { return no_exact_; }
@@ -28,7 +27,7 @@ class References {
   const Case& object_;
   const RecordedMoves& moves_;
   const CompareOptions& options_;
-  const std::stop_token& stop_;
+  const Progress& progress_;
   std::unique_ptr<Runner> exact_;
   double energy_of_exact_ = 0;
   std::optional<Equilibrium> equilibrium_;  // only if it is a reference for all elements

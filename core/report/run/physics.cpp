@@ -32,13 +32,13 @@ PhysicsOptions checked(PhysicsOptions options) {
 }
 
 PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences& references,
-                    const std::function<void(double)>& tell, const std::stop_token& stop) {
+                    const Progress& progress) {
   PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cuts_of(moves).empty(), 0, {},
                    {}};
   try {
     DragReference reference = references.at_end(moves);
     drag.handle_displacement = reference.solution.handle_displacement;
-    drag.entries = contest.run(moves, reference.solution, tell, stop);
+    drag.entries = contest.run(moves, reference.solution, progress);
     drag.refined = std::move(reference.refined);
   } catch (const Error& error) {
     drag.no_reference = error.what();
@@ -46,53 +46,29 @@ PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences
   return drag;
 }
 
-/// Converts the progress of the parts to progress of the whole comparison.
-class ProgressReporter {
- public:
-  ProgressReporter(const Progress& progress, std::size_t drags, bool grows)
-      : progress_(progress), drags_(drags), grows_(grows) {}
+/// Returns the progress of a part of the comparison, with its text.
+Progress part_of(const Progress& whole, double index, double count, const std::string& text) {
+  Progress part = whole.part(index / count, (index + 1) / count);
+  part.say(text);
+  return part;
+}
 
-  std::function<void(double)> of_drag(const std::string& text) const {
-    return [this, text, begin = done_](double share) {
-      tell((grows_ ? share_of_drags : 1) * (double(begin) + share) / double(drags_), text);
-    };
-  }
-  void drag_is_done() { ++done_; }
-  std::function<void(double)> of_growth(const std::string& text, int which, int of) const {
-    return [this, text, which, of](double share) {
-      tell(share_of_drags + (1 - share_of_drags) * (which + share) / of, text);
-    };
-  }
-  void tell(double share, const std::string& text) const {
-    if (progress_) {
-      progress_(share, text);
-    }
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t drags_, done_ = 0;
-  bool grows_;
-};
-
-void add_growths(PhysicsReport& report, const Softness& softness, const ProgressReporter& reporter,
-                 const std::stop_token& stop) {
+void add_growths(PhysicsReport& report, const Softness& softness, const Progress& progress) {
   const PhysicsOptions& options = report.options;
   const ElasticOptions elastic = report.elastic;
   report.growths.push_back(grow(
       "bar", "tetrahedra, pinned at the left layer, pulled",
       [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic, false); }, options,
-      reporter.of_growth("growing bar", 0, 2), stop));
+      part_of(progress, 0, 2, "growing bar")));
   report.growths.push_back(grow(
       "sheet", "triangles in a plane, pinned at the top layer, pulled",
       [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic, false); }, options,
-      reporter.of_growth("growing sheet", 1, 2), stop));
+      part_of(progress, 1, 2, "growing sheet")));
 }
 
 }  // namespace
 
-std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
-                                         const std::function<void(double)>& tell, const std::stop_token& stop) {
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options, const Progress& progress) {
   std::vector<Calibration> found;
   const std::vector<ElementId> handles = handles_of(object);
   for (const Algorithm algorithm : calibrated_algorithms) {
@@ -100,12 +76,12 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
     for (const bool equilibrium : {false, true}) {
       const bool wanted = equilibrium ? options.contest.equilibrium && takes_part_at_equilibrium(algorithm)
                                       : !options.contest.sweeps.empty();
-      if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || stop.stop_requested()) {
+      if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || progress.cancelled()) {
         continue;
       }
-      tell(0);
+      progress.show(0);
       try {
-        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, stop));
+        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, progress));
       } catch (const Error& error) {
         found.push_back({algorithm, equilibrium, {}, 0, 0, 0, 0, error.what()});
       } catch (const Cancelled&) {
@@ -117,13 +93,16 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
 }
 
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked,
-                                   const Progress& progress, const std::stop_token& stop) {
+                                   const Progress& progress) {
   PhysicsReport report{checked(asked), cases.empty() ? ElasticOptions() : cases.front().elastic, {}, {}, false};
   std::size_t drags = 0;
   for (const Case& object : cases) {
     drags += object.drags.size();
   }
-  ProgressReporter reporter(progress, drags, report.options.growth_seconds > 0);
+  const bool grows = report.options.growth_seconds > 0;
+  const Progress of_drags = progress.part(0, grows ? share_of_drags : 1);
+  double done = 0;
+  const auto of_drag = [&](const std::string& text) { return part_of(of_drags, done, double(drags), text); };
   for (const Case& object : cases) {
     PhysicsObject& result = report.objects.emplace_back();
     result = {object.name,
@@ -136,31 +115,30 @@ PhysicsReport compare_with_physics(const std::vector<Case>& cases, const Physics
               object.law};
     DragReferences references(object, report.options.refine);
     const CompareOptions& how = report.options.contest;
-    result.calibrations =
-        calibrations_of(object, report.options, reporter.of_drag(object.name + ", calibrating"), stop);
+    result.calibrations = calibrations_of(object, report.options, of_drag(object.name + ", calibrating"));
     const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
-    result.symmetry =
-        symmetry_under_rotation(object, contestants, how, reporter.of_drag(object.name + ", turned"), stop);
+    result.symmetry = symmetry_under_rotation(object, contestants, how, of_drag(object.name + ", turned"));
     CompareOptions to_own_limit = how;
     to_own_limit.own_limit = own_limit_of_comparisons;
     Contest contest(object, contestants, to_own_limit);
     for (const RecordedMoves& moves : object.drags) {
-      const auto tell = reporter.of_drag(object.name + ", " + moves.name);
-      tell(0);
-      PhysicsDrag drag = drag_of(contest, moves, references, tell, stop);
-      if (stop.stop_requested()) {
+      const Progress part = of_drag(object.name + ", " + moves.name);
+      part.show(0);
+      PhysicsDrag drag = drag_of(contest, moves, references, part);
+      if (progress.cancelled()) {
         report.stopped = true;
         return report;
       }
       result.drags.push_back(std::move(drag));
-      reporter.drag_is_done();
+      ++done;
     }
   }
-  if (report.options.growth_seconds > 0 && !cases.empty()) {
-    add_growths(report, {cases.front().softness.global, {}}, reporter, stop);
-    report.stopped = stop.stop_requested();
+  if (grows && !cases.empty()) {
+    add_growths(report, {cases.front().softness.global, {}}, progress.part(share_of_drags, 1));
+    report.stopped = progress.cancelled();
   }
-  reporter.tell(1, "done");
+  progress.say("done");
+  progress.show(1);
   return report;
 }
 

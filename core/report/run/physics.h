@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -118,16 +117,15 @@ inline constexpr double own_limit_of_comparisons = 0.01;
 /// solution for it. A drag whose reference does not converge is listed with the reason, and so is a contestant that
 /// cannot take part.
 PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
-                                   const Progress& progress = {}, const std::stop_token& stop = {});
+                                   const Progress& progress = {});
 
 /// Calibrates Natural Queue and Exact ChainMail, as far as they take part and support the object.
-std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options,
-                                         const std::function<void(double)>& tell, const std::stop_token& stop);
+std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options, const Progress& progress);
 
 /// Measures the growth of time and error on one kind of object. `made` returns an object with about the given number of
 /// elements.
 PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
-                   const std::function<void(double)>& tell, const std::stop_token& stop);
+                   const Progress& progress);
 
 }  // namespace chainmail::report

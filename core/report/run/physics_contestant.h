@@ -3,7 +3,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -51,9 +50,9 @@ struct Calibration {
 };
 
 /// Calibrates an algorithm on an object, with sweeps or at equilibrium, with drags of elements that are not in
-/// `handles`. Throws Error, and Cancelled if it is stopped.
+/// `handles`. Throws Error and Cancelled.
 using Calibrator = std::function<Calibration(const Case& object, Algorithm algorithm, bool equilibrium,
-                                             const std::vector<ElementId>& handles, const std::stop_token& stop)>;
+                                             const std::vector<ElementId>& handles, const Progress& progress)>;
 
 /// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps,
 /// with the equilibrium if `equilibrium`, also in open regions, and calibrated, then the methods of elasticity without

@@ -77,19 +77,19 @@ ReferenceSolution no_reference(const Case& object) {
 }
 
 void measure(GrowthSeries& series, Budget& budget, const Case& object,
-             const std::optional<ReferenceSolution>& reference, CompareOptions options, const std::stop_token& stop) {
+             const std::optional<ReferenceSolution>& reference, CompareOptions options, const Progress& progress) {
   const double start = growth_clock();
   options.seconds = 0;
   options.repetitions = 1;
   Contest contest(object, {series.contestant}, options);
-  const auto entries = contest.run(
-      object.drags.front(), reference ? *reference : no_reference(object), [](double) {}, stop);
+  const auto entries =
+      contest.run(object.drags.front(), reference ? *reference : no_reference(object), progress.quiet());
   budget.spend(growth_clock() - start);
   if (const auto& measurement = entries.front().measurement) {
     series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
                              reference ? std::optional(measurement->error) : std::nullopt});
     series.end = budget.holds_next() ? "" : "its time budget is used up";
-  } else if (!stop.stop_requested()) {
+  } else if (!progress.cancelled()) {
     series.end = entries.front().refusal;
     budget.use_up();
   }
@@ -107,7 +107,7 @@ void find_growth(GrowthSeries& series) {
 
 PhysicsGrowth grow(const std::string& name, const std::string& description,
                    const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
-                   const std::function<void(double)>& tell, const std::stop_token& stop) {
+                   const Progress& progress) {
   PhysicsGrowth growth{name, description, {}};
   std::vector<Budget> budgets;
   for (const PhysicsContestant& contestant :
@@ -122,16 +122,16 @@ PhysicsGrowth grow(const std::string& name, const std::string& description,
   const double sizes = std::log(double(largest_object) / smallest_object) / std::log(next_size);
   double size = smallest_object;
   for (int i = 0; size <= largest_object && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
-    tell(i / (sizes + 1));
+    progress.show(i / (sizes + 1));
     Case object = made(static_cast<std::uint64_t>(size));
     shorten(object);
     const auto reference = reference_at(object, of_reference);
-    for (std::size_t k = 0; k < budgets.size() && !stop.stop_requested(); ++k) {
+    for (std::size_t k = 0; k < budgets.size() && !progress.cancelled(); ++k) {
       if (budgets[k].holds_next()) {
-        measure(growth.series[k], budgets[k], object, reference, options.contest, stop);
+        measure(growth.series[k], budgets[k], object, reference, options.contest, progress);
       }
     }
-    if (stop.stop_requested()) {
+    if (progress.cancelled()) {
       break;
     }
   }

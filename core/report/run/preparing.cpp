@@ -90,9 +90,7 @@ PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equ
   for (int repetition = 0;
        repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
     std::unique_ptr<Runner> runner;
-    const auto run = [&](const RecordedMoves& moves) {
-      return runner->run(moves, one_iteration, chainmail::Progress());
-    };
+    const auto run = [&](const RecordedMoves& moves) { return runner->run(moves, one_iteration, Progress()); };
     const double first = seconds_of(clocks, [&] {
       runner = std::make_unique<Runner>(object, algorithm, options.precision, options);
       run(other);

@@ -51,9 +51,8 @@ class RampSize {
 
 class RampRun {
  public:
-  RampRun(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
-          const std::stop_token& stop)
-      : progress_(progress), stop_(stop) {
+  RampRun(const RampOptions& options, const std::function<void(const RampProgress&)>& progress, const Progress& job)
+      : progress_(progress), job_(job) {
     result_.options = options;
     if (options.algorithms.empty()) {
       for (const AlgorithmInfo& one : algorithms()) {
@@ -66,10 +65,10 @@ class RampRun {
     const RampOptions& options = result_.options;
     const double start = now();
     RampRace race(widths_up_to(options.largest), options.algorithms, options.budget);
-    while (!race.is_over() && !stop_.stop_requested()) {
+    while (!race.is_over() && !job_.cancelled()) {
       measure(race);
     }
-    result_.stopped = stop_.stop_requested();
+    result_.stopped = job_.cancelled();
     for (const Algorithm algorithm : options.algorithms) {
       result_.verdicts.push_back(ramp_verdict(algorithm, result_.rows));
     }
@@ -86,7 +85,7 @@ class RampRun {
     std::vector<RampRace::Result> results;
     while (results.empty()) {
       const std::vector<RampPasses> passes = attempt(size, race);
-      if (stop_.stop_requested()) {
+      if (job_.cancelled()) {
         return;
       }
       results = race.finish_attempt(*size.mesh(), passes);
@@ -109,7 +108,7 @@ class RampRun {
     int done = 0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const Algorithm algorithm = options.algorithms[race.attempting()[i]];
-      for (std::size_t drag = 0; drag < drags.size() && !stop_.stop_requested(); ++drag, ++done) {
+      for (std::size_t drag = 0; drag < drags.size() && !job_.cancelled(); ++drag, ++done) {
         if (progress_) {
           progress_({race.width(), done, all, race.attempt() > 0, in_race, result_.rows});
         }
@@ -135,7 +134,7 @@ class RampRun {
   RampPasses make(Deformer& solver, const ScriptedDrag& drag) const {
     RampPasses passes;
     for (const Point& target : drag.targets) {
-      if (stop_.stop_requested()) {
+      if (job_.cancelled()) {
         break;
       }
       const auto move = [&] { passes.moved += solver.move(drag.element, target).moved; };
@@ -145,7 +144,7 @@ class RampRun {
   }
 
   const std::function<void(const RampProgress&)>& progress_;
-  const std::stop_token& stop_;
+  const Progress& job_;
   Ramp result_;
 };
 
@@ -153,9 +152,8 @@ class RampRun {
 
 std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (width + 5) / 10); }
 
-Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress,
-          const std::stop_token& stop) {
-  return RampRun(options, progress, stop).run();
+Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress, const Progress& job) {
+  return RampRun(options, progress, job).run();
 }
 
 void check(const RampOptions& options) {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "report/run/clocks.h"
 #include "report/run/growth.h"
 #include "solver/deformer.h"
@@ -55,7 +55,7 @@ struct Ramp {
   std::vector<RampRow> rows;  // in the order of sizes
   std::vector<RampVerdict> verdicts;
   double seconds = 0;    // time of the whole ramp
-  bool stopped = false;  // true: stopped by `stop`, and the last size is missing
+  bool stopped = false;  // true: it was cancelled, and the last size is missing
 };
 
 /// Reported by the measuring thread, drag by drag.
@@ -78,8 +78,8 @@ std::uint32_t next_width(std::uint32_t width);
 ///
 /// At each size, all algorithms make the same drags from rest, one algorithm after another. An algorithm leaves the
 /// ramp when the 99th percentile of its passes exceeds the budget in two attempts (see RampRace). Time that other
-/// programs take does not count. `stop` is checked between passes.
+/// programs take does not count. Cancelling `job` takes effect between passes.
 Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress = {},
-          const std::stop_token& stop = {});
+          const Progress& job = {});
 
 }  // namespace chainmail::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/error.h"
+#include "simulate/move_history.h"
 
 namespace chainmail::report {
 namespace {
@@ -45,12 +46,10 @@ void Runner::go_to_rest() {
   handle_.clear();
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop,
-                        bool must_converge) {
-  job_.cancelled = false;
-  const std::stop_callback cancel(stop, [this] { job_.cancelled = true; });
+Runner::Run Runner::try_run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress,
+                            bool must_converge) {
   try {
-    return run(moves, relaxing, chainmail::Progress(job_), must_converge);
+    return run(moves, relaxing, progress.quiet(), must_converge);
   } catch (const Cancelled&) {
     Run stopped;
     stopped.stopped = true;
@@ -58,8 +57,7 @@ Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const std
   }
 }
 
-Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress,
-                        bool must_converge) {
+Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge) {
   Run run;
   simulation_.set_progress(progress);
   go_to_rest();

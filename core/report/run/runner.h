@@ -1,6 +1,5 @@
 #pragma once
 
-#include <stop_token>
 #include <vector>
 
 #include "report/run/clocks.h"
@@ -22,13 +21,13 @@ class Runner {
     std::uint64_t moved = 0;
     bool stopped = false;
   };
-  /// Runs the moves. A stop request takes effect within a pass of a method of elasticity, between passes of other
+  /// Runs the moves. Cancelling takes effect within a pass of a method of elasticity, between passes of other
   /// algorithms, within sweeps, and between iterations.
   /// With `must_converge`, a drag ends at the first move of a method of elasticity that does not converge.
-  Run run(const RecordedMoves& moves, Relaxing relaxing, const std::stop_token& stop, bool must_converge = false);
-  /// Does the same, and throws Cancelled when it is cancelled.
-  Run run(const RecordedMoves& moves, Relaxing relaxing, const chainmail::Progress& progress,
-          bool must_converge = false);
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge = false);
+  /// Does the same as part of a longer work, whose share stays: cancelled, it returns `stopped` instead of throwing
+  /// Cancelled.
+  Run try_run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge = false);
 
   const Simulation& simulation() const { return simulation_; }
   /// Returns how close the object is to the equilibrium; none if it was not relaxed to it.
@@ -46,7 +45,6 @@ class Runner {
   std::vector<ElementId> pins_;  // ascending
   double relax_step_;
   Clocks clocks_;
-  JobState job_;  // of a run that can be stopped
   Simulation simulation_;
   std::vector<ElementId> handle_;
 };

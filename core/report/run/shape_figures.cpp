@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "measure/hausdorff.h"
-#include "measure/inverted_cells.h"
-#include "measure/principal_stretch.h"
+#include "measure/shape_measures.h"
 #include "measure/violation.h"
-#include "measure/volume_change.h"
 
 namespace chainmail::report {
 

@@ -17,14 +17,11 @@ namespace {
 
 constexpr double turned_by = 45;  // degrees: ChainMail's boxes follow the axes, and differ most half way between them
 
-using Tell = std::function<void(double)>;
-
 /// An experiment that is running.
 struct Running {
   const SuiteExperiment& experiment;
   PhysicsOptions options;
-  Tell tell;
-  const std::stop_token& stop;
+  Progress progress;
   SuiteResult result;
 };
 
@@ -108,14 +105,13 @@ class TurnedContest {
 
   /// Adds the errors of a drag (its number) on the turned object to the rows of the drag: one for each contestant, in
   /// their order. `reference` is that of the object as it is.
-  void add_errors(std::size_t drag, const ReferenceSolution& reference, SuiteRow* rows, const std::stop_token& stop) {
+  void add_errors(std::size_t drag, const ReferenceSolution& reference, SuiteRow* rows, const Progress& progress) {
     ReferenceSolution turned_reference = reference;
     std::vector<double>& displacements = turned_reference.displacements;
     for (std::size_t at = 0; at < displacements.size(); at += std::size_t(object_.mesh->space_dimension)) {
       turn_into_world(*object_.mesh, turn_, &displacements[at]);
     }
-    const auto no_progress = [](double) {};
-    const auto entries = contest_.run(object_.drags[drag], turned_reference, no_progress, stop);
+    const auto entries = contest_.run(object_.drags[drag], turned_reference, progress.quiet());
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].measurement) {
         rows[i].relative_turned = entries[i].measurement->error.relative;
@@ -130,7 +126,7 @@ class TurnedContest {
 };
 
 std::vector<PhysicsContestant> calibrated_contestants(Running& running, const Case& object) {
-  const auto calibrations = calibrations_of(object, running.options, running.tell, running.stop);
+  const auto calibrations = calibrations_of(object, running.options, running.progress);
   for (const Calibration& one : calibrations) {
     const std::string who = label(PhysicsContestant{one.algorithm, one.sweeps, one.softness, one.equilibrium});
     running.result.notes.push_back(one.refusal.empty()
@@ -158,22 +154,21 @@ void run_drags(Running& running, const Case& object) {
   to_own_limit.own_limit = own_limit_of_comparisons;
   Contest contest(object, contestants, to_own_limit);
   TurnedContest turned(object, contestants, contest_options);
-  for (std::size_t i = 0; i < object.drags.size() && !running.stop.stop_requested(); ++i) {
+  for (std::size_t i = 0; i < object.drags.size() && !running.progress.cancelled(); ++i) {
     const RecordedMoves& moves = object.drags[i];
-    running.tell(double(i) / double(object.drags.size()));
+    running.progress.show(double(i) / double(object.drags.size()));
     try {
       const DragReference reference = references.at_end(moves);
       note(running.result, reference, object.law);
       const std::size_t first = running.result.rows.size();
-      for (const PhysicsEntry& entry : contest.run(
-               moves, reference.solution, [](double) {}, running.stop)) {
+      for (const PhysicsEntry& entry : contest.run(moves, reference.solution, running.progress.quiet())) {
         running.result.rows.push_back(row_of(moves, entry));
         if (entry.measurement) {
           running.result.rows.back().reference_change = change_of(reference);
         }
       }
       if (handle_of(moves) == handle_of(object.drags.front()) && cuts_of(moves).empty()) {
-        turned.add_errors(i, reference.solution, &running.result.rows[first], running.stop);
+        turned.add_errors(i, reference.solution, &running.result.rows[first], running.progress);
       }
     } catch (const Error& error) {
       running.result.notes.push_back(moves.name + " of element " + std::to_string(handle_of(moves)) +
@@ -198,14 +193,13 @@ void run_refinement(Running& running, const std::vector<Case>& sizes) {
   for (const PhysicsContestant& contestant : contestants) {
     orders.push_back({label(contestant), name(contestant), {}, {}, {}});
   }
-  for (std::size_t i = 0; i < sizes.size() && !running.stop.stop_requested(); ++i) {
-    running.tell(double(i) / double(sizes.size()));
+  for (std::size_t i = 0; i < sizes.size() && !running.progress.cancelled(); ++i) {
+    running.progress.show(double(i) / double(sizes.size()));
     Contest contest(sizes[i], contestants, options, Measured::errors);
     const RecordedMoves& moves = sizes[i].drags.front();
     const auto reference = DragReferences(sizes[i], std::nullopt).at_end(moves);
     note(running.result, reference, sizes[i].law);
-    const auto entries = contest.run(
-        moves, reference.solution, [](double) {}, running.stop);
+    const auto entries = contest.run(moves, reference.solution, running.progress.quiet());
     for (std::size_t k = 0; k < entries.size(); ++k) {
       if (entries[k].measurement) {
         orders[k].sizes.push_back({sizes[i].mesh->element_count(), entries[k].measurement->error.relative});
@@ -235,13 +229,11 @@ void run_time_to_error(Running& running, const Case& object) {
     after_cut = reference_of_drag(object.drags[2]);
     drags.push_back({object.drags[2], after_cut});
   }
-  running.result.times =
-      times_to_error(object, contestants, drags, running.options.contest, running.tell, running.stop);
+  running.result.times = times_to_error(object, contestants, drags, running.options.contest, running.progress);
 }
 
-SuiteResult result_of(const SuiteExperiment& experiment, const SuiteOptions& options, const Tell& tell,
-                      const std::stop_token& stop) {
-  Running running{experiment, options_of(options, experiment), tell, stop, {}};
+SuiteResult result_of(const SuiteExperiment& experiment, const SuiteOptions& options, const Progress& progress) {
+  Running running{experiment, options_of(options, experiment), progress, {}};
   running.result.name = experiment.name;
   running.result.description = experiment.description;
   const Clocks clocks = machine_clocks();
@@ -324,24 +316,20 @@ std::vector<std::string> part_of(const std::vector<std::string>& names, const Sh
   return part;
 }
 
-Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress,
-                const std::stop_token& stop) {
+Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress) {
   std::vector<const SuiteExperiment*> chosen(names.size());
   std::ranges::transform(names, chosen.begin(), [](const std::string& name) { return &experiment_named(name); });
   Suite suite;
-  for (std::size_t i = 0; i < chosen.size() && !stop.stop_requested(); ++i) {
-    const Tell tell = [&](double share) {
-      if (progress) {
-        progress((double(i) + share) / double(chosen.size()), std::string(chosen[i]->name));
-      }
-    };
-    tell(0);
-    SuiteResult result = result_of(*chosen[i], options, tell, stop);
-    if (!stop.stop_requested()) {
+  for (std::size_t i = 0; i < chosen.size() && !progress.cancelled(); ++i) {
+    const Progress part = progress.part(double(i) / double(chosen.size()), double(i + 1) / double(chosen.size()));
+    part.say(std::string(chosen[i]->name));
+    part.show(0);
+    SuiteResult result = result_of(*chosen[i], options, part);
+    if (!progress.cancelled()) {
       suite.results.push_back(std::move(result));
     }
   }
-  suite.stopped = stop.stop_requested();
+  suite.stopped = progress.cancelled();
   return suite;
 }
 

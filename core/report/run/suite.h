@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -147,8 +146,7 @@ struct Shard {
 
 /// Runs experiments of the suite by their names, in turns on the calling thread. Throws Error for a name that does not
 /// exist.
-Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress = {},
-                const std::stop_token& stop = {});
+Suite run_suite(const std::vector<std::string>& names, const SuiteOptions& options, const Progress& progress = {});
 
 /// Returns the names of all experiments, in their order.
 std::vector<std::string> all_suite_names();

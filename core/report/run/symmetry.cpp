@@ -44,9 +44,9 @@ RecordedMoves one_move(const Case& object) {
 /// Returns the answer of a contestant, turned back: space_dimension coordinates per element. Throws Error, also if the
 /// contestant does not reach its target.
 std::vector<double> answer_of(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options,
-                              const RegionAxes& back, const std::stop_token& stop) {
+                              const RegionAxes& back, const Progress& progress) {
   Runner runner(object, *contestant.algorithm, Precision::double_precision, options);
-  runner.run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, stop);
+  runner.try_run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, progress);
   const Simulation& simulation = runner.simulation();
   if (const std::string& remark = simulation.statistics().remark; !remark.empty()) {
     throw Error(object.name, remark, "drag it less far");
@@ -97,8 +97,7 @@ const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsCon
 }
 
 std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vector<PhysicsContestant>& contestants,
-                                              const CompareOptions& options, const std::function<void(double)>& tell,
-                                              const std::stop_token& stop) {
+                                              const CompareOptions& options, const Progress& progress) {
   std::vector<Symmetry> result;
   if (asked.mesh->space_dimension < 2 || asked.drags.empty()) {
     return result;
@@ -106,8 +105,8 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
   const Clocks clocks = machine_clocks();
   Case object = asked;
   object.drags = {one_move(asked)};
-  for (std::size_t i = 0; i < contestants.size() && !stop.stop_requested(); ++i) {
-    tell(double(i) / double(contestants.size()));
+  for (std::size_t i = 0; i < contestants.size() && !progress.cancelled(); ++i) {
+    progress.show(double(i) / double(contestants.size()));
     if (!takes_part(contestants[i])) {
       continue;
     }
@@ -116,7 +115,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
     try {
       const Mesh& mesh = *object.mesh;
       const double start = clocks.wall();
-      const std::vector<double> own = answer_of(object, contestants[i], options, {}, stop);
+      const std::vector<double> own = answer_of(object, contestants[i], options, {}, progress);
       if (const double seconds = clocks.wall() - start; seconds > longest_answer) {
         throw Error(object.name, "one move takes " + std::to_string(int(seconds)) + " s, so it is not repeated turned",
                     "use a smaller object");
@@ -124,8 +123,8 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
       const double displacement = measure_distance(mesh, view_of(mesh, own), view_of(mesh, mesh.rest)).rms;
       for (const double degrees : symmetry_angles) {
         const Point rotation = rotation_by(mesh, degrees);
-        const std::vector<double> back =
-            answer_of(turned(object, rotation), contestants[i], options, RegionAxes(AxesKind::given, rotation), stop);
+        const std::vector<double> back = answer_of(turned(object, rotation), contestants[i], options,
+                                                   RegionAxes(AxesKind::given, rotation), progress);
         const Distance apart = measure_distance(mesh, view_of(mesh, own), view_of(mesh, back));
         one.turns.push_back({degrees, apart.max, displacement > 0 ? apart.rms / displacement : 0});
       }

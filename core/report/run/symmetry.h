@@ -2,7 +2,6 @@
 
 #include <array>
 #include <functional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -42,7 +41,6 @@ Case turned(const Case& object, const Point& rotation);
 /// of the first one. Of contestants that differ in sweeps only, those without sweeps take part. None for objects on a
 /// line.
 std::vector<Symmetry> symmetry_under_rotation(const Case& object, const std::vector<PhysicsContestant>& contestants,
-                                              const CompareOptions& options, const std::function<void(double)>& tell,
-                                              const std::stop_token& stop);
+                                              const CompareOptions& options, const Progress& progress);
 
 }  // namespace chainmail::report

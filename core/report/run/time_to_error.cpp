@@ -86,7 +86,7 @@ SuiteTime time_of(const Group& group, const Entries& drags) {
 
 std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<PhysicsContestant>& contestants,
                                       std::span<const TimedDrag> drags, const CompareOptions& options,
-                                      const std::function<void(double)>& tell, const std::stop_token& stop) {
+                                      const Progress& progress) {
   std::vector<Group> groups;
   std::vector<PhysicsContestant> variants;
   for (const PhysicsContestant& contestant : contestants) {
@@ -99,9 +99,8 @@ std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<Phys
   Contest contest(object, variants, options);
   Entries entries;
   for (const TimedDrag& drag : drags) {
-    entries.push_back(contest.run(
-        drag.moves, drag.reference,
-        [&, done = double(entries.size())](double share) { tell((done + share) / double(drags.size())); }, stop));
+    const auto done = double(entries.size()), all = double(drags.size());
+    entries.push_back(contest.run(drag.moves, drag.reference, progress.part(done / all, (done + 1) / all)));
   }
   std::vector<SuiteTime> times(groups.size());
   std::ranges::transform(groups, times.begin(), [&](const Group& group) { return time_of(group, entries); });

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "report/run/suite.h"
@@ -20,6 +18,6 @@ struct TimedDrag {
 /// iterations or sweeps per move; all numbers run in turns.
 std::vector<SuiteTime> times_to_error(const Case& object, const std::vector<PhysicsContestant>& contestants,
                                       std::span<const TimedDrag> drags, const CompareOptions& options,
-                                      const std::function<void(double)>& tell, const std::stop_token& stop);
+                                      const Progress& progress);
 
 }  // namespace chainmail::report

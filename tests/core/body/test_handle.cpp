@@ -6,7 +6,7 @@
 #include "core/exact/exact_oracle.h"
 #include "core/scenarios.h"
 #include "core/simulations.h"
-#include "elastic/bernstein.h"
+#include "elastic/free_form.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "program.h"

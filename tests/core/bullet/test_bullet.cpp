@@ -312,11 +312,11 @@ void BulletTest::the_limit_of_iterations_is_told() {
 void BulletTest::a_cancelled_move_moves_nothing() {
   const MeshPointer mesh = make_mesh(MeshKind::cloth, {10, 8, 1});
   Deformer solver = patient(mesh, first_column(*mesh));
-  JobState job;
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  job.cancel();
   for (int turn = 0; turn < 2; ++turn) {
     const std::vector<double> before = positions_of(solver, *mesh);
-    solver.set_progress(Progress(job));
+    solver.set_progress(job);
     QVERIFY_THROWS_EXCEPTION(Cancelled, move_by(solver, *mesh, 79, {1, 1, 0}));
     QVERIFY(same_bits(positions_of(solver, *mesh), before));
     solver.set_progress({});

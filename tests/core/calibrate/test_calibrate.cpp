@@ -307,11 +307,11 @@ void CalibrateTest::it_is_the_same_each_time() {
 }
 
 void CalibrateTest::it_tells_its_progress_and_is_cancelled() {
-  JobState job;
-  calibrate(sheet, Cuts(sheet), quick(), Progress(job));
-  QCOMPARE(job.share.load(), 1.0);
-  job.cancelled = true;
-  QVERIFY_EXCEPTION_THROWN(calibrate(sheet, Cuts(sheet), quick(), Progress(job)), Cancelled);
+  const Progress job = Progress::watched();
+  calibrate(sheet, Cuts(sheet), quick(), job);
+  QCOMPARE(job.share(), 1.0);
+  job.cancel();
+  QVERIFY_EXCEPTION_THROWN(calibrate(sheet, Cuts(sheet), quick(), job), Cancelled);
 }
 
 void CalibrateTest::what_makes_no_sense_is_refused() {

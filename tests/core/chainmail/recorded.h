@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body/region.h"
-#include "chainmail/waiting_history.h"
+#include "chainmail/recorded_pass.h"
 #include "core/support.h"
 #include "mesh/error.h"
 #include "simulate/pass_recorder.h"

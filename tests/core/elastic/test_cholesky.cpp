@@ -8,7 +8,6 @@
 
 #include "core/support.h"
 #include "elastic/cholesky.h"
-#include "elastic/dissection.h"
 #include "elastic/elimination.h"
 #include "elastic/simplices.h"
 #include "program.h"

@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "core/elastic/elastic_problems.h"
-#include "elastic/cut_update.h"
 #include "elastic/energy.h"
-#include "elastic/newton.h"
+#include "elastic/methods.h"
+#include "elastic/nonlinear_fem.h"
 #include "elastic/stiffening.h"
 #include "elastic/stiffness.h"
 #include "mesh/cells.h"

@@ -54,8 +54,8 @@ struct Bar : Simulation {
     apply(commands::Drag{target});
     apply(commands::Release{});
   }
-  std::vector<double> all() const { return positions_of(solver(), mesh()); }
-  Point at(ElementId element) const { return position_of(solver(), mesh(), element); }
+  std::vector<double> all() const { return positions_of(deformer(), mesh()); }
+  Point at(ElementId element) const { return position_of(deformer(), mesh(), element); }
 };
 
 constexpr ElementId tip = 4;
@@ -210,14 +210,14 @@ void ElasticSimulationTest::a_pass_is_given_up() {
   QFETCH(const int, algorithm);
   Bar bar{Algorithm(algorithm)};
   const auto rest = bar.all();
-  JobState job;
-  bar.set_progress(Progress(job));
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  bar.set_progress(job);
+  job.cancel();
   bar.apply(commands::Grab{tip});
   const commands::Drag drag{bar.at(tip) + Point(0.1, 0.2, 0.1)};
   QVERIFY_THROWS_EXCEPTION(Cancelled, bar.apply(drag));
   QVERIFY(same_bits(bar.all(), rest));
-  job.cancelled = false;
+  job.cancel(false);
   bar.apply(drag);
   QCOMPARE(bar.at(tip), drag.target);
 }

@@ -279,15 +279,15 @@ void SettlingTest::a_solver_moves_nothing_before_it_is_woken() {
 }
 
 void SettlingTest::a_cancelled_iteration_moves_nothing_and_goes_on() {
-  JobState job;
+  const Progress job = Progress::watched();
   Simulation simulation = held_grid(Algorithm::exact);
-  simulation.set_progress(Progress(job));
+  simulation.set_progress(job);
   drag_by(simulation, handle, Point(0.4, 0.3, 0));
   const auto before = positions_of(simulation);
-  job.cancelled = true;
+  job.cancel();
   QVERIFY(simulation.continue_relaxation());
   QVERIFY(same_bits(positions_of(simulation), before));
-  job.cancelled = false;
+  job.cancel(false);
   QVERIFY(simulation.continue_relaxation());
   QVERIFY(!same_bits(positions_of(simulation), before));
 }

@@ -3,7 +3,7 @@
 
 #include "core/support.h"
 #include "measure/distance.h"
-#include "measure/time_spread.h"
+#include "measure/pass_times.h"
 #include "program.h"
 
 namespace chainmail::test_measures {

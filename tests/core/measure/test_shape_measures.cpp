@@ -5,9 +5,7 @@
 #include "core/families.h"
 #include "core/hexahedra.h"
 #include "measure/hausdorff.h"
-#include "measure/inverted_cells.h"
-#include "measure/principal_stretch.h"
-#include "measure/volume_change.h"
+#include "measure/shape_measures.h"
 #include "program.h"
 
 namespace chainmail::test_shape_measures {

@@ -4,7 +4,7 @@
 
 #include "core/elastic/elastic_problems.h"
 #include "elastic/simplices.h"
-#include "mesh/cell_table.h"
+#include "mesh/cells.h"
 #include "mesh/error.h"
 #include "mesh/refine.h"
 #include "program.h"

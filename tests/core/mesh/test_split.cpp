@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "body/split_state.h"
+#include "body/snapshot.h"
 #include "core/families.h"
 #include "core/simulations.h"
 #include "mesh/error.h"
@@ -371,7 +371,8 @@ void SplitTest::cuts_pins_and_softness_go_over() {
 
   LinkSoftness soft{0.5, 2, 0.5};
   const auto softness =
-      softness_after(*split, std::make_shared<const Softness>(Softness{{0.9, 1.2, 0.1}, {{side, soft}}}));
+      object_after(*split, {mesh, {}, {}, std::make_shared<const Softness>(Softness{{0.9, 1.2, 0.1}, {{side, soft}}})})
+          .softness;
   std::size_t own = 0, mixed = 0;
   for (LinkId link = 0; link < after.link_count(); ++link) {
     if (split->parents[link] == side) {

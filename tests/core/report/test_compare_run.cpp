@@ -45,28 +45,26 @@ void CompareRunTest::repetitions_are_counted() {
 }
 
 void CompareRunTest::stops_at_once() {
-  std::stop_source stop;
-  stop.request_stop();
-  const auto comparison = compare({jittered()}, quick(), {}, stop.get_token());
+  const Progress job = Progress::watched();
+  job.cancel();
+  const auto comparison = compare({jittered()}, quick(), job);
   QVERIFY(comparison.stopped);
   QVERIFY(comparison.cases.at(0).drags.empty());
 }
 
 void CompareRunTest::stops_between_repetitions() {
-  std::stop_source stop;
   Case one = jittered();
   one.drags.push_back(one.drags[0]);
   auto options = quick();
   options.repetitions = 1'000'000'000;  // would take years
   int reported = 0;
-  const auto comparison = compare(
-      {one}, options,
-      [&](double, const std::string&) {
-        if (++reported == 10) {
-          stop.request_stop();
-        }
-      },
-      stop.get_token());
+  Progress job;
+  job = Progress::watched([&](double, const std::string&) {
+    if (++reported == 10) {
+      job.cancel();
+    }
+  });
+  const auto comparison = compare({one}, options, job);
   QVERIFY(comparison.stopped);
   QCOMPARE(reported, 10);
   QVERIFY(comparison.cases.at(0).drags.empty());
@@ -86,17 +84,17 @@ void CompareRunTest::stops_between_sweeps() {
   RecordedMoves moves = drag(*grid, 2080, {40, 20, 0});
   moves.commands.emplace_back(commands::Relax{among_the_moves, 1, RelaxationScheme::mean});
   const Case one = object(grid, moves);
-  std::stop_source stop;
+  const Progress job = Progress::watched();
   std::atomic<std::clock_t> asked = 0;
   const std::clock_t begun = std::clock();
   const std::jthread user([&] {
     // Measured in this program's processor time, so that it is running by then even on a busy machine.
     chainmail::test::wait_until([&] { return std::clock() - begun > CLOCKS_PER_SEC / 30; });
     asked = std::clock();
-    stop.request_stop();
+    job.cancel();
   });
   // This number of sweeps would take hours.
-  const auto comparison = compare({one}, quick({Algorithm::exact}, {after_a_move}), {}, stop.get_token());
+  const auto comparison = compare({one}, quick({Algorithm::exact}, {after_a_move}), job);
   QVERIFY(comparison.stopped);
   // It may still be in the pass before the sweeps. Processor time, because other programs may run.
   QVERIFY(std::clock() - asked < 2 * CLOCKS_PER_SEC);
@@ -104,10 +102,12 @@ void CompareRunTest::stops_between_sweeps() {
 
 void CompareRunTest::progress_goes_from_0_to_1() {
   std::vector<double> reported;
-  compare({jittered(), jittered()}, quick({Algorithm::spiral}), [&](double fraction, const std::string& text) {
+  const Progress job = Progress::watched([&](double fraction, const std::string& text) {
     reported.push_back(fraction);
     QVERIFY(fraction == 1 || text == "object, drag");
   });
+  compare({jittered(), jittered()}, quick({Algorithm::spiral}), job);
+  QCOMPARE(job.text(), std::string("done"));
   QVERIFY(reported.size() > 4);
   QCOMPARE(reported.front(), 0.0);
   QCOMPARE(reported.back(), 1.0);

@@ -9,7 +9,6 @@
 
 #include "core/elastic/elastic_problems.h"
 #include "core/report/plain_minimum.h"
-#include "elastic/neo_hookean_xpbd.h"
 #include "elastic/xpbd.h"
 #include "mesh/error.h"
 #include "program.h"
@@ -251,7 +250,7 @@ template <class Make>
 void rests_nearer_with_smaller_steps(const Mesh& mesh, const std::vector<double>& exact, Make make_solver) {
   std::vector<double> apart;
   for (const double square : {0.08, 0.02, 0.005}) {
-    const auto solver = std::make_unique<Deformer>(XpbdStep{.springs_over_inertia = square});
+    const auto solver = make_solver(XpbdStep{.springs_over_inertia = square});
     drag(*solver, mesh, far);
     QVERIFY2(solver->remark().empty(), solver->remark().c_str());
     apart.push_back(largest_step(solver->displacements(), exact));
@@ -691,12 +690,12 @@ void ContestantsTest::cancelling_keeps_the_last_answer() {
   const auto solver = make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)));
   drag(*solver, *mesh, far);
   const std::vector<double> answer = solver->displacements();
-  JobState job;
-  job.cancelled = true;
+  const Progress job = Progress::watched();
+  job.cancel();
   const auto n = std::size_t(mesh->space_dimension);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, solver->move(ElasticMotion::by(std::span(far.data(), n)), job));
   QVERIFY(solver->displacements() == answer);
-  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)), Progress(job)));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, make_elastic(Algorithm(method), pinned(mesh, pins_of(*mesh)), job));
 }
 
 CHAINMAIL_TEST(ContestantsTest)

@@ -185,7 +185,7 @@ QString fault_of_preparation() {
   // Also in the first run, which prepares everything.
   Runner runner(bar, Algorithm::linear_fem, Precision::double_precision, {});
   const auto moves = with_preparing_move(*bar.mesh, bar.drags[0]);
-  const DragTimes cold = split(runner.run(moves, 0, chainmail::Progress()).ms, true, false);
+  const DragTimes cold = split(runner.run(moves, 0, Progress()).ms, true, false);
   const auto is_short = [&](double ms) { return ms > 0 && ms < 0.5 * factorize; };
   const std::array checks{
       std::pair{"both are measured", pull.prepare.factorize.count >= 1 && pull.prepare.grab.count >= 1},
@@ -260,7 +260,7 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
   PhysicsOptions options = quick({Algorithm::generalized, Algorithm::exact}, {0, 7});
   std::vector<ElementId> avoided;
   options.calibrate = [&](const Case&, Algorithm algorithm, bool equilibrium, const std::vector<ElementId>& handles,
-                          const std::stop_token&) {
+                          const Progress&) {
     avoided = handles;
     return Calibration{algorithm, equilibrium, stiff, 7, 3, 60, 1.5, {}};
   };
@@ -278,7 +278,7 @@ void PhysicsTest::calibrated_contestants_have_their_softness_and_sweeps() {
     QVERIFY(entry.measurement.value().error == expected.measurement.value().error);
     QVERIFY(usual.contestant.sweeps == 7 && entry.measurement->error != usual.measurement.value().error);
   }
-  options.calibrate = [](const Case&, Algorithm, bool, const auto&, const std::stop_token&) -> Calibration {
+  options.calibrate = [](const Case&, Algorithm, bool, const auto&, const Progress&) -> Calibration {
     throw Error("object", "it does not converge", "use another");
   };
   const PhysicsReport refused = compare_with_physics({sheet}, options);
@@ -292,7 +292,7 @@ void PhysicsTest::calibrated_contestants_go_to_the_equilibrium() {
   found.lateral = 0.4;
   PhysicsOptions options = quick({Algorithm::exact}, {});
   options.contest.equilibrium = true;
-  options.calibrate = [&](const Case&, Algorithm algorithm, bool equilibrium, const auto&, const std::stop_token&) {
+  options.calibrate = [&](const Case&, Algorithm algorithm, bool equilibrium, const auto&, const Progress&) {
     return Calibration{algorithm, equilibrium, found, 0, 3, 60, 1.5, {}};
   };
   const PhysicsReport calibrated = compare_with_physics({sheet}, options);
@@ -410,7 +410,7 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
   const auto differences = [&](const RegionAxes& frame) {
     std::map<std::pair<Algorithm, bool>, std::vector<TurnDifference>> result;
     const Case bar = pinned_bar(81, Softness{{}, {}, standard_energy, frame}, {});
-    for (const Symmetry& one : symmetry_under_rotation(bar, contestants, CompareOptions(), [](double) {}, {})) {
+    for (const Symmetry& one : symmetry_under_rotation(bar, contestants, CompareOptions(), {})) {
       result[{*one.contestant.algorithm, one.contestant.equilibrium}] = one.turns;
     }
     return result;
@@ -435,7 +435,7 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
     }
   }
   QVERIFY(symmetry_under_rotation(Case{"line", "", make_mesh(MeshKind::line, {4, 1, 1}), {}, {0}, {}, {}}, contestants,
-                                  CompareOptions(), [](double) {}, {})
+                                  CompareOptions(), {})
               .empty());
   const FigureTable table = symmetry_table(everything());
   QCOMPARE(table.columns.size(), std::size_t{4});
@@ -487,9 +487,9 @@ void PhysicsTest::objects_grow() {
 }
 
 void PhysicsTest::it_stops_at_once() {
-  std::stop_source stop;
-  stop.request_stop();
-  const auto report = compare_with_physics({pinned_sheet(25, {}, {})}, quick({}, {0}), {}, stop.get_token());
+  const Progress job = Progress::watched();
+  job.cancel();
+  const auto report = compare_with_physics({pinned_sheet(25, {}, {})}, quick({}, {0}), job);
   QVERIFY(report.stopped);
   QVERIFY(report.objects.at(0).drags.empty());
 }

@@ -122,15 +122,15 @@ void PreparingTest::can_be_cancelled() {
   solver->set_threads(2);
   // Cancelled before it begins, and after some time: somewhere in the middle, or not at all.
   for (const auto after : {0us, 300us, 1000us, 3000us, 10'000us}) {
-    JobState state;
-    solver->set_progress(Progress(state));
+    const Progress job = Progress::watched();
+    solver->set_progress(job);
     {
-      state.cancelled = after == 0us;
+      job.cancel(after == 0us);
       const std::jthread canceller([&] {
         const auto end = std::chrono::steady_clock::now() + after;
         while (std::chrono::steady_clock::now() < end) {
         }
-        state.cancelled = true;
+        job.cancel();
       });
       try {
         solver->prepare(side * side / 2);

@@ -4,7 +4,7 @@
 
 #include "core/families.h"
 #include "program.h"
-#include "report/page/ramp_table.h"
+#include "report/page/ramp_page.h"
 #include "report/run/growth.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
@@ -319,17 +319,17 @@ void RampTest::what_others_take_does_not_count() {
 
 void RampTest::it_stops() {
   Time time;
-  std::stop_source source;
+  const Progress job = Progress::watched();
   const auto stop_at_6 = [&](const RampProgress& progress) {
     if (progress.width == 6 && progress.drag == 2) {
-      source.request_stop();
+      job.cancel();
     }
   };
-  const auto result = ramp(options_of(time, 400, {Algorithm::spiral}), stop_at_6, source.get_token());
+  const auto result = ramp(options_of(time, 400, {Algorithm::spiral}), stop_at_6, job);
   QVERIFY(result.stopped);
   QCOMPARE(widths_of(result), (std::vector<std::uint32_t>{4, 5}));
   QCOMPARE(result.verdicts[0].largest_width.value_or(0), 5U);
-  const auto nothing = ramp(options_of(time, 400), {}, source.get_token());
+  const auto nothing = ramp(options_of(time, 400), {}, job);
   QVERIFY(nothing.stopped && nothing.rows.empty());
   QCOMPARE(nothing.verdicts.size(), algorithms().size());
   std::ostringstream text;

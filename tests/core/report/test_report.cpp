@@ -4,10 +4,10 @@
 
 #include "core/support.h"
 #include "program.h"
-#include "report/page/axis.h"
 #include "report/page/compared_figures.h"
 #include "report/page/format.h"
 #include "report/page/html.h"
+#include "report/page/plot.h"
 #include "report/page/table.h"
 
 namespace chainmail::test_report {

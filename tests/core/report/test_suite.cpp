@@ -8,7 +8,6 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/front.h"
 #include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"
@@ -174,7 +173,7 @@ void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
   CompareOptions options;
   Contest contest(object, {free, limited}, options, Measured::errors);
   const auto reference = DragReferences(object, std::nullopt).at_end(object.drags.front());
-  const auto entries = contest.run(object.drags.front(), reference.solution, [](double) {}, {});
+  const auto entries = contest.run(object.drags.front(), reference.solution, {});
   QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
   QVERIFY(entries[1].measurement && entries[1].refusal.empty());
   QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
@@ -203,7 +202,7 @@ void SuiteTest::iterations_end_at_the_own_limit() {
     Relaxing relaxing(0, contestant.equilibrium, iterations);
     relaxing.until = 1e-6;
     Runner runner(limited, *contestant.algorithm, Precision::double_precision, options);
-    runner.run(drag, relaxing, std::stop_token());
+    runner.run(drag, relaxing, Progress());
     std::vector<Point> ends;
     for (ElementId e = 0; e < object.mesh->element_count(); ++e) {
       const PositionView at = runner.simulation().body().positions();
@@ -227,7 +226,7 @@ void SuiteTest::iterations_end_at_the_own_limit() {
   options.repetitions = 1;
   Contest contest(object, {contestant}, options);
   const auto reference = DragReferences(object, std::nullopt).at_end(drag);
-  const auto entries = contest.run(drag, reference.solution, [](double) {}, {});
+  const auto entries = contest.run(drag, reference.solution, {});
   QVERIFY2(entries[0].measurement.has_value(), entries[0].refusal.c_str());
   const auto limits = limits_of(contestant);
   const auto chosen = std::ranges::find(limits, entries[0].measurement->iterations.value());
@@ -357,7 +356,7 @@ void SuiteTest::a_fresh_move_is_timed_with_its_grab() {
   const PhysicsContestant fem{Algorithm::linear_fem},
       material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
   const std::vector<TimedDrag> drags{{drag, reference.solution}, {one_move, reference.solution}};
-  const auto times = times_to_error(object, {fem, material}, drags, options, [](double) {}, {});
+  const auto times = times_to_error(object, {fem, material}, drags, options, {});
   constexpr double tick_ms = 1e6, longest_pass_ms = 1e5;
   for (const auto& [time, relaxing] : {std::pair{times[0], 0.0}, std::pair{times[1], tick_ms}}) {
     const double grab_and_move = tick_ms + relaxing;
@@ -379,7 +378,7 @@ void SuiteTest::a_curve_has_the_error_of_each_drag() {
   const ReferenceSolution whole = references.at_end(drag).solution, cut = references.at_end(with_cut).solution;
   const std::vector<TimedDrag> drags{{drag, whole}, {one_move, whole}, {with_cut, cut}};
   const PhysicsContestant material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
-  const auto curve = times_to_error(object, {material}, drags, {}, [](double) {}, {}).at(0).curve;
+  const auto curve = times_to_error(object, {material}, drags, {}, {}).at(0).curve;
   QCOMPARE(curve.size(), limits_of(material).size());
   const SuitePoint &first = curve.front(), &last = curve.back();
   QVERIFY(first.iterations == 1 && last.iterations == 200);

@@ -15,6 +15,7 @@ class CommandLogTest : public QObject {
  private slots:
   void both_solvers_end_where_a_simulation_ends();
   void a_move_waits_for_the_next_sample();
+  void idle_solvers_get_a_move_at_once();
   void of_several_moves_the_last_is_sent();
   void other_commands_follow_the_move_before_them();
   void a_slider_is_sampled_like_a_move();
@@ -28,11 +29,18 @@ namespace {
 struct TwoPanels {
   explicit TwoPanels(const MeshPointer& mesh = make_mesh(MeshKind::grid, {8, 8, 1}),
                      Algorithm algorithm = Algorithm::natural_queue)
-      : left(mesh, algorithm, [this] { gate.pass(); }), right(mesh, algorithm, [] {}), log({&left, &right}) {}
+      : left(mesh, algorithm, [this] { gate.pass(); }),
+        right(mesh, algorithm, [] {}),
+        log({&left, &right}, [this](const Command&) { ++posted; }) {}
   ~TwoPanels() { gate.open(); }  // otherwise the left solver would wait for ever
 
   bool wait_for_passes(std::uint64_t passes) {
     return test::wait_for_passes(left, passes) && test::wait_for_passes(right, passes);
+  }
+  /// Keeps the left solver busy until the gate opens.
+  void keep_busy() {
+    gate.close();
+    left.ask([this](const Simulation&) { gate.pass(); });
   }
   bool sample_until_sent() {
     return wait_until([this] {
@@ -43,6 +51,7 @@ struct TwoPanels {
 
   Gate gate;  // the left solver's frames go through it
   SolverThread left, right;
+  int posted = 0;  // number of commands
   CommandLog log;
 };
 
@@ -78,20 +87,35 @@ void CommandLogTest::both_solvers_end_where_a_simulation_ends() {
 void CommandLogTest::a_move_waits_for_the_next_sample() {
   TwoPanels panels;
   panels.log.sample();  // nothing waits
+  panels.keep_busy();
   panels.log.post(commands::Grab{9});
   QVERIFY(!panels.log.waits());
   panels.log.post(commands::Drag{Point(3, 3, 0)});
   QVERIFY(panels.log.waits());
+  QCOMPARE(panels.posted, 2);
+  panels.gate.open();
   QVERIFY(panels.sample_until_sent());
+  QVERIFY(panels.wait_for_passes(1));
+  QCOMPARE(panels.posted, 2);
+}
+
+void CommandLogTest::idle_solvers_get_a_move_at_once() {
+  TwoPanels panels;
+  panels.log.post(commands::Grab{9});
+  QVERIFY(wait_until([&] { return panels.left.idle() && panels.right.idle(); }));
+  panels.log.post(commands::Drag{Point(3, 3, 0)});
+  QVERIFY(!panels.log.waits());
   QVERIFY(panels.wait_for_passes(1));
 }
 
 void CommandLogTest::of_several_moves_the_last_is_sent() {
   TwoPanels panels;
   panels.log.post(commands::Grab{9});
+  panels.keep_busy();
   for (int i = 0; i < 50; ++i) {
     panels.log.post(commands::Drag{Point(i, 3, 0)});
   }
+  panels.gate.open();
   QVERIFY(panels.sample_until_sent());
   QVERIFY(panels.wait_for_passes(1));
   QVERIFY(position_in(panels.left.latest_frame(), 9) == (std::array<float, 2>{49, 3}));
@@ -101,10 +125,12 @@ void CommandLogTest::other_commands_follow_the_move_before_them() {
   // The last move of the handle counts, although it was not sampled before the release.
   TwoPanels panels;
   panels.log.post(commands::Grab{9});
+  panels.keep_busy();
   panels.log.post(commands::Drag{Point(4, 3, 0)});
   panels.log.post(commands::Drag{Point(5, 3, 0)});
   panels.log.post(commands::Release{});
   QVERIFY(!panels.log.waits());
+  panels.gate.open();
   QVERIFY(panels.wait_for_passes(1));
   QVERIFY(position_in(panels.right.latest_frame(), 9) == (std::array<float, 2>{5, 3}));
   QVERIFY(panels.left.take_error().empty() && panels.right.take_error().empty());
@@ -115,9 +141,11 @@ void CommandLogTest::a_slider_is_sampled_like_a_move() {
   panels.log.post(commands::Grab{9});
   panels.log.post(commands::Drag{Point(7, 7, 0)});
   QVERIFY(panels.sample_until_sent());
+  panels.keep_busy();
   for (int i = 0; i < 50; ++i) {
     panels.log.post(commands::SetSoftness{{{0.8, 1.2 + 0.01 * i, 0.1}, {}}});
   }
+  panels.gate.open();
   QVERIFY(panels.sample_until_sent());
   QVERIFY(panels.wait_for_passes(2));  // one for the move, and one that answers the new softness
 }

@@ -7,7 +7,6 @@
 #include "core/threads.h"
 #include "exact/thread_team.h"
 #include "mesh/error.h"
-#include "mesh/failure.h"
 #include "program.h"
 #include "simulate/frame_writer.h"
 #include "simulate/pass_recorder.h"

@@ -245,16 +245,16 @@ SplitPointer split_of_two_triangles() {
 }
 
 /// Returns what of a simulation's settings is not as set; empty if all is. Runs a pass, which notes into `seen`.
-std::string lost_setting(Simulation& simulation, const PassSettings& seen, const Trace& trace, JobState& job) {
+std::string lost_setting(Simulation& simulation, const PassSettings& seen, const Trace& trace, const Progress& job) {
   drag_by(simulation, 0, Point(1, 0, 0));
-  job.cancelled = true;
+  job.cancel();
   bool can_be_cancelled = false;
   try {
     seen.progress.report(0);
   } catch (const Cancelled&) {
     can_be_cancelled = true;
   }
-  job.cancelled = false;
+  job.cancel(false);
   return simulation.statistics().algorithm != noting_algorithm           ? "algorithm"
          : seen.precision != Precision::single_precision                 ? "precision"
          : seen.threads != 3                                             ? "threads"
@@ -275,11 +275,11 @@ void SimulationTest::every_setting_survives_another_mesh() {
   const ExtraAlgorithm extra(noting_entry(seen));
   const auto split = split_of_two_triangles();
   Trace trace;
-  JobState job;
+  const Progress job = Progress::watched();
   Simulation simulation(split->before, noting_algorithm, Precision::single_precision);
   simulation.set_threads(3);
   simulation.set_trace(&trace);
-  simulation.set_progress(Progress(job));
+  simulation.set_progress(job);
   carry_out(simulation, commands::SetSoftness{other_softness});
   carry_out(simulation, commands::SetElastic{other_elastic});
   carry_out(simulation, other_relaxation);
@@ -378,19 +378,19 @@ void SimulationTest::sweeps_of_a_large_mesh_are_those_of_its_solver() {
 
 void SimulationTest::sweeps_are_given_up_in_the_middle_of_one() {
   const auto mesh = make_mesh(MeshKind::grid, {250, 200, 1});
-  JobState job;
+  const Progress job = Progress::watched();
   Simulation given_up(mesh, Algorithm::natural_queue, Precision::double_precision);
   Simulation never(mesh, Algorithm::natural_queue, Precision::double_precision);
-  given_up.set_progress(Progress(job));
+  given_up.set_progress(job);
   for (Simulation* one : {&given_up, &never}) {
     carry_out(*one, commands::SetRelaxation{false, 1, RelaxationScheme::link});
     carry_out(*one, commands::KeepState{1});
     drag_by(*one, 0, Point(-90, -70, 0));
   }
-  job.cancelled = true;
+  job.cancel();
   const commands::Relax sweeps{1'000'000, 1, RelaxationScheme::mean};
   QVERIFY_THROWS_EXCEPTION(Cancelled, carry_out(given_up, sweeps));
-  job.cancelled = false;
+  job.cancel(false);
   // It continues as if the cancelled sweeps had never been: with its own scheme, and without active elements from
   // before.
   for (Simulation* one : {&given_up, &never}) {

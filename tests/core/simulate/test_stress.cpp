@@ -88,7 +88,6 @@ void StressTest::any_commands_in_any_order() {
     const auto end = std::chrono::steady_clock::now() + duration;
     while (std::chrono::steady_clock::now() < end) {
       log.post(any.draw());
-      log.sample();
       if (any.below(8) == 0) {
         wait_until([&] { return left.idle() && right.idle(); }, std::chrono::microseconds(any.below(3000)));
       }
@@ -120,7 +119,6 @@ void StressTest::shut_down_at_any_moment() {
     CommandLog log({&left, &right});
     for (std::uint32_t i = any.below(40); i > 0; --i) {
       log.post(any.draw());
-      log.sample();
     }
     if (any.below(4) == 0) {
       wait_until([&] { return left.idle() && right.idle(); }, std::chrono::microseconds(any.below(20'000)));

@@ -202,7 +202,7 @@ void DeformerTest::bad_input_changes_nothing() {
   const Mesh& mesh = deformer.body().mesh();
   refused([&] { check_position(mesh, "target", {no_number, 0, 0}); }, "target: a coordinate is not a finite number");
   refused([&] { check_displacement(mesh, "by", {0, 0, 1}); }, "by: the object does not extend along z");
-  refused([&] { axes_after({{1, 0, 0}, 30}, mesh); }, "rotation");
+  refused([&] { axes_after({{1, 0, 0}, 30}, mesh); }, "frame: turned about x");
   refused([&] { algorithm_of("magic"); }, "method 'magic': there is no such method; use one of generalized");
 
   Softness softness;

@@ -7,15 +7,13 @@
 #include "core/chainmail/recorded.h"
 #include "files/results/report_json.h"
 #include "report/page/compared_figures.h"
-#include "report/page/plot_style.h"
+#include "report/page/plot.h"
 #include "report/page/table.h"
 #include "report/run/ramp.h"
 #include "solver/algorithms.h"
 
 using namespace chainmail;
 using namespace chainmail::test;
-using command_line::add_parameter;
-using command_line::add_value;
 using command_line::algorithms_help;
 using command_line::algorithms_of;
 using command_line::names_of;
@@ -67,17 +65,6 @@ constexpr Parameter dummy_parameter{.name = "dummy",
                                     .decimals = 1,
                                     .help = "a number without a meaning"};
 
-/// Parses a command line with one option, and calls `use` with the option.
-template <class Use>
-auto parsed(const std::string& name, const std::vector<std::string>& arguments, Use use) {
-  CLI::App app;
-  CLI::Option* option = add_value(app, name, "TEXT", "help");
-  auto reversed = arguments;
-  std::ranges::reverse(reversed);
-  app.parse(reversed);
-  return use(option);
-}
-
 std::string message(const std::function<void()>& run) {
   try {
     run();
@@ -105,10 +92,7 @@ void OneEntryTest::an_algorithm_is_listed() {
 }
 
 void OneEntryTest::an_algorithm_is_parsed() {
-  const auto chosen = [](const std::string& list) {
-    return parsed("--algorithms", {"--algorithms", list},
-                  [](const CLI::Option* option) { return algorithms_of(option, algorithms()); });
-  };
+  const auto chosen = [](const std::string& list) { return algorithms_of("--algorithms", list, algorithms()); };
   QVERIFY(contains(message([&] { chosen("dummy"); }), "'dummy' is not known"));
   const ExtraAlgorithm extra(dummy_entry());
   QVERIFY((chosen("spiral,dummy") == std::vector<Algorithm>{Algorithm::spiral, dummy}));
@@ -180,15 +164,18 @@ void OneEntryTest::names_are_unique() {
 
 void OneEntryTest::a_parameter_is_an_option() {
   CLI::App app;
-  CLI::Option* option = add_parameter(app, dummy_parameter);
+  command_line::Options options(app);
+  double value = dummy_parameter.default_value;
+  options.add(dummy_parameter, value);
   QVERIFY(contains(app.help(), "--dummy"));
   QVERIFY(contains(app.help(), "a number without a meaning [2.5]"));
-  QCOMPARE(command_line::value_of(option, dummy_parameter), 2.5);
+  options.read();
+  QCOMPARE(value, 2.5);
   app.parse(std::vector<std::string>{"3.5", "--dummy"});
-  QCOMPARE(command_line::value_of(option, dummy_parameter), 3.5);
+  options.read();
+  QCOMPARE(value, 3.5);
   app.parse(std::vector<std::string>{"5", "--dummy"});
-  QCOMPARE(message([&] { command_line::value_of(option, dummy_parameter); }),
-           std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
+  QCOMPARE(message([&] { options.read(); }), std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
 }
 
 void OneEntryTest::a_parameter_is_checked() {

@@ -4,21 +4,22 @@
 #include <utility>
 
 #include "common/jobs.h"
-#include "mesh/failure.h"
+#include "mesh/error.h"
 #include "report/run/drags.h"
 
 namespace chainmail {
 
-ReportThread::~ReportThread() { stop_.request_stop(); }
-
 void ReportThread::start(Order order) {
   cancel();
-  stop_ = std::stop_source();
+  const std::uint64_t number = number_;  // only this thread changes it
+  job_ = Progress::watched([this, number](double share, const std::string& text) {
+    post({share, text, {}, {}}, number);
+  });
   ++atWork_;
   try {
     // Two runs at once would disturb each other's times. The thread waits for the one before, not the window.
-    thread_.add([this, order = std::make_shared<Order>(std::move(order)), stop = stop_.get_token()] {
-      run(*order, stop);
+    thread_.add([this, order = std::make_shared<Order>(std::move(order)), job = job_, number] {
+      run(*order, job, number);
       atWork_.fetch_sub(1, std::memory_order_release);
     });
     running_ = true;
@@ -29,33 +30,33 @@ void ReportThread::start(Order order) {
 }
 
 void ReportThread::cancel() {
-  stop_.request_stop();
+  job_.cancel();
   running_ = false;
   const std::scoped_lock lock(mutex_);
-  news_ = {};  // drops messages from before the request; the thread posts no more
+  news_ = {};  // drops messages of this run; it posts no more
+  ++number_;
 }
 
-void ReportThread::run(Order& order, const std::stop_token& stop) {
+void ReportThread::run(Order& order, const Progress& progress, std::uint64_t number) {
   try {
     if (order.generateDrags) {
-      post({0, "generating the drags", {}, {}}, stop);
-      order.object.drags = report::three_drags(order.object, stop);
+      progress.say("generating the drags");
+      progress.show(0);
+      order.object.drags = report::three_drags(order.object, progress);
     }
-    const auto progress = [&](double fraction, const std::string& text) { post({fraction, text, {}, {}}, stop); };
-    auto comparison = report::compare({order.object}, order.options, progress, stop);
-    post({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, stop);
+    auto comparison = report::compare({order.object}, order.options, progress);
+    post({1, {}, std::make_shared<report::Comparison>(std::move(comparison)), {}}, number);
   } catch (const std::bad_alloc&) {
-    post({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, stop);
+    post({0, {}, {}, order.object.name + ": there is not enough memory; choose fewer algorithms"}, number);
   } catch (...) {
-    post({0, {}, {}, failure_sentence(order.object.name)}, stop);
+    post({0, {}, {}, failure_sentence(order.object.name)}, number);
   }
 }
 
-void ReportThread::post(News news, const std::stop_token& stop) {
+void ReportThread::post(News news, std::uint64_t number) {
   const std::scoped_lock lock(mutex_);
-  // cancel() requests the stop and then takes the same lock, so no message of a cancelled run can follow it.
-  if (stop.stop_requested()) {
-    return;
+  if (number != number_) {
+    return;  // the run was cancelled
   }
   news_ = std::move(news);
   if (announced_.exchange(true)) {

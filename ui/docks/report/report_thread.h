@@ -2,9 +2,9 @@
 
 #include <QObject>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
-#include <stop_token>
 #include <string>
 
 #include "common/jobs.h"
@@ -15,7 +15,7 @@ namespace chainmail {
 /// Compares algorithms on a separate thread, one run at a time.
 ///
 /// Callers never wait for the thread. A cancelled run ends at once for the caller. Its thread ends when it next checks
-/// the stop token, and its results are dropped. Only the destructor waits for the thread.
+/// its progress, and its results are dropped. Only the destructor waits for the thread.
 class ReportThread : public QObject {
   Q_OBJECT
 
@@ -29,7 +29,7 @@ class ReportThread : public QObject {
   };
 
   explicit ReportThread(QObject* parent) : QObject(parent) {}
-  ~ReportThread() override;
+  ~ReportThread() override { cancel(); }
 
   /// Starts a run. Cancels the current run first, if there is one. Emits failed() if the system starts no thread.
   void start(Order order);
@@ -53,18 +53,19 @@ class ReportThread : public QObject {
     std::string error;
   };
 
-  void run(Order& order, const std::stop_token& stop);
-  void post(News news, const std::stop_token& stop);
+  void run(Order& order, const Progress& progress, std::uint64_t number);
+  void post(News news, std::uint64_t number);
   void receive();
 
   bool running_ = false;
   std::atomic<int> atWork_ = 0;
   std::atomic<bool> announced_ = false;  // at most one queued call to receive() at a time
-  std::mutex mutex_;                     // guards news_
+  std::mutex mutex_;                     // guards the following members
   News news_;
+  std::uint64_t number_ = 0;  // of the newest run; a new one after a cancelled run
 
-  std::stop_source stop_;  // of the newest run
-  TaskThread thread_;      // last, so that the thread ends before the members that it writes to
+  Progress job_;       // of the newest run
+  TaskThread thread_;  // last, so that the thread ends before the members that it writes to
 };
 
 }  // namespace chainmail

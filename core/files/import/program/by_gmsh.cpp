@@ -2,18 +2,99 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 #include "files/formats/divided_cells.h"
-#include "files/formats/msh_types.h"
-#include "files/import/program/beginning.h"
-#include "files/import/program/counts.h"
+#include "files/formats/msh.h"
 #include "files/import/program/gmsh_session.h"
 #include "files/import/program/tasks.h"
 #include "mesh/error.h"
 
 namespace chainmail::import {
 namespace {
+
+constexpr std::size_t beginning_bytes = 16;  // more than the longest sign
+
+/// Gmsh recognises a mesh by its first byte: after a blank line or a byte order mark it runs the file as a script.
+bool begins_as_msh(std::string_view text) {
+  static constexpr std::array<std::string_view, 3> signs{"$MeshFormat", "$NOD", "$Comments"};
+  return std::any_of(signs.begin(), signs.end(), [text](std::string_view sign) { return text.starts_with(sign); });
+}
+
+/// Throws Error if a .msh file does not begin like a mesh. Gmsh runs any other file as a script,
+/// which may start programs and write files.
+void check_beginning(const std::filesystem::path& path) {
+  std::array<char, beginning_bytes> bytes{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), beginning_bytes);
+  if (!begins_as_msh({bytes.data(), static_cast<std::size_t>(file.gcount())})) {
+    throw Error("", "it does not begin as a Gmsh mesh, with $MeshFormat or $NOD",
+                "export it again as a mesh; scripts are not run");
+  }
+}
+
+/// The counts that a file states, or 0.
+struct FileCounts {
+  std::uint64_t points = 0;
+  std::uint64_t elements = 0;  // lines, faces, cells and anything else that it counts with them
+};
+
+/// Longer lines contain numbers or binary data, and are skipped.
+constexpr std::size_t longest_line = 80;
+
+std::uint64_t first_number(const std::string& line, int nth) {
+  std::istringstream words(line);
+  std::uint64_t number = 0;
+  for (int i = 0; i < nth; ++i) {
+    words >> number;
+  }
+  return words ? number : 0;
+}
+
+/// Adds up the counts. take() receives each line that may begin with a keyword, and the line after it.
+class Counter {
+ public:
+  void take(const std::string& line, const std::string& next) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    format_4_ = format_4_ || (word == "$MeshFormat" && next.starts_with('4'));
+    const std::uint64_t number = first_number(next, format_4_ ? 2 : 1);
+    if (word == "$Nodes") {
+      counts_.points = number;
+    } else if (word == "$Elements") {
+      counts_.elements += number;
+    }
+  }
+
+  const FileCounts& counts() const { return counts_; }
+
+ private:
+  FileCounts counts_;
+  bool format_4_ = false;
+};
+
+/// Finds the counts of a .msh file, because libraries silently skip what they do not know.
+FileCounts count_in(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  Counter counter;
+  std::string line, next;
+  std::getline(file, line);
+  while (file) {
+    std::getline(file, next);
+    if (line.size() <= longest_line && !line.empty()) {
+      counter.take(line, next);
+    }
+    line.swap(next);
+  }
+  return counter.counts();
+}
 
 /// Maps tags to elements, in the order of the tags, and stores their positions.
 class Points {

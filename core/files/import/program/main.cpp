@@ -14,7 +14,7 @@
 #include <new>
 #include <string_view>
 
-#include "files/import/channels.h"
+#include "files/import/handover.h"
 #include "files/import/program/tasks.h"
 #include "files/import/sandbox.h"
 #include "mesh/error.h"
