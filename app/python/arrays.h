@@ -5,16 +5,14 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "body/softness.h"
-#include "python/object.h"
+#include "body/positions.h"
+#include "mesh/error.h"
 
 namespace chainmail::python {
 
@@ -30,7 +28,7 @@ std::uint32_t id_of(py::handle value, const char* what);
 /// Returns ids from a sequence or a one-dimensional array of whole numbers, or from a single number.
 std::vector<std::uint32_t> ids_of(py::handle values, const char* what);
 /// Returns an array of shape (rows, columns) of ids as one row after the other; None is empty.
-std::vector<std::uint32_t> rows_of(py::handle values, const std::string& name, std::size_t columns);
+std::vector<std::uint32_t> rows_of(py::handle values, const char* name, py::ssize_t columns);
 
 /// Returns 1 to 3 coordinates as a vector; those that are missing are 0.
 Point vector_of(py::handle value, const char* where);
@@ -59,8 +57,21 @@ std::vector<Value> list_of(const py::sequence& values, const std::string& name) 
 
 py::tuple tuple_of(const Point& vector);
 py::array_t<std::uint32_t> array_of(std::span<const std::uint32_t> ids);
-/// Returns an array of shape (numbers / columns, columns).
-py::array_t<double> array_of(std::span<const double> numbers, std::size_t columns);
+
+/// Writes x, y and z of each element of a mesh, which `point_of` returns.
+template <class PointOf>
+void write_points(const Mesh& mesh, double* out, PointOf point_of) {
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    Eigen::Map<Point>(out + std::size_t{3} * e) = point_of(e);
+  }
+}
+/// Returns them as an array of shape (element_count, 3).
+template <class PointOf>
+py::array_t<double> array_of_points(const Mesh& mesh, PointOf point_of) {
+  py::array_t<double> points({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
+  write_points(mesh, points.mutable_data(), point_of);
+  return points;
+}
 
 /// Returns an array of shape (rows, columns) that shows numbers of an owner, which Python must not write. `owner` keeps
 /// them alive. Bytes lie between the starts of two rows.
@@ -72,43 +83,11 @@ py::array shown(const Number* first, std::size_t rows, std::size_t columns, std:
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
-
-// Enumerations are words in Python, in the order of their constants.
-
-using Words = std::vector<std::string_view>;
-const Words& words(Precision);
-const Words& words(RelaxationScheme);
-const Words& words(EnergyKind);
-const Words& words(StrainLaw::Kind);
-/// Returns the index of a word in a list. Throws Error, with all words, if it is not in it.
-std::size_t index_of(const std::string& name, std::string_view word, const Words& words);
-/// Returns the constant of a word. `name` is that of the argument.
-template <class Kind>
-Kind named(const std::string& name, std::string_view word) {
-  return static_cast<Kind>(index_of(name, word, words(Kind{})));
+/// Returns a capsule that keeps a value as long as an array shows it.
+template <class Value, class... Arguments>
+py::capsule kept(Arguments&&... arguments) {
+  return py::capsule(new Value(std::forward<Arguments>(arguments)...),
+                     [](void* value) { delete static_cast<Value*>(value); });
 }
-template <class Kind>
-std::string_view word_for(Kind kind) {
-  return words(kind)[std::size_t(kind)];
-}
-
-/// A table as a dictionary of columns: a list for each name, all of one length. pandas.DataFrame takes it as it is.
-class Table {
- public:
-  template <class Value>
-  void put(const char* column, const Value& value) {
-    if (!columns_.contains(column)) {
-      columns_[column] = py::list();
-    }
-    columns_[column].cast<py::list>().append(py::cast(value));
-  }
-  const py::dict& columns() const { return columns_; }
-
- private:
-  py::dict columns_;
-};
-
-/// Returns a dictionary of named numbers.
-py::dict dict_of(std::initializer_list<std::pair<const char*, double>> numbers);
 
 }  // namespace chainmail::python

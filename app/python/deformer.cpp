@@ -1,13 +1,9 @@
 // Deformers: methods, handles, moves and relaxation.
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
 #include <algorithm>
 
-#include "python/arrays.h"
 #include "python/long_work.h"
 #include "python/module.h"
-#include "python/pickling.h"
+#include "python/value.h"
 
 namespace chainmail::python {
 namespace {
@@ -24,15 +20,6 @@ struct MoveResult {
   std::string remark;
 };
 
-/// Makes a function of an object a method of Deformer that marks the object as used.
-template <class... Arguments, class Function>
-auto used_mover(Function function) {
-  return [function](const Mover& mover, Arguments... arguments) {
-    const UseObject use(*mover.object());
-    return function(*mover.object(), arguments...);
-  };
-}
-
 /// Runs work on a deformer without the lock of Python. Work that may take long looks for Ctrl-C meanwhile.
 template <class Work>
 auto run(Object& object, bool is_slow, Work work) {
@@ -41,24 +28,25 @@ auto run(Object& object, bool is_slow, Work work) {
     return work(object.deformer());
   }
   try {
-    return run_long(object.job(), py::none(), [&] { return work(object.deformer()); });
+    return run_long(&object.job(), py::none(), [&](const Progress&) { return work(object.deformer()); });
   } catch (const py::error_already_set&) {
     object.set_job(Progress::watched());  // the cancelled one would cancel the next move, too
     throw;
   }
 }
 
-/// Moves a handle, or an element, to what it is given. Returns all but the pose that was reached.
+/// Moves a handle, or an element, to what it is given. Returns all but the pose that was reached. Methods of elasticity
+/// prepare, which may take long.
 template <class Moved, class Target>
 MoveResult pass(Object& object, Moved& moved, const Target& target) {
-  return run(object, object.is_slow(), [&](Deformer& deformer) {
+  return run(object, info(object.method()).family() == Family::elastic, [&](Deformer& deformer) {
     const PassCount count = deformer.move(moved, target, object.new_trace());
     return MoveResult{count.checked, count.moved, count.stopped, {}, deformer.remark()};
   });
 }
 
 MoveResult move_handle(Object& object, HeldHandle& held, const py::object& target) {
-  const Use use(held.busy, "handle");
+  const Used use(held);
   if (!py::isinstance<UserPose>(target)) {
     throw py::type_error("the target of a handle is a Pose, such as handle.after((1, 0, 0))");
   }
@@ -73,32 +61,31 @@ MoveResult move_handle(Object& object, HeldHandle& held, const py::object& targe
   return result;
 }
 
-MoveResult move(Object& object, const py::object& what, const py::object& target) {
+MoveResult move(const Used<Mover>& object, const py::object& what, const py::object& target) {
   if (!PyLong_CheckExact(what.ptr()) && py::isinstance<HeldHandle>(what)) {
-    return move_handle(object, what.cast<HeldHandle&>(), target);
+    return move_handle(*object, what.cast<HeldHandle&>(), target);
   }
   const ElementId element = id_of(what, "element");
   const Point to = vector_of(target, "target");
-  check_element(object.mesh(), element);
-  check_position(object.mesh(), "target", to);
-  MoveResult result = pass(object, element, to);
-  result.reached.pivot = point_of(object.mesh(), object.body().positions(), element);
+  check_element(object->mesh(), element);
+  check_position(object->mesh(), "target", to);
+  MoveResult result = pass(*object, element, to);
+  result.reached.pivot = point_of(object->mesh(), object->body().positions(), element);
   return result;
 }
 
-int relax(Object& object, int sweeps, double step, const std::string& scheme, double until) {
-  const RelaxOptions options{step, named<RelaxationScheme>("scheme", scheme), until};
-  const std::uint64_t elements = object.mesh().element_count();
-  const bool is_slow =
-      options.scheme == RelaxationScheme::equilibrium || elements * std::uint64_t(std::max(sweeps, 0)) > quick_visits;
-  return run(object, is_slow, [&](Deformer& deformer) { return deformer.relax(sweeps, options).sweeps; });
+int relax(const Used<Mover>& object, int sweeps, double step, RelaxationScheme scheme, double until) {
+  const std::uint64_t visits = std::uint64_t{object->mesh().element_count()} * std::uint64_t(std::max(sweeps, 0));
+  return run(*object, scheme == RelaxationScheme::equilibrium || visits > quick_visits, [&](Deformer& deformer) {
+    return deformer.relax(sweeps, {step, scheme, until}).sweeps;
+  });
 }
 
 /// Returns the trace as rows: element, sponsor or -1, and 1 if it moved.
-py::array_t<std::int64_t> trace_of(Object& object) {
-  py::array_t<std::int64_t> rows({py::ssize_t(object.trace().size()), py::ssize_t(3)});
+py::array_t<std::int64_t> trace_of(const Used<Mover>& object) {
+  py::array_t<std::int64_t> rows({py::ssize_t(object->trace().size()), py::ssize_t(3)});
   std::int64_t* out = rows.mutable_data();
-  for (const TraceRow& row : object.trace()) {
+  for (const TraceRow& row : object->trace()) {
     *out++ = row.element;
     *out++ = row.sponsor == no_element ? -1 : std::int64_t(row.sponsor);
     *out++ = row.moved ? 1 : 0;
@@ -106,157 +93,119 @@ py::array_t<std::int64_t> trace_of(Object& object) {
   return rows;
 }
 
-void set_threads(Object& object, int threads) {
+void set_threads(const Used<Mover>& object, int threads) {
   if (threads < 1) {
     throw Error("threads", "the number is below 1", "use a number from 1");
   }
-  object.deformer().set_threads(threads);
-}
-
-py::dict facts_of(const AlgorithmInfo& info) {
-  py::dict facts;
-  facts["name"] = info.offered_name();
-  facts["label"] = info.label;
-  facts["source"] = info.source;
-  facts["summary"] = info.summary;
-  facts["family"] = info.family() == Family::chainmail ? "chainmail" : "elastic";
-  facts["needs_grid"] = info.needs_grid;
-  facts["needs_pins"] = info.needs_pins;
-  facts["holds_links"] = info.holds_links;
-  return facts;
+  object->deformer().set_threads(threads);
 }
 
 py::list rows_of_methods() {
   py::list rows;
-  for (const AlgorithmInfo& info : every_algorithm()) {
-    rows.append(facts_of(info));
+  for (const AlgorithmInfo& one : every_algorithm()) {
+    rows.append(py::dict(py::arg("name") = one.offered_name(), py::arg("label") = one.label,
+                         py::arg("source") = one.source, py::arg("summary") = one.summary,
+                         py::arg("family") = one.family() == Family::chainmail ? "chainmail" : "elastic",
+                         py::arg("needs_grid") = one.needs_grid, py::arg("needs_pins") = one.needs_pins,
+                         py::arg("holds_links") = one.holds_links));
   }
   return rows;
 }
 
-std::string refusal(const std::string& method, const MeshObject& mesh) {
-  const Algorithm algorithm = algorithm_of(method);
+std::string refusal(Algorithm method, const MeshObject& mesh) {
   try {
-    check(algorithm, *mesh.mesh);
+    check(method, *mesh.mesh);
   } catch (const Error& error) {
     return error.what();
   }
   return {};
 }
 
-template <class Function>
-auto used_handle(Function function) {
-  return [function](HeldHandle& held) {
-    const Use use(held.busy, "handle");
-    return function(held.handle);
-  };
+template <class Owner>
+std::shared_ptr<HeldHandle> grab(const Used<Owner>& object, const Elements& elements) {
+  return std::make_shared<HeldHandle>(*object, elements);
 }
 
 std::string handle_in_words(const HeldHandle& held) {
   const auto elements = held.handle.elements();
   const std::string text = "<Handle: " + (elements.size() == 1 ? "element " + std::to_string(elements.front())
                                                                : std::to_string(elements.size()) + " elements");
-  return held.busy.is_used() ? text + ", in use>"
-                             : text + " at " + std::string(py::repr(tuple_of(held.handle.pose().pivot))) + ">";
+  return held.is_used() ? text + ", in use>"
+                        : text + " at " + std::string(py::repr(tuple_of(held.handle.pose().pivot))) + ">";
 }
 
 void add_results(py::module_& module) {
   py::class_<MoveResult> result(module, "MoveResult", "What a move did.");
-  result.def_readonly("checked", &MoveResult::checked, "Number of candidates that the method processed.")
-      .def_readonly("moved", &MoveResult::moved, "Number of elements that moved, without the handle.")
-      .def_readonly("stopped", &MoveResult::stopped, "True if the handle stopped before its target.")
-      .def_readonly("reached", &MoveResult::reached, "The pose where the handle is now.")
-      .def_readonly("remark", &MoveResult::remark, "Reason why the move did not end as requested. Usually empty.")
-      .def("__repr__", [](const MoveResult& one) {
-        return "<MoveResult: " + std::to_string(one.moved) + " moved, " + std::to_string(one.checked) + " checked" +
-               (one.stopped ? ", stopped" : "") + (one.remark.empty() ? "" : ", " + one.remark) + ">";
-      });
-  add_pickling(
-      result,
-      [](const MoveResult& one) {
-        return py::make_tuple(one.checked, one.moved, one.stopped, one.reached, one.remark);
-      },
-      [](const py::tuple& state) {
-        return MoveResult{state[0].cast<std::uint64_t>(), state[1].cast<std::uint64_t>(), state[2].cast<bool>(),
-                          state[3].cast<UserPose>(), state[4].cast<std::string>()};
-      });
-  py::class_<EquilibriumCertificate> certificate(module, "EquilibriumCertificate",
-                                                 "How close an object is to the equilibrium.");
-  certificate
-      .def_readonly("violation", &EquilibriumCertificate::violation, "Largest violation of a link, in rest lengths.")
-      .def_readonly("residual", &EquilibriumCertificate::residual,
-                    "Estimated distance from the equilibrium, in the norm of the energy, relative to its root.")
-      .def_readonly("energy_gap", &EquilibriumCertificate::gap,
-                    "Energy above a lower bound of the energy of all valid states, relative to the energy. None for\n"
-                    "corotated links and the material.")
-      .def_readonly("regions_bind", &EquilibriumCertificate::binds, "True if valid regions change the equilibrium.")
-      .def_readonly("iterations", &EquilibriumCertificate::iterations,
-                    "Iterations since the handle, the pins or the object changed.")
-      .def("__repr__", [](const EquilibriumCertificate& one) {
-        return "<EquilibriumCertificate: residual " + std::string(py::repr(py::float_(one.residual))) + " after " +
-               std::to_string(one.iterations) + " iterations>";
-      });
-  add_pickling(
-      certificate,
-      [](const EquilibriumCertificate& one) {
-        return py::make_tuple(one.violation, one.residual, one.gap, one.binds, one.iterations);
-      },
-      [](const py::tuple& state) {
-        return EquilibriumCertificate{state[0].cast<double>(), state[1].cast<double>(),
-                                      state[2].cast<std::optional<double>>(), state[3].cast<bool>(),
-                                      state[4].cast<int>()};
-      });
+  add_parts(result, Part{"checked", &MoveResult::checked, "Number of candidates that the method processed."},
+            Part{"moved", &MoveResult::moved, "Number of elements that moved, without the handle."},
+            Part{"stopped", &MoveResult::stopped, "True if the handle stopped before its target."},
+            Part{"reached", &MoveResult::reached, "The pose where the handle is now."},
+            Part{"remark", &MoveResult::remark, "Reason why the move did not end as requested. Usually empty."});
+  result.def("__repr__", [](const MoveResult& one) {
+    return "<MoveResult: " + std::to_string(one.moved) + " moved, " + std::to_string(one.checked) + " checked" +
+           (one.stopped ? ", stopped" : "") + (one.remark.empty() ? "" : ", " + one.remark) + ">";
+  });
+  using One = EquilibriumCertificate;
+  py::class_<One> certificate(module, "EquilibriumCertificate", "How close an object is to the equilibrium.");
+  add_parts(certificate, Part{"violation", &One::violation, "Largest violation of a link, in rest lengths."},
+            Part{"residual", &One::residual,
+                 "Estimated distance from the equilibrium, in the norm of the energy, relative to its root."},
+            Part{"energy_gap", &One::gap,
+                 "Energy above a lower bound of the energy of all valid states, relative to the energy. None for\n"
+                 "corotated links and the material."},
+            Part{"regions_bind", &One::binds, "True if valid regions change the equilibrium."},
+            Part{"iterations", &One::iterations, "Iterations since the handle, the pins or the object changed."});
+  certificate.def("__repr__", [](const One& one) {
+    return "<EquilibriumCertificate: residual " + std::string(py::repr(py::float_(one.residual))) + " after " +
+           std::to_string(one.iterations) + " iterations>";
+  });
 }
 
 void add_moves(MoverClass& deformer) {
   deformer
-      .def("grab", used_mover<const py::object&>([](Object& object, const py::object& elements) {
-             return std::make_shared<HeldHandle>(object, ids_of(elements, "element"));
-           }),
-           py::arg("elements"), "Grabs elements; the same as Handle(deformer.body, elements).")
-      .def("move", used_mover<const py::object&, const py::object&>(&move), py::arg("what"), py::arg("target"),
+      .def("grab", &grab<Mover>, py::arg("elements"), "Grabs elements; the same as Handle(deformer.body, elements).")
+      .def("move", &move, py::arg("what"), py::arg("target"),
            "Moves the handle, and the method answers: one pass.\n\n"
-           "move(element, (x, y, z)) moves one element to a position (mesh units). move(handle, pose) moves a handle "
-           "to a\n"
-           "pose, such as handle.after((1, 0, 0)). Coordinates that are left out are 0.\n\n"
-           "Raises Error if an id does not exist, the handle is of another mesh, an element of it is pinned, the "
-           "target\n"
-           "is not finite or would leave the space of the object, and if the method has no answer; and Cancelled.\n"
-           "Nothing has moved then.")
-      .def("moved", used_mover([](Object& object) { return array_of(object.deformer().moved()); }),
-           "Returns the elements that the last move moved, in order of update, without the handle: shape (n,), dtype\n"
-           "uint32. A copy.")
-      .def("release", used_mover([](Object& object) { object.deformer().release(); }),
-           "Releases the handle of the last move: relaxation may move its elements.")
-      .def("set_tracing", used_mover<bool>([](Object& object, bool on) { object.set_tracing(on); }), py::arg("on"),
-           "Turns on or off that moves are traced.")
-      .def("trace", used_mover(&trace_of),
-           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The "
-           "columns\n"
-           "are the element, its sponsor (-1: none) and 1 if it moved. A copy.");
+           "move(element, (x, y, z)) moves one element to a position (mesh units). move(handle, pose) moves a\n"
+           "handle to a pose, such as handle.after((1, 0, 0)). Coordinates that are left out are 0.\n\n"
+           "Raises Error if an id does not exist, the handle is of another mesh, an element of it is pinned, the\n"
+           "target is not finite or would leave the space of the object, and if the method has no answer; and\n"
+           "Cancelled. Nothing has moved then.")
+      .def(
+          "moved", [](const Used<Mover>& object) { return array_of(object->deformer().moved()); },
+          "Returns the elements that the last move moved, in order of update, without the handle: shape (n,), dtype\n"
+          "uint32. A copy.")
+      .def(
+          "release", [](const Used<Mover>& object) { object->deformer().release(); },
+          "Releases the handle of the last move: relaxation may move its elements.")
+      .def(
+          "set_tracing", [](const Used<Mover>& object, bool on) { object->set_tracing(on); }, py::arg("on"),
+          "Turns on or off that moves are traced.")
+      .def("trace", &trace_of,
+           "Returns the candidates of the last move, in order, if it was traced: shape (n, 3), dtype int64. The\n"
+           "columns are the element, its sponsor (-1: none) and 1 if it moved. A copy.");
 }
 
 void add_relaxation(MoverClass& deformer) {
   const RelaxOptions defaults;
   deformer
+      .def("relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = defaults.step,
+           py::arg("scheme") = defaults.scheme, py::arg("until") = defaults.until,
+           "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have\n"
+           "run.\n\n"
+           "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is\n"
+           "the share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or\n"
+           "`equilibrium`, which runs iterations instead, for all elements, until the distance from the equilibrium\n"
+           "is at most `until`. Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers\n"
+           "are equilibria. Raises Error for a number out of its range; and Cancelled, which keeps the positions\n"
+           "that were reached.")
       .def(
-          "relax", used_mover<int, double, const std::string&, double>(&relax), py::arg("sweeps"), py::kw_only(),
-          py::arg("step") = defaults.step, py::arg("scheme") = word_for(defaults.scheme),
-          py::arg("until") = defaults.until,
-          "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have "
-          "run.\n\n"
-          "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is the\n"
-          "share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or "
-          "`equilibrium`,\n"
-          "which runs iterations instead, for all elements, until the distance from the equilibrium is at most "
-          "`until`.\n"
-          "Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers are equilibria. Raises\n"
-          "Error for a number out of its range; and Cancelled, which keeps the positions that were reached.")
-      .def("certificate", used_mover([](Object& object) {
-             return run(object, false, [](Deformer& one) { return one.certificate(); })
-                 .value_or(EquilibriumCertificate());
-           }),
-           "Returns how close the object is to the equilibrium; all zeros if it was not relaxed to it.");
+          "certificate",
+          [](const Used<Mover>& object) {
+            const Unlocked unlocked;
+            return object->deformer().certificate().value_or(EquilibriumCertificate());
+          },
+          "Returns how close the object is to the equilibrium; all zeros if it was not relaxed to it.");
 }
 
 void add_settings(MoverClass& deformer) {
@@ -268,74 +217,60 @@ void add_settings(MoverClass& deformer) {
           "method",
           // It changes only with the lock of Python.
           [](const Mover& mover) { return mover.object()->method(); }, "Name of the method.")
-      .def("set_method",
-           used_mover<const std::string&>([](Object& object, const std::string& method) { object.set_method(method); }),
-           py::arg("method"),
-           "Continues with another method from the current positions. Raises Error if there is none with this name, if "
-           "it\n"
-           "does not work on the mesh, and if a view of the positions would not show positions any more.")
-      .def("set_threads", used_mover<int>(&set_threads), py::arg("threads"),
-           "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses more, "
-           "for\n"
-           "large objects, and no result depends on it.")
-      .def("set_job", used_mover<const Progress&>([](Object& object, const Progress& job) { object.set_job(job); }),
-           py::arg("job").none(false),
-           "Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.")
+      .def(
+          "set_method", [](const Used<Mover>& object, Algorithm method) { object->set_method(method); },
+          py::arg("method"),
+          "Continues with another method from the current positions. Raises Error if there is none with this name,\n"
+          "if it does not work on the mesh, and if a view of the positions would not show positions any more.")
+      .def("set_threads", &set_threads, py::arg("threads"),
+           "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses\n"
+           "more, for large objects, and no result depends on it.")
+      .def(
+          "set_job", [](const Used<Mover>& object, const Progress& job) { object->set_job(job); }, py::arg("job"),
+          "Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.")
       .def("__repr__", [](const Mover& mover) {
-        return "<Deformer: " + std::string(mover.object()->method()) + " on " +
+        return "<Deformer: " + std::string(info(mover.object()->method()).offered_name()) + " on " +
                std::to_string(mover.object()->mesh().element_count()) + " elements>";
       });
 }
 
-py::array deform(const MeshObjectPointer& mesh, const py::object& elements, const py::object& by,
-                 const std::string& method) {
-  const auto ids = ids_of(elements, "element");
+py::array deform(const MeshObjectPointer& mesh, const Elements& elements, const py::object& by, Algorithm method) {
   const Point displacement = vector_of(by, "by");
-  const auto object = std::make_shared<Object>(mesh, Precision::double_precision);
-  object->attach(method);
-  HeldHandle held(*object, ids);
+  const Mover mover(std::make_shared<Object>(mesh, Precision::double_precision), method);
+  Object& object = *mover.object();
+  HeldHandle held(object, elements);
   check_displacement(*mesh->mesh, "displacement", displacement);
-  const UserPose target{held.handle.grabbed().pivot + displacement};
-  run_long(object->job(), py::none(), [&] { return object->deformer().move(held.handle, target.pose()); });
-  py::array_t<double> positions({py::ssize_t(mesh->mesh->element_count()), py::ssize_t(3)});
-  double* out = positions.mutable_data();
-  for (ElementId e = 0; e < mesh->mesh->element_count(); ++e) {
-    out = std::ranges::copy(point_of(*mesh->mesh, object->body().positions(), e), out).out;
-  }
-  return positions;
+  const Pose target{held.handle.grabbed().pivot + displacement, Point::Zero()};
+  run_long(&object.job(), py::none(), [&](const Progress&) { return object.deformer().move(held.handle, target); });
+  const PositionView positions = object.body().positions();
+  return array_of_points(*mesh->mesh, [&](ElementId e) { return point_of(*mesh->mesh, positions, e); });
 }
 
 void add_handle(py::module_& module) {
   py::class_<HeldHandle, std::shared_ptr<HeldHandle>> handle(
       module, "Handle",
       "What is grabbed: one element, or many that move together as one rigid body.\n\n"
-      "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of "
-      "these\n"
-      "positions. Raises Error if there is none, or if one does not exist, is given twice or is pinned. After "
-      "positions\n"
-      "were set, restored or reset, grab again.");
-  handle
-      .def(py::init([](Object& object, const py::object& elements) {
-             const UseObject use(object);
-             return std::make_shared<HeldHandle>(object, ids_of(elements, "element"));
-           }),
-           py::arg("body"), py::arg("elements"))
-      .def_property_readonly("elements", used_handle([](const Handle& one) { return array_of(one.elements()); }),
-                             "The grabbed elements, ascending: shape (n,), dtype uint32. A copy.")
-      .def_property_readonly("grabbed", used_handle([](const Handle& one) { return UserPose::of(one.grabbed()); }),
-                             "The pose at which it was grabbed.")
-      .def_property_readonly("pose", used_handle([](const Handle& one) { return UserPose::of(one.pose()); }),
-                             "The pose that the last move reached.")
+      "Handle(body, elements) grabs elements at their current positions; nothing moves. The pivot is the mean of\n"
+      "these positions. Raises Error if there is none, or if one does not exist, is given twice or is pinned. After\n"
+      "positions were set, restored or reset, grab again.");
+  handle.def(py::init(&grab<Object>), py::arg("body"), py::arg("elements"))
+      .def_property_readonly(
+          "elements", [](const Used<HeldHandle>& one) { return array_of(one->handle.elements()); },
+          "The grabbed elements, ascending: shape (n,), dtype uint32. A copy.")
+      .def_property_readonly(
+          "grabbed", [](const Used<HeldHandle>& one) { return UserPose::of(one->handle.grabbed()); },
+          "The pose at which it was grabbed.")
+      .def_property_readonly(
+          "pose", [](const Used<HeldHandle>& one) { return UserPose::of(one->handle.pose()); },
+          "The pose that the last move reached.")
       .def(
           "after",
-          [](HeldHandle& held, const py::object& by, const Rotation& rotation) {
-            const Use use(held.busy, "handle");
-            return UserPose{held.handle.grabbed().pivot + vector_of(by, "by"), rotation};
+          [](const Used<HeldHandle>& held, const py::object& by, const Rotation& rotation) {
+            return UserPose{held->handle.grabbed().pivot + vector_of(by, "by"), rotation};
           },
           py::arg("by"), py::arg("rotation") = Rotation(),
-          "Returns the pose after a motion from where it was grabbed: a displacement (x, y, z) of the pivot (mesh "
-          "units)\n"
-          "and a rotation about the pivot.")
+          "Returns the pose after a motion from where it was grabbed: a displacement (x, y, z) of the pivot (mesh\n"
+          "units) and a rotation about the pivot.")
       .def("__repr__", &handle_in_words);
   refuse_pickling(handle, "it is of a mesh of this process", "grab its elements there");
 }
@@ -360,20 +295,18 @@ void add_deformer(py::module_& module) {
   MoverClass deformer(
       module, "Deformer",
       "Deforms one object with one method.\n\n"
-      "Deformer(body, method) moves this body: `deformer.body` is the same object. A body has one deformer\n"
-      "at a time. Deformer(mesh, method, precision) makes a body at rest. Raises Error if there is no such\n"
-      "method, or if it does not work on the mesh. One thread at a time may use a deformer and its body.\n"
-      "A move lets other Python threads run.");
+      "Deformer(body, method) moves this body: `deformer.body` is the same object. A body has one deformer at a\n"
+      "time. Deformer(mesh, method, precision) makes a body at rest. Raises Error if there is no such method, or if\n"
+      "it does not work on the mesh. One thread at a time may use a deformer and its body. A move lets other Python\n"
+      "threads run.");
   deformer
-      .def(py::init([](const ObjectPointer& body, const std::string& method) {
-             return std::make_unique<Mover>(body, method);
+      .def(py::init([](const ObjectPointer& body, Algorithm method) { return std::make_unique<Mover>(body, method); }),
+           py::arg("body").none(false), py::arg("method") = Algorithm::natural_queue)
+      .def(py::init([](const MeshObjectPointer& mesh, Algorithm method, Precision precision) {
+             return std::make_unique<Mover>(std::make_shared<Object>(mesh, precision), method);
            }),
-           py::arg("body").none(false), py::arg("method") = "natural-queue")
-      .def(py::init([](const MeshObjectPointer& mesh, const std::string& method, const std::string& precision) {
-             return std::make_unique<Mover>(std::make_shared<Object>(mesh, named<Precision>("precision", precision)),
-                                            method);
-           }),
-           py::arg("mesh").none(false), py::arg("method") = "natural-queue", py::arg("precision") = "double");
+           py::arg("mesh").none(false), py::arg("method") = Algorithm::natural_queue,
+           py::arg("precision") = Precision::double_precision);
   add_moves(deformer);
   add_relaxation(deformer);
   add_settings(deformer);
@@ -381,7 +314,7 @@ void add_deformer(py::module_& module) {
                   "make a Deformer there; for a copy here, use Deformer(body.copy(), method)");
   module.def(
       "deform", &deform, py::arg("mesh").none(false), py::arg("elements"), py::arg("by"), py::kw_only(),
-      py::arg("method") = "natural-queue",
+      py::arg("method") = Algorithm::natural_queue,
       "Drags elements of an object from rest by a displacement (x, y, z) in one move, and returns the positions of\n"
       "all elements: shape (element_count, 3), dtype float64 (mesh units).\n\n"
       "A shortcut for a Deformer that is used once; raises the same.");

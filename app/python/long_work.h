@@ -53,29 +53,27 @@ void wait_for_work(const Progress& job, const pybind11::object& progress,
                    const std::function<bool(std::chrono::milliseconds)>& is_done_within);
 
 /// Runs work that may take long in a thread of its own, while this thread looks for Ctrl-C: Python handles signals only
-/// between its own instructions. The work must not touch Python. If the system has no memory for another thread, the
-/// work runs in this one, and Ctrl-C waits for it.
+/// between its own instructions. The work gets the job, or a new one if it is null, and must not touch Python. If the
+/// system has no memory for another thread, the work runs in this one, and Ctrl-C waits for it.
 template <class Work>
-auto run_long(const Progress& job, const pybind11::object& progress, Work work) {
+auto run_long(const Progress* given, const pybind11::object& progress, Work work) {
+  const Progress job = given != nullptr ? *given : Progress::watched();
   // The C library ends the program if a thread finds no memory for its first exception, so some is kept for that.
   auto reserve = std::make_unique_for_overwrite<std::array<std::byte, 1 << 20>>();
-  std::future<decltype(work())> result;
+  std::future<decltype(work(job))> result;
   try {
-    result = std::async(std::launch::async, [&work, kept = std::move(reserve)]() mutable {
+    result = std::async(std::launch::async, [&work, &job, kept = std::move(reserve)]() mutable {
       kept.reset();
       static_cast<void>(std::uncaught_exceptions());  // takes the memory
-      return work();
+      return work(job);
     });
   } catch (const std::system_error&) {
     const Unlocked unlocked;
-    return work();
+    return work(job);
   }
   wait_for_work(job, progress,
                 [&](std::chrono::milliseconds time) { return result.wait_for(time) == std::future_status::ready; });
   return result.get();
 }
-
-/// Returns the job of a keyword; a new one if it is None.
-inline Progress job_or_new(const Progress* job) { return job != nullptr ? *job : Progress::watched(); }
 
 }  // namespace chainmail::python

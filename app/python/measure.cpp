@@ -1,11 +1,9 @@
 // Figures of a body, and reference solutions.
-#include <pybind11/stl.h>
-
 #include "files/formats/mesh_state.h"
 #include "measure/distance.h"
 #include "measure/physical_error.h"
 #include "measure/violation.h"
-#include "python/arrays.h"
+#include "python/arguments.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
@@ -19,32 +17,25 @@ struct ReferenceObject {
   ReferenceSolution solution;
 };
 
-/// Returns a view of coordinates, space_dimension for each element (mesh units).
-PositionView view_of(const Mesh& mesh, const std::vector<double>& coordinates) {
-  return {coordinates.data(), sizeof(double) * std::size_t(mesh.space_dimension), Precision::double_precision};
-}
-
 template <class Figures>
 py::dict max_and_rms(const Figures& figures) {
-  return dict_of({{"max", figures.max}, {"rms", figures.rms}});
+  return py::dict(py::arg("max") = figures.max, py::arg("rms") = figures.rms);
 }
 
 py::dict errors_in(const PhysicalError& error) {
-  return dict_of({{"relative", error.relative}, {"rms", error.rms}, {"max", error.max}});
+  return py::dict(py::arg("relative") = error.relative, py::arg("rms") = error.rms, py::arg("max") = error.max);
 }
 
 /// Computes a figure of a body without the lock of Python.
 template <class Figure>
-auto figure_of(Object& object, Figure figure) {
-  const UseObject use(object);
+auto figure_of(const Used<Object>& object, Figure figure) {
   const Unlocked unlocked;
-  return figure(std::as_const(object.body()));
+  return figure(std::as_const(object->body()));
 }
 
-py::object violation(Object& object, const py::object& link) {
-  if (!link.is_none()) {
-    const LinkId id = id_of(link, "link");
-    return py::float_(figure_of(object, [id](const Body& body) { return link_violation(body, id); }));
+py::object violation(const Used<Object>& object, const std::optional<Link>& link) {
+  if (link) {
+    return py::float_(figure_of(object, [&](const Body& body) { return link_violation(body, link->number); }));
   }
   const Violation all = figure_of(object, [](const Body& body) { return measure_violation(body); });
   py::dict numbers = max_and_rms(all);
@@ -53,15 +44,17 @@ py::object violation(Object& object, const py::object& link) {
   return numbers;
 }
 
-Distance distance_to_positions(Object& object, const py::object& values) {
-  const UseObject use(object);
-  const std::vector<double> positions = positions_on(object.mesh(), values);
-  const Unlocked unlocked;
-  const std::vector<double> coordinates = coordinates_of(object.mesh(), positions, Precision::double_precision);
-  return measure_distance(object.mesh(), object.body().positions(), view_of(object.mesh(), coordinates));
+Distance distance_to_positions(const Used<Object>& object, const py::object& values) {
+  const std::vector<double> positions = positions_on(object->mesh(), values);
+  return figure_of(object, [&](const Body& body) {
+    const Mesh& mesh = body.mesh();
+    const std::vector<double> other = coordinates_of(mesh, positions, Precision::double_precision);
+    const std::size_t bytes = sizeof(double) * std::size_t(mesh.space_dimension);
+    return measure_distance(mesh, body.positions(), PositionView{other.data(), bytes, Precision::double_precision});
+  });
 }
 
-Distance distance_between(Object& one, Object& other) {
+Distance distance_between(const Used<Object>& one, Object& other) {
   const Body& second = other.body();
   return figure_of(one, [&](const Body& body) {
     if (body.mesh_pointer() != second.mesh_pointer()) {
@@ -71,42 +64,33 @@ Distance distance_between(Object& one, Object& other) {
   });
 }
 
-py::dict distance(Object& object, const py::object& other) {
+py::dict distance(const Used<Object>& object, const py::object& other) {
   if (!py::isinstance<Object>(other)) {
     return max_and_rms(distance_to_positions(object, other));
   }
-  Object& second = other.cast<Object&>();
-  if (&second == &object) {
-    return max_and_rms(distance_between(object, object));
+  auto& second = other.cast<Object&>();
+  if (&second == &*object) {
+    return max_and_rms(distance_between(object, second));
   }
-  const UseObject use(second);
-  return max_and_rms(distance_between(object, second));
+  return max_and_rms(distance_between(object, *Used(second)));
 }
 
-ReferenceObject solve_reference(Object& object, const py::object& handle, const Progress* job,
+ReferenceObject solve_reference(const Used<Object>& object, const Elements& handle, const Progress* job,
                                 const py::object& progress) {
-  const UseObject use(object);
-  const auto ids = ids_of(handle, "element");
-  const Progress watched = job_or_new(job);
-  return {object.body().mesh_pointer(),
-          run_long(watched, progress, [&] { return reference_solution(object.body(), ids, watched); })};
+  const Body& body = object->body();
+  return {body.mesh_pointer(),
+          run_long(job, progress, [&](const Progress& run) { return reference_solution(body, handle, run); })};
 }
 
 py::array_t<double> positions_of_solution(const ReferenceObject& one) {
   const Mesh& mesh = *one.mesh;
-  std::vector<double> coordinates = mesh.rest;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    coordinates[i] += one.solution.displacements[i];
-  }
-  py::array_t<double> positions({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
-  double* out = positions.mutable_data();
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    out = std::ranges::copy(mesh.to_point(&coordinates[std::size_t{e} * std::size_t(mesh.space_dimension)]), out).out;
-  }
-  return positions;
+  std::vector<double> all = mesh.rest;
+  std::ranges::transform(all, one.solution.displacements, all.begin(), std::plus<>());
+  return array_of_points(
+      mesh, [&](ElementId e) { return mesh.to_point(&all[std::size_t{e} * std::size_t(mesh.space_dimension)]); });
 }
 
-py::dict error_of(Object& object, const ReferenceObject& reference) {
+py::dict error_of(const Used<Object>& object, const ReferenceObject& reference) {
   return errors_in(figure_of(object, [&](const Body& body) {
     if (reference.mesh != body.mesh_pointer()) {
       throw Error("reference solution", "it is of another mesh", "compute it for this object");
@@ -120,35 +104,34 @@ void add_figures(py::module_& module) {
       "violation", &violation, py::arg("body"), py::arg("link") = py::none(),
       "Returns how far links lie outside their valid regions, in rest lengths of the link. Cut links do not count.\n\n"
       "Without a link, a dictionary: the largest violation `max`, the root of the mean square `rms`, the share\n"
-      "`fraction` of the links that are violated by more than 1e-4, and the number of measured `links`. With a link,\n"
-      "its violation.");
+      "`fraction` of the links that are violated by more than 1e-4, and the number of measured `links`. With a\n"
+      "link, its violation.");
   module.def(
       "displacement",
-      [](Object& object) {
+      [](const Used<Object>& object) {
         return max_and_rms(
             figure_of(object, [](const Body& body) { return measure_displacement(body.mesh(), body.positions()); }));
       },
       py::arg("body"),
-      "Returns the displacement of the elements from rest (mesh units): a dictionary with the largest one `max` and "
-      "the\n"
-      "root of the mean square `rms`.");
+      "Returns the displacement of the elements from rest (mesh units): a dictionary with the largest one `max` and\n"
+      "the root of the mean square `rms`.");
   module.def("distance", &distance, py::arg("body"), py::arg("other"),
-             "Returns the distance between the elements of two states of the same mesh, in mean rest lengths: a "
-             "dictionary with\n"
-             "`max` and `rms`. `other` is a body, or positions of the shape (element_count, 3). Raises Error if the "
-             "meshes or\n"
-             "shapes differ.");
+             "Returns the distance between the elements of two states of the same mesh, in mean rest lengths: a\n"
+             "dictionary with `max` and `rms`. `other` is a body, or positions of the shape (element_count, 3).\n"
+             "Raises Error if the meshes or shapes differ.");
   module.def(
       "elastic_energy",
-      [](Object& object) { return figure_of(object, [](const Body& body) { return elastic_energy(body); }); },
+      [](const Used<Object>& object) {
+        return figure_of(object, [](const Body& body) { return elastic_energy(body); });
+      },
       py::arg("body"), "Returns the elastic energy of the body's kind over the uncut links (see the C++ interface).");
 }
 
 void add_reference(py::module_& module) {
   py::class_<ReferenceObject> reference(
       module, "ReferenceSolution",
-      "The positions that a neo-Hookean elastic object has: converged finite elements on\n"
-      "the object's own cells or faces.");
+      "The positions that a neo-Hookean elastic object has: converged finite elements on the object's own cells or\n"
+      "faces.");
   reference
       .def("positions", &positions_of_solution,
            "Returns the positions: shape (element_count, 3), dtype float64 (mesh units). A copy.")
@@ -163,8 +146,8 @@ void add_reference(py::module_& module) {
       py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Returns the reference solution with the pins and these elements, the handle, at their current positions.\n\n"
       "`progress` is called with the share that is done, 0 to 1. Raises Error if an element does not exist, is\n"
-      "given twice or is pinned, if the handle is at rest, if there are no cells or faces, if the pins are too\n"
-      "few, or if it does not converge; and Cancelled.");
+      "given twice or is pinned, if the handle is at rest, if there are no cells or faces, if the pins are too few,\n"
+      "or if it does not converge; and Cancelled.");
   module.def(
       "physical_error", &error_of, py::arg("body"), py::arg("reference"),
       "Returns the error of the current positions: a dictionary with `relative` (RMS of the error over RMS of the\n"

@@ -1,14 +1,14 @@
 // Meshes: generated, from arrays, and from files.
-#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <functional>
 #include <limits>
 
 #include "files/mesh/mesh_arrays.h"
 #include "files/mesh/open_mesh.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
-#include "python/arrays.h"
+#include "python/arguments.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
@@ -20,36 +20,21 @@ using MeshClass = py::class_<MeshObject, MeshObjectPointer>;
 
 MeshObjectPointer object_of(MeshPointer mesh) { return std::make_shared<MeshObject>(MeshObject{std::move(mesh)}); }
 
-/// Makes a function of a mesh one of the Python class.
+/// Makes a function or a member of a mesh one of the Python class.
 template <class Function>
 auto on_mesh(Function function) {
-  return [function](const MeshObject& one) { return function(*one.mesh); };
-}
-
-/// The same for a function of an element.
-template <class Function>
-auto on_element(Function function) {
-  return [function](const MeshObject& one, const py::object& id) {
-    const ElementId element = id_of(id, "element");
-    check_element(*one.mesh, element);
-    return function(*one.mesh, element);
-  };
+  return [function](const MeshObject& one) { return std::invoke(function, *one.mesh); };
 }
 
 /// Returns a read-only array that shows groups of ids of a mesh and keeps the mesh alive.
 template <std::size_t Columns>
 py::array shown_groups(const MeshPointer& mesh, std::span<const std::array<ElementId, Columns>> rows) {
-  const py::capsule owner(new MeshPointer(mesh), [](void* owned) { delete static_cast<MeshPointer*>(owned); });
-  return shown(rows.empty() ? nullptr : rows.front().data(), rows.size(), Columns, sizeof(rows[0]), owner);
+  return shown(rows.empty() ? nullptr : rows.front().data(), rows.size(), Columns, sizeof(rows[0]),
+               kept<MeshPointer>(mesh));
 }
 
 py::array_t<double> rest_positions_of(const Mesh& mesh) {
-  py::array_t<double> positions({py::ssize_t(mesh.element_count()), py::ssize_t(3)});
-  double* out = positions.mutable_data();
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    out = std::ranges::copy(mesh.rest_position(e), out).out;
-  }
-  return positions;
+  return array_of_points(mesh, [&](ElementId e) { return mesh.rest_position(e); });
 }
 
 py::array_t<double> rest_lengths_of(const Mesh& mesh) {
@@ -76,16 +61,8 @@ std::string mesh_in_words(const Mesh& mesh) {
          axes_of(mesh) + ">";
 }
 
-py::tuple link_of(const Mesh& mesh, const py::object& id) {
-  const LinkId link = id_of(id, "link");
-  check_links(mesh, std::span(&link, 1));
-  return py::make_tuple(mesh.links[link][0], mesh.links[link][1]);
-}
-
-std::optional<LinkId> link_between(const Mesh& mesh, const py::object& a, const py::object& b) {
-  const std::array ends{id_of(a, "element"), id_of(b, "element")};
-  check_elements(mesh, ends);
-  return find_link(mesh, ends[0], ends[1]);
+std::optional<LinkId> link_between(const MeshObject& one, Element a, Element b) {
+  return find_link(*one.mesh, a.in(*one.mesh), b.in(*one.mesh));
 }
 
 std::uint32_t size_of(const py::object& value, const char* name) {
@@ -109,14 +86,14 @@ MeshObjectPointer mesh_from(const py::object& positions, const py::object& links
 }
 
 void add_content(MeshClass& mesh) {
-  mesh.def_property_readonly("element_count", on_mesh([](const Mesh& one) { return one.element_count(); }),
+  mesh.def_property_readonly("element_count", on_mesh(&Mesh::element_count),
                              "Number of elements. Their ids are 0 to element_count - 1.")
-      .def_property_readonly("link_count", on_mesh([](const Mesh& one) { return one.link_count(); }),
+      .def_property_readonly("link_count", on_mesh(&Mesh::link_count),
                              "Number of links. Their ids are 0 to link_count - 1.")
       .def_property_readonly(
           "links", [](const MeshObject& one) { return shown_groups(one.mesh, std::span(one.mesh->links)); },
-          "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32.\n"
-          "A read-only view.")
+          "The two elements of each link, the smaller id first: shape (link_count, 2), dtype uint32. A read-only\n"
+          "view.")
       .def_property_readonly(
           "triangles",
           [](const MeshObject& one) {
@@ -131,26 +108,34 @@ void add_content(MeshClass& mesh) {
           "Corners of the hexahedra: shape (n, 8), dtype uint32. A read-only view.")
       .def("rest_positions", on_mesh(&rest_positions_of),
            "Returns the positions at rest: shape (element_count, 3), dtype float64 (mesh units). A copy.")
-      .def("rest_position",
-           on_element([](const Mesh& one, ElementId element) { return tuple_of(one.rest_position(element)); }),
-           py::arg("element"), "Returns the position (x, y, z) of an element at rest (mesh units).")
+      .def(
+          "rest_position",
+          [](const MeshObject& one, Element element) {
+            return tuple_of(one.mesh->rest_position(element.in(*one.mesh)));
+          },
+          py::arg("element"), "Returns the position (x, y, z) of an element at rest (mesh units).")
       .def("rest_lengths", on_mesh(&rest_lengths_of),
            "Returns the length of each link at rest: shape (link_count,), dtype float64 (mesh units). A copy.");
 }
 
 void add_connectivity(MeshClass& mesh) {
-  mesh.def("neighbours",
-           on_element([](const Mesh& one, ElementId element) { return array_of(one.neighbours_of(element)); }),
-           py::arg("element"),
-           "Returns the elements that an element is linked to: in the order of the file if it lists them (.dat),\n"
-           "otherwise ascending. Shape (n,), dtype uint32. A copy.")
+  mesh.def(
+          "neighbours",
+          [](const MeshObject& one, Element element) {
+            return array_of(one.mesh->neighbours_of(element.in(*one.mesh)));
+          },
+          py::arg("element"),
+          "Returns the elements that an element is linked to: in the order of the file if it lists them (.dat),\n"
+          "otherwise ascending. Shape (n,), dtype uint32. A copy.")
       .def(
-          "link", [](const MeshObject& one, const py::object& id) { return link_of(*one.mesh, id); }, py::arg("link"),
-          "Returns the two elements of a link, the smaller id first.")
-      .def(
-          "find_link",
-          [](const MeshObject& one, const py::object& a, const py::object& b) { return link_between(*one.mesh, a, b); },
-          py::arg("a"), py::arg("b"), "Returns the id of the link between two elements, or None.")
+          "link",
+          [](const MeshObject& one, Link link) {
+            const auto [first, second] = one.mesh->links[link.in(*one.mesh)];
+            return py::make_tuple(first, second);
+          },
+          py::arg("link"), "Returns the two elements of a link, the smaller id first.")
+      .def("find_link", &link_between, py::arg("a"), py::arg("b"),
+           "Returns the id of the link between two elements, or None.")
       .def(
           "side", [](const MeshObject& one, const std::string& name) { return array_of(elements_at(*one.mesh, name)); },
           py::arg("name"),
@@ -160,23 +145,22 @@ void add_connectivity(MeshClass& mesh) {
 }
 
 void add_facts(MeshClass& mesh) {
-  mesh.def_property_readonly("mean_rest_length", on_mesh([](const Mesh& one) { return one.mean_link_length; }),
+  mesh.def_property_readonly("mean_rest_length", on_mesh(&Mesh::mean_link_length),
                              "Mean length of the links at rest (mesh units); 0 without links.")
       .def_property_readonly(
           "bounds", on_mesh([](const Mesh& one) { return py::make_tuple(tuple_of(one.box[0]), tuple_of(one.box[1])); }),
           "Lowest and highest corner (x, y, z) of the box around the rest positions (mesh units).")
-      .def_property_readonly("object_dimension", on_mesh([](const Mesh& one) { return one.object_dimension; }),
+      .def_property_readonly("object_dimension", on_mesh(&Mesh::object_dimension),
                              "1 for a chain, 2 for a surface, 3 for a volume.")
-      .def_property_readonly("space_dimension", on_mesh([](const Mesh& one) { return one.space_dimension; }),
+      .def_property_readonly("space_dimension", on_mesh(&Mesh::space_dimension),
                              "Number of coordinates that exist: on a line there is no y, in a plane no z.")
       .def_property_readonly("axes", on_mesh(&axes_of), "The axes that exist: 'xyz', or 'xy' in a plane.")
-      .def_property_readonly("part_count", on_mesh([](const Mesh& one) { return one.part_count; }),
-                             "Number of parts that no link joins.")
+      .def_property_readonly("part_count", on_mesh(&Mesh::part_count), "Number of parts that no link joins.")
       .def_property_readonly("lattice", on_mesh([](const Mesh& one) -> py::object {
                                return one.lattice ? py::object(py::tuple(py::cast(one.lattice->size))) : py::none();
                              }),
                              "Numbers of elements along x, y and z, if the elements are in a lattice, or None.")
-      .def_property_readonly("is_grid", on_mesh([](const Mesh& one) { return one.is_grid; }),
+      .def_property_readonly("is_grid", on_mesh(&Mesh::is_grid),
                              "True for a lattice whose links run along the axes only. 3D ChainMail needs one.")
       .def_property_readonly(
           "remark", [](const MeshObject& one) { return one.remark; },
@@ -189,55 +173,40 @@ void add_facts(MeshClass& mesh) {
       .def("__repr__", on_mesh(&mesh_in_words));
 }
 
-/// Adds a function that generates a mesh of a kind. `sizes` are the names of its first arguments, one to three.
-void add_generator(py::module_& module, const char* name, MeshKind kind, const std::vector<const char*>& sizes,
-                   const char* help) {
-  const auto make = [kind, sizes](const std::array<py::object, 3>& given, double spacing, std::optional<int> space) {
-    MeshRecipe recipe{kind, {1, 1, 1}, spacing, space};
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      recipe.size[i] = size_of(given[i], sizes[i]);
-    }
+/// Adds a function that generates a mesh of a kind. `sizes` are the names of its first arguments.
+template <class... Name>
+void add_generator(py::module_& module, const char* name, MeshKind kind, const char* help, Name... sizes) {
+  const auto make = [=](std::conditional_t<true, const py::object&, Name>... given, double spacing,
+                        std::optional<int> space_dimension) {
+    MeshRecipe recipe{kind, {1, 1, 1}, spacing, space_dimension};
+    std::size_t i = 0;
+    ((recipe.size[i++] = size_of(given, sizes)), ...);
     return object_of(generate(recipe));
   };
-  using Size = const py::object&;
-  using Space = std::optional<int>;
-  const py::arg_v spacing = py::arg("spacing") = MeshRecipe().spacing, space = py::arg("space_dimension") = py::none();
-  if (sizes.size() == 1) {
-    module.def(
-        name, [make](Size a, double h, Space to) { return make({a}, h, to); }, py::arg(sizes[0]), py::kw_only(),
-        spacing, space, help);
-  } else if (sizes.size() == 2) {
-    module.def(
-        name,
-        [make](Size a, Size b, double h, Space to) {
-          return make({a, b}, h, to);
-        },
-        py::arg(sizes[0]), py::arg(sizes[1]), py::kw_only(), spacing, space, help);
-  } else {
-    module.def(
-        name,
-        [make](Size a, Size b, Size c, double h, Space to) {
-          return make({a, b, c}, h, to);
-        },
-        py::arg(sizes[0]), py::arg(sizes[1]), py::arg(sizes[2]), py::kw_only(), spacing, space, help);
-  }
+  module.def(name, make, py::arg(sizes)..., py::kw_only(), py::arg("spacing") = MeshRecipe().spacing,
+             py::arg("space_dimension") = py::none(), help);
 }
 
 void add_generators(py::module_& module) {
   add_generator(
-      module, "make_line", MeshKind::line, {"length"},
+      module, "make_line", MeshKind::line,
       "Returns a chain of elements along x.\n\n"
       "`spacing` is the distance between neighbours (mesh units), above 0. `space_dimension` is the number of\n"
-      "coordinates, 1 to 3: 3 lets the object leave its line or plane. Default: as many as it extends along.");
-  add_generator(module, "make_grid", MeshKind::grid, {"width", "height"},
-                "Returns a grid in the plane of x and y, with links along the axes. See make_line() for the options.");
-  add_generator(
-      module, "make_cloth", MeshKind::cloth, {"width", "height"},
-      "Returns a sheet of triangles: a grid whose squares are split by a diagonal. See make_line() for the options.");
-  add_generator(module, "make_block", MeshKind::block, {"width", "height", "depth"},
-                "Returns a block of elements with links along the three axes. See make_line() for the options.");
-  add_generator(module, "make_tetra", MeshKind::tetra, {"width", "height", "depth"},
-                "Returns a block of tetrahedra: each cube is split into six. See make_line() for the options.");
+      "coordinates, 1 to 3: 3 lets the object leave its line or plane. Default: as many as it extends along.",
+      "length");
+  add_generator(module, "make_grid", MeshKind::grid,
+                "Returns a grid in the plane of x and y, with links along the axes. See make_line() for the options.",
+                "width", "height");
+  add_generator(module, "make_cloth", MeshKind::cloth,
+                "Returns a sheet of triangles: a grid whose squares are split by a diagonal. See make_line() for\n"
+                "the options.",
+                "width", "height");
+  add_generator(module, "make_block", MeshKind::block,
+                "Returns a block of elements with links along the three axes. See make_line() for the options.",
+                "width", "height", "depth");
+  add_generator(module, "make_tetra", MeshKind::tetra,
+                "Returns a block of tetrahedra: each cube is split into six. See make_line() for the options.", "width",
+                "height", "depth");
 }
 
 // Files
@@ -258,8 +227,7 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
   options.data_outside = data_outside;
   options.weld = weld;
   options.import_program = import_program;
-  const Progress watched = job_or_new(job);
-  OpenedMesh opened = run_long(watched, progress, [&] { return open_mesh(path, options, watched); });
+  OpenedMesh opened = run_long(job, progress, [&](const Progress& run) { return open_mesh(path, options, run); });
   const std::string flaws = in_words(opened.flaws);
   const char* const between = opened.remark.empty() || flaws.empty() ? "" : "; ";
   return std::make_shared<MeshObject>(
@@ -267,33 +235,26 @@ MeshObjectPointer read_mesh(const std::filesystem::path& path,
 }
 
 void write_state(const std::filesystem::path& path, const MeshState& state) {
-  const Progress job = Progress::watched();
-  run_long(job, py::none(), [&] { save_mesh(path, state, job); });
+  run_long(nullptr, py::none(), [&](const Progress& run) { save_mesh(path, state, run); });
 }
 
-void write_body(const std::filesystem::path& path, Object& object) {
-  const UseObject use(object);
-  const Body& body = object.body();
+void write_body(const std::filesystem::path& path, const Used<Object>& object) {
+  const Body& body = object->body();
   write_state(path, {body.mesh(), body.cuts(), body.positions(), body.softness()});
 }
 
 void write_rest(const std::filesystem::path& path, const MeshObject& mesh) {
   const Softness softness{{}, mesh.softness};
-  const Cuts cuts;
-  write_state(path, {*mesh.mesh, cuts, rest_positions(*mesh.mesh), softness});
+  write_state(path, {*mesh.mesh, Cuts(), rest_positions(*mesh.mesh), softness});
 }
 
 py::list rows_of_formats() {
   py::list rows;
   for (const MeshFormat& format : mesh_formats()) {
-    py::dict row;
-    row["name"] = format.name;
-    row["endings"] = py::str(format.endings.data(), format.endings.size()).attr("split")();
-    row["content"] = format.help;
-    row["reads"] = format.reads();
-    row["writes"] = format.writes();
-    row["holds_positions"] = format.holds_positions;
-    rows.append(row);
+    const py::str endings(format.endings.data(), format.endings.size());
+    rows.append(py::dict(py::arg("name") = format.name, py::arg("endings") = endings.attr("split")(),
+                         py::arg("content") = format.help, py::arg("reads") = format.reads(),
+                         py::arg("writes") = format.writes(), py::arg("holds_positions") = format.holds_positions));
   }
   return rows;
 }
@@ -336,10 +297,9 @@ void add_mesh(py::module_& module) {
       py::arg("space_dimension") = py::none(),
       "Returns a mesh from arrays, which are copied.\n\n"
       "`positions` has the shape (n, 3), (n, 2) or (n, 1): x, y and z at rest (mesh units). The others are ids:\n"
-      "`links` (m, 2), `triangles` (k, 3), `tetrahedra` (k, 4) and `hexahedra` (k, 8). The edges of faces and\n"
-      "cells are links, too. Raises Error for a wrong shape or type, a coordinate that is not finite, an id\n"
-      "without a position, a link, face or cell that uses an element twice or is there twice, and if there is\n"
-      "no link.");
+      "`links` (m, 2), `triangles` (k, 3), `tetrahedra` (k, 4) and `hexahedra` (k, 8). The edges of faces and cells\n"
+      "are links, too. Raises Error for a wrong shape or type, a coordinate that is not finite, an id without a\n"
+      "position, a link, face or cell that uses an element twice or is there twice, and if there is no link.");
 }
 
 }  // namespace chainmail::python

@@ -8,40 +8,35 @@ const MeshPointer& checked(const MeshObject& mesh, Precision precision) {
   return mesh.mesh;
 }
 
+/// Some methods store displacements or turned coordinates, which a view would show instead of positions.
+bool keeps_storage(const AlgorithmInfo& next, const Body& now) {
+  const bool works_in_axes = next.family() == Family::chainmail;
+  return stores_displacements(next, now) == now.stores_displacements() &&
+         (works_in_axes == now.works_in_axes() || !now.softness().axes.is_turned());
+}
+
 }  // namespace
 
 Object::Object(MeshObjectPointer mesh, Precision precision)
-    : mesh_(std::move(mesh)), deformer_(checked(*mesh_, precision), Algorithm::natural_queue, precision) {
+    : Busy("body"), mesh_(std::move(mesh)), deformer_(checked(*mesh_, precision), Algorithm::natural_queue, precision) {
   Softness softness = standard_softness();
   softness.links = mesh_->softness;
   body().set_softness(softness);
   deformer_.set_progress(job_);
 }
 
-Object::Object(const Object& other) : mesh_(other.mesh_), deformer_(other.deformer_.copy()) {
+Object::Object(const Object& other) : Busy("body"), mesh_(other.mesh_), deformer_(other.deformer_.copy()) {
   deformer_.set_progress(job_);
 }
 
-void Object::check_no_views(std::string_view before) const {
+void Object::check_no_views(const char* before) const {
   if (views_ > 0) {
     throw Error("body", "a view of its positions is in use",
-                "delete the view or replace it by positions(), then " + std::string(before));
+                std::string("delete the view or replace it by positions(), then ") + before);
   }
 }
 
-/// Some methods store displacements or turned coordinates, which a view would show instead of positions.
-void Object::check_views(Algorithm algorithm) {
-  const Body& now = deformer_.body();
-  const AlgorithmInfo& next = info(algorithm);
-  const bool works_in_axes = next.family() == Family::chainmail;
-  const bool stays = stores_displacements(next, now) == now.stores_displacements() &&
-                     (works_in_axes == now.works_in_axes() || !now.softness().axes.is_turned());
-  if (!stays) {
-    check_no_views("change the method");
-  }
-}
-
-void Object::attach(std::string_view method) {
+void Object::attach(Algorithm method) {
   if (is_attached_) {
     throw Error("body", "it has a deformer already", "use that one and its set_method(), or a copy of the body");
   }
@@ -51,11 +46,12 @@ void Object::attach(std::string_view method) {
   is_attached_ = true;
 }
 
-void Object::set_method(std::string_view method) {
-  const Algorithm algorithm = algorithm_of(method);
-  check(algorithm, mesh());
-  check_views(algorithm);
-  deformer_.set_algorithm(algorithm);
+void Object::set_method(Algorithm method) {
+  check(method, mesh());
+  if (!keeps_storage(info(method), body())) {
+    check_no_views("change the method");
+  }
+  deformer_.set_algorithm(method);
 }
 
 void Object::set_job(const Progress& job) {

@@ -18,10 +18,10 @@ namespace chainmail::python {
 
 // What Python holds: a few objects of core together, with the marks that keep threads apart.
 
-/// True while a thread uses the owner.
+/// What one thread at a time may use. Python lets another thread run while a pass has released its lock.
 class Busy {
  public:
-  Busy() = default;
+  explicit Busy(const char* name) : name_(name) {}
   Busy(const Busy&) = delete;
   Busy& operator=(const Busy&) = delete;
   ~Busy() = default;
@@ -29,26 +29,33 @@ class Busy {
   bool is_used() const { return is_used_; }
 
  private:
-  friend class Use;
+  template <class Owner>
+  friend class Used;
+
+  const char* name_;  // in errors
   std::atomic<bool> is_used_ = false;
 };
 
-/// Marks an object as used while it exists. One thread at a time may use an object; Python lets another thread run
-/// while a pass has released its lock.
-class Use {
+/// Marks what an object of Python refers to as used while this exists. A function that takes one as its argument marks
+/// the argument during the call.
+template <class Owner>
+class Used {
  public:
-  /// Throws Error if the object is in use. `what` is its name in the error.
-  Use(Busy& busy, const char* what) : busy_(busy) {
-    if (busy.is_used_.exchange(true)) {
-      throw Error(what, "another thread uses it", "wait until that thread is done, or give each thread a copy");
+  /// Throws Error if another thread uses it.
+  explicit Used(Owner& owner) : one_(owner.used()) {
+    if (one_.is_used_.exchange(true)) {
+      throw Error(one_.name_, "another thread uses it", "wait until that thread is done, or give each thread a copy");
     }
   }
-  Use(const Use&) = delete;
-  Use& operator=(const Use&) = delete;
-  ~Use() { busy_.is_used_ = false; }
+  Used(const Used&) = delete;
+  Used& operator=(const Used&) = delete;
+  ~Used() { one_.is_used_ = false; }
+
+  auto& operator*() const { return one_; }
+  auto* operator->() const { return &one_; }
 
  private:
-  Busy& busy_;
+  decltype(std::declval<Owner&>().used()) one_;
 };
 
 /// A mesh, with what its file says beside it.
@@ -61,7 +68,7 @@ using MeshObjectPointer = std::shared_ptr<MeshObject>;
 
 /// A body: alone, or moved by the one deformer that is attached to it. chainmail.Body and chainmail.Deformer share one,
 /// so a change through either of them is a change of the same object.
-class Object {
+class Object : public Busy {
  public:
   /// Makes an object at rest. Throws Error if the mesh is out of the range of the precision.
   Object(MeshObjectPointer mesh, Precision precision);
@@ -70,20 +77,17 @@ class Object {
   Object& operator=(const Object&) = delete;
   ~Object() = default;
 
-  Busy& busy() { return busy_; }
+  Object& used() { return *this; }
   const MeshObjectPointer& mesh_object() const { return mesh_; }
   const Mesh& mesh() const { return *mesh_->mesh; }
   Body& body() { return deformer_.body(); }
   Deformer& deformer() { return deformer_; }
 
-  /// Attaches a deformer. Throws Error if there is one, if there is no such method, and if the method does not work on
-  /// the mesh.
-  void attach(std::string_view method);
+  /// Attaches a deformer. Throws Error if there is one, and if the method does not work on the mesh.
+  void attach(Algorithm method);
   void detach() { is_attached_ = false; }
-  void set_method(std::string_view method);
-  std::string_view method() const { return info(deformer_.algorithm()).offered_name(); }
-  /// True if a move may take long, as with the methods of elasticity, which prepare.
-  bool is_slow() const { return info(deformer_.algorithm()).family() == Family::elastic; }
+  void set_method(Algorithm method);
+  Algorithm method() const { return deformer_.algorithm(); }
 
   const Progress& job() const { return job_; }
   void set_job(const Progress& job);
@@ -96,12 +100,9 @@ class Object {
   void add_view() { ++views_; }
   void remove_view() { --views_; }
   /// Throws Error if a view exists.
-  void check_no_views(std::string_view before) const;
+  void check_no_views(const char* before) const;
 
  private:
-  void check_views(Algorithm algorithm);
-
-  Busy busy_;
   MeshObjectPointer mesh_;
   Deformer deformer_;
   bool is_attached_ = false;
@@ -112,23 +113,15 @@ class Object {
 };
 using ObjectPointer = std::shared_ptr<Object>;
 
-/// Marks a body as used.
-class UseObject : public Use {
- public:
-  explicit UseObject(Object& object) : Use(object.busy(), "body") {}
-};
-
 /// The Python class Deformer: the right to move an object.
 class Mover {
  public:
-  Mover(ObjectPointer object, std::string_view method) : object_(std::move(object)) {
-    const UseObject use(*object_);
-    object_->attach(method);
-  }
+  Mover(ObjectPointer object, Algorithm method) : object_(std::move(object)) { Used<Object>(*object_)->attach(method); }
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
   ~Mover() { object_->detach(); }
 
+  Object& used() const { return *object_; }
   const ObjectPointer& object() const { return object_; }
 
  private:
@@ -136,13 +129,13 @@ class Mover {
 };
 
 /// A handle, with the mesh that its elements belong to.
-struct HeldHandle {
+struct HeldHandle : Busy {
   HeldHandle(Object& object, std::vector<ElementId> elements)
-      : handle(object.body(), std::move(elements)), mesh(object.mesh_object()->mesh) {}
+      : Busy("handle"), handle(object.body(), std::move(elements)), mesh(object.mesh_object()->mesh) {}
+  HeldHandle& used() { return *this; }
 
   Handle handle;
   MeshPointer mesh;
-  Busy busy;
 };
 
 /// A pose as a user gives it: its rotation is an axis and an angle.

@@ -42,6 +42,17 @@ py::bytes bytes_of(const std::vector<Number>& numbers) {
   return bytes;
 }
 
+/// Returns a text; nothing if it is not valid Unicode.
+std::optional<std::string> text_of(py::handle text) {
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes == nullptr) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return std::string(bytes, std::size_t(size));
+}
+
 /// The parts of a state, which may come from outside. Each of these functions throws Error if the part is missing or
 /// damaged.
 class Parts {
@@ -60,11 +71,8 @@ class Parts {
 
   template <class Number>
   std::vector<Number> numbers(const char* name) const {
-    const py::object part = at(name);
-    if (PyBytes_Check(part.ptr()) == 0) {
-      refuse_part(name);
-    }
-    const std::string_view bytes(PyBytes_AS_STRING(part.ptr()), std::size_t(PyBytes_GET_SIZE(part.ptr())));
+    const auto part = at<py::bytes>(name);
+    const std::string_view bytes = part;
     if (!bytes.starts_with(mark<Number>) || (bytes.size() - 1) % sizeof(Number) != 0) {
       refuse_part(name);
     }
@@ -72,50 +80,24 @@ class Parts {
     std::ranges::copy(bytes.substr(1), reinterpret_cast<char*>(numbers.data()));
     return numbers;
   }
-
-  double real(const char* name) const {
-    const py::object part = at(name);
-    if (PyFloat_Check(part.ptr()) == 0) {
-      refuse_part(name);
-    }
-    return PyFloat_AS_DOUBLE(part.ptr());
-  }
-
-  std::int64_t whole(const char* name) const {
-    const py::object part = at(name);
-    const auto whole = PyLong_Check(part.ptr()) != 0 ? whole_of(part) : std::nullopt;
-    if (!whole) {
-      refuse_part(name);
-    }
-    return *whole;
-  }
-
-  std::string text(const char* name) const {
-    const py::object part = at(name);
-    auto text = PyUnicode_Check(part.ptr()) != 0 ? text_of(part) : std::nullopt;
-    if (!text) {
-      refuse_part(name);
-    }
-    return std::move(*text);
-  }
+  double real(const char* name) const { return at<py::float_>(name); }
+  std::int64_t whole(const char* name) const { return value_of(name, whole_of(at<py::int_>(name))); }
+  std::string text(const char* name) const { return value_of(name, text_of(at<py::str>(name))); }
 
  private:
-  py::object at(const char* name) const {
-    if (!parts_.contains(name)) {
+  template <class Type>
+  Type at(const char* name) const {
+    if (!parts_.contains(name) || !py::isinstance<Type>(parts_[name])) {
       refuse_part(name);
     }
-    return parts_[name];
+    return py::reinterpret_borrow<Type>(parts_[name]);
   }
-
-  /// Returns a text; nothing if it is not valid Unicode.
-  static std::optional<std::string> text_of(py::handle text) {
-    Py_ssize_t size = 0;
-    const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
-    if (bytes == nullptr) {
-      PyErr_Clear();
-      return std::nullopt;
+  template <class Value>
+  static Value value_of(const char* name, const std::optional<Value>& value) {
+    if (!value) {
+      refuse_part(name);
     }
-    return std::string(bytes, std::size_t(size));
+    return *value;
   }
 
   py::dict parts_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "python/module.h"
+#include "python/object.h"
 
 namespace chainmail::python {
 

@@ -1,18 +1,19 @@
 // Reports as tables: compare, calibrate, ramp.
-#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <system_error>
 #include <variant>
 
+#include "calibrate/calibrate.h"
 #include "files/results/report_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
-#include "python/arrays.h"
+#include "python/arguments.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
@@ -21,15 +22,21 @@
 #include "report/page/physics_figures.h"
 #include "report/page/physics_html.h"
 #include "report/page/physics_plot.h"
+#include "report/page/ramp_page.h"
 #include "report/page/svg.h"
 #include "report/run/drags.h"
 #include "report/run/physics_cases.h"
 #include "report/run/ramp.h"
-#ifdef CHAINMAIL_HAS_CALIBRATE
-#include "calibrate/calibrate.h"
-#endif
 
 namespace chainmail::python {
+
+enum class Reference { exact, physics };
+template <>
+const Words& words<Reference>() {
+  static const Words all{"against", {"exact", "physics"}};
+  return all;
+}
+
 namespace {
 
 using report::Motion;
@@ -41,17 +48,15 @@ struct Drag {
   std::vector<Motion> path;
 };
 
-/// Returns the algorithms of names, which must be different.
-std::vector<Algorithm> algorithms_of(const py::sequence& methods) {
-  std::vector<Algorithm> algorithms;
-  for (const std::string& name : list_of<std::string>(methods, "methods")) {
-    const Algorithm algorithm = algorithm_of(name);
-    if (std::ranges::find(algorithms, algorithm) != algorithms.end()) {
-      throw Error("method " + in_quotes(name), "it is given twice", "name each method once");
+/// Returns the methods of names, which must be different.
+std::vector<Algorithm> methods_of(const py::sequence& names) {
+  std::vector<Algorithm> methods = list_of<Algorithm>(names, "methods");
+  for (auto one = methods.begin(); one != methods.end(); ++one) {
+    if (std::find(methods.begin(), one, *one) != one) {
+      throw Error("method " + in_quotes(info(*one).offered_name()), "it is given twice", "name each method once");
     }
-    algorithms.push_back(algorithm);
   }
-  return algorithms;
+  return methods;
 }
 
 /// Returns a motion from coordinates, or from coordinates and a rotation.
@@ -67,8 +72,8 @@ Motion motion_of(py::handle step) {
 
 constexpr std::size_t most_motions = 1'000'000;
 
-Drag drag_from(const std::string& name, const py::object& elements, const py::iterable& path) {
-  Drag drag{name, ids_of(elements, "element"), {}};
+Drag drag_from(const std::string& name, const Elements& elements, const py::iterable& path) {
+  Drag drag{name, elements, {}};
   const py::iterator steps = py::iter(path);
   while (const py::object step = next_of(steps)) {
     if (drag.path.size() == most_motions) {
@@ -87,8 +92,6 @@ py::list path_of(const Drag& drag) {
   }
   return path;
 }
-
-enum class Reference { exact, physics };
 
 struct CompareOptions {
   report::PhysicsOptions physics;  // with the contest of both references
@@ -128,8 +131,6 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-std::vector<report::PlotFile> plots_of(const report::Comparison& /*report*/) { return {}; }
-
 /// Writes all files of a report, or none.
 template <class Report>
 void write_report(const std::filesystem::path& folder, const Report& report) {
@@ -140,7 +141,10 @@ void write_report(const std::filesystem::path& folder, const Report& report) {
   outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, report, origin); });
   outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, report, origin); });
   outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, report); });
-  const std::vector<report::PlotFile> plots = plots_of(report);
+  std::vector<report::PlotFile> plots;  // until they are written
+  if constexpr (std::is_same_v<Report, report::PhysicsReport>) {
+    plots = plots_of(report);
+  }
   for (const report::PlotFile& one : plots) {
     outputs.add(folder / one.name, [&](std::ostream& out) { write_svg(out, one.plot, report::file_ink); });
   }
@@ -165,161 +169,164 @@ AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const C
                                              : finished(report::compare_with_physics(cases, options.physics, progress));
 }
 
-// The rows of the table. All have the same columns; a figure that was not measured is None.
+// Tables: a dictionary of columns, a list for each name, all of one length. pandas.DataFrame takes it as it is.
 
-template <class Figures>
-std::optional<double> part(const std::optional<Figures>& figures, double Figures::*number) {
-  return figures ? std::optional((*figures).*number) : std::nullopt;
+py::object to_python(const report::FigureValue& value) {
+  return std::visit(
+      []<class Value>(const Value& one) -> py::object {
+        if constexpr (std::is_same_v<Value, TimeSpread>) {
+          return py::float_(one.median);
+        } else {
+          return py::cast(one);
+        }
+      },
+      static_cast<const report::FigureValue::variant&>(value));
 }
 
-/// A row with nothing measured.
-struct Row {
-  std::string drag, method, label;
-  int sweeps = 0;
-  bool equilibrium = false;
-  std::string refusal;
-  std::optional<TimeSpread> ms;
-  std::optional<double> prepare_ms;
-  std::optional<report::Errors> errors = {};
-  std::optional<PhysicalError> to_physics = {};
+void put(py::dict& table, const char* column, const py::object& value) {
+  if (!table.contains(column)) {
+    table[column] = py::list();
+  }
+  table[column].cast<py::list>().append(value);
+}
+
+/// Returns a figure of a row by its column in CSV; none if there is no such figure.
+template <class Row>
+py::object figure_of(std::span<const report::Figure<Row>> figures, std::string_view column, const Row& row) {
+  const auto found = std::ranges::find(figures, column, &report::Figure<Row>::column);
+  return column.empty() || found == figures.end() ? py::none() : to_python(found->value(row));
+}
+
+/// A column of the table, and the figures of both reports that it shows. Empty: it was not measured, and is None.
+struct Column {
+  const char* name;
+  std::string_view exact, physics = {};
+  std::string_view of_one_move = physics;  // a drag of one move has no later ones
+  bool is_time = false;
 };
 
-void put_row(Table& table, const Row& row) {
-  const auto& errors = row.errors;
-  const auto violation = errors ? std::optional(errors->violation) : std::nullopt;
-  const auto to_exact = errors ? errors->to_exact : std::nullopt;
-  const auto to_double = errors ? std::optional(errors->float_to_double) : std::nullopt;
-  table.put("drag", row.drag);
-  table.put("method", row.method);
-  table.put("label", row.label);
-  table.put("sweeps", row.sweeps);
-  table.put("equilibrium", row.equilibrium);
-  table.put("refusal", row.refusal);
-  table.put("ms_per_move", part(row.ms, &TimeSpread::median));
-  table.put("ms_lower_quartile", part(row.ms, &TimeSpread::lower_quartile));
-  table.put("ms_upper_quartile", part(row.ms, &TimeSpread::upper_quartile));
-  table.put("prepare_ms", row.prepare_ms);
-  table.put("violation_max", part(violation, &Violation::max));
-  table.put("violation_rms", part(violation, &Violation::rms));
-  table.put("violation_fraction", part(violation, &Violation::fraction));
-  table.put("exact_distance_max", part(to_exact, &Distance::max));
-  table.put("exact_distance_rms", part(to_exact, &Distance::rms));
-  table.put("energy_over_exact", errors ? errors->energy_over_exact : std::nullopt);
-  table.put("float_double_max", part(to_double, &Distance::max));
-  table.put("float_double_rms", part(to_double, &Distance::rms));
-  table.put("relative_error", part(row.to_physics, &PhysicalError::relative));
-  table.put("physical_error_rms", part(row.to_physics, &PhysicalError::rms));
-  table.put("physical_error_max", part(row.to_physics, &PhysicalError::max));
+constexpr Column columns[]{
+    {"sweeps", "sweeps", "sweeps"},
+    {"equilibrium", "equilibrium", "equilibrium"},
+    {"refusal", "refusal", "refusal"},
+    {"ms_per_move", "ms", "ms", "first_ms", true},
+    {"ms_lower_quartile", "ms_lower_quartile", "ms_lower_quartile", "first_lower_quartile", true},
+    {"ms_upper_quartile", "ms_upper_quartile", "ms_upper_quartile", "first_upper_quartile", true},
+    {"prepare_ms", "", "prepare_ms", "prepare_ms", true},
+    {"violation_max", "violation_max"},
+    {"violation_rms", "violation_rms"},
+    {"violation_fraction", "violation_fraction"},
+    {"exact_distance_max", "exact_distance_max"},
+    {"exact_distance_rms", "exact_distance_rms"},
+    {"energy_over_exact", "energy_over_exact"},
+    {"float_double_max", "float_double_max"},
+    {"float_double_rms", "float_double_rms"},
+    {"relative_error", "", "relative"},
+    {"physical_error_rms", "", "error_rms"},
+    {"physical_error_max", "", "error_max"},
+};
+
+void put_names(py::dict& table, const std::string& drag, std::string_view method, const std::string& label) {
+  put(table, "drag", py::str(drag));
+  put(table, "method", py::cast(method));
+  put(table, "label", py::str(label));
 }
 
-void put_rows(Table& table, const report::Comparison& comparison) {
+py::dict table_of(const report::Comparison& comparison) {
+  py::dict table;
   for (const report::DragResult& drag : comparison.cases.at(0).drags) {
-    for (const auto& [contestant, measured, refusal] : drag.entries) {
-      Row row{drag.name,
-              std::string(info(contestant.algorithm).offered_name()),
-              label(contestant),
-              contestant.sweeps,
-              contestant.equilibrium,
-              refusal,
-              {},
-              {}};
-      if (measured) {
-        row.ms = measured->ms_per_move;
-        row.errors = measured->errors;
+    for (const report::Entry& entry : drag.entries) {
+      put_names(table, drag.name, info(entry.contestant.algorithm).offered_name(), label(entry.contestant));
+      for (const Column& column : columns) {
+        const report::ComparedRow row{&comparison.cases.at(0), &drag, &entry};
+        put(table, column.name, figure_of(report::compared_figures(), column.exact, row));
       }
-      put_row(table, row);
     }
+  }
+  return table;
+}
+
+void put_row(py::dict& table, const report::PhysicsObject& object, const report::PhysicsDrag& drag,
+             const report::PhysicsEntry& entry) {
+  const report::PhysicsRow row{&object, &drag, &entry};
+  for (const Column& column : columns) {
+    const bool is_shown = entry.contestant.algorithm || !column.is_time;  // an object that does not move has no times
+    const std::string_view figure = drag.moves > 1 ? column.physics : column.of_one_move;
+    put(table, column.name, figure_of(report::physics_figures(), is_shown ? figure : "", row));
   }
 }
 
-void put_rows(Table& table, const report::PhysicsReport& comparison) {
-  for (const report::PhysicsDrag& drag : comparison.objects.at(0).drags) {
+py::dict table_of(const report::PhysicsReport& comparison) {
+  py::dict table;
+  const report::PhysicsObject& object = comparison.objects.at(0);
+  for (const report::PhysicsDrag& drag : object.drags) {
     for (const report::PhysicsEntry& entry : drag.entries) {
-      const auto& one = entry.contestant;
-      Row row{drag.name,
-              one.algorithm ? std::string(info(*one.algorithm).offered_name()) : "nothing",
-              label(one),
-              one.sweeps,
-              one.equilibrium,
-              entry.refusal,
-              {},
-              {}};
-      if (const auto& measured = entry.measurement) {
-        row.to_physics = measured->error;
-        if (one.algorithm) {
-          row.ms = drag.moves > 1 ? measured->ms_per_move : measured->first_move;  // one move has no later ones
-          row.prepare_ms = measured->prepare.ms();
-        }
-      }
-      put_row(table, row);
+      const auto& method = entry.contestant.algorithm;
+      put_names(table, drag.name, method ? info(*method).offered_name() : "nothing", label(entry.contestant));
+      put_row(table, object, drag, entry);
     }
     if (!drag.no_reference.empty()) {
-      put_row(table, {drag.name, "", "", 0, false, drag.no_reference, {}, {}});
+      put_names(table, drag.name, "", "");
+      put_row(table, object, drag, {.contestant = {}, .measurement = {}, .refusal = drag.no_reference});
     }
   }
+  return table;
 }
 
-py::dict compare(Object& object, const py::sequence& drags, const py::sequence& methods, const py::sequence& sweeps,
-                 bool equilibrium, double relax_step, const std::string& scheme, const std::string& precision,
-                 std::optional<int> repetitions, double seconds, const std::string& against, const std::string& title,
-                 const std::optional<std::filesystem::path>& folder, const Progress* job, const py::object& progress) {
-  CompareOptions options;
+py::dict compare(const Used<Object>& object, const py::sequence& drags, const py::sequence& methods,
+                 const py::sequence& sweeps, bool equilibrium, double relax_step, RelaxationScheme scheme,
+                 Precision precision, std::optional<int> repetitions, double seconds, Reference against,
+                 const std::string& title, const std::optional<std::filesystem::path>& folder, const Progress* job,
+                 const py::object& progress) {
+  CompareOptions options{.physics = {}, .against = against, .title = title, .folder = folder};
   report::CompareOptions& contest = options.physics.contest;
-  contest.algorithms = algorithms_of(methods);
+  contest.algorithms = methods_of(methods);
   contest.sweeps = list_of<int>(sweeps, "sweeps");
   contest.equilibrium = equilibrium;
   contest.relax_step = relax_step;
-  contest.scheme = named<RelaxationScheme>("scheme", scheme);
-  contest.precision = named<Precision>("precision", precision);
+  contest.scheme = scheme;
+  contest.precision = precision;
   contest.repetitions = repetitions;
   contest.seconds = seconds;
   options.physics.growth_seconds = 0;
-  options.against = static_cast<Reference>(index_of("against", against, {"exact", "physics"}));
-  options.title = title;
-  options.folder = folder;
   if (!(seconds >= 0) || !std::isfinite(seconds)) {
     throw Error("seconds", "the time is not a number from 0", "use a number of seconds");
   }
   check(contest);
   const auto all = list_of<Drag>(drags, "drags");
-  const Progress watched = job_or_new(job);
-  const UseObject use(object);
-  const AnyReport report = run_long(watched, progress, [&] { return compare_bodies(object, all, options, watched); });
-  Table table;
-  std::visit([&](const auto& one) { put_rows(table, one); }, report);
-  return table.columns();
+  const AnyReport report =
+      run_long(job, progress, [&](const Progress& run) { return compare_bodies(*object, all, options, run); });
+  return std::visit([](const auto& one) { return table_of(one); }, report);
 }
 
 // Calibration
 
 #ifdef CHAINMAIL_HAS_CALIBRATE
+constexpr bool has_calibrate = true;
+#else
+constexpr bool has_calibrate = false;
+#endif
 
-void put_errors(Table& table, const char* drags, const TestedDrags& tested) {
-  const auto put = [&](const char* state, const Residual& residual) {
-    table.put("drags", drags);
-    table.put("state", state);
-    table.put("relative", residual.relative);
-    table.put("rms", residual.rms);
-    table.put("max", residual.max);
-  };
-  put("nothing", tested.nothing);
-  put("before", tested.before);
-  put("after", tested.after);
+void put_errors(py::dict& table, const char* drags, const TestedDrags& tested) {
+  using Errors = std::pair<const char*, const Residual&>;
+  for (const auto& [state, residual] :
+       {Errors("nothing", tested.nothing), Errors("before", tested.before), Errors("after", tested.after)}) {
+    put(table, "drags", py::str(drags));
+    put(table, "state", py::str(state));
+    put(table, "relative", py::float_(residual.relative));
+    put(table, "rms", py::float_(residual.rms));
+    put(table, "max", py::float_(residual.max));
+  }
 }
 
 py::dict result_of(const CalibrationOptions& options, const CalibrationResult& found) {
-  Table errors;
+  py::dict errors;
   put_errors(errors, "fitted", found.fitted);
   put_errors(errors, "held_out", found.held_out);
   std::ostringstream json;
   write_json(json, options, found);
-  py::dict result;
-  result["softness"] = found.softness;
-  result["sweeps"] = found.sweeps;
-  result["evaluations"] = found.evaluations;
-  result["errors"] = errors.columns();
-  result["json"] = json.str();
-  return result;
+  return py::dict(py::arg("softness") = found.softness, py::arg("sweeps") = found.sweeps,
+                  py::arg("evaluations") = found.evaluations, py::arg("errors") = errors, py::arg("json") = json.str());
 }
 
 void check_at_least(int lowest, const char* name, int value) {
@@ -328,109 +335,93 @@ void check_at_least(int lowest, const char* name, int value) {
   }
 }
 
-py::dict calibrate(Object& object, const std::string& method, std::uint64_t seed, int drags, int held_out,
-                   int evaluations, int most_sweeps, const std::string& scheme, const Progress* job,
+py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t seed, int drags, int held_out,
+                   int evaluations, int most_sweeps, RelaxationScheme scheme, const Progress* job,
                    const py::object& progress) {
-  check_at_least(1, "drags", drags);
-  check_at_least(1, "held_out", held_out);
-  check_at_least(1, "evaluations", evaluations);
-  check_at_least(0, "most_sweeps", most_sweeps);
-  const UseObject use(object);
-  const Body& body = object.body();
-  CalibrationOptions options{.elastic = body.elastic(),
-                             .pins = {body.pins().begin(), body.pins().end()},
-                             .algorithm = algorithm_of(method),
-                             .seed = seed,
-                             .drags = drags,
-                             .held_out = held_out,
-                             .evaluations = evaluations,
-                             .max_sweeps = most_sweeps,
-                             .not_these = {},
-                             .scheme = named<RelaxationScheme>("scheme", scheme),
-                             .energy = energy_of_links(body.softness().energy)};
-  const Progress watched = job_or_new(job);
-  return result_of(options, run_long(watched, progress, [&] {
-                     return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, watched);
-                   }));
+  if constexpr (!has_calibrate) {
+    throw Error("calibrate", "the library was built without NLopt", "install it, and build it again");
+  } else {
+    check_at_least(1, "drags", drags);
+    check_at_least(1, "held_out", held_out);
+    check_at_least(1, "evaluations", evaluations);
+    check_at_least(0, "most_sweeps", most_sweeps);
+    const Body& body = object->body();
+    const CalibrationOptions options{.elastic = body.elastic(),
+                                     .pins = {body.pins().begin(), body.pins().end()},
+                                     .algorithm = method,
+                                     .seed = seed,
+                                     .drags = drags,
+                                     .held_out = held_out,
+                                     .evaluations = evaluations,
+                                     .max_sweeps = most_sweeps,
+                                     .not_these = {},
+                                     .scheme = scheme,
+                                     .energy = energy_of_links(body.softness().energy)};
+    return result_of(options, run_long(job, progress, [&](const Progress& run) {
+                       return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
+                     }));
+  }
 }
-
-#else
-
-py::dict calibrate(Object& /*object*/, const std::string& /*method*/, std::uint64_t /*seed*/, int /*drags*/,
-                   int /*held_out*/, int /*evaluations*/, int /*most_sweeps*/, const std::string& /*scheme*/,
-                   const Progress* /*job*/, const py::object& /*progress*/) {
-  throw Error("calibrate", "the library was built without NLopt", "install it, and build it again");
-}
-
-#endif
 
 // Ramps
 
-py::dict columns_of(const std::vector<report::RampRow>& rows) {
-  Table table;
-  for (const report::RampRow& row : rows) {
-    table.put("width", row.width);
-    table.put("elements", row.elements);
-    table.put("links", row.links);
-    table.put("method", info(row.algorithm).offered_name());
-    table.put("passes", row.passes);
-    table.put("median_ms", row.median_ms);
-    table.put("p99_ms", row.p99_ms);
-    table.put("mean_moved", row.mean_moved);
-    table.put("repeated", row.repeated);
-    table.put("real_time", row.in_real_time);
+py::dict sizes_of(const report::Ramp& ramp) {
+  py::dict table;
+  for (const report::RampRow& row : ramp.rows) {
+    for (const report::Figure<report::RampRow>& figure : report::ramp_figures()) {
+      const bool is_method = figure.column == "algorithm";
+      put(table, is_method ? "method" : figure.column.data(),
+          is_method ? py::cast(row.algorithm) : to_python(figure.value(row)));
+    }
   }
-  return table.columns();
+  return table;
 }
 
-py::dict columns_of(const std::vector<report::RampVerdict>& verdicts) {
-  Table table;
-  for (const report::RampVerdict& verdict : verdicts) {
-    table.put("method", info(verdict.algorithm).offered_name());
-    table.put("largest_width", verdict.largest_width);
-    table.put("lost", verdict.lost);
-    table.put("growth_exponent", verdict.growth ? std::optional(verdict.growth->power) : std::nullopt);
+py::dict verdicts_of(const report::Ramp& ramp) {
+  py::dict table;
+  for (const report::RampVerdict& verdict : ramp.verdicts) {
+    put(table, "method", py::cast(verdict.algorithm));
+    put(table, "largest_width", py::cast(verdict.largest_width));
+    put(table, "lost", py::cast(verdict.lost));
+    put(table, "growth_exponent", verdict.growth ? py::cast(verdict.growth->power) : py::none());
   }
-  return table.columns();
+  return table;
+}
+
+report::Ramp run_ramp(const report::RampOptions& options, const Progress& job) {
+  const auto tell = [&](const report::RampProgress& at) {
+    job.report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
+  };
+  report::Ramp made = report::ramp(options, tell, job);
+  if (made.stopped) {
+    throw Cancelled();
+  }
+  return made;
 }
 
 py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
-              int moves, const std::string& precision, const LinkSoftness& softness, const Progress* job,
+              int moves, Precision precision, const LinkSoftness& softness, const Progress* job,
               const py::object& progress) {
-  report::RampOptions options;
-  options.algorithms = algorithms_of(methods);
-  options.seed = seed;
-  options.budget = budget;
-  options.largest = largest;
-  options.drags = drags;
-  options.moves = moves;
-  options.precision = named<Precision>("precision", precision);
-  options.softness = softness;
+  const report::RampOptions options{.algorithms = methods_of(methods),
+                                    .seed = seed,
+                                    .budget = budget,
+                                    .softness = softness,
+                                    .precision = precision,
+                                    .largest = largest,
+                                    .drags = drags,
+                                    .moves = moves};
   check(options);
-  const Progress watched = job_or_new(job);
-  const report::Ramp found = run_long(watched, progress, [&] {
-    const auto tell = [&](const report::RampProgress& at) {
-      watched.report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
-    };
-    report::Ramp made = report::ramp(options, tell, watched);
-    if (made.stopped) {
-      throw Cancelled();
-    }
-    return made;
-  });
-  py::dict result;
-  result["sizes"] = columns_of(found.rows);
-  result["methods"] = columns_of(found.verdicts);
-  result["seconds"] = found.seconds;
-  return result;
+  const report::Ramp found = run_long(job, progress, [&](const Progress& run) { return run_ramp(options, run); });
+  return py::dict(py::arg("sizes") = sizes_of(found), py::arg("methods") = verdicts_of(found),
+                  py::arg("seconds") = found.seconds);
 }
 
 void add_drag(py::module_& module) {
   py::class_<Drag> type(
       module, "Drag",
       "A drag from rest: grabs elements, then moves them along a path, one pass per motion.\n\n"
-      "Each motion of the path is a displacement (x, y, z) from where they were grabbed (mesh units), or a\n"
-      "pair of a displacement and a Rotation.");
+      "Each motion of the path is a displacement (x, y, z) from where they were grabbed (mesh units), or a pair of\n"
+      "a displacement and a Rotation.");
   type.def(py::init(&drag_from), py::arg("name"), py::arg("elements"), py::arg("path"))
       .def_readonly("name", &Drag::name, "Name in tables.")
       .def_property_readonly(
@@ -443,7 +434,9 @@ void add_drag(py::module_& module) {
       });
   add_pickling(
       type, [](const Drag& drag) { return py::make_tuple(drag.name, drag.elements, path_of(drag)); },
-      [](const py::tuple& state) { return drag_from(state[0].cast<std::string>(), state[1], state[2]); });
+      [](const py::tuple& state) {
+        return drag_from(state[0].cast<std::string>(), {ids_of(state[1], "element")}, state[2]);
+      });
 }
 
 void add_compare(py::module_& module) {
@@ -452,55 +445,47 @@ void add_compare(py::module_& module) {
       "compare", &compare, py::arg("body"), py::arg("drags") = py::list(), py::kw_only(),
       py::arg("methods") = py::list(), py::arg("sweeps") = py::make_tuple(0),
       py::arg("equilibrium") = defaults.equilibrium, py::arg("relax_step") = defaults.relax_step,
-      py::arg("scheme") = word_for(defaults.scheme), py::arg("precision") = word_for(defaults.precision),
-      py::arg("repetitions") = py::none(), py::arg("seconds") = defaults.seconds, py::arg("against") = "exact",
+      py::arg("scheme") = defaults.scheme, py::arg("precision") = defaults.precision,
+      py::arg("repetitions") = py::none(), py::arg("seconds") = defaults.seconds, py::arg("against") = Reference::exact,
       py::arg("title") = "object", py::arg("folder") = py::none(), py::arg("job") = py::none(),
       py::arg("progress") = py::none(),
       "Compares methods on an object and drags: times, and errors at the end of each drag.\n\n"
-      "The object gives its mesh, cuts, pins, softness and elasticity; drags start at rest, whatever its positions "
-      "are.\n"
-      "Without drags, there are three standard ones. `methods` are names; default: the ChainMail family, and against\n"
-      "`physics` all. `sweeps` are numbers of sweeps of relaxation after each move, a row for each. `against` is "
-      "`exact`\n"
-      "(Exact ChainMail in double) or `physics` (neo-Hookean finite elements; the object needs pins). `seconds` is "
-      "the\n"
-      "time for all runs of one drag, unless `repetitions` is given. `folder` receives report.html, report.json and\n"
-      "report.csv. `progress` is called with the share that is done, 0 to 1.\n\n"
-      "Returns a dictionary of columns (lists of equal length), one row per drag and method, for pandas.DataFrame: "
-      "drag,\n"
-      "method, label, sweeps, equilibrium, refusal (the reason why there is no result), ms_per_move, "
-      "ms_lower_quartile,\n"
-      "ms_upper_quartile, prepare_ms (ms), violation_max, violation_rms (rest lengths), violation_fraction,\n"
-      "exact_distance_max, exact_distance_rms, float_double_max, float_double_rms (mean rest lengths),\n"
-      "energy_over_exact, relative_error, physical_error_rms and physical_error_max. A figure that was not measured "
-      "is\n"
-      "None. All figures except times are the same on every machine.\n\n"
-      "Raises Error for an unknown method, an option out of its range, or a drag that is empty, not finite, or grabs\n"
-      "elements that do not exist or are pinned; against physics also if the object has cuts or no pins; and "
+      "The object gives its mesh, cuts, pins, softness and elasticity; drags start at rest, whatever its positions\n"
+      "are. Without drags, there are three standard ones. `methods` are names; default: the ChainMail family, and\n"
+      "against `physics` all. `sweeps` are numbers of sweeps of relaxation after each move, a row for each.\n"
+      "`against` is `exact` (Exact ChainMail in double) or `physics` (neo-Hookean finite elements; the object needs\n"
+      "pins). `seconds` is the time for all runs of one drag, unless `repetitions` is given. `folder` receives\n"
+      "report.html, report.json and report.csv. `progress` is called with the share that is done, 0 to 1.\n\n"
+      "Returns a dictionary of columns (lists of equal length), one row per drag and method, for pandas.DataFrame:\n"
+      "drag, method, label, sweeps, equilibrium, refusal (the reason why there is no result), ms_per_move,\n"
+      "ms_lower_quartile, ms_upper_quartile, prepare_ms (ms), violation_max, violation_rms (rest lengths),\n"
+      "violation_fraction, exact_distance_max, exact_distance_rms, float_double_max, float_double_rms (mean rest\n"
+      "lengths), energy_over_exact, relative_error, physical_error_rms and physical_error_max. A figure that was\n"
+      "not measured is None. All figures except times are the same on every machine.\n\n"
+      "Raises Error for an unknown method, an option out of its range, or a drag that is empty, not finite, or\n"
+      "grabs elements that do not exist or are pinned; against physics also if the object has cuts or no pins; and\n"
       "Cancelled.");
 }
 
 void add_calibrate(py::module_& module) {
   const CalibrationOptions defaults;
   module.def(
-      "calibrate", &calibrate, py::arg("body"), py::kw_only(),
-      py::arg("method") = info(defaults.algorithm).offered_name(), py::arg("seed") = defaults.seed,
-      py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
+      "calibrate", &calibrate, py::arg("body"), py::kw_only(), py::arg("method") = defaults.algorithm,
+      py::arg("seed") = defaults.seed, py::arg("drags") = defaults.drags, py::arg("held_out") = defaults.held_out,
       py::arg("evaluations") = defaults.evaluations, py::arg("most_sweeps") = defaults.max_sweeps,
-      py::arg("scheme") = word_for(defaults.scheme), py::arg("job") = py::none(), py::arg("progress") = py::none(),
-      "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative error\n"
-      "against neo-Hookean finite elements on the same cells.\n\n"
-      "The object gives its mesh, cuts, pins, elasticity and kind of energy; it does not change. `drags` and "
-      "`held_out`\n"
-      "are numbers of drags, for the search and to test the result. The same options give the same result on every\n"
-      "machine. `progress` is called with the share that is done, 0 to 1.\n\n"
-      "Returns a dictionary: `softness` (LinkSoftness), `sweeps` after each move, the number of `evaluations`, "
-      "`errors`,\n"
-      "and `json` with all figures, drag by drag. `errors` is a dictionary of columns for pandas.DataFrame: drags\n"
-      "(`fitted` or `held_out`), state (`nothing` moves but the handle, `before`, `after`), relative, rms and max.\n\n"
-      "Raises Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is "
-      "out\n"
-      "of its range, if the object has no static solution, and if no reference solution converges; and Cancelled.");
+      py::arg("scheme") = defaults.scheme, py::arg("job") = py::none(), py::arg("progress") = py::none(),
+      "Finds one softness for all links, and the number of sweeps, that together have the lowest mean relative\n"
+      "error against neo-Hookean finite elements on the same cells.\n\n"
+      "The object gives its mesh, cuts, pins, elasticity and kind of energy; it does not change. `drags` and\n"
+      "`held_out` are numbers of drags, for the search and to test the result. The same options give the same\n"
+      "result on every machine. `progress` is called with the share that is done, 0 to 1.\n\n"
+      "Returns a dictionary: `softness` (LinkSoftness), `sweeps` after each move, the number of `evaluations`,\n"
+      "`errors`, and `json` with all figures, drag by drag. `errors` is a dictionary of columns for\n"
+      "pandas.DataFrame: drags (`fitted` or `held_out`), state (`nothing` moves but the handle, `before`, `after`),\n"
+      "relative, rms and max.\n\n"
+      "Raises Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is\n"
+      "out of its range, if the object has no static solution, and if no reference solution converges; and\n"
+      "Cancelled.");
   module.def(
       "write_preset",
       [](const std::filesystem::path& path, const std::string& name, const LinkSoftness& softness) {
@@ -516,21 +501,17 @@ void add_ramp(py::module_& module) {
   module.def(
       "ramp", &ramp, py::arg("methods") = py::list(), py::kw_only(), py::arg("seed") = defaults.seed,
       py::arg("budget") = defaults.budget, py::arg("largest") = largest, py::arg("drags") = defaults.drags,
-      py::arg("moves") = defaults.moves, py::arg("precision") = word_for(defaults.precision),
+      py::arg("moves") = defaults.moves, py::arg("precision") = defaults.precision,
       py::arg("softness") = LinkSoftness(), py::arg("job") = py::none(), py::arg("progress") = py::none(),
       "Finds the largest square grid on which each method runs in real time (Dean 2004, chapter 6).\n\n"
-      "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops "
-      "when\n"
-      "the 99th percentile of its pass times exceeds the `budget` (s) in two attempts. `methods` are names; default: "
-      "the\n"
-      "ChainMail family. `progress` is called with the share of the largest grid, 0 to 1.\n\n"
-      "Returns a dictionary: `sizes` and `methods`, which are dictionaries of columns for pandas.DataFrame, and "
-      "`seconds`.\n"
-      "The columns of `sizes` are width, elements, links, method, passes, median_ms, p99_ms, mean_moved, repeated and\n"
-      "real_time; those of `methods` are method, largest_width (None: never in real time), lost (False: there was no\n"
-      "next size) and growth_exponent of the median. Raises Error for an unknown method or an option out of its "
-      "range;\n"
-      "and Cancelled.");
+      "Grids grow from 4 x 4 up to `largest` elements. At each size, all methods run the same drags. A method stops\n"
+      "when the 99th percentile of its pass times exceeds the `budget` (s) in two attempts. `methods` are names;\n"
+      "default: the ChainMail family. `progress` is called with the share of the largest grid, 0 to 1.\n\n"
+      "Returns a dictionary: `sizes` and `methods`, which are dictionaries of columns for pandas.DataFrame, and\n"
+      "`seconds`. The columns of `sizes` are width, elements, links, method, passes, median_ms, p99_ms, mean_moved,\n"
+      "repeated and real_time; those of `methods` are method, largest_width (None: never in real time), lost\n"
+      "(False: there was no next size) and growth_exponent of the median. Raises Error for an unknown method or an\n"
+      "option out of its range; and Cancelled.");
 }
 
 }  // namespace
