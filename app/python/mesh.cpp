@@ -61,7 +61,7 @@ std::string mesh_in_words(const Mesh& mesh) {
          axes_of(mesh) + ">";
 }
 
-std::optional<LinkId> link_between(const MeshObject& one, Element a, Element b) {
+std::optional<LinkId> found_link(const MeshObject& one, Element a, Element b) {
   return find_link(*one.mesh, a.in(*one.mesh), b.in(*one.mesh));
 }
 
@@ -134,7 +134,7 @@ void add_connectivity(MeshClass& mesh) {
             return py::make_tuple(first, second);
           },
           py::arg("link"), "Returns the two elements of a link, the smaller id first.")
-      .def("find_link", &link_between, py::arg("a"), py::arg("b"),
+      .def("find_link", &found_link, py::arg("a"), py::arg("b"),
            "Returns the id of the link between two elements, or None.")
       .def(
           "side", [](const MeshObject& one, const std::string& name) { return array_of(elements_at(*one.mesh, name)); },

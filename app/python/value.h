@@ -77,9 +77,9 @@ void add_keywords(py::class_<Value>& type, const Part<At>&... parts) {
 
 /// Returns `Rotation(axis=(0.0, 0.0, 1.0), degrees=30.0)`.
 template <class Value, class... At>
-std::string in_words(Value& one, const Part<At>&... parts) {
+std::string words_of(Value& one, const Part<At>&... parts) {
   std::string text;
-  const auto add = [&](const char* name, const py::object& part) {
+  [[maybe_unused]] const auto add = [&](const char* name, const py::object& part) {
     text += (text.empty() ? "" : ", ") + std::string(name) + "=" + std::string(py::repr(part));
   };
   (add(parts.name, to_python(std::invoke(parts.at, one))), ...);

@@ -24,7 +24,7 @@ void add_rotation(py::module_& module) {
            }),
            py::arg("axis"), py::arg("degrees"))
       .def(py::self == py::self)
-      .def("__repr__", [=](Rotation& one) { return in_words(one, axis, degrees); })
+      .def("__repr__", [=](Rotation& one) { return words_of(one, axis, degrees); })
       .attr("__hash__") = py::none();
   add_parts(rotation, axis, degrees);
 }
@@ -39,7 +39,7 @@ void add_pose(py::module_& module) {
            py::arg("pivot"), py::arg("rotation") = Rotation())
       .def(py::self == py::self)
       .def("__repr__",
-           [=](UserPose& one) { return one.rotation.degrees == 0 ? in_words(one, pivot) : in_words(one, pivot, turn); })
+           [=](UserPose& one) { return one.rotation.degrees == 0 ? words_of(one, pivot) : words_of(one, pivot, turn); })
       .attr("__hash__") = py::none();
   add_parts(pose, pivot, turn);
 }
@@ -71,7 +71,7 @@ void add_link_softness(py::module_& module, std::index_sequence<I...> /*numbers*
   softness.def("as_dict", numbers, "Returns the six numbers by name.")
       .def(py::self == py::self)
       .def("__hash__", [=](const LinkSoftness& one) { return py::hash(py::tuple(numbers(one).attr("values")())); })
-      .def("__repr__", [](LinkSoftness& one) { return in_words(one, part_of(softness_numbers[I])...); });
+      .def("__repr__", [](LinkSoftness& one) { return words_of(one, part_of(softness_numbers[I])...); });
   add_parts(softness, part_of(softness_numbers[I])...);
 }
 
@@ -84,7 +84,7 @@ void add_elasticity(py::module_& module) {
     add_keywords(elasticity, parts...);
     add_parts(elasticity, parts...);
     elasticity.def(py::self == py::self)
-        .def("__repr__", [parts...](One& one) { return in_words(one, parts...); })
+        .def("__repr__", [parts...](One& one) { return words_of(one, parts...); })
         .attr("__hash__") = py::none();
   };
   add(Part{"young", [](One& one) -> double& { return one.material.young; },
