@@ -107,7 +107,7 @@ void check(const Rotation& rotation, const Mesh& mesh) {
 }
 
 RegionAxes axes_after(const Rotation& rotation, const Mesh& mesh) {
-  const RegionAxes axes(AxesKind::given, rotation.vector());
+  RegionAxes axes(AxesKind::given, rotation.vector());
   check(axes, mesh);
   check(rotation, mesh);
   return axes;

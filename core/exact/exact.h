@@ -311,13 +311,13 @@ class ExactPropagation {
   void drop_idle_regions(std::size_t moved) {
     const std::size_t known = regions_.known() - offsets_.size();
     idle_passes_ = moved < known / 4 ? idle_passes_ + 1 : 0;
-    if (idle_passes_ == passes_of_a_search) {
+    if (idle_passes_ == max_idle_passes) {
       made_for_ = {};
       idle_passes_ = 0;
     }
   }
 
-  static constexpr int passes_of_a_search = 16;  // approximate; measured in tests/bench
+  static constexpr int max_idle_passes = 16;  // a search costs 12 to 18 later passes, see tests/bench/README.md
 
   /// Elements of one partition, clamped by one thread.
   struct Piece {

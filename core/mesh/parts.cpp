@@ -55,6 +55,7 @@ class JoinedSets {
 /// group: the searches that these links would join if they were not cut.
 class Searches {
  public:
+  /// `reached_by` is scratch for all elements: all 0 before and after.
   Searches(const Mesh& mesh, const Cuts& cuts, std::vector<std::uint32_t>& reached_by)
       : mesh_(mesh), cuts_(cuts), reached_by_(reached_by) {}
   ~Searches() {

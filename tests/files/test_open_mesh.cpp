@@ -28,6 +28,7 @@ class OpenMeshTest : public QObject {
   void sessions_and_pictures_are_no_meshes();
   void what_we_write_comes_back_data();
   void what_we_write_comes_back();
+  void a_grid_without_its_points_is_refused();
   void voxels_and_pixels_have_corners_in_an_order_of_their_own();
   void flaws_are_told();
   void polygons_that_come_twice_are_left_out();
@@ -194,6 +195,16 @@ void OpenMeshTest::what_we_write_comes_back() {
     QCOMPARE(again->tetrahedra, mesh->tetrahedra);
     QCOMPARE(again->hexahedra, mesh->hexahedra);
   }
+}
+
+/// Points of a grid are not invented where its kind says that the file lists them.
+void OpenMeshTest::a_grid_without_its_points_is_refused() {
+  const std::string head = "# vtk DataFile Version 3.0\na\nASCII\nDATASET ";
+  put_file(path("bent.vtk"), head + "STRUCTURED_GRID\nDIMENSIONS 2 2 1\n");
+  put_file(path("boxes.vtk"), head + "RECTILINEAR_GRID\nDIMENSIONS 2 2 1\nX_COORDINATES 2 double\n0 1\n"
+                                     "Y_COORDINATES 2 double\n0 3\n");
+  QVERIFY(error_of([&] { open_mesh(path("bent.vtk")); }).contains("the section POINTS is missing"));
+  QVERIFY(error_of([&] { open_mesh(path("boxes.vtk")); }).contains("the coordinates of an axis are missing"));
 }
 
 /// VTK lists the corners of voxels and pixels along x, then y, then z, and those of other cells around a side. Here all

@@ -16,7 +16,7 @@ constexpr int dockWidth = 230;
 
 /// Returns the share of the screen's width that the content of a dock may ask for. The two columns with panels between
 /// them, or three docks at the bottom beside the right column, fit on a screen of 1024 pixels.
-double largestShare(QWidget* dock) {
+double largestFraction(QWidget* dock) {
   const auto* window = dock != nullptr ? qobject_cast<const QMainWindow*>(dock->parentWidget()) : nullptr;
   const auto area = window != nullptr ? window->dockWidgetArea(qobject_cast<QDockWidget*>(dock)) : Qt::NoDockWidgetArea;
   return area == Qt::LeftDockWidgetArea ? 0.25 : area == Qt::RightDockWidgetArea ? 0.275 : 0.23;
@@ -61,8 +61,8 @@ bool DockScroll::eventFilter(QObject* content, QEvent* event) {
 }
 
 void DockScroll::fitWidth() {
-  const int most = int(largestShare(parentWidget()) * screen()->availableSize().width());
-  setMinimumWidth(std::min(std::max(dockWidth, contentWidth()), most));
+  const int maxWidth = int(largestFraction(parentWidget()) * screen()->availableSize().width());
+  setMinimumWidth(std::min(std::max(dockWidth, contentWidth()), maxWidth));
 }
 
 int DockScroll::contentWidth() const {

@@ -257,6 +257,7 @@ class VtkReader {
   CellRows cells_;                           // cells of an unstructured grid; their types follow in the file
   std::array<std::uint64_t, 3> grid_{};      // points along each axis of a grid
   std::array<std::vector<double>, 3> axes_;  // of a rectilinear grid
+  std::string kind_;                         // of the dataset
   Point origin_ = Point::Zero(), spacing_ = Point::Ones();
   ImportedMesh mesh_;
   VtkCells into_{mesh_};
@@ -283,11 +284,11 @@ void VtkReader::read_head() {
   if (upper_case(cursor_.word()) != "DATASET") {
     cursor_.fail("the line 'DATASET …' is missing", "export it again");
   }
-  const std::string kind = upper_case(cursor_.word());
+  kind_ = upper_case(cursor_.word());
   static constexpr std::array<std::string_view, 5> kinds{"POLYDATA", "UNSTRUCTURED_GRID", "STRUCTURED_GRID",
                                                          "RECTILINEAR_GRID", "STRUCTURED_POINTS"};
-  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-    cursor_.fail("a dataset " + in_quotes(kind) + " is not supported", "save it as an unstructured grid");
+  if (std::find(kinds.begin(), kinds.end(), kind_) == kinds.end()) {
+    cursor_.fail("a dataset " + in_quotes(kind_) + " is not supported", "save it as an unstructured grid");
   }
 }
 
@@ -394,6 +395,12 @@ void VtkReader::add_grid() {
 
 /// A file that states neither points nor values for them could name any number of points in a few bytes.
 void VtkReader::add_grid_points() {
+  if (kind_ == "STRUCTURED_GRID") {
+    cursor_.fail("the section POINTS is missing", "export it again");
+  }
+  if (kind_ == "RECTILINEAR_GRID" && std::ranges::any_of(axes_, [](const auto& axis) { return axis.empty(); })) {
+    cursor_.fail("the coordinates of an axis are missing", "give X_COORDINATES, Y_COORDINATES and Z_COORDINATES");
+  }
   static constexpr std::uint64_t max_without_values = 100'000;
   if (grid_[0] * grid_[1] * grid_[2] > std::max<std::uint64_t>(max_without_values, cursor_.size())) {
     cursor_.fail(

@@ -133,15 +133,16 @@ struct MeanColumn {
   FigureTable::Column head;
   const Figure<PhysicsRow>* figure;
   const PhysicsDrag* mean;  // that it shows; null if nothing is cut
-  int place;                // 0: relative errors, 1: times, 2: what a terminal has no room for
+  enum class Group { relative_errors, times, no_room_on_a_terminal } group;
 };
 
 std::vector<MeanColumn> columns_of(const Means& means, bool for_text) {
   std::vector<MeanColumn> columns;
   for (const Figure<PhysicsRow>& one : physics_figures()) {
     const bool has_times = one.group.ends_with(time_unit);
-    const int place = one.group == relative_error ? 0 : has_times ? 1 : 2;
-    if (one.group.empty() || (for_text && place == 2)) {
+    using enum MeanColumn::Group;
+    const auto place = one.group == relative_error ? relative_errors : has_times ? times : no_room_on_a_terminal;
+    if (one.group.empty() || (for_text && place == no_room_on_a_terminal)) {
       continue;
     }
     std::string group(one.group);
@@ -154,12 +155,12 @@ std::vector<MeanColumn> columns_of(const Means& means, bool for_text) {
       continue;
     }
     for (const PhysicsDrag& drag : means.by_name) {
-      if (!drag.has_cut || place == 0) {
+      if (!drag.has_cut || place == relative_errors) {
         columns.push_back({{group, drag.has_cut ? "cut" : drag.name}, &one, &drag, place});
       }
     }
   }
-  std::ranges::stable_sort(columns, {}, &MeanColumn::place);
+  std::ranges::stable_sort(columns, {}, &MeanColumn::group);
   return columns;
 }
 
@@ -175,7 +176,7 @@ std::string time_cell(const FigureValue& value, bool for_text) {
 
 std::string cell_of(const MeanColumn& column, std::size_t entry, bool for_text) {
   const PhysicsEntry* mean = column.mean == nullptr ? nullptr : &column.mean->entries[entry];
-  if (column.place == 1) {
+  if (column.group == MeanColumn::Group::times) {
     return time_cell(column.figure->value({.entry = mean}), for_text);
   }
   const std::string cell = mean->measurement ? cell_of(*column.figure, {.entry = mean}) : "n/a";

@@ -28,7 +28,7 @@ struct PeerAnswer {
   std::string solver, case_name;
   std::vector<Point> positions;  // of all elements after the last move
   std::optional<double> factorize_ms, grab_ms;
-  std::vector<double> moves_ms;  // of each move; empty if they were not timed
+  std::vector<double> moves_ms;  // of each move, without preparation; empty if they were not timed
 };
 
 /// The figures of an answer, measured as those of the suite's contestants.
@@ -40,8 +40,8 @@ struct PeerVerdict {
 
 /// Makes a case of a drag without a cut.
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
-/// Makes cases of the drags in which the suite measures the time to an error. `organ` as for the suite; null: without
-/// it.
+/// Makes cases of the drags in which the suite measures the time to an error. `organs` as for the suite:
+/// drags of an organ without a file are left out.
 std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs);
 
 /// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a
