@@ -77,6 +77,14 @@ set(public_headers
   solver/algorithms.h
   solver/custom_method.h
   solver/deformer.h)
+# Headers of parts that are left out.
+if(NOT CHAINMAIL_JSON)
+  list(FILTER public_headers EXCLUDE REGEX "^files/(results|session)/")
+endif()
+if(NOT CHAINMAIL_CALIBRATE)
+  list(FILTER public_headers EXCLUDE REGEX "^calibrate/")
+endif()
+
 include(CMakePackageConfigHelpers)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/chainmail)
 

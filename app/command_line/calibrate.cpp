@@ -30,7 +30,8 @@ constexpr const char* calibrate_footer =
 std::string name_of(const CalibrateArguments& arguments, const std::filesystem::path& path) {
   const std::string usual = printable(path.stem().string()).substr(0, limits::preset_name_bytes - 20) + ", Poisson " +
                             report::figure(arguments.how.elastic.material.poisson);
-  const std::string name = arguments.name.value_or(usual), fault = fault_of_name(name);
+  std::string name = arguments.name.value_or(usual);
+  const std::string fault = fault_of_name(name);
   require(fault.empty(), "--name", in_quotes(name) + " cannot name a preset", fault);
   return name;
 }

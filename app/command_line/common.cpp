@@ -158,7 +158,7 @@ std::vector<Algorithm> algorithms_of(const std::string& where, const std::string
 // Meshes
 
 std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding) {
-  const auto mesh = std::make_shared<MeshArguments>(MeshArguments{Options(app)});
+  auto mesh = std::make_shared<MeshArguments>(MeshArguments{Options(app)});
   Options& options = mesh->options;
   ReadOptions& how = mesh->how;
   add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();

@@ -107,6 +107,7 @@ void write_cases(const CompareArguments& arguments) {
   OutputFolder folder(*arguments.output);
   const auto cases = report::peer_cases_of_suite(sample_organs());
   std::vector<std::pair<std::string, Outputs::Writer>> files;
+  files.reserve(cases.size());
   for (const report::PeerCase& one : cases) {
     files.emplace_back(one.name + ".json", [&one](std::ostream& out) { write_json(out, one); });
   }

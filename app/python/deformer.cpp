@@ -93,13 +93,6 @@ py::array_t<std::int64_t> trace_of(const Used<Mover>& object) {
   return rows;
 }
 
-void set_threads(const Used<Mover>& object, int threads) {
-  if (threads < 1) {
-    throw Error("threads", "the number is below 1", "use a number from 1");
-  }
-  object->deformer().set_threads(threads);
-}
-
 py::list rows_of_methods() {
   py::list rows;
   for (const AlgorithmInfo& one : every_algorithm()) {
@@ -222,9 +215,11 @@ void add_settings(MoverClass& deformer) {
           py::arg("method"),
           "Continues with another method from the current positions. Raises Error if there is none with this name,\n"
           "if it does not work on the mesh, and if a view of the positions would not show positions any more.")
-      .def("set_threads", &set_threads, py::arg("threads"),
-           "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses\n"
-           "more, for large objects, and no result depends on it.")
+      .def(
+          "set_threads", [](const Used<Mover>& object, int threads) { object->deformer().set_threads(threads); },
+          py::arg("threads"),
+          "Sets the number of threads that a move may use, at least 1, which is the default. Only `exact` uses\n"
+          "more, for large objects, and no result depends on it.")
       .def(
           "set_job", [](const Used<Mover>& object, const Progress& job) { object->set_job(job); }, py::arg("job"),
           "Sets the job that long preparations, solutions and sweeps report to, and that can cancel them.")

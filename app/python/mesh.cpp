@@ -262,9 +262,10 @@ py::list rows_of_formats() {
 void add_files(py::module_& module) {
   module.def("read_mesh", &read_mesh, py::arg("path"), py::kw_only(), py::arg("lattice") = py::none(),
              py::arg("spacing") = py::none(), py::arg("space_dimension") = py::none(),
-             py::arg("threshold") = py::none(), py::arg("every") = py::none(), py::arg("data_outside") = false,
-             py::arg("stiff_where_dense") = true, py::arg("weld") = py::none(), py::arg("import_program") = "",
-             py::arg("job") = py::none(), py::arg("progress") = py::none(),
+             py::arg("threshold") = py::none(), py::arg("every") = py::none(),
+             py::arg("data_outside") = ReadOptions().data_outside,
+             py::arg("stiff_where_dense") = ReadOptions().voxels.stiff_where_dense, py::arg("weld") = py::none(),
+             py::arg("import_program") = "", py::arg("job") = py::none(), py::arg("progress") = py::none(),
              "Reads a mesh; chainmail.read_mesh() also finds the import program.");
   module.def(
       "write_mesh", &write_body, py::arg("path"), py::arg("body"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "mesh/error.h"
 
@@ -76,6 +77,15 @@ std::string softness_names(std::string_view between, std::size_t first, std::siz
 void check(const LinkSoftness& softness) {
   for (const auto& [parameter, value] : softness_numbers) {
     check(*parameter, softness.*value);
+  }
+}
+
+void check(const Softness& softness, const Mesh& mesh) {
+  check(softness.global);
+  check(softness.axes, mesh);
+  for (const auto& [link, own] : softness.links) {
+    check_links(mesh, std::span(&link, 1));
+    check(own);
   }
 }
 

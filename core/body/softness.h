@@ -204,6 +204,9 @@ struct Softness {
 /// Returns the softness of a new object.
 Softness standard_softness();
 
+/// Throws Error if a number is out of its range, if a link does not exist, or if the axes leave the mesh's space.
+void check(const Softness& softness, const Mesh& mesh);
+
 /// Sets the kind of energy. A global lateral stiffness that was the suggested one stays so.
 void set_energy(Softness& softness, EnergyKind kind);
 

@@ -36,7 +36,6 @@ class Surface {
   void uncut(LinkId link) { change(link, false); }
 
   bool is_whole(CellId cell) const { return cut_links_.empty() || cut_links_[cell] == 0; }
-  bool is_in_sight(SideId side) const { return sides_.contains(side); }
   /// The visible sides, in no order.
   std::span<const SideId> sides() const { return sides_.numbers(); }
   /// The uncut links along visible sides, and those whose cells are all gone. Links that were never the edge of a cell

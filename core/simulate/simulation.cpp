@@ -344,12 +344,7 @@ void Simulation::carry_out(const commands::Release&) {
 }
 
 void Simulation::carry_out(const commands::SetSoftness& command) {
-  check(command.softness->global);
-  check(command.softness->axes, mesh());
-  for (const auto& [link, softness] : command.softness->links) {
-    check_links(mesh(), std::span(&link, 1));
-    check(softness);
-  }
+  check(*command.softness, mesh());
   const Revisions before = body().revisions();
   set_softness(command.softness);
   const bool new_energy = body().revisions().energy != before.energy;

@@ -35,7 +35,8 @@ bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body) {
 }
 
 Deformer::Deformer(MeshPointer mesh, Algorithm algorithm, Precision precision)
-    : body_((check(algorithm, *mesh), std::move(mesh)), precision), algorithm_(info(algorithm)) {
+    : body_((check(algorithm, *mesh), check(precision, *mesh), std::move(mesh)), precision),
+      algorithm_(info(algorithm)) {
   store_for(algorithm_);
 }
 
@@ -84,7 +85,9 @@ PassCount Deformer::run(Pass pass) {
 }
 
 PassCount Deformer::move(Handle& handle, const Pose& target, Trace* trace) {
+  check_elements(body_.mesh(), handle.elements());  // it may be of another body
   check_free(body_, handle.elements());
+  check(Rotation::of(target.rotation), body_.mesh());
   if (body_.region_axes().is_turned()) {
     return move_along_axes(handle, target, trace);
   }
@@ -156,7 +159,15 @@ void Deformer::unpin(std::span<const ElementId> elements) {
   wake(elements);
 }
 
+void Deformer::set_threads(int threads) {
+  if (threads < 1) {
+    throw Error("threads", "the number is below 1", "use a number from 1");
+  }
+  threads_ = threads;
+}
+
 void Deformer::set_softness(const Softness& softness) {
+  check(softness, body_.mesh());
   const std::uint64_t before = body_.revisions().energy;
   body_.set_softness(softness);
   if (body_.revisions().energy != before && !body_.is_at_rest()) {
@@ -175,6 +186,7 @@ void Deformer::reset() {
 }
 
 void Deformer::restore(const Snapshot& snapshot) {
+  check(snapshot, body_.mesh(), body_.precision());
   body_.restore(snapshot);
   forget_handle();
 }
@@ -221,6 +233,7 @@ void Deformer::forget_handle() {
 }
 
 void Deformer::prepare(ElementId element) {
+  check_elements(body_.mesh(), std::span(&element, 1));
   if (body_.is_pinned(element)) {
     return;
   }

@@ -44,7 +44,8 @@ class Deformer {
   /// relaxation keep.
   Deformer copy() const { return {body_, algorithm_, last_handle_, held_}; }
 
-  /// The object. It may be changed between passes; the functions below also wake what a change concerns.
+  /// The object. It may be changed between passes; the functions below also check their arguments, and wake what a
+  /// change concerns.
   Body& body() { return body_; }
   const Body& body() const { return body_; }
   Algorithm algorithm() const { return algorithm_.algorithm; }
@@ -55,7 +56,7 @@ class Deformer {
   void uncut(std::span<const LinkId> links);
   void pin(std::span<const ElementId> elements);
   void unpin(std::span<const ElementId> elements);
-  /// Sets the softness. If it changes the energy, wakes all elements for relaxation.
+  /// Sets the softness. If it changes the energy, wakes all elements for relaxation. Throws Error as check() does.
   void set_softness(const Softness& softness);
 
   // Set all positions, and release the handle: its elements are elsewhere now.
@@ -63,7 +64,7 @@ class Deformer {
   void set_positions(std::span<const double> positions);
   /// Moves all elements to rest.
   void reset();
-  /// Restores a snapshot of this mesh and precision.
+  /// Restores a snapshot. Throws Error if it is not of this mesh and precision.
   void restore(const Snapshot& snapshot);
   /// Restores an object of this mesh. Outside the blocks `changed`, the positions must be as in the snapshot.
   void restore(const ObjectState& object, const Snapshot& positions, const ElementBlocks& changed);
@@ -83,7 +84,7 @@ class Deformer {
   void set_progress(const Progress& progress) { progress_ = progress; }
   /// Sets the number of threads that a pass or an iteration may use, at least 1, which is the default. A pass gets
   /// fewer while other passes run. No result depends on it.
-  void set_threads(int threads) { threads_ = threads; }
+  void set_threads(int threads);
 
   /// Moves a handle to a target and propagates: one pass. The handle gets the pose that was reached. `trace`, if given,
   /// receives every processed candidate. Throws Error if an element of the handle is pinned, if the target is not a

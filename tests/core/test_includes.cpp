@@ -35,7 +35,7 @@ struct Room {
   QStringList alone = {};  // rooms that it may include, but not what these may include
 };
 
-/// The rooms of core that are its interface: what a program includes.
+/// The rooms of core that the programs of this project include.
 const QStringList interface_of_core{"core/mesh",          "core/body",          "core/solver",     "core/simulate",
                                     "core/measure",       "core/calibrate",     "core/report/run", "core/report/page",
                                     "core/files/text",    "core/files/formats", "core/files/mesh", "core/files/repair",
@@ -104,7 +104,7 @@ const QList<Wrapped> libraries{
     {QRegularExpression("^Eigen/"),
      {"core/mesh", "core/elastic", "core/body", "core/chainmail", "core/exact", "core/equilibrium", "core/solver",
       "core/measure", "core/simulate", "core/report", "core/files", "core/calibrate", "core/examples", "ui", "app"},
-     "users of the public headers need no Eigen"},
+     "Eigen belongs in core and above it"},
     {QRegularExpression("^rapidcheck"), {"tests/property.h"}, "tests/property.h checks properties"},
 };
 

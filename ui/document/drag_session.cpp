@@ -62,7 +62,8 @@ void DragSession::end() {
   if (const auto handle = std::exchange(handle_, {})) {
     executor_.post(commands::Release{});
     if (handle->moved) {
-      document_.undoStack().push(new Edit(executor_, document_.change(handle->text), handle->before, true));
+      auto edit = std::make_unique<Edit>(executor_, document_.change(handle->text), handle->before, true);
+      document_.undoStack().push(edit.release());
     } else {
       executor_.post(commands::DropState{handle->before});
     }

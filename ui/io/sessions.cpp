@@ -172,7 +172,7 @@ void Sessions::restore(const QString& path) {
                   edits::restore(document_, session, ownFile(*session), QStringLiteral("restore unsaved work"),
                                  edits::Opening::unsaved);
                   layout_.set(session->ui);
-                  auto lock = recovery_->take();
+                  auto lock = recovery_->take(path);
                   if (autosave_) {
                     autosave_->adopt(path, std::move(lock), document_.unsplitMesh());
                   }

@@ -251,11 +251,13 @@ void RecoveryBar::release() {
   show();
 }
 
-std::unique_ptr<QLockFile> RecoveryBar::take() {
+std::unique_ptr<QLockFile> RecoveryBar::take(const QString& path) {
   std::unique_ptr<QLockFile> lock;
-  if (!found_.empty()) {
-    lock = std::move(found_.back().lock);
-    found_.pop_back();
+  for (auto* works : {&found_, &discarded_}) {
+    if (const auto at = std::ranges::find(*works, path, &Found::path); at != works->end()) {
+      lock = std::move(at->lock);
+      works->erase(at);
+    }
   }
   show();
   return lock;

@@ -65,8 +65,8 @@ class RecoveryBar : public QFrame {
   QAction& takeBack() { return *takeBack_; }
   /// Offers nothing any more and removes what was discarded, because the window closes.
   void release();
-  /// Offers the next file. Returns the lock of this one, which belongs to another owner now.
-  std::unique_ptr<QLockFile> take();
+  /// Offers this file no longer. Returns its lock, which belongs to another owner now.
+  std::unique_ptr<QLockFile> take(const QString& path);
 
  signals:
   void restoreRequested(const QString& path);

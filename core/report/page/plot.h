@@ -40,7 +40,6 @@ class Axis {
   double position(double value) const;
   /// Returns the ticks, few enough that their labels do not overlap.
   const std::vector<Tick>& ticks() const { return ticks_; }
-  bool has_zero() const { return has_zero_; }
   /// Returns the position of the first decade. It comes after that of 0.
   double first_decade() const { return has_zero_ ? behind_zero : 0; }
 

@@ -203,6 +203,16 @@ void DeformerTest::bad_input_changes_nothing() {
   refused([&] { check_position(mesh, "target", {no_number, 0, 0}); }, "target: a coordinate is not a finite number");
   refused([&] { check_displacement(mesh, "by", {0, 0, 1}); }, "by: the object does not extend along z");
   refused([&] { axes_after({{1, 0, 0}, 30}, mesh); }, "frame: turned about x");
+  Deformer large(make_mesh(MeshKind::grid, {9, 9, 1}), Algorithm::natural_queue);
+  large.move(80, {9, 9, 0});
+  Handle of_another(large.body(), {80});
+  refused([&] { deformer.move(of_another, {}); }, "element 80");
+  refused([&] { deformer.restore(large.body().snapshot()); }, "positions");
+  refused([&] { deformer.set_threads(0); }, "threads: the number is below 1");
+  refused([&] { deformer.prepare(9); }, "element 9");
+  Handle own(deformer.body(), {0, 1});
+  refused([&] { deformer.move(own, {{1, 1, 0}, {1, 0, 0}}); }, "rotation: about x");
+  refused([&] { deformer.set_softness({.global = {.stretch = 0.5}}); }, "stretch");
   refused([&] { algorithm_of("magic"); }, "method 'magic': there is no such method; use one of generalized");
 
   Softness softness;
