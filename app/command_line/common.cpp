@@ -198,10 +198,12 @@ double tolerance_of(const std::string& where, const std::string& text) {
   return tolerance;
 }
 
-OpenedMesh open_mesh(const MeshArguments& mesh) { return open_mesh(mesh, open_file(mesh.path())); }
+OpenedMesh open_mesh(const MeshArguments& mesh) {
+  mesh.options.read();
+  return open_mesh(mesh, open_file(mesh.path()));
+}
 
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input) {
-  mesh.options.read();
   return watched("reading " + shown(input.file.path()),
                  {{"space dimension", "--space"},
                   {"size", "--size"},

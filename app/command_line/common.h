@@ -192,6 +192,7 @@ void add_space(MeshArguments& mesh);
 double tolerance_of(const std::string& where, const std::string& text);
 /// Reads the options and the mesh. Throws Error, with the option.
 OpenedMesh open_mesh(const MeshArguments& mesh);
+/// The same for an open file, with options that were read.
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input);
 /// Returns the folder of the samples that come with the programs. It may be missing.
 std::filesystem::path samples_folder();

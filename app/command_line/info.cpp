@@ -8,6 +8,7 @@ namespace {
 /// Reads a mesh, or the object of a session. Reading a session checks its moves and its lesson, too. A mesh that it
 /// names is beside it or among the samples.
 OpenedMesh contents_of(const MeshArguments& mesh) {
+  mesh.options.read();
   const std::filesystem::path path = mesh.path();
   InputFile input = open_file(path);
   if (input.kind != FileKind::session) {
