@@ -212,7 +212,9 @@ void DeformerTest::bad_input_changes_nothing() {
   refused([&] { deformer.prepare(9); }, "element 9");
   Handle own(deformer.body(), {0, 1});
   refused([&] { deformer.move(own, {{1, 1, 0}, {1, 0, 0}}); }, "rotation: about x");
-  refused([&] { deformer.set_softness({.global = {.stretch = 0.5}}); }, "stretch");
+  Softness wrong;
+  wrong.global.stretch = 0.5;
+  refused([&] { deformer.set_softness(wrong); }, "stretch");
   refused([&] { algorithm_of("magic"); }, "method 'magic': there is no such method; use one of generalized");
 
   Softness softness;
