@@ -1,6 +1,7 @@
 # Installs a build into an empty folder and checks what is there. Then builds a user's program and the examples with the
 # installed package, and checks what they print.
 #   cmake -DSOURCE=… -DBUILD=… -DCONFIG=… -DVERSION=… -DFLAGS=… -DCOMPILER=… -DGENERATOR=… -P install.cmake
+cmake_minimum_required(VERSION 3.25)
 set(prefix ${BUILD}/tests/install/prefix)
 set(work ${BUILD}/tests/install/consumer)
 file(REMOVE_RECURSE ${prefix} ${work})
