@@ -201,8 +201,9 @@ void OpenMeshTest::what_we_write_comes_back() {
 void OpenMeshTest::a_grid_without_its_points_is_refused() {
   const std::string head = "# vtk DataFile Version 3.0\na\nASCII\nDATASET ";
   put_file(path("bent.vtk"), head + "STRUCTURED_GRID\nDIMENSIONS 2 2 1\n");
-  put_file(path("boxes.vtk"), head + "RECTILINEAR_GRID\nDIMENSIONS 2 2 1\nX_COORDINATES 2 double\n0 1\n"
-                                     "Y_COORDINATES 2 double\n0 3\n");
+  put_file(path("boxes.vtk"), head +
+                                  "RECTILINEAR_GRID\nDIMENSIONS 2 2 1\nX_COORDINATES 2 double\n0 1\n"
+                                  "Y_COORDINATES 2 double\n0 3\n");
   QVERIFY(error_of([&] { open_mesh(path("bent.vtk")); }).contains("the section POINTS is missing"));
   QVERIFY(error_of([&] { open_mesh(path("boxes.vtk")); }).contains("the coordinates of an axis are missing"));
 }
