@@ -271,19 +271,26 @@ class Xpbd final : public TimeStepSolver<N> {
   std::vector<Volume> volumes_;
 };
 
+/// Makes the solver for a number of dimensions.
+template <template <int> class Solver>
+std::unique_ptr<ElasticSolver> make_in(int dimensions, const ElasticProblem& problem, const Simplices& cells,
+                                       const XpbdStep& step, const Progress& progress) {
+  switch (dimensions) {
+    case 1:
+      return std::make_unique<Solver<1>>(problem, cells, step, progress);
+    case 2:
+      return std::make_unique<Solver<2>>(problem, cells, step, progress);
+    default:
+      return std::make_unique<Solver<3>>(problem, cells, step, progress);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const XpbdStep& step,
                                          const Progress& progress) {
   const Simplices cells = build_edge_cells(*problem.mesh, problem.cuts, progress.part(0, 0.2));
-  switch (problem.mesh->space_dimension) {
-    case 1:
-      return std::make_unique<Xpbd<1>>(problem, cells, step, progress.part(0.2, 1));
-    case 2:
-      return std::make_unique<Xpbd<2>>(problem, cells, step, progress.part(0.2, 1));
-    default:
-      return std::make_unique<Xpbd<3>>(problem, cells, step, progress.part(0.2, 1));
-  }
+  return make_in<Xpbd>(problem.mesh->space_dimension, problem, cells, step, progress.part(0.2, 1));
 }
 
 std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Progress& progress) {
@@ -378,14 +385,7 @@ class NeoHookeanXpbd final : public TimeStepSolver<N> {
 std::unique_ptr<ElasticSolver> make_neo_hookean_xpbd(const ElasticProblem& problem, const XpbdStep& step,
                                                      const Progress& progress) {
   const Simplices cells = build_simplices(*problem.mesh, problem.cuts, progress.part(0, 0.2));
-  switch (cells.dimension) {
-    case 1:
-      return std::make_unique<NeoHookeanXpbd<1>>(problem, cells, step, progress.part(0.2, 1));
-    case 2:
-      return std::make_unique<NeoHookeanXpbd<2>>(problem, cells, step, progress.part(0.2, 1));
-    default:
-      return std::make_unique<NeoHookeanXpbd<3>>(problem, cells, step, progress.part(0.2, 1));
-  }
+  return make_in<NeoHookeanXpbd>(cells.dimension, problem, cells, step, progress.part(0.2, 1));
 }
 
 std::unique_ptr<ElasticSolver> make_neo_hookean_xpbd(const ElasticProblem& problem, const Progress& progress) {
