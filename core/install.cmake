@@ -31,7 +31,7 @@ set(public_headers
   files/mesh/mesh_file.h
   files/mesh/mesh_formats.h
   files/mesh/open_mesh.h
-  files/results/report_json.h
+  files/results/results_json.h
   files/session/flat_mesh.h
   files/session/softness_presets.h
   files/text/limits.h
@@ -57,20 +57,23 @@ set(public_headers
   mesh/split.h
   mesh/surface.h
   mesh/texture.h
-  report/page/html.h
-  report/page/physics_html.h
-  report/page/table.h
+  report/page/report.h
+  report/page/plot.h
   report/run/cases.h
   report/run/clocks.h
   report/run/compare.h
+  report/run/contest.h
   report/run/drags.h
-  report/run/growth.h
-  report/run/machine.h
   report/run/physics.h
-  report/run/physics_contestant.h
+  report/run/preparing.h
   report/run/ramp.h
-  report/run/shape_figures.h
-  report/run/symmetry.h
+  report/run/runner.h
+  report/table/contestant.h
+  report/table/figure.h
+  report/table/growth.h
+  report/table/machine.h
+  report/table/results.h
+  report/table/summary.h
   simulate/command.h
   simulate/simulation.h
   simulate/simulation_state.h

@@ -5,7 +5,7 @@
 #include "files/results/summary.h"
 #include "files/session/softness_presets.h"
 #include "files/text/limits.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail::command_line {
 namespace {

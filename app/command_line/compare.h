@@ -15,7 +15,7 @@
 #include "report/page/suite_table.h"
 #include "report/page/svg.h"
 #include "report/page/table.h"
-#include "report/run/machine.h"
+#include "report/table/machine.h"
 #include "report/run/physics.h"
 
 namespace chainmail::command_line {

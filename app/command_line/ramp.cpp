@@ -8,7 +8,7 @@
 #include "files/results/report_json.h"
 #include "report/page/ramp_page.h"
 #include "report/page/svg.h"
-#include "report/run/machine.h"
+#include "report/table/machine.h"
 
 namespace chainmail::command_line {
 namespace {

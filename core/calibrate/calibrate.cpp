@@ -81,8 +81,8 @@ struct Trial {
   double relative() const { return together(residuals).relative; }
 };
 
-report::CompareOptions options_of(const CalibrationOptions& options) {
-  report::CompareOptions how;
+report::RunOptions options_of(const CalibrationOptions& options) {
+  report::RunOptions how;
   how.scheme = options.scheme;
   return how;
 }
@@ -121,8 +121,12 @@ class Bench {
     object_.softness = {softness, {}, energy_, object_.softness.axes};
     const double done = std::min(1.0, double(evaluations_) / wanted_);
     for (const ReferenceDrag& drag : drags) {
-      runner_.run(at_equilibrium_ ? in_one_move(drag.moves) : drag.moves, {sweeps, at_equilibrium_},
-                  progress_.part(done, done));
+      progress_.report(done);
+      const auto run = runner_.run(at_equilibrium_ ? in_one_move(drag.moves) : drag.moves, {sweeps, at_equilibrium_},
+                                   progress_.quiet());
+      if (run.stopped) {
+        throw Cancelled();
+      }
       residuals.push_back(
           residual_of(measure_physical_error(*object_.mesh, runner_.simulation().body().positions(), drag.reference)));
     }
@@ -178,7 +182,7 @@ class Bench {
 
   ReferenceDrags drags_;
   report::Case object_;
-  report::CompareOptions how_;
+  report::RunOptions how_;
   report::Runner runner_;
   std::vector<std::unique_ptr<Simulation>> dragged_;  // one per drag for the search, at equilibrium
   Algorithm algorithm_;

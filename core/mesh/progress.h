@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -85,7 +87,18 @@ class Progress {
     return quiet;
   }
 
-  bool cancelled() const { return state_ != nullptr && state_->cancelled.load(std::memory_order_relaxed); }
+  /// Returns the progress of work that is also cancelled when it takes longer.
+  Progress until(std::chrono::steady_clock::time_point end) const {
+    Progress limited = *this;
+    limited.end_ = end;
+    return limited;
+  }
+  /// True after the end of `until`.
+  bool is_too_late() const { return end_ && std::chrono::steady_clock::now() > *end_; }
+
+  bool cancelled() const {
+    return (state_ != nullptr && state_->cancelled.load(std::memory_order_relaxed)) || is_too_late();
+  }
 
   // For the thread that waits.
 
@@ -117,6 +130,7 @@ class Progress {
   };
 
   std::shared_ptr<State> state_;
+  std::optional<std::chrono::steady_clock::time_point> end_;
   double from_ = 0, to_ = 1;
   bool is_quiet_ = false;
 };

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "report/run/machine.h"
+#include "report/table/machine.h"
 
 namespace chainmail::bench {
 namespace {

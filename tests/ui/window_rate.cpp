@@ -9,7 +9,7 @@
 
 #include "docks/frame_rate_dock.h"
 #include "document/edits.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 #include "window.h"
 #include "window/bars.h"
 

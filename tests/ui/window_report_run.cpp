@@ -2,7 +2,7 @@
 
 #include "document/edits.h"
 #include "fair_timer.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 #include "report_bench.h"
 
 namespace chainmail::window_report_run {

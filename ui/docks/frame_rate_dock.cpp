@@ -18,7 +18,7 @@
 #include "io/questions.h"
 #include "mesh/error.h"
 #include "panels/panel.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail {
 namespace {

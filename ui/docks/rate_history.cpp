@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/text.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail {
 namespace {

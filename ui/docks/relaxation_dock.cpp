@@ -7,7 +7,7 @@
 #include "common/dock_scroll.h"
 #include "common/text.h"
 #include "document/edits.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail {
 namespace {

@@ -21,13 +21,9 @@ namespace json_kinds {
 inline constexpr JsonKind info{"info", 1};
 inline constexpr JsonKind repair{"repair", 1};
 inline constexpr JsonKind deform{"deform", 1};
-inline constexpr JsonKind compare{"compare", 1};
-inline constexpr JsonKind physics{"physics", 1};
-inline constexpr JsonKind suite{"suite", 1};
+inline constexpr JsonKind report{"report", 2};
 inline constexpr JsonKind peer_case{"case", 1};
 inline constexpr JsonKind peer_answer{"answer", 1};
-inline constexpr JsonKind calibrate{"calibrate", 1};
-inline constexpr JsonKind ramp{"ramp", 1};
 
 }  // namespace json_kinds
 

@@ -5,8 +5,7 @@
 
 #include "files/results/json_kind.h"
 #include "files/text/text.h"
-#include "report/page/figure_table.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail {
 namespace {
@@ -59,23 +58,6 @@ void write_pass(std::ostream& out, const DeformSummary::Pass& pass) {
     point(*pass.stopped_at);
   }
   out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
-}
-
-/// Writes rows of residuals: relative, RMS and max.
-void write_residuals(std::ostream& out, const TestedDrags& tested, bool at_equilibrium) {
-  std::vector<std::vector<std::string>> rows{{"", "relative", "RMS", "max"}};
-  const auto add = [&](const std::string& what, const Residual& residual) {
-    rows.push_back(
-        {what, report::figure(residual.relative), report::figure(residual.rms), report::figure(residual.max)});
-  };
-  add("nothing moves", tested.nothing);
-  add(at_equilibrium ? "defaults" : "defaults, no sweeps", tested.before);
-  add("calibrated", tested.after);
-  for (const CalibrationDrag& drag : tested.drags) {
-    add("  element " + std::to_string(drag.element) + ", before", drag.before);
-    add("  element " + std::to_string(drag.element) + ", after", drag.after);
-  }
-  report::write_columns(out, rows);
 }
 
 }  // namespace
@@ -254,22 +236,16 @@ void write_text(std::ostream& out, const DeformSummary& summary) {
 }
 
 void write_text(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result) {
-  const bool at_equilibrium = !info(options.scheme).sweeps;
   const Material& material = options.elastic.material;
   out << info(options.algorithm).label << " comes closest to neo-Hookean FEM on the same cells (Young's modulus "
       << report::figure(material.young) << ", Poisson's ratio " << report::figure(material.poisson) << ") with\n  "
       << report::region_in_words(result.softness) << ", ";
-  if (at_equilibrium) {
-    out << report::energy_in_words(result.softness) << ", at equilibrium (" << info(options.energy).name << " energy)";
+  if (info(options.scheme).sweeps) {
+    out << result.sweeps << " sweeps per move\n";
   } else {
-    out << result.sweeps << " sweeps per move";
+    out << report::energy_in_words(result.softness) << ", at equilibrium (" << info(options.energy).name
+        << " energy)\n";
   }
-  out << "\nRelative error, and RMS and max over the handle's displacement. An object that does not move has a\n"
-         "relative error of about 1.\nDrags used by the search ("
-      << result.fitted.drags.size() << ", " << result.evaluations << " evaluations):\n";
-  write_residuals(out, result.fitted, at_equilibrium);
-  out << "Drags not used by the search (" << result.held_out.drags.size() << "):\n";
-  write_residuals(out, result.held_out, at_equilibrium);
 }
 
 }  // namespace chainmail

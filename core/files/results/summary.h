@@ -49,6 +49,7 @@ void write_text(std::ostream& out, const MeshSummary& summary);
 /// What was done and what is left, a line each.
 void write_text(std::ostream& out, const RepairResult& repair);
 void write_text(std::ostream& out, const DeformSummary& summary);
+/// What was found. The errors are in a table of their own: see results_of.
 void write_text(std::ostream& out, const CalibrationOptions& options, const CalibrationResult& result);
 
 }  // namespace chainmail

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail::report {
 namespace {

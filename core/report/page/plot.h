@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "report/run/compare.h"
 #include "solver/algorithms.h"
 
 namespace chainmail::report {
@@ -56,12 +55,6 @@ class Axis {
 std::size_t style_of(Algorithm algorithm);
 /// Returns the style with this index. After the last one they repeat.
 const PlotStyle& style_at(std::size_t index);
-
-/// Notes of contestants that are relaxed, and their explanations in the legend.
-inline constexpr const char* equilibrium_mark = "eq.";
-inline constexpr const char* equilibrium_note = "eq.: relaxed to the equilibrium";
-inline constexpr const char* material_mark = "mat.";
-inline constexpr const char* material_note = "mat.: to the material, regions open";
 
 /// A point of a plot, with the quartiles of x as its error bar.
 struct PlotMark {
@@ -123,12 +116,6 @@ struct Plot {
   std::string good_label;
 };
 
-/// A plot of a report, and the name of its file.
-struct PlotFile {
-  std::string name;
-  Plot plot;
-};
-
 /// The axes of a plot. All panels share them.
 struct PlotAxes {
   explicit PlotAxes(const Plot& plot);
@@ -140,21 +127,5 @@ bool is_empty(const Plot& plot);
 
 /// Returns the index of the series of an algorithm's marks. Adds the series if it is missing.
 std::size_t series_of(Plot& plot, Algorithm algorithm);
-
-/// An error that a plot can show against time.
-struct PlottedError {
-  std::string_view name, unit;
-  std::optional<double> (*of)(const Errors& errors);
-  std::optional<double> good_below = {};
-};
-std::span<const PlottedError> plotted_errors();
-
-/// Returns a plot of time against an error for one drag, with one mark per contestant.
-Plot error_plot(const DragResult& drag, const PlottedError& error);
-Plot error_plot(const CaseResult& object, const PlottedError& error);
-/// Returns a plot of time against the largest violation, with one panel per drag of an object.
-Plot violation_plot(const CaseResult& object);
-/// Returns a plot of time against the RMS distance to Exact ChainMail, with one panel per drag of an object.
-Plot distance_plot(const CaseResult& object);
 
 }  // namespace chainmail::report

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 namespace chainmail::report {
 namespace {

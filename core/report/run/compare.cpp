@@ -1,183 +1,139 @@
 #include "report/run/compare.h"
 
 #include <algorithm>
-#include <chrono>
-#include <memory>
-#include <numeric>
 #include <set>
 
+#include "equilibrium/link_energy.h"
+#include "measure/distance.h"
+#include "measure/equilibrium.h"
+#include "measure/violation.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
-#include "report/run/errors.h"
-#include "report/run/runner.h"
 
 namespace chainmail::report {
 namespace {
 
-constexpr int min_repetitions_of_drag = 5;
-constexpr int max_repetitions_of_drag = 51;
-constexpr double warm_up_share = 0.25;  // share of the progress for references and warm-up
+// Above this number of elements, the equilibrium takes longer than all contestants together.
+constexpr ElementId equilibrium_limit = 131'072;
 
-using Clock = std::chrono::steady_clock;
-
-/// The times of a drag's moves over its repetitions (ms).
-class MoveTimes {
- public:
-  /// Adds the times of the moves of one repetition (ms). All repetitions have the same number of moves.
-  void add(std::vector<double> ms) { runs_.push_back(std::move(ms)); }
-
-  /// Returns the spread, over the repetitions, of the mean time per move.
-  TimeSpread spread() const;
-  /// Returns the time of the slowest move: each move counts with its median over the repetitions.
-  double worst() const;
-
- private:
-  std::vector<std::vector<double>> runs_;
-};
-
-TimeSpread MoveTimes::spread() const {
-  std::vector<double> means;
-  for (const auto& run : runs_) {
-    means.push_back(std::accumulate(run.begin(), run.end(), 0.0) / double(run.size()));
-  }
-  return spread_of(std::move(means));
+double energy_of(const Simulation& simulation) {
+  return elastic_energy(simulation.mesh(), simulation.softness(), simulation.body().cuts(),
+                        simulation.body().positions(), simulation.elastic());
 }
 
-double MoveTimes::worst() const {
-  double worst = 0;
-  for (std::size_t move = 0; !runs_.empty() && move < runs_.front().size(); ++move) {
-    std::vector<double> of_move;
-    for (const auto& run : runs_) {
-      of_move.push_back(run[move]);
-    }
-    worst = std::max(worst, spread_of(std::move(of_move)).median);
-  }
-  return worst;
+Distance between(const Runner& one, const Runner& other) {
+  return measure_distance(one.simulation().mesh(), one.simulation().body().positions(),
+                          other.simulation().body().positions());
 }
 
-/// The runner of an algorithm, which all its contestants share; or the reason why there is none.
-struct Participant {
-  std::unique_ptr<Runner> runner;
-  std::string refusal;
-};
-
-/// Runs one drag on one object with all contestants.
-class Experiment {
+/// Measures the errors of contestants on a drag, against Exact ChainMail in double and against the same contestant in
+/// the other precision.
+class ExactReferee : public Referee {
  public:
-  Experiment(const Case& object, const RecordedMoves& moves, const CompareOptions& options, const Progress& progress)
+  ExactReferee(const Case& object, const RecordedMoves& moves, const RunOptions& options, const Progress& progress)
       : object_(object), moves_(moves), options_(options), progress_(progress) {
-    result_ = {moves.name, moves.description, count_moves(moves), {}, {}};
-    for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
-      if (!info(options.algorithms[i]).relaxes()) {
-        add(i, {options.algorithms[i], 0});
-        continue;
-      }
-      for (const int sweeps : options.sweeps) {
-        add(i, {options.algorithms[i], sweeps});
-      }
-      if (options.equilibrium && takes_part_at_equilibrium(options.algorithms[i])) {
-        add(i, {options.algorithms[i], 0, true});
-      }
+    try {
+      exact_ = std::make_unique<Runner>(object, Algorithm::exact, Precision::double_precision, options);
+      exact_->run(moves, 0, progress);
+      energy_of_exact_ = energy_of(exact_->simulation());
+      find_equilibrium();
+    } catch (const Error& error) {
+      exact_.reset();
+      no_exact_ = error.what();
     }
-    times_.resize(result_.entries.size());
   }
 
-  /// Returns nothing if it was cancelled.
-  std::optional<DragResult> run() {
-    make_runners();
-    measure_errors();
-    for (int repetition = 0; repetition < repetitions_ && !progress_.cancelled(); ++repetition) {
-      progress_.show(warm_up_share + (1 - warm_up_share) * repetition / repetitions_);
-      repeat(static_cast<std::size_t>(repetition));
+  /// Reason why there is no result of Exact ChainMail for comparison; empty if there is one.
+  const std::string& no_exact() const { return no_exact_; }
+
+  void judge(const Runner& runner, const Contestant& contestant, Row& row) override {
+    using namespace figures;
+    const Simulation& simulation = runner.simulation();
+    const Mesh& mesh = simulation.mesh();
+    const PositionView positions = simulation.body().positions();
+    const Violation violation = measure_violation(simulation.body());
+    add_shape(row, mesh, simulation.softness(), simulation.body().cuts(), positions,
+              exact_ ? std::optional(exact_->simulation().body().positions()) : std::nullopt);
+    row.set(violation_rms, violation.rms);
+    row.set(violation_fraction, violation.fraction);
+    if (exact_) {
+      add(row, exact_distance_max, exact_distance_rms, between(runner, *exact_));
+      row.set(energy_over_exact, energy_ratio(energy_of(simulation), energy_of_exact_));
     }
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      if (auto& measurement = result_.entries[i].measurement) {
-        measurement->ms_per_move = times_[i].spread();
-        measurement->worst_move_ms = times_[i].worst();
-      }
+    if (equilibrium_) {
+      add(row, equilibrium_distance_max, equilibrium_distance_rms,
+          measure_distance(mesh, positions, equilibrium_->positions(mesh)));
     }
-    return progress_.cancelled() ? std::nullopt : std::optional(std::move(result_));
+    add(row, float_double_max, float_double_rms, float_to_double(runner, contestant));
+    row.set(largest_over_handle, chainmail::largest_over_handle(mesh, positions, runner.handle()));
   }
 
  private:
-  void add(std::size_t participant, const Contestant& contestant) {
-    result_.entries.push_back({contestant, std::nullopt, {}});
-    participant_of_.push_back(participant);
+  static void add(Row& row, const Figure& max, const Figure& rms, const Distance& distance) {
+    row.set(max, distance.max);
+    row.set(rms, distance.rms);
   }
 
-  Participant& participant_of(std::size_t entry) { return participants_[participant_of_[entry]]; }
-
-  void make_runners() {
-    for (const Algorithm algorithm : options_.algorithms) {
-      Participant& participant = participants_.emplace_back();
-      try {
-        participant.runner = std::make_unique<Runner>(object_, algorithm, options_.precision, options_);
-      } catch (const Error& error) {
-        participant.refusal = error.what();
-      }
+  Distance float_to_double(const Runner& runner, const Contestant& contestant) {
+    const bool in_float = options_.precision == Precision::single_precision;
+    if (!other_ || other_->simulation().statistics().algorithm != contestant.algorithm) {
+      other_ = std::make_unique<Runner>(object_, *contestant.algorithm,
+                                        in_float ? Precision::double_precision : Precision::single_precision, options_);
     }
+    other_->run(moves_, {contestant.sweeps, contestant.equilibrium}, progress_);
+    return between(runner, *other_);
   }
 
-  /// Runs the warm-up, which is not timed, and measures the errors, which are the same in every repetition.
-  void measure_errors() {
-    References references(object_, moves_, options_, progress_);
-    result_.no_exact = references.no_exact();
-    double seconds = 0;
-    for (std::size_t i = 0; i < result_.entries.size() && !progress_.cancelled(); ++i) {
-      progress_.show(warm_up_share * double(i) / double(result_.entries.size()));
-      Entry& entry = result_.entries[i];
-      entry.refusal = participant_of(i).refusal;
-      if (participant_of(i).runner) {
-        seconds += try_out(entry, *participant_of(i).runner, references);
-      }
+  /// Finds the end of full relaxation, with the handle and the pins at the positions of Exact ChainMail.
+  void find_equilibrium() {
+    const Simulation& simulation = exact_->simulation();
+    const auto pins = simulation.body().pins();
+    std::vector<ElementId> fixed(pins.begin(), pins.end());
+    fixed.insert(fixed.end(), exact_->handle().begin(), exact_->handle().end());
+    if (simulation.mesh().element_count() > equilibrium_limit) {
+      return;
     }
-    repetitions_ = options_.repetitions.value_or(static_cast<int>(std::clamp<double>(
-        options_.seconds / std::max(seconds, 1e-6), min_repetitions_of_drag, max_repetitions_of_drag)));
-  }
-
-  /// Returns the time of a run in seconds.
-  double try_out(Entry& entry, Runner& runner, References& references) {
-    const auto start = Clock::now();
     try {
-      const Runner::Run run = runner.try_run(moves_, entry.contestant.relaxing(), progress_);
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (const std::string remark = runner.simulation().statistics().remark;
-          !remark.empty() && info(entry.contestant.algorithm).elastic) {
-        entry.refusal = remark;
-      } else if (!run.stopped) {
-        entry.measurement = Measurement{{}, 0, run.checked, run.moved, references.errors_of(runner, entry.contestant)};
-      }
-      return seconds;
-    } catch (const Error& error) {
-      entry.refusal = error.what();
-      return 0;
+      equilibrium_ =
+          equilibrium(simulation.mesh(), simulation.softness(), simulation.body().cuts(), fixed,
+                      simulation.body().positions(), simulation.body().elastic(), cholesky_limit, progress_.quiet());
+    } catch (const Cancelled&) {
+      return;  // the result is not needed then
     }
-  }
-
-  /// Runs each contestant once. Rotates the order so that order effects cancel.
-  void repeat(std::size_t repetition) {
-    const std::size_t count = result_.entries.size();
-    for (std::size_t turn = 0; turn < count && !progress_.cancelled(); ++turn) {
-      const std::size_t i = (turn + repetition) % count;
-      if (result_.entries[i].measurement) {
-        auto run = participant_of(i).runner->try_run(moves_, result_.entries[i].contestant.relaxing(), progress_);
-        if (!run.stopped) {
-          times_[i].add(std::move(run.ms));
-        }
-      }
+    const bool is_reference =
+        equilibrium_ && !equilibrium_->binds && std::ranges::count(equilibrium_->defined, false) == 0;
+    if (!is_reference) {
+      equilibrium_.reset();
     }
   }
 
   const Case& object_;
   const RecordedMoves& moves_;
-  const CompareOptions& options_;
+  const RunOptions& options_;
   const Progress& progress_;
-  DragResult result_;
-  std::vector<Participant> participants_;    // one per algorithm
-  std::vector<std::size_t> participant_of_;  // of each contestant: the index of its participant
-  std::vector<MoveTimes> times_;             // one per contestant
-  int repetitions_ = 0;
+  std::unique_ptr<Runner> exact_;
+  double energy_of_exact_ = 0;
+  std::optional<Equilibrium> equilibrium_;  // only if it is a reference for all elements
+  std::string no_exact_;
+  std::unique_ptr<Runner> other_;  // runs the algorithm of the last contestant in the other precision
 };
+
+std::vector<Contestant> contestants_of(const CompareOptions& options) {
+  std::vector<Contestant> all;
+  for (const Algorithm algorithm : options.algorithms) {
+    if (!info(algorithm).relaxes()) {
+      all.push_back({algorithm});
+      continue;
+    }
+    for (const int sweeps : options.sweeps) {
+      all.push_back({algorithm, sweeps});
+    }
+    if (options.equilibrium && takes_part_at_equilibrium(algorithm)) {
+      all.push_back({algorithm, 0, true});
+    }
+  }
+  return all;
+}
 
 CompareOptions checked(const std::vector<Case>& cases, CompareOptions options) {
   if (options.algorithms.empty()) {
@@ -209,54 +165,77 @@ void check(const CompareOptions& options) {
   }
 }
 
-bool takes_part_at_equilibrium(Algorithm algorithm) {
-  return algorithm == Algorithm::exact || algorithm == Algorithm::natural_queue;
+ObjectInfo info_of(const Case& object) {
+  return {.name = object.name,
+          .description = object.description,
+          .elements = object.mesh->element_count(),
+          .links = object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
+          .pins = object.pins.size()};
 }
 
-std::string label(const Contestant& contestant) {
-  if (contestant.equilibrium) {
-    std::string name(info(contestant.algorithm).label);
-    constexpr std::string_view family = " ChainMail";
-    if (name.ends_with(family)) {
-      name.resize(name.size() - family.size());
-    }
-    return name + " + equilibrium";
+DragInfo info_of(const RecordedMoves& moves) {
+  return {.name = moves.name,
+          .description = moves.description,
+          .handle = handle_of(moves),
+          .moves = count_moves(moves),
+          .has_cut = !cuts_of(moves).empty()};
+}
+
+std::vector<Setting> settings_of(const RunOptions& options) {
+  return {{"relaxation", std::string(info(options.scheme).name)},
+          {"relax_step", options.relax_step},
+          {"precision", options.precision == Precision::single_precision ? "float" : "double"}};
+}
+
+void add_drag(Results& results, DragInfo drag, std::vector<Row> rows) {
+  auto& drags = results.objects.back().drags;
+  for (Row& row : rows) {
+    row.object = results.objects.size() - 1;
+    row.drag = drags.size();
+    results.rows.push_back(std::move(row));
   }
-  return std::string(info(contestant.algorithm).label) + (contestant.sweeps == 0 ? ""
-                                                          : contestant.sweeps == 1
-                                                              ? ", 1 sweep"
-                                                              : ", " + std::to_string(contestant.sweeps) + " sweeps");
+  drags.push_back(std::move(drag));
 }
 
-Comparison compare(const std::vector<Case>& cases, const CompareOptions& options, const Progress& progress) {
-  Comparison comparison{checked(cases, options), {}, false};
+Progress part_of(const Progress& whole, double index, double count, const std::string& text) {
+  Progress part = whole.part(index / count, (index + 1) / count);
+  part.say(text);
+  part.show(0);
+  return part;
+}
+
+Results compare(const std::vector<Case>& cases, const CompareOptions& asked, const Progress& progress,
+                const Finished& finished) {
+  const CompareOptions options = checked(cases, asked);
+  Results results{.kind = ReportKind::compare, .settings = settings_of(options)};
   std::size_t drags = 0, done = 0;
   for (const Case& object : cases) {
     drags += object.drags.size();
   }
   for (const Case& object : cases) {
-    CaseResult& result = comparison.cases.emplace_back();
-    result = {object.name,
-              object.description,
-              object.mesh->element_count(),
-              object.mesh->link_count() - std::set(object.cuts.begin(), object.cuts.end()).size(),
-              {}};
+    results.objects.push_back(info_of(object));
+    results.objects.back().reference = "Exact ChainMail in double";
+    Contest contest(object, contestants_of(options), options);
     for (const RecordedMoves& moves : object.drags) {
-      const Progress of_drag = progress.part(double(done) / double(drags), double(done + 1) / double(drags));
-      of_drag.say(object.name + ", " + moves.name);
-      of_drag.show(0);
-      auto drag = Experiment(object, moves, comparison.options, of_drag).run();
-      if (!drag) {
-        comparison.stopped = true;
-        return comparison;
+      const Progress part = part_of(progress, double(done), double(drags), object.name + ", " + moves.name);
+      ExactReferee referee(object, moves, options, part);
+      std::vector<Row> rows = contest.run(moves, &referee, part);
+      if (progress.cancelled()) {
+        results.stopped = true;
+        return results;
       }
-      result.drags.push_back(std::move(*drag));
+      DragInfo drag = info_of(moves);
+      drag.no_reference = referee.no_exact();
+      add_drag(results, std::move(drag), std::move(rows));
       ++done;
+      if (finished) {
+        finished(results);
+      }
     }
   }
   progress.say("done");
   progress.show(1);
-  return comparison;
+  return results;
 }
 
 }  // namespace chainmail::report

@@ -1,22 +1,25 @@
 #include "report/run/contest.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
 
+#include "measure/hausdorff.h"
+#include "measure/shape_measures.h"
+#include "measure/violation.h"
 #include "mesh/error.h"
 #include "report/run/drag_times.h"
 #include "report/run/memory_in_use.h"
-#include "report/run/preparing.h"
-#include "report/run/runner.h"
+#include "report/table/format.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr int min_repetitions = 3, max_repetitions = 51;
-constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated
+constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated, unless their number is given
 constexpr double own_limits_residual = 0.01;   // of the iterations to a contestant's own limit, over the wanted share
 constexpr double rounding_of_handle = 1e-4;    // mean rest lengths; positions are in float
 
@@ -37,18 +40,61 @@ bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>&
   });
 }
 
+PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
+  return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
+}
+
+std::vector<double> moved(const Mesh& mesh, const ReferenceSolution& reference) {
+  std::vector<double> at = mesh.rest;
+  std::ranges::transform(at, reference.displacements, at.begin(), std::plus());
+  return at;
+}
+
 }  // namespace
+
+void add_shape(Row& row, const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& positions,
+               const std::optional<PositionView>& reference) {
+  if (reference) {
+    row.set(figures::hausdorff, hausdorff_distance(mesh, positions, *reference));
+  }
+  row.set(figures::volume_change, chainmail::volume_change(mesh, positions));
+  row.set(figures::inverted_cells, chainmail::inverted_cells(mesh, positions));
+  row.set(figures::stretch, largest_principal_stretch(mesh, positions));
+  row.set(figures::violation_max, measure_violation(mesh, softness, cuts, positions).max);
+}
+
+void add_error(Row& row, const PhysicalError& error) {
+  row.set(figures::relative, error.relative);
+  row.set(figures::error_rms, error.rms);
+  row.set(figures::error_max, error.max);
+  row.set(figures::moving_rms, error.moving_rms);
+  row.set(figures::moving_max, error.moving_max);
+  row.set(figures::moving_elements, double(error.moving));
+}
+
+void PhysicsReferee::judge(const Runner& runner, const Contestant& /*contestant*/, Row& row) {
+  const Simulation& simulation = runner.simulation();
+  const Mesh& mesh = simulation.mesh();
+  const PositionView positions = simulation.body().positions();
+  const std::vector<double> right = moved(mesh, reference_);
+  add_error(row, measure_physical_error(mesh, positions, reference_));
+  row.set(figures::reference_change, change_);
+  add_shape(row, mesh, simulation.softness(), simulation.body().cuts(), positions, view_of(mesh, right));
+}
+
+void PhysicsReferee::judge_nothing(const Case& object, Row& row) {
+  const Mesh& mesh = *object.mesh;
+  const std::vector<double> at = positions_of_nothing_moving(mesh, reference_), right = moved(mesh, reference_);
+  add_error(row, error_of_nothing_moving(mesh, reference_));
+  row.set(figures::reference_change, change_);
+  add_shape(row, mesh, object.softness, Cuts(object.mesh), view_of(mesh, at), view_of(mesh, right));
+}
 
 /// One contestant with its solver and its times.
 class Contest::Participant {
  public:
-  Participant(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options, bool is_timed)
-      : object_(object),
-        whole_(object),
-        contestant_(contestant),
-        options_(options),
-        is_timed_(is_timed),
-        clocks_(options.clocks) {
+  Participant(const Case& object, const Contestant& contestant, const ContestOptions& options)
+      : object_(object), whole_(object), contestant_(contestant), options_(options) {
     if (!contestant.algorithm) {
       return;
     }
@@ -65,18 +111,73 @@ class Contest::Participant {
     bytes_ = bytes_since(before);
   }
 
-  /// Runs a drag for the first time and measures the errors. `preparations` is null if nothing is timed.
-  void try_out(const RecordedMoves& moves, const ReferenceSolution& reference, Preparations* preparations,
-               const Progress& progress) {
-    entry_ = {contestant_, std::nullopt, refusal_};
-    times_ = {};
+  /// Runs a drag for the first time and measures the errors, within the time that the contestant has left.
+  /// `preparations` is null if nothing is timed.
+  void begin(const RecordedMoves& moves, Referee* referee, Preparations* preparations, const Progress& progress) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const Progress mine =
+        options_.longest > 0 ? progress.until(start + std::chrono::duration_cast<Clock::duration>(left_)) : progress;
+    if (mine.is_too_late()) {
+      return refuse(left_out());
+    }
+    try_out(moves, referee, preparations, mine);
+    if (options_.own_limit > 0 && referee != nullptr && referee->reference() != nullptr) {
+      limit_iterations(moves, *referee, mine);
+    }
+    if (is_measured_ && mine.is_too_late() && limited_ == nullptr) {
+      refuse(left_out());  // not all numbers of iterations were tried
+    }
+    left_ -= Clock::now() - start;
+  }
+
+  int repetitions(double seconds) const {
+    if (limited_ != nullptr) {
+      return limited_->repetitions(seconds);
+    }
+    if (!is_measured_ || !runner_ || options_.only_errors) {
+      return 0;
+    }
+    if (options_.repetitions) {
+      return *options_.repetitions;
+    }
+    return seconds_ > longest_repeated_drag
+               ? 0
+               : std::clamp(int(seconds / std::max(seconds_, 1e-6)), min_repetitions, max_repetitions);
+  }
+
+  void repeat(const Progress& progress) {
+    if (limited_ != nullptr) {
+      limited_->repeat(progress);
+      return;
+    }
+    if (!warm_) {
+      times_.clear();  // the first run was a warm-up
+      warm_ = true;
+    }
+    run(progress);
+  }
+
+  Row result() {
+    if (!is_measured_ || !runner_) {
+      return std::move(row_);
+    }
+    Row row = std::move(limited_ != nullptr ? limited_->row_ : row_);
+    add_times(row, limited_ != nullptr ? limited_->times_ : times_);
+    return row;
+  }
+
+ private:
+  /// Runs a drag for the first time and measures the errors.
+  void try_out(const RecordedMoves& moves, Referee* referee, Preparations* preparations, const Progress& progress) {
+    row_ = {.contestant = contestant_, .refusal = refusal_};
+    times_.clear();
     warm_ = false;
     limited_ = nullptr;
     if (!contestant_.algorithm) {
-      PhysicsMeasurement& measured = entry_.measurement.emplace();
-      measured.error = error_of_nothing_moving(*object_.mesh, reference);
-      const std::vector<double> at = positions_of_nothing_moving(*object_.mesh, reference);
-      measured.shape = shape_of(view_of(at), Cuts(object_.mesh), reference);
+      if (referee != nullptr) {
+        referee->judge_nothing(object_, row_);
+      }
       return;
     }
     if (!runner_) {
@@ -87,90 +188,75 @@ class Contest::Participant {
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
-      if (is_timed_ && !prepares(contestant_)) {
+      if (!options_.only_errors && !prepares(contestant_)) {
         run(progress);  // prepares, so that no time of the next run contains this
-        times_ = {};
+        times_.clear();
       }
       run(progress);
       bytes_ = has_run_ ? bytes_ : sum_of(bytes_, bytes_since(before));
       has_run_ = true;
-      measure(reference);
-      if (entry_.measurement && preparing != nullptr) {
-        entry_.measurement->prepare = preparing->of(handle_of(moves));
+      measure(referee, progress);
+      if (is_measured_ && preparing != nullptr) {
+        prepare_ = preparing->of(handle_of(moves));
       }
     } catch (const Error& error) {
-      entry_.refusal = error.what();
+      refuse(error.what());
     }
   }
 
   /// Call this after try_out(). From now on the drag runs with the least number of iterations per move with which the
   /// answer at its end is close to that of try_out(), the own limit.
-  void limit_iterations(const RecordedMoves& moves, const ReferenceSolution& reference, const Progress& progress) {
-    if (!entry_.measurement || !runner_ || contestant_.limit > 0) {
+  void limit_iterations(const RecordedMoves& moves, Referee& referee, const Progress& progress) {
+    if (!is_measured_ || contestant_.limit > 0) {
       return;
     }
-    ReferenceSolution own = reference;  // its own converged answer, which each number of iterations is compared with
+    ReferenceSolution own = *referee.reference();  // its own converged answer, which each number is compared with
     own.displacements = displacements();
+    PhysicsReferee own_limit(own);
     for (const int limit : limits_of(contestant_)) {
       Participant& one = limited_to(limit);
-      one.try_out(moves, own, nullptr, progress);
-      if (one.entry_.measurement && one.entry_.measurement->error.relative <= options_.own_limit) {
-        one.measure(reference);
-        const Preparation prepare = entry_.measurement->prepare;
-        entry_.measurement = one.entry_.measurement;
-        entry_.measurement->prepare = prepare;
-        entry_.measurement->iterations = limit;
+      one.try_out(moves, &own_limit, nullptr, progress);
+      if (one.is_measured_ && one.row_[figures::relative] <= options_.own_limit) {
+        one.measure(&referee, progress);
+        one.row_.contestant = contestant_;
+        one.row_.set(figures::iterations, double(limit));
         limited_ = &one;
         return;
       }
     }
   }
 
-  int repetitions(double seconds) const {
-    if (limited_ != nullptr) {
-      return limited_->repetitions(seconds);
+  void add_times(Row& row, const RepeatedDrag& times) const {
+    row.set(figures::ms_per_move, times.spread(&DragTimes::mean));
+    row.set(figures::worst_move_ms, times.slowest_move(prepares(contestant_)));
+    row.set(figures::first_ms, times.spread(&DragTimes::first));
+    if (count_moves(moves_) > (prepares(contestant_) ? 2 : 1) + (has_cut_ ? 1 : 0)) {
+      row.set(figures::later_ms, times.spread(&DragTimes::later));
     }
-    if (!entry_.measurement || !runner_ || seconds_ > longest_repeated_drag) {
-      return 0;
+    if (has_cut_) {
+      row.set(figures::after_cut_ms, times.spread(&DragTimes::after_cut));
     }
-    return std::clamp(int(seconds / std::max(seconds_, 1e-6)), min_repetitions, max_repetitions);
+    row.set(figures::factorize_ms, prepare_.factorize);
+    row.set(figures::grab_ms, prepare_.grab);
+    if (prepare_.factorize.count > 0) {
+      row.set(figures::prepare_ms, prepare_.ms());
+    }
+    if (const auto first = row[figures::first_ms]) {
+      row.set(figures::fresh_ms, *first + prepare_.grab.median);
+    }
   }
 
-  void repeat(const Progress& progress) {
-    if (limited_ != nullptr) {
-      limited_->repeat(progress);
-      return;
-    }
-    if (!warm_) {
-      times_ = {};  // the first run was a warm-up
-      warm_ = true;
-    }
-    run(progress);
-  }
-
-  PhysicsEntry result() {
-    if (auto& measured = entry_.measurement; measured && runner_) {
-      const RepeatedDrag& times = limited_ != nullptr ? limited_->times_ : times_;
-      measured->first_move = times.spread(&DragTimes::first);
-      measured->ms_per_move = times.spread(&DragTimes::later);
-      measured->move_after_cut = has_cut_ ? times.spread(&DragTimes::after_cut) : TimeSpread();
-    }
-    return std::move(entry_);
-  }
-
- private:
   /// Returns the times of preparation for the object and all its handles. Measures them for the first contestant of
   /// those that share them.
   const PreparingTimes& prepared(Preparations& preparations) const {
-    PhysicsContestant shared = contestant_;
-    shared.limit = shared.sweeps = 0;
+    const Contestant shared = curve_of(contestant_);
     const auto found = std::ranges::find(preparations, shared, &Preparations::value_type::first);
     if (found != preparations.end()) {
       return found->second;
     }
     const Algorithm method = *contestant_.algorithm;
     return preparations
-        .emplace_back(shared, info(method).elastic ? PreparingTimes(object_, method, clocks_)
+        .emplace_back(shared, info(method).elastic ? PreparingTimes(object_, method, options_.clocks)
                                                    : PreparingTimes(object_, method, contestant_.equilibrium, options_))
         .second;
   }
@@ -178,9 +264,9 @@ class Contest::Participant {
   Participant& limited_to(int limit) {
     std::unique_ptr<Participant>& one = by_limit_[limit];
     if (!one) {
-      PhysicsContestant contestant = contestant_;
+      Contestant contestant = contestant_;
       contestant.limit = limit;
-      one = std::make_unique<Participant>(whole_, contestant, options_, is_timed_);
+      one = std::make_unique<Participant>(whole_, contestant, options_);
     }
     return *one;
   }
@@ -206,115 +292,129 @@ class Contest::Participant {
   }
 
   void run(const Progress& progress) {
-    const double start = clocks_.wall();
-    const Runner::Run run = runner_->try_run(moves_, relaxing(), progress, contestant_.limit == 0);
-    stopped_ = run.stopped;
-    if (run.stopped) {
+    const double start = options_.clocks.wall();
+    last_ = runner_->run(moves_, relaxing(), progress, contestant_.limit == 0);
+    if (last_.stopped) {
       return;
     }
-    const DragTimes times = split(run.ms, prepares(contestant_), has_cut_);
+    const DragTimes times = split(last_.ms, prepares(contestant_), has_cut_);
     // Without a cut, the repetitions of the drag do not prepare again.
-    seconds_ = clocks_.wall() - start - (has_cut_ ? 0 : times.preparing / 1e3);
-    times_.add(times);
+    seconds_ = options_.clocks.wall() - start - (has_cut_ ? 0 : times.preparing / 1e3);
+    times_.add(times, last_.ms);
   }
 
-  /// A contestant that did not converge, by its own rule, has no figures, unless its iterations are limited.
-  void measure(const ReferenceSolution& reference) {
+  void refuse(const std::string& reason) {
+    row_ = {.contestant = contestant_, .refusal = reason};
+    is_measured_ = false;
+  }
+
+  /// Returns why the answer has no figures: a contestant that did not converge, by its own rule, unless its iterations
+  /// are limited.
+  std::string fault(const ReferenceSolution* reference) {
     const Simulation& simulation = runner_->simulation();
-    if (contestant_.limit == 0 || !handle_is_there(simulation, runner_->handle(), reference)) {
-      entry_.refusal = simulation.statistics().remark;
+    const bool is_elastic = info(*contestant_.algorithm).elastic.has_value();
+    const bool has_missed = reference != nullptr && !handle_is_there(simulation, runner_->handle(), *reference);
+    const std::string& remark = simulation.statistics().remark;
+    if (!remark.empty() && (reference != nullptr || is_elastic) && (contestant_.limit == 0 || has_missed)) {
+      return remark;
     }
     const auto equilibrium = contestant_.equilibrium ? runner_->certificate() : std::nullopt;
-    if (contestant_.limit == 0 && equilibrium && equilibrium->residual > compared_residual) {
-      entry_.refusal = "it did not reach the residual in " + std::to_string(equilibrium_iterations) + " iterations";
+    return contestant_.limit == 0 && reference != nullptr && equilibrium && equilibrium->residual > compared_residual
+               ? "it did not reach the residual in " + std::to_string(equilibrium_iterations) + " iterations"
+               : "";
+  }
+
+  void measure(Referee* referee, const Progress& progress) {
+    row_ = {.contestant = contestant_};
+    is_measured_ = false;
+    if (last_.stopped) {
+      row_.refusal = progress.is_too_late() ? left_out() : "";
+      return;
     }
-    if (!stopped_ && entry_.refusal.empty()) {
-      PhysicsMeasurement& measured = entry_.measurement.emplace();
-      measured.error = measure_physical_error(simulation.mesh(), simulation.body().positions(), reference);
-      measured.shape = shape_of(simulation.body().positions(), simulation.body().cuts(), reference);
-      measured.bytes = bytes_;
-      if (equilibrium) {
-        measured.residual = equilibrium->residual;
-        measured.binds = equilibrium->binds;
-      }
-      if (!std::isfinite(measured.error.relative)) {
-        entry_.measurement.reset();
-        entry_.refusal = "its positions are not numbers: it diverged";
-      }
+    if (const std::string reason = fault(referee != nullptr ? referee->reference() : nullptr); !reason.empty()) {
+      return refuse(reason);
+    }
+    const double moves = std::max(1, count_moves(moves_));
+    row_.set(figures::checked, double(last_.checked) / moves);
+    row_.set(figures::moved, double(last_.moved) / moves);
+    if (bytes_) {
+      row_.set(figures::bytes, double(*bytes_));
+    }
+    if (const auto equilibrium = contestant_.equilibrium ? runner_->certificate() : std::nullopt) {
+      row_.set(figures::residual, equilibrium->residual);
+      row_.set(figures::binds, equilibrium->binds ? 1.0 : 0.0);
+    }
+    if (referee != nullptr) {
+      referee->judge(*runner_, contestant_, row_);
+    }
+    is_measured_ = std::isfinite(row_[figures::relative].value_or(0));
+    if (!is_measured_) {
+      refuse("its positions are not numbers: it diverged");
     }
   }
 
-  PositionView view_of(const std::vector<double>& positions) const {
-    return {positions.data(), std::size_t(object_.mesh->space_dimension) * sizeof(double), Precision::double_precision};
-  }
-
-  ShapeFigures shape_of(const PositionView& positions, const Cuts& cuts, const ReferenceSolution& reference) const {
-    std::vector<double> at = object_.mesh->rest;
-    std::ranges::transform(at, reference.displacements, at.begin(), std::plus());
-    return shape_figures(*object_.mesh, object_.softness, cuts, positions, view_of(at));
+  std::string left_out() const {
+    return "left out after " + figure(options_.longest) +
+           " s; a contestant that is asked for by name takes as long as "
+           "it needs";
   }
 
   Case object_;        // with the softness of the contestant
   const Case& whole_;  // as it was given
-  PhysicsContestant contestant_;
-  CompareOptions options_;
-  bool is_timed_;
+  Contestant contestant_;
+  ContestOptions options_;
   std::map<int, std::unique_ptr<Participant>> by_limit_;  // by the number of iterations
   std::unique_ptr<Runner> runner_;
   std::string refusal_;
-  std::optional<std::uint64_t> bytes_;  // held after the first drag
+  std::optional<std::uint64_t> bytes_;                                                    // held after the first drag
+  std::chrono::duration<double> left_ = std::chrono::duration<double>(options_.longest);  // of its time
   bool has_run_ = false;
-  Clocks clocks_;
   // State of the current drag:
-  PhysicsEntry entry_;
+  Row row_;
+  bool is_measured_ = false;
+  Preparation prepare_;
   RecordedMoves moves_;
   bool has_cut_ = false;
+  Runner::Run last_;
   RepeatedDrag times_;
   double seconds_ = 0;
-  bool warm_ = false, stopped_ = false;
+  bool warm_ = false;
   Participant* limited_ = nullptr;  // runs in place of this one; one of by_limit_
 };
 
-Contest::Contest(const Case& object, const std::vector<PhysicsContestant>& contestants, const CompareOptions& options,
-                 Measured measured)
-    : options_(options), measured_(measured) {
-  for (const PhysicsContestant& contestant : contestants) {
-    participants_.push_back(std::make_unique<Participant>(object, contestant, options_, measured_ != Measured::errors));
+Contest::Contest(const Case& object, const std::vector<Contestant>& contestants, const ContestOptions& options)
+    : options_(options) {
+  for (const Contestant& contestant : contestants) {
+    participants_.push_back(std::make_unique<Participant>(object, contestant, options_));
   }
 }
 
 Contest::~Contest() = default;
 
-std::vector<PhysicsEntry> Contest::run(const RecordedMoves& moves, const ReferenceSolution& reference,
-                                       const Progress& progress) {
+std::vector<Row> Contest::run(const RecordedMoves& moves, Referee* referee, const Progress& progress) {
   const double count = double(participants_.size());
   for (std::size_t i = 0; i < participants_.size() && !progress.cancelled(); ++i) {
     progress.show(0.5 * double(i) / count);
-    participants_[i]->try_out(moves, reference, measured_ == Measured::errors ? nullptr : &preparations_, progress);
-    if (options_.own_limit > 0 && measured_ != Measured::errors) {
-      participants_[i]->limit_iterations(moves, reference, progress);
-    }
+    participants_[i]->begin(moves, referee, options_.only_errors ? nullptr : &preparations_, progress);
   }
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
   // less often.
-  const auto wanted = [&](const Participant& one) {
-    return measured_ == Measured::errors ? 0
-           : options_.repetitions        ? std::min(one.repetitions(1e9), *options_.repetitions)
-                                         : one.repetitions(options_.seconds / count);
-  };
-  for (int repetition = 0; repetition < max_repetitions && !progress.cancelled(); ++repetition) {
-    progress.show(0.5 + 0.5 * repetition / max_repetitions);
-    for (const auto& participant : participants_) {
-      if (repetition < wanted(*participant) && !progress.cancelled()) {
-        participant->repeat(progress);
+  for (int repetition = 0, left = 1; left > 0 && !progress.cancelled(); ++repetition) {
+    progress.show(0.5 + 0.5 * std::min(1.0, double(repetition) / max_repetitions));
+    left = 0;
+    for (std::size_t turn = 0; turn < participants_.size(); ++turn) {
+      Participant& one = *participants_[(turn + std::size_t(repetition)) % participants_.size()];
+      if (repetition < one.repetitions(options_.seconds / count) && !progress.cancelled()) {
+        one.repeat(progress);
+        ++left;
       }
     }
   }
-  std::vector<PhysicsEntry> entries;
+  std::vector<Row> rows;
   for (const auto& participant : participants_) {
-    entries.push_back(participant->result());
+    rows.push_back(participant->result());
   }
-  return entries;
+  return rows;
 }
 
 }  // namespace chainmail::report

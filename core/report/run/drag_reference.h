@@ -12,6 +12,11 @@ struct DragReference {
   ReferenceSolution solution;
   std::optional<ConvergedReference> refined = {};  // its levels, if it was computed on refined cells
   bool is_closed_form = false;
+
+  /// By how much the last refinement changed it, as a share of its RMS displacement; none without refinement.
+  std::optional<double> change() const {
+    return refined && !refined->levels.empty() ? refined->levels.back().change : std::nullopt;
+  }
 };
 
 /// The references of the drags of one object.

@@ -26,6 +26,9 @@ DragTimes split(std::span<const double> ms, bool has_preparing_move, bool has_cu
   if (has_preparing_move) {
     take_first(times.preparing);
   }
+  if (!ms.empty()) {
+    times.mean = std::accumulate(ms.begin(), ms.end(), 0.0) / double(ms.size());
+  }
   if (has_cut && !ms.empty()) {
     times.after_cut = ms.back();
     ms = ms.first(ms.size() - 1);
@@ -41,6 +44,18 @@ TimeSpread RepeatedDrag::spread(double DragTimes::*of) const {
   std::vector<double> all(runs_.size());
   std::ranges::transform(runs_, all.begin(), of);
   return spread_of(std::move(all));
+}
+
+std::optional<double> RepeatedDrag::slowest_move(bool has_preparing_move) const {
+  std::optional<double> slowest;
+  for (std::size_t move = has_preparing_move ? 1 : 0; !moves_.empty() && move < moves_.front().size(); ++move) {
+    std::vector<double> of_move;
+    for (const auto& run : moves_) {
+      of_move.push_back(run[move]);
+    }
+    slowest = std::max(slowest.value_or(0), spread_of(std::move(of_move)).median);
+  }
+  return slowest;
 }
 
 }  // namespace chainmail::report

@@ -6,7 +6,7 @@
 
 #include "mesh/cuts.h"
 #include "mesh/error.h"
-#include "report/run/preparing.h"
+#include "report/run/contest.h"
 #include "report/run/suite_experiments.h"
 
 namespace chainmail::report {
@@ -75,6 +75,33 @@ void check(const PeerCase& object, const PeerAnswer& answer) {
   }
 }
 
+Row row_of(const PeerCase& object, const PeerAnswer& answer) {
+  check(object, answer);
+  const Mesh& mesh = *object.mesh;
+  const std::vector<double> positions = on_axes(mesh, answer.positions), reference = on_axes(mesh, object.reference);
+  const auto view = [&](const std::vector<double>& all) {
+    return PositionView{all.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
+  };
+  Row row{.drag = 0, .contestant = {.solver = answer.solver}};
+  const PhysicalError error = measure_physical_error(mesh, view(positions), reference_of(object));
+  if (!std::isfinite(error.relative)) {
+    throw Error(answer.solver, "its error is not a number: positions are too large, or nothing moves in the case",
+                "check the positions of the answer and of the case");
+  }
+  add_error(row, error);
+  row.set(figures::reference_change, object.reference_change);
+  add_shape(row, mesh, Softness(), Cuts(object.mesh), view(positions), view(reference));
+  row.set(figures::factorize_ms, answer.factorize_ms);
+  row.set(figures::grab_ms, answer.grab_ms);
+  if (const auto& ms = answer.moves_ms; !ms.empty()) {
+    row.set(figures::first_ms, ms.front());
+    if (ms.size() > 1) {
+      row.set(figures::later_ms, std::accumulate(ms.begin() + 1, ms.end(), 0.0) / double(ms.size() - 1));
+    }
+  }
+  return row;
+}
+
 }  // namespace
 
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference) {
@@ -113,9 +140,7 @@ PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragRefe
     }
     one.reference.push_back(at);
   }
-  if (reference.refined && !reference.refined->levels.empty()) {
-    one.reference_change = reference.refined->levels.back().change;
-  }
+  one.reference_change = reference.change();
   return one;
 }
 
@@ -131,28 +156,18 @@ std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs) {
   return cases;
 }
 
-PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer) {
-  check(object, answer);
-  const Mesh& mesh = *object.mesh;
-  const std::vector<double> positions = on_axes(mesh, answer.positions), reference = on_axes(mesh, object.reference);
-  const auto view = [&](const std::vector<double>& all) {
-    return PositionView{all.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
-  };
-  PeerVerdict verdict;
-  verdict.error = measure_physical_error(mesh, view(positions), reference_of(object));
-  if (!std::isfinite(verdict.error.relative)) {
-    throw Error(answer.solver, "its error is not a number: positions are too large, or nothing moves in the case",
-                "check the positions of the answer and of the case");
+Results judge(const PeerCase& object, const std::vector<PeerAnswer>& answers) {
+  Results results{.kind = ReportKind::judge};
+  results.objects.push_back({.name = object.name,
+                             .description = object.description,
+                             .elements = object.mesh->element_count(),
+                             .links = object.mesh->link_count(),
+                             .pins = object.pins.size(),
+                             .drags = {{.name = "answer", .moves = int(object.moves.size())}}});
+  for (const PeerAnswer& answer : answers) {
+    results.rows.push_back(row_of(object, answer));
   }
-  verdict.shape = shape_figures(mesh, Softness(), Cuts(object.mesh), view(positions), view(reference));
-  if (!answer.moves_ms.empty()) {
-    verdict.first_ms = answer.moves_ms.front();
-  }
-  if (answer.moves_ms.size() > 1) {
-    verdict.later_ms =
-        std::accumulate(answer.moves_ms.begin() + 1, answer.moves_ms.end(), 0.0) / double(answer.moves_ms.size() - 1);
-  }
-  return verdict;
+  return results;
 }
 
 }  // namespace chainmail::report

@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/physical_error.h"
 #include "report/run/drag_reference.h"
-#include "report/run/shape_figures.h"
 #include "report/run/suite_experiments.h"
+#include "report/table/results.h"
 
 namespace chainmail::report {
 
@@ -31,21 +30,15 @@ struct PeerAnswer {
   std::vector<double> moves_ms;  // of each move, without preparation; empty if they were not timed
 };
 
-/// The figures of an answer, measured as those of the suite's contestants.
-struct PeerVerdict {
-  PhysicalError error;
-  ShapeFigures shape;
-  std::optional<double> first_ms, later_ms;  // of the first move, and mean of the others
-};
-
 /// Makes a case of a drag without a cut.
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
 /// Makes cases of the drags in which the suite measures the time to an error. `organs` as for the suite:
 /// drags of an organ without a file are left out.
 std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs);
 
-/// Measures an answer. Throws Error if it is of another case or size, has times for another number of moves, or if a
-/// pin or an element of the handle is not where the last move puts it, and if the error is not a number.
-PeerVerdict judge(const PeerCase& object, const PeerAnswer& answer);
+/// Measures answers as the suite measures its contestants: a row for each solver. Throws Error if one is of another
+/// case or size, has times for another number of moves, or if a pin or an element of the handle is not where the last
+/// move puts it, and if the error is not a number.
+Results judge(const PeerCase& object, const std::vector<PeerAnswer>& answers);
 
 }  // namespace chainmail::report

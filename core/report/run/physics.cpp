@@ -4,11 +4,10 @@
 #include <array>
 
 #include "mesh/error.h"
-#include "report/run/contest.h"
 #include "report/run/drag_reference.h"
 #include "report/run/physics_cases.h"
 #include "report/run/preparing.h"
-#include "report/run/runner.h"
+#include "report/table/format.h"
 
 namespace chainmail::report {
 namespace {
@@ -19,63 +18,94 @@ constexpr std::array calibrated_algorithms{Algorithm::natural_queue, Algorithm::
 constexpr double share_of_drags = 0.6;  // share of the progress, if growth is measured too
 
 PhysicsOptions checked(PhysicsOptions options) {
-  if (options.contest.algorithms.empty()) {
+  if (options.algorithms.empty()) {
     for (const AlgorithmInfo& one : every_algorithm()) {
-      options.contest.algorithms.push_back(one.algorithm);
+      options.algorithms.push_back(one.algorithm);
     }
   }
-  check(options.contest);
+  check(options);
   if (!(options.growth_seconds >= 0)) {
     throw Error("grow", "the time is below 0", "use 0 or more seconds");
   }
   return options;
 }
 
-PhysicsDrag drag_of(Contest& contest, const RecordedMoves& moves, DragReferences& references,
-                    const Progress& progress) {
-  PhysicsDrag drag{moves.name, moves.description, handle_of(moves), count_moves(moves), !cuts_of(moves).empty(), 0, {},
-                   {}};
+std::vector<Setting> settings_of(const PhysicsOptions& options, const ElasticOptions& elastic) {
+  std::vector<Setting> settings = settings_of(static_cast<const RunOptions&>(options));
+  const auto& lattice = elastic.lattice;
+  settings.insert(settings.end(), {{"young", elastic.material.young},
+                                   {"poisson", elastic.material.poisson},
+                                   {"lattice", std::to_string(lattice[0]) + "x" + std::to_string(lattice[1]) + "x" +
+                                                   std::to_string(lattice[2])},
+                                   {"iterations", double(elastic.iterations)},
+                                   {"growth_seconds", options.growth_seconds}});
+  return settings;
+}
+
+/// Runs a drag, and adds it to the last object.
+void add_drag(Results& results, Contest& contest, const RecordedMoves& moves, DragReferences& references,
+              const Progress& progress) {
+  DragInfo drag = info_of(moves);
+  std::vector<Row> rows;
   try {
-    DragReference reference = references.at_end(moves);
+    const DragReference reference = references.at_end(moves);
     drag.handle_displacement = reference.solution.handle_displacement;
-    drag.entries = contest.run(moves, reference.solution, progress);
-    drag.refined = std::move(reference.refined);
+    drag.reference = reference.refined;
+    PhysicsReferee referee(reference.solution, reference.change());
+    rows = contest.run(moves, &referee, progress);
   } catch (const Error& error) {
     drag.no_reference = error.what();
   }
-  return drag;
+  if (!progress.cancelled()) {
+    add_drag(results, std::move(drag), std::move(rows));
+  }
 }
 
-/// Returns the progress of a part of the comparison, with its text.
-Progress part_of(const Progress& whole, double index, double count, const std::string& text) {
-  Progress part = whole.part(index / count, (index + 1) / count);
-  part.say(text);
-  return part;
-}
-
-void add_growths(PhysicsReport& report, const Softness& softness, const Progress& progress) {
-  const PhysicsOptions& options = report.options;
-  const ElasticOptions elastic = report.elastic;
-  report.growths.push_back(grow(
-      "bar", "tetrahedra, pinned at the left layer, pulled",
-      [&](std::uint64_t elements) { return pinned_bar(elements, softness, elastic, false); }, options,
-      part_of(progress, 0, 2, "growing bar")));
-  report.growths.push_back(grow(
-      "sheet", "triangles in a plane, pinned at the top layer, pulled",
-      [&](std::uint64_t elements) { return pinned_sheet(elements, softness, elastic, false); }, options,
-      part_of(progress, 1, 2, "growing sheet")));
+void add_growths(Results& results, const Case& first, const PhysicsOptions& options, const Progress& progress) {
+  const Softness softness{first.softness.global, {}};
+  const auto made = [&](Case (*pinned)(std::uint64_t, const Softness&, const ElasticOptions&, bool)) {
+    return [&, pinned](std::uint64_t elements) { return pinned(elements, softness, first.elastic, false); };
+  };
+  results.add(grow("growing bar", "tetrahedra, pinned at the left layer, pulled", made(pinned_bar), options,
+                   part_of(progress, 0, 2, "growing bar")));
+  results.add(grow("growing sheet", "triangles in a plane, pinned at the top layer, pulled", made(pinned_sheet),
+                   options, part_of(progress, 1, 2, "growing sheet")));
 }
 
 }  // namespace
+
+std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
+                                       bool equilibrium, const std::vector<Calibration>& calibrations) {
+  std::vector<Contestant> contestants{{}};
+  for (const Algorithm algorithm : algorithms) {
+    if (info(algorithm).elastic) {
+      contestants.push_back({algorithm});
+      continue;
+    }
+    for (const int count : sweeps) {
+      contestants.push_back({algorithm, count});
+    }
+    if (equilibrium && takes_part_at_equilibrium(algorithm)) {
+      contestants.push_back({algorithm, 0, true});
+      contestants.push_back({.algorithm = algorithm, .equilibrium = true, .open_regions = true});
+    }
+    for (const Calibration& found : calibrations) {
+      if (found.algorithm == algorithm && found.refusal.empty()) {
+        contestants.push_back({algorithm, found.sweeps, found.equilibrium, found.softness});
+      }
+    }
+  }
+  return contestants;
+}
 
 std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options, const Progress& progress) {
   std::vector<Calibration> found;
   const std::vector<ElementId> handles = handles_of(object);
   for (const Algorithm algorithm : calibrated_algorithms) {
-    const bool takes_part = std::ranges::count(options.contest.algorithms, algorithm) != 0;
+    const bool takes_part = std::ranges::count(options.algorithms, algorithm) != 0;
     for (const bool equilibrium : {false, true}) {
-      const bool wanted = equilibrium ? options.contest.equilibrium && takes_part_at_equilibrium(algorithm)
-                                      : !options.contest.sweeps.empty();
+      const bool wanted =
+          equilibrium ? options.equilibrium && takes_part_at_equilibrium(algorithm) : !options.sweeps.empty();
       if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || progress.cancelled()) {
         continue;
       }
@@ -92,54 +122,63 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
   return found;
 }
 
-PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked,
-                                   const Progress& progress) {
-  PhysicsReport report{checked(asked), cases.empty() ? ElasticOptions() : cases.front().elastic, {}, {}, false};
+std::string in_words(const Calibration& calibration) {
+  const std::string who = label(Contestant{calibration.algorithm, 0, calibration.equilibrium}) + " calibrated";
+  return !calibration.refusal.empty()
+             ? who + ": left out, " + calibration.refusal
+             : who + " in " + figure(calibration.seconds) + " s on " + std::to_string(calibration.drags) +
+                   " drags of other elements, " + std::to_string(calibration.evaluations) +
+                   " evaluations: " + region_in_words(calibration.softness) + ", " +
+                   (calibration.equilibrium ? energy_in_words(calibration.softness)
+                                            : std::to_string(calibration.sweeps) + " sweeps");
+}
+
+Results compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& asked, const Progress& progress,
+                             const Finished& finished) {
+  const PhysicsOptions options = checked(asked);
+  Results results{.kind = ReportKind::physics,
+                  .settings = settings_of(options, cases.empty() ? ElasticOptions() : cases.front().elastic)};
   std::size_t drags = 0;
   for (const Case& object : cases) {
     drags += object.drags.size();
   }
-  const bool grows = report.options.growth_seconds > 0;
+  const bool grows = options.growth_seconds > 0;
   const Progress of_drags = progress.part(0, grows ? share_of_drags : 1);
   double done = 0;
-  const auto of_drag = [&](const std::string& text) { return part_of(of_drags, done, double(drags), text); };
+  const auto part = [&](const std::string& text) { return part_of(of_drags, done, double(drags), text); };
   for (const Case& object : cases) {
-    PhysicsObject& result = report.objects.emplace_back();
-    result = {object.name,
-              object.description,
-              object.mesh->element_count(),
-              object.mesh->link_count(),
-              object.pins.size(),
-              {},
-              {},
-              object.law};
-    DragReferences references(object, report.options.refine);
-    const CompareOptions& how = report.options.contest;
-    result.calibrations = calibrations_of(object, report.options, of_drag(object.name + ", calibrating"));
-    const auto contestants = contestants_of(how.algorithms, how.sweeps, how.equilibrium, result.calibrations);
-    result.symmetry = symmetry_under_rotation(object, contestants, how, of_drag(object.name + ", turned"));
-    CompareOptions to_own_limit = how;
-    to_own_limit.own_limit = own_limit_of_comparisons;
-    Contest contest(object, contestants, to_own_limit);
+    results.objects.push_back(info_of(object));
+    results.objects.back().reference = label(object.law) + " FEM";
+    DragReferences references(object, options.refine);
+    const auto calibrations = calibrations_of(object, options, part(object.name + ", calibrating"));
+    std::ranges::transform(calibrations, std::back_inserter(results.objects.back().notes),
+                           [](const Calibration& one) { return in_words(one); });
+    const auto contestants = options.contestants.empty()
+                                 ? contestants_of(options.algorithms, options.sweeps, options.equilibrium, calibrations)
+                                 : options.contestants;
+    if (options.turned) {
+      add_turned(results, object, contestants, options, part(object.name + ", turned"));
+    }
+    Contest contest(object, contestants, options);
     for (const RecordedMoves& moves : object.drags) {
-      const Progress part = of_drag(object.name + ", " + moves.name);
-      part.show(0);
-      PhysicsDrag drag = drag_of(contest, moves, references, part);
+      add_drag(results, contest, moves, references, part(object.name + ", " + moves.name));
       if (progress.cancelled()) {
-        report.stopped = true;
-        return report;
+        results.stopped = true;
+        return results;
       }
-      result.drags.push_back(std::move(drag));
+      if (finished) {
+        finished(results);
+      }
       ++done;
     }
   }
   if (grows && !cases.empty()) {
-    add_growths(report, {cases.front().softness.global, {}}, progress.part(share_of_drags, 1));
-    report.stopped = progress.cancelled();
+    add_growths(results, cases.front(), options, progress.part(share_of_drags, 1));
+    results.stopped = progress.cancelled();
   }
   progress.say("done");
   progress.show(1);
-  return report;
+  return results;
 }
 
 }  // namespace chainmail::report

@@ -1,131 +1,81 @@
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "measure/converging_reference.h"
-#include "measure/physical_error.h"
 #include "report/run/compare.h"
-#include "report/run/growth.h"
-#include "report/run/physics_contestant.h"
-#include "report/run/shape_figures.h"
-#include "report/run/symmetry.h"
 
 namespace chainmail::report {
 
+/// The softness and the sweeps with which an algorithm is closest to the reference solution on one object.
+struct Calibration {
+  Algorithm algorithm = Algorithm::natural_queue;
+  bool equilibrium = false;  // true: relaxed to the equilibrium, instead of sweeps
+  LinkSoftness softness = {};
+  int sweeps = 0;
+  int drags = 0,
+      evaluations = 0;  // number of drags for the search, and number of evaluations, each of which runs all drags
+  double seconds = 0;   // duration of the calibration
+  std::string refusal;  // reason why there is no result; empty if there is one
+};
+
+/// Calibrates an algorithm on an object, with sweeps or at equilibrium, with drags of elements that are not in
+/// `handles`. Throws Error and Cancelled.
+using Calibrator = std::function<Calibration(const Case& object, Algorithm algorithm, bool equilibrium,
+                                             const std::vector<ElementId>& handles, const Progress& progress)>;
+
 /// Options of the comparison with physics: ChainMail, linear FEM, BEM and free-form deformation against neo-Hookean
 /// FEM.
-struct PhysicsOptions {
+struct PhysicsOptions : CompareOptions {
   PhysicsOptions() {
-    contest.sweeps = {0, 1, 3, 10, 30, 100};
-    contest.seconds = 1.5;
+    sweeps = {0, 1, 3, 10, 30, 100};
+    seconds = 1.5;
+    own_limit = own_limit_of_comparisons;
   }
 
-  /// Options of the contest. If its list of algorithms is empty, all take part. Its sweeps apply to the ChainMail
-  /// family.
-  CompareOptions contest;
   std::optional<ConvergingOptions> refine;  // the reference is computed on refined cells; the handles must be patches
   double growth_seconds = 1;  // time budget per contestant and kind of growing object; 0: growth is not measured
   Calibrator calibrate;       // finds the softness of the calibrated contestants; empty: no contestant is calibrated
+  bool turned = true;         // each object also runs turned
+  std::vector<Contestant> contestants = {};  // instead of those that the options above name
 };
-
-/// Times of the preparation of a method of elasticity (ms), over some repetitions.
-struct Preparation {
-  TimeSpread factorize;  // once per object with its pins and cuts
-  TimeSpread grab;       // once per handle: the response of the object to it
-
-  double ms() const { return factorize.median + grab.median; }
-};
-
-/// Times (ms, over repetitions of the drag) and errors of a contestant on one drag.
-struct PhysicsMeasurement {
-  TimeSpread ms_per_move;     // mean of the moves after the first, with their sweeps
-  TimeSpread first_move;      // first move, after all preparation
-  TimeSpread move_after_cut;  // move after the cut, if there is one, with the preparation that it repeats
-  Preparation prepare;
-  PhysicalError error;
-  std::optional<int> iterations = {};   // per move, if CompareOptions::own_limit set them
-  std::optional<double> residual = {};  // at the end of the drag, of contestants at equilibrium
-  std::optional<bool> binds = {};       // true if valid regions change the equilibrium there
-  std::optional<std::uint64_t> bytes;   // memory of the solver after its first drag; none where it is not known
-  ShapeFigures shape;  // at the end of the drag; the reference of the Hausdorff distance is the reference solution
-};
-
-struct PhysicsEntry {
-  PhysicsContestant contestant;
-  std::optional<PhysicsMeasurement> measurement;
-  std::string refusal;  // reason why there is no measurement; empty if there is one
-  int left_out = 0;     // of a mean of drags: number of drags without a measurement, whose first refusal is above
-};
-
-struct PhysicsDrag {
-  std::string name, description;
-  ElementId handle = 0;
-  int moves = 0;
-  bool has_cut = false;               // a cut precedes the last move
-  double handle_displacement = 0;     // mesh units
-  std::vector<PhysicsEntry> entries;  // all contestants, in the same order for all drags; none without a reference
-  std::string no_reference;           // reason why there is no reference solution; empty if there is one
-  std::optional<ConvergedReference> refined = {};  // its levels, if it was computed on refined cells
-};
-
-struct PhysicsObject {
-  std::string name, description;
-  std::uint64_t elements = 0, links = 0, pins = 0;
-  std::vector<PhysicsDrag> drags;
-  std::vector<Calibration> calibrations;
-  StrainLaw law;                        // of the reference solution
-  std::vector<Symmetry> symmetry = {};  // of contestants without sweeps
-};
-
-/// Figures of a contestant at one size.
-struct GrowthPoint {
-  std::uint64_t elements = 0;
-  double ms_per_move = 0, prepare_ms = 0;
-  std::optional<PhysicalError> error;  // none if there is no reference solution
-};
-
-struct GrowthSeries {
-  PhysicsContestant contestant;
-  std::vector<GrowthPoint> points;
-  std::string end;               // reason why it grew no further
-  std::optional<Growth> growth;  // growth of the time per move
-};
-
-/// Results for one kind of object at growing sizes.
-struct PhysicsGrowth {
-  std::string name, description;
-  std::vector<GrowthSeries> series;
-};
-
-struct PhysicsReport {
-  PhysicsOptions options;
-  ElasticOptions elastic;
-  std::vector<PhysicsObject> objects;
-  std::vector<PhysicsGrowth> growths;
-  bool stopped = false;  // true: the report contains only the finished parts
-};
-
-/// A contestant that iterates makes the least number of iterations per move with which its answer at the end of a drag
-/// is within this share of its own limit, the answer after as many as it wants.
-inline constexpr double own_limit_of_comparisons = 0.01;
 
 /// Compares all contestants, at the end of each drag, with neo-Hookean FEM in double, converged on the same cells with
 /// the cuts of the drag. The cases must have pins and no cuts. Throws Error with the name of the case if physics has no
 /// solution for it. A drag whose reference does not converge is listed with the reason, and so is a contestant that
 /// cannot take part.
-PhysicsReport compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
-                                   const Progress& progress = {});
+Results compare_with_physics(const std::vector<Case>& cases, const PhysicsOptions& options,
+                             const Progress& progress = {}, const Finished& finished = {});
 
 /// Calibrates Natural Queue and Exact ChainMail, as far as they take part and support the object.
 std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOptions& options, const Progress& progress);
+/// Describes what a calibration found, or why there is nothing.
+std::string in_words(const Calibration& calibration);
 
-/// Measures the growth of time and error on one kind of object. `made` returns an object with about the given number of
-/// elements.
-PhysicsGrowth grow(const std::string& name, const std::string& description,
-                   const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
-                   const Progress& progress);
+/// Returns all contestants: first the object that does not move, then the ChainMail family with each number of sweeps,
+/// with the equilibrium if `equilibrium`, also in open regions, and calibrated, then the methods of elasticity without
+/// sweeps.
+std::vector<Contestant> contestants_of(const std::vector<Algorithm>& algorithms, const std::vector<int>& sweeps,
+                                       bool equilibrium, const std::vector<Calibration>& calibrations);
+
+/// Measures the growth of time and error on one kind of object, as objects of one series. `made` returns an object with
+/// about the given number of elements.
+Results grow(const std::string& name, const std::string& description,
+             const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
+             const Progress& progress);
+
+/// Adds by how much the answers of contestants differ on turned copies of an object: rows of the object, the last one
+/// of the results. One move runs in double, to the end of the drag `bend` or of the first one; of contestants that
+/// differ in sweeps only, those without sweeps take part. None for objects on a line.
+void add_turned(Results& results, const Case& object, const std::vector<Contestant>& contestants,
+                const RunOptions& options, const Progress& progress);
+/// Returns the rotation vector across the plane of the object, or about z.
+Point rotation_by(const Mesh& mesh, double degrees);
+/// Returns the case with its object, its axes of valid regions and its drags turned about the origin. Its 3D lists
+/// stay those of the object, though its links no longer follow the axes.
+Case turned(const Case& object, const Point& rotation);
 
 }  // namespace chainmail::report

@@ -3,16 +3,14 @@
 #include <cmath>
 
 #include "mesh/error.h"
-#include "report/run/contest.h"
-#include "report/run/preparing.h"
+#include "report/run/physics.h"
+#include "report/table/format.h"
 
 namespace chainmail::report {
 namespace {
 
 constexpr std::uint64_t smallest_object = 100, largest_object = 1'000'000;  // elements
 constexpr double next_size = 2;
-constexpr double asymptotic_from =
-    1000;  // elements; in smaller objects, the fixed cost of a pass is too large a part of the time
 const std::vector<int> sweeps_grown{0, 10};
 constexpr std::size_t moves_grown = 6;  // number of moves of the drag, which are longer than usual
 constexpr const char* drag_grown = "pull";
@@ -71,75 +69,57 @@ std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget
   }
 }
 
-/// Returns a substitute for a missing reference solution, for runs of which only the times are used.
-ReferenceSolution no_reference(const Case& object) {
-  return {std::vector<double>(object.mesh->rest.size(), 0.0), 1, {}};
-}
-
-void measure(GrowthSeries& series, Budget& budget, const Case& object,
-             const std::optional<ReferenceSolution>& reference, CompareOptions options, const Progress& progress) {
+/// Measures a contestant on an object of a series. Returns a row with figures, or the reason why there are none.
+Row measure(const Contestant& contestant, Budget& budget, const Case& object,
+            const std::optional<ReferenceSolution>& reference, ContestOptions options, const Progress& progress) {
   const double start = growth_clock();
   options.seconds = 0;
   options.repetitions = 1;
-  Contest contest(object, {series.contestant}, options);
-  const auto entries =
-      contest.run(object.drags.front(), reference ? *reference : no_reference(object), progress.quiet());
+  options.own_limit = 0;
+  std::optional<PhysicsReferee> referee;
+  if (reference) {
+    referee.emplace(*reference);
+  }
+  Contest contest(object, {contestant}, options);
+  Row row = contest.run(object.drags.front(), referee ? &*referee : nullptr, progress.quiet()).front();
   budget.spend(growth_clock() - start);
-  if (const auto& measurement = entries.front().measurement) {
-    series.points.push_back({object.mesh->element_count(), measurement->ms_per_move.median, measurement->prepare.ms(),
-                             reference ? std::optional(measurement->error) : std::nullopt});
-    series.end = budget.holds_next() ? "" : "its time budget is used up";
-  } else if (!progress.cancelled()) {
-    series.end = entries.front().refusal;
+  if (!row.has_figures()) {
     budget.use_up();
   }
-}
-
-void find_growth(GrowthSeries& series) {
-  std::vector<SizedTime> times;
-  for (const GrowthPoint& point : series.points) {
-    times.push_back({double(point.elements), point.ms_per_move});
-  }
-  series.growth = growth_of(times, asymptotic_from);
+  return row;
 }
 
 }  // namespace
 
-PhysicsGrowth grow(const std::string& name, const std::string& description,
-                   const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
-                   const Progress& progress) {
-  PhysicsGrowth growth{name, description, {}};
-  std::vector<Budget> budgets;
-  for (const PhysicsContestant& contestant :
-       contestants_of(options.contest.algorithms, sweeps_grown, options.contest.equilibrium, {})) {
-    if (!contestant.algorithm) {
-      continue;  // its relative error is about 1 at every size, and it has no times
-    }
-    growth.series.push_back({contestant, {}, {}, {}});
-    budgets.emplace_back(options.growth_seconds);
-  }
+Results grow(const std::string& name, const std::string& description,
+             const std::function<Case(std::uint64_t elements)>& made, const PhysicsOptions& options,
+             const Progress& progress) {
+  Results results;
+  std::vector<Contestant> contestants = contestants_of(options.algorithms, sweeps_grown, options.equilibrium, {});
+  contestants.erase(contestants.begin());  // the object that does not move has about the same error at every size
+  std::vector<Budget> budgets(contestants.size(), Budget(options.growth_seconds));
   Budget of_reference(options.growth_seconds);
   const double sizes = std::log(double(largest_object) / smallest_object) / std::log(next_size);
   double size = smallest_object;
-  for (int i = 0; size <= largest_object && std::ranges::any_of(budgets, &Budget::holds_next); ++i, size *= next_size) {
+  for (int i = 0; size <= largest_object && std::ranges::any_of(budgets, &Budget::holds_next) && !progress.cancelled();
+       ++i, size *= next_size) {
     progress.show(i / (sizes + 1));
     Case object = made(static_cast<std::uint64_t>(size));
     shorten(object);
     const auto reference = reference_at(object, of_reference);
+    ObjectInfo& grown = results.objects.emplace_back(info_of(object));
+    grown.series = name;
+    grown.description = description;
+    grown.name = name + ", " + thousands(grown.elements) + " elements";
+    std::vector<Row> rows;
     for (std::size_t k = 0; k < budgets.size() && !progress.cancelled(); ++k) {
       if (budgets[k].holds_next()) {
-        measure(growth.series[k], budgets[k], object, reference, options.contest, progress);
+        rows.push_back(measure(contestants[k], budgets[k], object, reference, options, progress));
       }
     }
-    if (progress.cancelled()) {
-      break;
-    }
+    add_drag(results, info_of(object.drags.front()), std::move(rows));
   }
-  for (GrowthSeries& series : growth.series) {
-    find_growth(series);
-    series.end = series.end.empty() ? "this is the largest object" : series.end;
-  }
-  return growth;
+  return results;
 }
 
 }  // namespace chainmail::report

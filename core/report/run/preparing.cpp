@@ -81,8 +81,7 @@ PreparingTimes::PreparingTimes(const Case& object, Algorithm method, const Clock
   }
 }
 
-PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium,
-                               const CompareOptions& options) {
+PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const RunOptions& options) {
   const Clocks& clocks = options.clocks;
   const Relaxing one_iteration(0, equilibrium, 1);
   const RecordedMoves other = short_drag_of_another(object);
@@ -90,7 +89,7 @@ PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equ
   for (int repetition = 0;
        repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
     std::unique_ptr<Runner> runner;
-    const auto run = [&](const RecordedMoves& moves) { return runner->run(moves, one_iteration, Progress()); };
+    const auto run = [&](const RecordedMoves& moves) { return runner->run(moves, one_iteration); };
     const double first = seconds_of(clocks, [&] {
       runner = std::make_unique<Runner>(object, algorithm, options.precision, options);
       run(other);

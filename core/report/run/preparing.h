@@ -2,10 +2,19 @@
 
 #include <map>
 
-#include "report/run/compare.h"
-#include "report/run/physics.h"
+#include "elastic/elastic.h"
+#include "measure/pass_times.h"
+#include "report/run/runner.h"
 
 namespace chainmail::report {
+
+/// Times of the preparation of a contestant (ms), over some repetitions.
+struct Preparation {
+  TimeSpread factorize;  // once per object with its pins and cuts
+  TimeSpread grab;       // once per handle: the response of the object to it
+
+  double ms() const { return factorize.median + grab.median; }
+};
 
 /// Times of a contestant to prepare for an object, and for each element that its drags grab.
 class PreparingTimes {
@@ -17,7 +26,7 @@ class PreparingTimes {
   /// Of ChainMail, which prepares in the first move after a grab: a move that repeats the last one takes so much less.
   /// Between two handles it grabs another element, so that it keeps nothing of the last drag. Throws Error if the
   /// object does not fit the algorithm.
-  PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const CompareOptions& options);
+  PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const RunOptions& options);
 
   Preparation of(ElementId handle) const;
 

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/progress.h"
 #include "report/run/clocks.h"
-#include "report/run/growth.h"
+#include "report/table/results.h"
 #include "solver/deformer.h"
 
 namespace chainmail::report {
@@ -28,58 +26,60 @@ struct RampOptions {
 /// Throws Error if a number is out of its range, or an algorithm is not of the ChainMail family.
 void check(const RampOptions& options);
 
-/// The figures of one algorithm at one size.
-struct RampRow {
-  std::uint32_t width = 0;  // number of elements along each side of the square grid
-  std::uint64_t elements = 0;
-  std::uint64_t links = 0;
-  Algorithm algorithm = Algorithm::natural_queue;
-  int passes = 0;
-  double median_ms = 0;
-  double p99_ms = 0;      // the 99th percentile
-  double mean_moved = 0;  // number of elements per pass
-  bool repeated = false;  // true: the first attempt exceeded the budget, and these are the figures of the second one
-  bool in_real_time = true;
-};
-
-/// The result for one algorithm.
-struct RampVerdict {
-  Algorithm algorithm = Algorithm::natural_queue;
-  std::optional<std::uint32_t> largest_width;  // width of the largest grid in real time
-  bool lost = false;                           // true: the next size was too slow; false: there was no next size
-  std::optional<Growth> growth;                // growth of the median
-};
-
-struct Ramp {
-  RampOptions options;
-  std::vector<RampRow> rows;  // in the order of sizes
-  std::vector<RampVerdict> verdicts;
-  double seconds = 0;    // time of the whole ramp
-  bool stopped = false;  // true: it was cancelled, and the last size is missing
-};
-
-/// Reported by the measuring thread, drag by drag.
-struct RampProgress {
-  std::uint32_t width = 0;  // width of the current grid
-  int drag = 0, drags = 0;  // number of finished drags, and of all drags in this attempt
-  bool repeated = false;
-  std::span<const Algorithm> in_race;
-  std::span<const RampRow> rows;  // rows of the finished sizes
-};
-
-/// Smallest number of elements of the grids from which exponents are fitted. In smaller grids the fixed cost of a pass
-/// is too large a part of the time.
-inline constexpr double growth_from = 1000;
-
 /// Returns a width that is about a tenth larger.
 std::uint32_t next_width(std::uint32_t width);
 
-/// Runs the ramp of Dean 2004, chapter 6: square grids grow until no algorithm can answer a move within the budget.
+/// Runs the ramp of Dean 2004, chapter 6: square grids grow until no algorithm can answer a move within the budget. The
+/// grids are the objects of one series.
 ///
 /// At each size, all algorithms make the same drags from rest, one algorithm after another. An algorithm leaves the
 /// ramp when the 99th percentile of its passes exceeds the budget in two attempts (see RampRace). Time that other
-/// programs take does not count. Cancelling `job` takes effect between passes.
-Ramp ramp(const RampOptions& options, const std::function<void(const RampProgress&)>& progress = {},
-          const Progress& job = {});
+/// programs take does not count. `progress` receives the share of the largest grid. Cancelling takes effect between
+/// passes; then the last size is missing.
+Results ramp(const RampOptions& options, const Progress& progress = {});
+
+/// The passes of one algorithm at one size.
+struct RampPasses {
+  std::vector<double> ms;
+  std::uint64_t moved = 0;  // number of moved elements in all passes
+};
+
+/// Returns the figures of a size. It is in real time if the 99th percentile of the passes is within the budget
+/// (seconds), or if there are no passes.
+Row ramp_row(Algorithm algorithm, const RampPasses& passes, double budget);
+
+/// Returns the seed of the drags at a size. It differs for each size and for each of the two attempts.
+std::uint64_t ramp_seed(std::uint64_t seed, std::uint32_t width, int attempt);
+
+/// Decides the order of events in a ramp: the next size, and the algorithms that measure it. The caller runs the
+/// passes.
+/// At each size, all remaining algorithms make one attempt. An algorithm that exceeds the budget makes a second
+/// attempt with other drags. It leaves the ramp if it exceeds the budget again.
+class RampRace {
+ public:
+  /// `widths` must be ascending.
+  RampRace(std::vector<std::uint32_t> widths, std::vector<Algorithm> algorithms, double budget);
+
+  /// True when no size or no algorithm is left.
+  bool is_over() const { return size_ == widths_.size() || in_race_.empty(); }
+  std::uint32_t width() const { return widths_[size_]; }
+  const std::vector<Algorithm>& in_race() const { return in_race_; }
+  /// Returns 0 for the first attempt, 1 for the second.
+  int attempt() const { return attempt_; }
+  /// Returns the algorithms that make the current attempt.
+  const std::vector<Algorithm>& attempting() const { return attempting_; }
+
+  /// Takes the passes of an attempt, in the order of attempting(). If a second attempt must follow, returns nothing.
+  /// Otherwise returns the rows of the size, in the order of algorithms, and moves to the next size.
+  std::vector<Row> finish_attempt(std::span<const RampPasses> passes);
+
+ private:
+  std::vector<std::uint32_t> widths_;
+  double budget_;
+  std::size_t size_ = 0;  // index into widths_
+  int attempt_ = 0;
+  std::vector<Algorithm> in_race_, attempting_;
+  std::vector<Row> rows_;  // of this size
+};
 
 }  // namespace chainmail::report

@@ -17,7 +17,7 @@ std::vector<Item> sorted(std::vector<Item> items) {
 
 }  // namespace
 
-Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options)
+Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const RunOptions& options)
     : object_(object),
       cuts_(sorted(object.cuts)),
       pins_(sorted(object.pins)),
@@ -46,30 +46,22 @@ void Runner::go_to_rest() {
   handle_.clear();
 }
 
-Runner::Run Runner::try_run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress,
-                            bool must_converge) {
-  try {
-    return run(moves, relaxing, progress.quiet(), must_converge);
-  } catch (const Cancelled&) {
-    Run stopped;
-    stopped.stopped = true;
-    return stopped;
-  }
-}
-
 Runner::Run Runner::run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge) {
   Run run;
-  simulation_.set_progress(progress);
-  go_to_rest();
-  for (const Command& command : moves.commands) {
-    progress.report(0);
-    carry_out(command, relaxing, run);
-    const Statistics& now = simulation_.statistics();
-    if (must_converge && info(now.algorithm).elastic && !now.remark.empty()) {
-      break;
+  simulation_.set_progress(progress.quiet());
+  try {
+    go_to_rest();
+    for (const Command& command : moves.commands) {
+      progress.quiet().report(0);
+      carry_out(command, relaxing, run);
+      const Statistics& now = simulation_.statistics();
+      if (must_converge && info(now.algorithm).elastic && !now.remark.empty()) {
+        break;
+      }
     }
+  } catch (const Cancelled&) {
+    run.stopped = true;
   }
-  progress.report(1);
   return run;
 }
 

@@ -1,17 +1,46 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "mesh/progress.h"
+#include "report/run/cases.h"
 #include "report/run/clocks.h"
-#include "report/run/compare.h"
 #include "simulate/simulation.h"
 
 namespace chainmail::report {
 
+/// Residual at which a comparison ends the iterations to the equilibrium: the error that is left is well below the
+/// physical error of every method.
+inline constexpr double compared_residual = 1e-2;
+
+/// The relaxation after each pass: a number of sweeps, or iterations to the equilibrium.
+struct Relaxing {
+  Relaxing(int count = 0, bool to_equilibrium = false, int most = equilibrium_iterations)
+      : sweeps(count), equilibrium(to_equilibrium), iterations(most) {}
+
+  int sweeps;        // 0 with `equilibrium`
+  bool equilibrium;  // until the residual is at most `until`, but at most `iterations`
+  int iterations;
+  double until = compared_residual;
+
+  bool is_none() const { return sweeps == 0 && !equilibrium; }
+};
+
+/// How all contestants run.
+struct RunOptions {
+  /// Scheme of the sweeps.
+  RelaxationScheme scheme = RelaxationScheme::mean;
+  double relax_step = 1;
+  /// Precision of the contestants. The references are always in double.
+  Precision precision = Precision::single_precision;
+  Clocks clocks = machine_clocks();  // of everything but passes, which measure themselves
+};
+
 /// Runs recorded moves on a case from rest, with one algorithm in one precision.
 class Runner {
  public:
-  Runner(const Case& object, Algorithm algorithm, Precision precision, const CompareOptions& options);
+  Runner(const Case& object, Algorithm algorithm, Precision precision, const RunOptions& options);
 
   /// Times and counts of a run.
   struct Run {
@@ -22,12 +51,9 @@ class Runner {
     bool stopped = false;
   };
   /// Runs the moves. Cancelling takes effect within a pass of a method of elasticity, between passes of other
-  /// algorithms, within sweeps, and between iterations.
+  /// algorithms, within sweeps, and between iterations; then it returns `stopped`.
   /// With `must_converge`, a drag ends at the first move of a method of elasticity that does not converge.
-  Run run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge = false);
-  /// Does the same as part of a longer work, whose share stays: cancelled, it returns `stopped` instead of throwing
-  /// Cancelled.
-  Run try_run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress, bool must_converge = false);
+  Run run(const RecordedMoves& moves, Relaxing relaxing, const Progress& progress = {}, bool must_converge = false);
 
   const Simulation& simulation() const { return simulation_; }
   /// Returns how close the object is to the equilibrium; none if it was not relaxed to it.

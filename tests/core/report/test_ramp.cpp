@@ -5,7 +5,7 @@
 #include "core/families.h"
 #include "program.h"
 #include "report/page/ramp_page.h"
-#include "report/run/growth.h"
+#include "report/table/growth.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
 #include "report/run/scripted_drags.h"

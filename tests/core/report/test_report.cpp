@@ -5,7 +5,7 @@
 #include "core/support.h"
 #include "program.h"
 #include "report/page/compared_figures.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 #include "report/page/html.h"
 #include "report/page/plot.h"
 #include "report/page/table.h"

@@ -23,7 +23,7 @@
 #include "io/questions.h"
 #include "mesh/error.h"
 #include "report/page/compared_figures.h"
-#include "report/page/format.h"
+#include "report/table/format.h"
 #include "report/page/html.h"
 
 namespace chainmail {

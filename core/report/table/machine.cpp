@@ -1,4 +1,4 @@
-#include "report/run/machine.h"
+#include "report/table/machine.h"
 
 #include <ctime>
 #include <fstream>

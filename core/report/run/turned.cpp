@@ -1,7 +1,6 @@
-#include "report/run/symmetry.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "measure/distance.h"
 #include "mesh/error.h"
 #include "report/run/clocks.h"
+#include "report/run/physics.h"
 #include "report/run/preparing.h"
 #include "report/run/runner.h"
 
@@ -17,6 +17,14 @@ namespace {
 
 // Contestants whose move takes longer than this (s), with all preparation, do not run on the turned objects.
 constexpr double longest_answer = 10;
+
+/// An angle by which an object is turned, and its figures.
+struct Turn {
+  double degrees;
+  const Figure *max, *relative;
+};
+constexpr std::array turns{Turn{45, &figures::turned_45_max, &figures::turned_45_relative},
+                           Turn{90, &figures::turned_90_max, &figures::turned_90_relative}};
 
 /// Returns the axes turned with the object. Principal axes are found anew, as a user's would be.
 RegionAxes turned(const RegionAxes& axes, const Mesh& mesh, const Eigen::Matrix3d& turn) {
@@ -43,10 +51,10 @@ RecordedMoves one_move(const Case& object) {
 
 /// Returns the answer of a contestant, turned back: space_dimension coordinates per element. Throws Error, also if the
 /// contestant does not reach its target.
-std::vector<double> answer_of(const Case& object, const PhysicsContestant& contestant, const CompareOptions& options,
+std::vector<double> answer_of(const Case& object, const Contestant& contestant, const RunOptions& options,
                               const RegionAxes& back, const Progress& progress) {
   Runner runner(object, *contestant.algorithm, Precision::double_precision, options);
-  runner.try_run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, progress);
+  runner.run(object.drags.front(), {contestant.sweeps, contestant.equilibrium}, progress);
   const Simulation& simulation = runner.simulation();
   if (const std::string& remark = simulation.statistics().remark; !remark.empty()) {
     throw Error(object.name, remark, "drag it less far");
@@ -63,7 +71,7 @@ PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
   return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
 }
 
-bool takes_part(const PhysicsContestant& contestant) {
+bool takes_part(const Contestant& contestant) {
   return contestant.algorithm && (contestant.sweeps == 0 || contestant.calibrated);
 }
 
@@ -91,16 +99,10 @@ Case turned(const Case& object, const Point& rotation) {
   return result;
 }
 
-const Symmetry* find_symmetry(const std::vector<Symmetry>& all, const PhysicsContestant& contestant) {
-  const auto found = std::ranges::find(all, contestant, &Symmetry::contestant);
-  return found == all.end() ? nullptr : &*found;
-}
-
-std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vector<PhysicsContestant>& contestants,
-                                              const CompareOptions& options, const Progress& progress) {
-  std::vector<Symmetry> result;
+void add_turned(Results& results, const Case& asked, const std::vector<Contestant>& contestants,
+                const RunOptions& options, const Progress& progress) {
   if (asked.mesh->space_dimension < 2 || asked.drags.empty()) {
-    return result;
+    return;
   }
   const Clocks clocks = machine_clocks();
   Case object = asked;
@@ -110,7 +112,7 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
     if (!takes_part(contestants[i])) {
       continue;
     }
-    Symmetry& one = result.emplace_back(Symmetry{contestants[i], {}, {}});
+    Row row{.object = results.objects.size() - 1, .contestant = contestants[i]};
     object.softness = softness_of(contestants[i], asked.softness);
     try {
       const Mesh& mesh = *object.mesh;
@@ -121,19 +123,22 @@ std::vector<Symmetry> symmetry_under_rotation(const Case& asked, const std::vect
                     "use a smaller object");
       }
       const double displacement = measure_distance(mesh, view_of(mesh, own), view_of(mesh, mesh.rest)).rms;
-      for (const double degrees : symmetry_angles) {
-        const Point rotation = rotation_by(mesh, degrees);
+      for (const Turn& turn : turns) {
+        const Point rotation = rotation_by(mesh, turn.degrees);
         const std::vector<double> back = answer_of(turned(object, rotation), contestants[i], options,
                                                    RegionAxes(AxesKind::given, rotation), progress);
         const Distance apart = measure_distance(mesh, view_of(mesh, own), view_of(mesh, back));
-        one.turns.push_back({degrees, apart.max, displacement > 0 ? apart.rms / displacement : 0});
+        row.set(*turn.max, apart.max);
+        row.set(*turn.relative, displacement > 0 ? apart.rms / displacement : 0);
       }
     } catch (const Error& error) {
-      one.turns.clear();
-      one.refusal = error.what();
+      row.figures.clear();
+      row.refusal = error.what();
+    }
+    if (!progress.cancelled()) {
+      results.rows.push_back(std::move(row));
     }
   }
-  return result;
 }
 
 }  // namespace chainmail::report

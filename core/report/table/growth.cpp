@@ -1,4 +1,4 @@
-#include "report/run/growth.h"
+#include "report/table/growth.h"
 
 #include <algorithm>
 #include <cmath>

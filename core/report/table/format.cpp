@@ -1,4 +1,4 @@
-#include "report/page/format.h"
+#include "report/table/format.h"
 
 #include <algorithm>
 #include <array>
