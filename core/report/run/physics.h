@@ -40,7 +40,8 @@ struct PhysicsOptions : CompareOptions {
   double growth_seconds = 1;  // time budget per contestant and kind of growing object; 0: growth is not measured
   Calibrator calibrate;       // finds the softness of the calibrated contestants; empty: no contestant is calibrated
   bool turned = true;         // each object also runs turned
-  std::vector<Contestant> contestants = {};  // instead of those that the options above name
+  std::vector<Contestant> contestants =
+      {};  // empty: those that the options above name; else instead of those that the options above name
 };
 
 /// Compares all contestants, at the end of each drag, with neo-Hookean FEM in double, converged on the same cells with

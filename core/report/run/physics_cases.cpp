@@ -17,7 +17,6 @@ namespace chainmail::report {
 namespace {
 
 constexpr int moves_of_drag = 24, moves_before_cut = 12;
-constexpr std::size_t max_handles = 3;
 constexpr double nudge_share = 0.05, pull_share = 0.2, far_share = 0.5;  // shares of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
@@ -193,7 +192,7 @@ std::vector<ElementId> possible_handles(const Mesh& mesh) {
   return elements;
 }
 
-std::vector<ElementId> physics_handles(const Case& object) {
+std::vector<ElementId> physics_handles(const Case& object, std::size_t most) {
   const Mesh& mesh = *object.mesh;
   const std::vector<ElementId> elements = possible_handles(mesh);
   std::vector<double> distances(elements.size(), std::numeric_limits<double>::infinity());
@@ -201,7 +200,7 @@ std::vector<ElementId> physics_handles(const Case& object) {
     come_near(distances, mesh, elements, mesh.rest_position(pin));
   }
   std::vector<ElementId> handles;
-  while (handles.size() < max_handles && !object.pins.empty() && !elements.empty()) {
+  while (handles.size() < most && !object.pins.empty() && !elements.empty()) {
     const auto farthest = std::ranges::max_element(distances) - distances.begin();
     if (distances[static_cast<std::size_t>(farthest)] == 0) {
       break;  // pinned, or already a handle
@@ -216,12 +215,12 @@ std::vector<ElementId> physics_handles(const Case& object) {
   return handles;
 }
 
-std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, double radius_share) {
+std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, double radius_share, std::size_t handles) {
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
   const double size = (high - low).maxCoeff(), radius = radius_share * size;
   std::vector<RecordedMoves> drags;
-  for (const ElementId handle : physics_handles(object)) {
+  for (const ElementId handle : physics_handles(object, handles)) {
     const Point outward = outward_of(object, handle), across = across_of(mesh, outward);
     drags.push_back(drag(object, handle, radius, nudge_share * size * (outward + across).normalized(), "nudge",
                          "5 % of the object’s size"));
