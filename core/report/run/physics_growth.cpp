@@ -73,8 +73,7 @@ std::optional<ReferenceSolution> reference_at(const Case& object, Budget& budget
 Row measure(const Contestant& contestant, Budget& budget, const Case& object,
             const std::optional<ReferenceSolution>& reference, ContestOptions options, const Progress& progress) {
   const double start = growth_clock();
-  options.seconds = 0;
-  options.repetitions = 1;
+  options.repetitions = 0;
   options.own_limit = 0;
   std::optional<PhysicsReferee> referee;
   if (reference) {
