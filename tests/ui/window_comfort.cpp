@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/icons.h"
-#include "common/plot_painting.h"
+#include "common/plot_pictures.h"
 #include "common/theme.h"
 #include "document/edits.h"
 #include "document/panel_colour.h"

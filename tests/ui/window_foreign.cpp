@@ -14,7 +14,7 @@
 #include <QXmlStreamReader>
 #include <cmath>
 
-#include "common/plot_painting.h"
+#include "common/plot_pictures.h"
 #include "folders.h"
 #include "io/sessions.h"
 #include "window.h"

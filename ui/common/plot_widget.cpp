@@ -2,6 +2,7 @@
 
 #include <QHelpEvent>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QToolTip>
 #include <cmath>
 
@@ -41,17 +42,22 @@ PlotWidget::PlotWidget(const QString& emptyText) : emptyText_(emptyText) {
 }
 
 void PlotWidget::show(report::Plot plot) {
-  painting_.reset();
+  layout_.reset();
   plot_ = std::move(plot);
   update();
 }
 
-PlotPainting& PlotWidget::painting() {
-  if (!painting_) {
-    painting_.emplace(plot_, palette());
+/// Draws the plot anew if something has changed, and returns its layout.
+const report::PlotLayout& PlotWidget::drawn() {
+  if (!layout_) {
+    report::SvgStyle style = plotStyle(palette(), font());
+    style.width = width();
+    style.height = height();
+    style.parts = report::PlotParts::panels;
+    layout_.emplace(plot_, style);
+    drawing_.load(plotDrawing(plot_, style));
   }
-  painting_->layOut(rect(), QFontMetricsF(font(), this));
-  return *painting_;
+  return *layout_;
 }
 
 void PlotWidget::paintEvent(QPaintEvent* /*event*/) {
@@ -61,10 +67,10 @@ void PlotWidget::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(rect(), int(Qt::AlignCenter) | Qt::TextWordWrap, emptyText_);
     return;
   }
-  painting().paint(painter);
+  drawn();
+  painter.setRenderHint(QPainter::Antialiasing);
+  drawing_.render(&painter, rect());
 }
-
-QPointF PlotWidget::positionOf(double x, double y) { return painting().positionOf(x, y); }
 
 QString PlotWidget::readingAt(QPointF position) {
   if (report::is_empty(plot_)) {
@@ -75,30 +81,42 @@ QString PlotWidget::readingAt(QPointF position) {
 }
 
 QString PlotWidget::markReading(QPointF position) {
-  const PlotPainting& drawn = painting();
+  const report::PlotLayout& layout = drawn();
   const report::PlotMark* nearest = nullptr;
   double least = markReach;
-  for (const report::PlotMark& mark : plot_.panels.front().marks) {
-    if (const double off = QLineF(drawn.positionOf(mark.x, mark.y), position).length(); off < least) {
-      least = off;
-      nearest = &mark;
+  for (std::size_t panel = 0; panel < plot_.panels.size(); ++panel) {
+    for (const report::PlotMark& mark : plot_.panels[panel].marks) {
+      const auto [x, y] = layout.position(panel, mark.x, mark.y);
+      if (const double off = QLineF({x, y}, position).length(); off < least) {
+        least = off;
+        nearest = &mark;
+      }
     }
   }
   return nearest == nullptr ? QString() : text(nearest->title);
 }
 
-/// Returns the value of x and, below it, one line of text per series. Lines are read on linear axes only.
 QString PlotWidget::curveReading(QPointF position) {
-  const QRectF inner = painting().inner();
-  if (!plot_.x.linear || !plot_.x.ends || !inner.contains(position)) {
+  for (std::size_t panel = 0; panel < plot_.panels.size(); ++panel) {
+    const auto [left, top, width, height] = drawn().area(panel);
+    if (QRectF(left, top, width, height).contains(position)) {
+      return curveReading(plot_.panels[panel], (position.x() - left) / width, 1 / width);
+    }
+  }
+  return {};
+}
+
+/// Returns the value of x at a share of the panel's width and, below it, one line of text per series. Lines are read on
+/// linear axes only.
+QString PlotWidget::curveReading(const report::PlotPanel& panel, double share, double pixel) const {
+  if (!plot_.x.linear || !plot_.x.ends) {
     return {};
   }
   const auto [from, to] = *plot_.x.ends;
-  const double perPixel = (to - from) / inner.width();
+  const double x = from + share * (to - from);
   QStringList lines;
-  double x = from + perPixel * (position.x() - inner.left());
   for (std::size_t series = 0; series < plot_.series.size(); ++series) {
-    if (const auto point = nearestPoint(plot_.panels.front(), series, x, reach * perPixel)) {
+    if (const auto point = nearestPoint(panel, series, x, reach * pixel * (to - from))) {
       lines << QStringLiteral("%1: %2").arg(text(plot_.series[series].label), valueWithUnit((*point)[1], plot_.y));
     }
   }
@@ -128,26 +146,41 @@ bool PlotWidget::event(QEvent* event) {
 }
 
 void PlotWidget::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange) {
-    painting_.reset();
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+    layout_.reset();
   }
   QWidget::changeEvent(event);
 }
 
+void PlotWidget::resizeEvent(QResizeEvent* event) {
+  layout_.reset();
+  QWidget::resizeEvent(event);
+}
+
 void PlotLegend::show(report::Plot plot) {
   plot_ = std::move(plot);
+  draw();
+}
+
+void PlotLegend::draw() {
+  report::SvgStyle style = plotStyle(palette(), font());
+  style.parts = report::PlotParts::legend;
+  drawing_.load(plotDrawing(plot_, style));
   updateGeometry();
   update();
 }
 
-QSize PlotLegend::sizeHint() const {
-  return PlotPainting(plot_, palette()).legendSize(QFontMetricsF(font(), this)).toSize() + QSize(0, 1);
+void PlotLegend::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+    draw();
+  }
+  QWidget::changeEvent(event);
 }
 
 void PlotLegend::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  PlotPainting(plot_, palette()).paintLegend(painter, rect());
+  drawing_.render(&painter, QRectF(QPointF(), drawing_.defaultSize()));
 }
 
 }  // namespace chainmail

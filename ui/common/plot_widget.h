@@ -1,9 +1,10 @@
 #pragma once
 
+#include <QSvgRenderer>
 #include <QWidget>
 #include <optional>
 
-#include "common/plot_painting.h"
+#include "common/plot_pictures.h"
 
 namespace chainmail {
 
@@ -19,8 +20,6 @@ class PlotWidget : public QWidget {
   const report::Plot& plot() const { return plot_; }
   QSize sizeHint() const override { return {200, 110}; }
   QSize minimumSizeHint() const override { return {120, 90}; }
-  /// Returns the position of a value in the widget.
-  QPointF positionOf(double x, double y);
   /// Returns the values near a position as text: those of the nearest mark, or those of each line at that x. Returns an
   /// empty string if there are none.
   QString readingAt(QPointF position);
@@ -30,15 +29,18 @@ class PlotWidget : public QWidget {
   void changeEvent(QEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
-  PlotPainting& painting();
+  const report::PlotLayout& drawn();
   QString markReading(QPointF position);
   QString curveReading(QPointF position);
+  QString curveReading(const report::PlotPanel& panel, double share, double pixel) const;
 
   report::Plot plot_;
   QString emptyText_;
-  std::optional<PlotPainting> painting_;  // for the current plot and palette
+  std::optional<report::PlotLayout> layout_;  // for the current plot, size and font
+  QSvgRenderer drawing_;
   QString shownReading_;
 };
 
@@ -48,14 +50,18 @@ class PlotLegend : public QWidget {
 
  public:
   void show(report::Plot plot);
-  QSize sizeHint() const override;
+  QSize sizeHint() const override { return drawing_.defaultSize(); }
   QSize minimumSizeHint() const override { return sizeHint(); }
 
  protected:
+  void changeEvent(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void draw();
+
   report::Plot plot_;
+  QSvgRenderer drawing_;
 };
 
 }  // namespace chainmail

@@ -62,7 +62,7 @@ class FrameRateDock : public QDockWidget {
   QMenu& menu() { return *menu_; }
   /// Writes all samples as CSV.
   void saveTablePath(const QString& path);
-  /// Writes the plot as PNG or PDF.
+  /// Writes the plot as SVG, PDF or PNG.
   void savePicturePath(const QString& path);
 
  signals:

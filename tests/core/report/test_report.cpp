@@ -8,6 +8,7 @@
 #include "report/table/format.h"
 #include "report/page/html.h"
 #include "report/page/plot.h"
+#include "report/page/svg.h"
 #include "report/page/table.h"
 
 namespace chainmail::test_report {
@@ -21,6 +22,8 @@ class ReportTest : public QObject {
  private slots:
   void text_is_escaped();
   void an_axis_of_nothing_stands();
+  void a_layout_keeps_all_parts_apart_and_inside();
+  void a_drawing_names_what_it_shows();
   void a_page_is_well_formed_and_needs_nothing_else();
   void the_main_table_takes_the_worst();
   void csv_has_a_row_for_each();
@@ -100,6 +103,51 @@ void ReportTest::an_axis_of_nothing_stands() {
     }
     QVERIFY(axis.ticks().size() >= 2);
   }
+}
+
+void ReportTest::a_layout_keeps_all_parts_apart_and_inside() {
+  const Plot plot = violation_plot(comparison().cases.front());
+  for (const double width : {0.0, 330.0, 700.0}) {
+    for (const double height : {230.0, 600.0}) {
+      const PlotLayout layout(plot, {.width = width, .height = height, .font_size = 13});
+      const auto [right, bottom] = layout.size();
+      QVERIFY(width == 0 || (std::abs(right - width) < 1e-9 && std::abs(bottom - height) < 1e-9));
+      const PlotArea one = layout.area(0), other = layout.area(1);
+      QVERIFY(one.width > 30 && one.height > 30);
+      QVERIFY(one.left + one.width < other.left || one.top + one.height < other.top);
+      QVERIFY(other.left + other.width < right && other.top + other.height < bottom);
+      for (std::size_t panel = 0; panel < 2; ++panel) {
+        const PlotArea area = layout.area(panel);
+        for (const PlotMark& mark : plot.panels[panel].marks) {
+          const auto [x, y] = layout.position(panel, mark.x, mark.y);
+          QVERIFY(x >= area.left && x <= area.left + area.width && y >= area.top && y <= area.top + area.height);
+        }
+      }
+    }
+  }
+}
+
+void ReportTest::a_drawing_names_what_it_shows() {
+  const Plot plot = violation_plot(comparison().cases.front());
+  const auto words_of = [&](const SvgStyle& style) {
+    std::ostringstream out;
+    write_svg(out, plot, style);
+    QString words;
+    return elements_of(out.str(), &words).isEmpty() ? QString() : words;
+  };
+  const QString whole = words_of({}), paper = words_of({.width = 330, .height = 230});
+  const QString panels = words_of({.width = 330, .height = 230, .parts = PlotParts::panels});
+  const QString legend = words_of({.parts = PlotParts::legend});
+  for (const PlotSeries& series : plot.series) {
+    const QString label = QString::fromStdString(series.label);
+    QVERIFY(whole.contains(label) && paper.contains(label) && legend.contains(label));
+    QCOMPARE(panels.count("\n" + label + "\n"), 0);
+  }
+  for (const QString& words : {whole, paper, panels}) {
+    QVERIFY(words.contains(QString::fromStdString(plot.x.title)) && words.contains("largest violation"));
+  }
+  // A small drawing has fewer labels.
+  QVERIFY(words_of({.width = 90, .height = 90, .parts = PlotParts::panels}).count('\n') < panels.count('\n'));
 }
 
 void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
