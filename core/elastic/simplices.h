@@ -37,8 +37,8 @@ struct Simplices {
 /// line. For a grid or a block without faces or cells, these are its squares or cubes. A hexahedron is split into six
 /// tetrahedra around its lowest corner, so that neighbours agree on the diagonals (Dompierre et al. 1999).
 ///
-/// They are sorted by the ids of their corners, so that no answer depends on the order of the cells in a file: what
-/// meets them in turn, as XPBD, comes to another answer in another order.
+/// They are sorted by the ids of their corners, so that no answer depends on the order of the cells in a file. XPBD
+/// meets them in turn, and would come to another answer in another order.
 ///
 /// Throws Error, with the corners, for a cell that is flat or oriented differently from the others, and if no cell is
 /// left. Throws Cancelled.
