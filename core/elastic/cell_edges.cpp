@@ -14,8 +14,9 @@ bool has_faces_in_space(const Mesh& mesh) {
   return mesh.space_dimension == 3 && !mesh.has_cells() && !mesh.triangles.empty();
 }
 
-/// Adds a triangle with the gradients of its shape functions, in a plane in which its first edge is the first axis.
-void add_face(const Mesh& mesh, const std::array<ElementId, 3>& face, Simplices& cells) {
+/// Adds the shape of a triangle: its area, and the gradients of its shape functions in a plane in which its first edge
+/// is the first axis.
+void add_shape(const Mesh& mesh, std::span<const ElementId> face, Simplices& cells) {
   const Point first = mesh.rest_position(face[1]) - mesh.rest_position(face[0]);
   const Point second = mesh.rest_position(face[2]) - mesh.rest_position(face[0]);
   const double width = first.norm(), twice = first.cross(second).norm();
@@ -26,7 +27,6 @@ void add_face(const Mesh& mesh, const std::array<ElementId, 3>& face, Simplices&
                 "it is flat, so it cannot resist", "remove it, or mesh the object again");
   }
   const double along = first.dot(second) / width, height = twice / width;
-  cells.corners.insert(cells.corners.end(), face.begin(), face.end());
   cells.volumes.push_back(twice / 2);
   const double x1 = 1 / width, y1 = -along / twice, y2 = 1 / height;
   cells.gradients.insert(cells.gradients.end(), {-x1, -y1 - y2, x1, y1, 0, y2});
@@ -41,15 +41,20 @@ Simplices build_edge_cells(const Mesh& mesh, const Cuts& cuts, const Progress& p
   Simplices cells;
   cells.dimension = 2;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    progress.report(i, mesh.triangles.size());
-    const auto& face = mesh.triangles[i];
-    const auto& [a, b, c] = face;
+    progress.part(0, 0.5).report(i, mesh.triangles.size());
+    const auto& [a, b, c] = mesh.triangles[i];
     if (!is_cut_between(mesh, cuts, a, b) && !is_cut_between(mesh, cuts, b, c) && !is_cut_between(mesh, cuts, c, a)) {
-      add_face(mesh, face, cells);
+      cells.corners.insert(cells.corners.end(), {a, b, c});
     }
   }
   if (cells.corners.empty()) {
     throw Error("object", "it has no uncut face, so it cannot resist", "uncut links");
+  }
+  sort_simplices(cells.corners, 3);
+  const std::size_t count = cells.corners.size() / 3;
+  for (std::size_t s = 0; s < count; ++s) {
+    progress.part(0.5, 1).report(s, count);
+    add_shape(mesh, cells.corners_of(s), cells);
   }
   return cells;
 }

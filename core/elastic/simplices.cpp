@@ -51,6 +51,9 @@ class Builder {
     if (simplices_.corners.empty() && cells_ == nullptr) {
       throw Error("object", "it has no uncut cell, so it cannot resist", "uncut links, or use an object with cells");
     }
+    if (cells_ == nullptr) {
+      sort_simplices(simplices_.corners, static_cast<std::size_t>(simplices_.dimension) + 1);
+    }
     find_shapes();
     return std::move(simplices_);
   }
@@ -219,7 +222,7 @@ class Builder {
     }
     const bool has_way_round = simplices_.dimension == 3 && cells_ == nullptr;  // a sheet is the same from behind
     if (has_way_round && orientation_ != 0 && (volume > 0) != (orientation_ > 0)) {
-      throw Error(where, "it is inverted: its corners are in the opposite order to those of the cells before it",
+      throw Error(where, "it is inverted: its corners are in the opposite order to those of other cells",
                   "turn such cells with 'chainmail repair', or with Object > Repair in the workbench");
     }
     orientation_ = volume > 0 ? 1 : -1;
@@ -245,6 +248,23 @@ class Builder {
 
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
   return Builder(mesh, cuts, progress).build();
+}
+
+void sort_simplices(std::vector<ElementId>& corners, std::size_t width) {
+  struct Simplex {
+    std::array<ElementId, 4> ascending{}, corners{};  // the first `width` of each
+  };
+  std::vector<Simplex> simplices(corners.size() / width);
+  for (std::size_t s = 0; s < simplices.size(); ++s) {
+    Simplex& simplex = simplices[s];
+    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(s * width), width, simplex.corners.begin());
+    simplex.ascending = simplex.corners;
+    std::ranges::sort(std::span(simplex.ascending).first(width));
+  }
+  std::ranges::sort(simplices, {}, &Simplex::ascending);
+  for (std::size_t s = 0; s < simplices.size(); ++s) {
+    std::copy_n(simplices[s].corners.begin(), width, corners.begin() + static_cast<std::ptrdiff_t>(s * width));
+  }
 }
 
 bool has_solid_cells(const Mesh& mesh) {

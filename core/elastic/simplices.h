@@ -37,9 +37,15 @@ struct Simplices {
 /// line. For a grid or a block without faces or cells, these are its squares or cubes. A hexahedron is split into six
 /// tetrahedra around its lowest corner, so that neighbours agree on the diagonals (Dompierre et al. 1999).
 ///
+/// They are sorted by the ids of their corners, so that no answer depends on the order of the cells in a file. XPBD
+/// meets them in turn, and would come to another answer in another order.
+///
 /// Throws Error, with the corners, for a cell that is flat or oriented differently from the others, and if no cell is
 /// left. Throws Cancelled.
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
+
+/// Sorts simplices, `width` corners each, by the ascending ids of their corners. The corners of each keep their order.
+void sort_simplices(std::vector<ElementId>& corners, std::size_t width);
 
 /// The simplices of all cells, cut or not, and the links that each cell needs: without one of these, the cell is gone.
 struct CellSimplices {
@@ -55,7 +61,8 @@ struct CellSimplices {
 };
 /// Returns true if a mesh has cells of its space's dimension: faces or squares in a plane, cells or cubes in space.
 bool has_solid_cells(const Mesh& mesh);
-/// The same division as build_simplices. Flat cells and any orientation are accepted. Throws Cancelled.
+/// The same division as build_simplices, in the order of the mesh. Flat cells and any orientation are accepted. Throws
+/// Cancelled.
 CellSimplices build_cell_simplices(const Mesh& mesh, const Progress& progress = {});
 
 /// Throws Error if the pins of a part leave it free to move as a rigid body. A part is a set of cells that share

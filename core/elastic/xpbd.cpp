@@ -56,7 +56,8 @@ class TimeStepSolver : public IteratedSolver {
     }
   }
 
-  /// Moves the elements to meet each constraint once, in turn.
+  /// Moves the elements to meet each constraint once, in turn. The object rests elsewhere in another order, so the
+  /// order is that of the ids of elements, whatever that of a file.
   virtual void sweep() = 0;
 
   Element& element(ElementId id) { return elements_[id]; }

@@ -14,23 +14,30 @@ namespace chainmail::test {
 
 using Field = std::function<Point(const Point&)>;
 
+/// Positions, links, faces and tetrahedra of a mesh, to make another from.
+inline MeshParts parts_of(const Mesh& mesh) {
+  MeshParts parts;
+  for (ElementId e = 0; e < mesh.element_count(); ++e) {
+    parts.rest.push_back(mesh.rest_position(e));
+  }
+  parts.links = mesh.links;
+  parts.triangles = mesh.triangles;
+  parts.tetrahedra = mesh.tetrahedra;
+  parts.space_dimension = mesh.space_dimension;
+  return parts;
+}
+
 /// The same mesh with its inner elements moved at random, up to a share of the spacing 1, so that no two cells are
 /// equal.
 inline MeshPointer jittered(const MeshPointer& mesh, double share = 0.2) {
-  MeshParts parts;
+  MeshParts parts = parts_of(*mesh);
   std::mt19937_64 random(7);
   const auto rim = boundary(*mesh);
   for (ElementId e = 0; e < mesh->element_count(); ++e) {
-    Point at = mesh->rest_position(e);
     for (int k = 0; k < mesh->space_dimension && !std::ranges::binary_search(rim, e); ++k) {
-      at[mesh->axes[k]] += uniform(random, -share, share);
+      parts.rest[e][mesh->axes[k]] += uniform(random, -share, share);
     }
-    parts.rest.push_back(at);
   }
-  parts.links = mesh->links;
-  parts.triangles = mesh->triangles;
-  parts.tetrahedra = mesh->tetrahedra;
-  parts.space_dimension = mesh->space_dimension;
   return build_mesh(std::move(parts));
 }
 

@@ -78,18 +78,6 @@ MeshPointer make(Object object) {
   }
 }
 
-MeshParts parts_of(const Mesh& mesh) {
-  MeshParts parts;
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    parts.rest.push_back(mesh.rest_position(e));
-  }
-  parts.links = mesh.links;
-  parts.triangles = mesh.triangles;
-  parts.tetrahedra = mesh.tetrahedra;
-  parts.space_dimension = mesh.space_dimension;
-  return parts;
-}
-
 MeshPointer turned(const Mesh& mesh, const Eigen::Matrix3d& turn) {
   MeshParts parts = parts_of(mesh);
   for (Point& at : parts.rest) {
