@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <span>
+#include <optional>
 #include <sstream>
 #include <system_error>
+#include <variant>
 
 #include "calibrate/for_report.h"
 #include "files/results/results_json.h"
