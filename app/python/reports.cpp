@@ -289,8 +289,7 @@ py::dict errors_of(const Results& results) {
   });
 }
 
-py::dict result_of(const Mesh& mesh, const CalibrationOptions& options, const CalibrationResult& found) {
-  const Results results = results_of("object", mesh, options, found);
+py::dict result_of(const CalibrationResult& found, const Results& results) {
   std::ostringstream json;
   write_json(json, results);
   return py::dict(py::arg("softness") = found.softness, py::arg("sweeps") = found.sweeps,
@@ -326,9 +325,10 @@ py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t s
                                      .not_these = {},
                                      .scheme = scheme,
                                      .energy = energy_of_links(body.softness().energy)};
-    return result_of(body.mesh(), options, run_long(job, progress, [&](const Progress& run) {
-                       return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
-                     }));
+    const CalibrationResult found = run_long(job, progress, [&](const Progress& run) {
+      return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
+    });
+    return result_of(found, results_of("object", body.mesh(), options, found));
   }
 }
 
