@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <variant>
 
-#include "calibrate/calibrate.h"
-#include "files/results/report_json.h"
+#include "calibrate/for_report.h"
+#include "files/results/results_json.h"
 #include "files/session/softness_presets.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
@@ -17,16 +20,13 @@
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/pickling.h"
-#include "report/page/compared_figures.h"
-#include "report/page/html.h"
-#include "report/page/physics_figures.h"
-#include "report/page/physics_html.h"
-#include "report/page/physics_plot.h"
-#include "report/page/ramp_page.h"
+#include "report/page/report.h"
 #include "report/page/svg.h"
+#include "report/page/tables.h"
 #include "report/run/drags.h"
 #include "report/run/physics_cases.h"
 #include "report/run/ramp.h"
+#include "report/table/summary.h"
 
 namespace chainmail::python {
 
@@ -40,6 +40,8 @@ const Words& words<Reference>() {
 namespace {
 
 using report::Motion;
+using report::Results;
+using report::Row;
 
 /// A drag from rest: grabs elements, then moves them along a path, one pass per motion.
 struct Drag {
@@ -93,18 +95,11 @@ py::list path_of(const Drag& drag) {
   return path;
 }
 
-struct CompareOptions {
-  report::PhysicsOptions physics;  // with the contest of both references
-  Reference against = Reference::exact;
-  std::string title;
-  std::optional<std::filesystem::path> folder;
-};
-
-report::Case case_of(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
+report::Case case_of(Object& object, const std::vector<Drag>& drags, Reference against, const std::string& title,
                      const Progress& progress) {
   const Body& body = object.body();
-  const bool physics = options.against == Reference::physics;
-  report::Case result = report::case_of(body, printable(options.title));
+  const bool physics = against == Reference::physics;
+  report::Case result = report::case_of(body, printable(title));
   if (physics && !result.cuts.empty()) {
     throw Error("cuts", "the comparison with physics needs an object without cuts", "uncut its links");
   }
@@ -132,145 +127,103 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 /// Writes all files of a report, or none.
-template <class Report>
-void write_report(const std::filesystem::path& folder, const Report& report) {
-  const report::Origin origin{report::this_machine(), "chainmail.compare", report::now_in_words(),
-                              std::string("chainmail ") + CHAINMAIL_VERSION};
+void write_report(const std::filesystem::path& folder, Results results) {
+  results.runs = {{{report::this_machine(), "chainmail.compare", report::now_in_words(),
+                    std::string("chainmail ") + CHAINMAIL_VERSION}}};
   make_folder(folder);
   Outputs outputs;
-  outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, report, origin); });
-  outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, report, origin); });
-  outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, report); });
-  std::vector<report::PlotFile> plots;  // until they are written
-  if constexpr (std::is_same_v<Report, report::PhysicsReport>) {
-    plots = plots_of(report);
-  }
+  outputs.add(folder / "report.html", [&](std::ostream& out) { write_html(out, results); });
+  outputs.add(folder / "report.json", [&](std::ostream& out) { write_json(out, results); });
+  outputs.add(folder / "report.csv", [&](std::ostream& out) { write_csv(out, results); });
+  const std::vector<report::PlotFile> plots = plots_of(results);  // until they are written
   for (const report::PlotFile& one : plots) {
     outputs.add(folder / one.name, [&](std::ostream& out) { write_svg(out, one.plot, report::file_ink); });
   }
   outputs.commit();
 }
 
-using AnyReport = std::variant<report::Comparison, report::PhysicsReport>;
-
-AnyReport compare_bodies(Object& object, const std::vector<Drag>& drags, const CompareOptions& options,
-                         const Progress& progress) {
-  const auto finished = [&](auto report) {
-    if (report.stopped) {
-      throw Cancelled();
-    }
-    if (options.folder) {
-      write_report(*options.folder, report);
-    }
-    return AnyReport(std::move(report));
-  };
-  const std::vector<report::Case> cases{case_of(object, drags, options, progress)};
-  return options.against == Reference::exact ? finished(report::compare(cases, options.physics.contest, progress))
-                                             : finished(report::compare_with_physics(cases, options.physics, progress));
+/// Returns results that are complete.
+Results finished(Results results) {
+  if (results.stopped) {
+    throw Cancelled();
+  }
+  return results;
 }
 
 // Tables: a dictionary of columns, a list for each name, all of one length. pandas.DataFrame takes it as it is.
 
-py::object to_python(const report::FigureValue& value) {
-  return std::visit(
-      []<class Value>(const Value& one) -> py::object {
-        if constexpr (std::is_same_v<Value, TimeSpread>) {
-          return py::float_(one.median);
-        } else {
-          return py::cast(one);
-        }
-      },
-      static_cast<const report::FigureValue::variant&>(value));
-}
-
-void put(py::dict& table, const char* column, const py::object& value) {
-  if (!table.contains(column)) {
-    table[column] = py::list();
+void put(py::dict& table, const std::string& column, const py::object& value) {
+  const py::str name(column);
+  if (!table.contains(name)) {
+    table[name] = py::list();
   }
-  table[column].cast<py::list>().append(value);
+  table[name].cast<py::list>().append(value);
 }
 
-/// Returns a figure of a row by its column in CSV; none if there is no such figure.
-template <class Row>
-py::object figure_of(std::span<const report::Figure<Row>> figures, std::string_view column, const Row& row) {
-  const auto found = std::ranges::find(figures, column, &report::Figure<Row>::column);
-  return column.empty() || found == figures.end() ? py::none() : to_python(found->value(row));
+py::object to_python(const report::Figure& figure, double number) {
+  using report::FigureFormat;
+  return figure.format == FigureFormat::yes_no  ? py::cast(number != 0)
+         : figure.format == FigureFormat::count ? py::cast(std::llround(number))
+                                                : py::cast(number);
 }
 
-/// A column of the table, and the figures of both reports that it shows. Empty: it was not measured, and is None.
-struct Column {
-  const char* name;
-  std::string_view exact, physics = {};
-  std::string_view of_one_move = physics;  // a drag of one move has no later ones
-  bool is_time = false;
-};
-
-constexpr Column columns[]{
-    {"sweeps", "sweeps", "sweeps"},
-    {"equilibrium", "equilibrium", "equilibrium"},
-    {"refusal", "refusal", "refusal"},
-    {"ms_per_move", "ms", "ms", "first_ms", true},
-    {"ms_lower_quartile", "ms_lower_quartile", "ms_lower_quartile", "first_lower_quartile", true},
-    {"ms_upper_quartile", "ms_upper_quartile", "ms_upper_quartile", "first_upper_quartile", true},
-    {"prepare_ms", "", "prepare_ms", "prepare_ms", true},
-    {"violation_max", "violation_max"},
-    {"violation_rms", "violation_rms"},
-    {"violation_fraction", "violation_fraction"},
-    {"exact_distance_max", "exact_distance_max"},
-    {"exact_distance_rms", "exact_distance_rms"},
-    {"energy_over_exact", "energy_over_exact"},
-    {"float_double_max", "float_double_max"},
-    {"float_double_rms", "float_double_rms"},
-    {"relative_error", "", "relative"},
-    {"physical_error_rms", "", "error_rms"},
-    {"physical_error_max", "", "error_max"},
-};
-
-void put_names(py::dict& table, const std::string& drag, std::string_view method, const std::string& label) {
-  put(table, "drag", py::str(drag));
-  put(table, "method", py::cast(method));
-  put(table, "label", py::str(label));
+/// Adds a figure, and the quartiles of a time, as columns. None where a row does not have it.
+void put_figure(py::dict& table, const std::vector<Row>& rows, const report::Figure& figure) {
+  const std::string key(figure.key);
+  const auto spread_of = [&](const Row& row) {
+    const report::Value* value = row.find(figure);
+    return value != nullptr ? value->spread : std::nullopt;
+  };
+  const bool is_time = std::ranges::any_of(
+      rows, [](const auto& spread) { return spread.has_value(); }, spread_of);
+  for (const Row& row : rows) {
+    const std::optional<double> number = row[figure];
+    put(table, key, number ? to_python(figure, *number) : py::none());
+    if (is_time) {
+      const std::optional<TimeSpread> spread = spread_of(row);
+      put(table, key + "_lower_quartile", spread ? py::cast(spread->lower_quartile) : py::none());
+      put(table, key + "_upper_quartile", spread ? py::cast(spread->upper_quartile) : py::none());
+    }
+  }
 }
 
-py::dict table_of(const report::Comparison& comparison) {
+/// Returns a table with the names of rows, and the figures that were measured.
+py::dict table_of(const std::vector<Row>& rows, const std::function<void(py::dict& table, const Row& row)>& put_names) {
   py::dict table;
-  for (const report::DragResult& drag : comparison.cases.at(0).drags) {
-    for (const report::Entry& entry : drag.entries) {
-      put_names(table, drag.name, info(entry.contestant.algorithm).offered_name(), label(entry.contestant));
-      for (const Column& column : columns) {
-        const report::ComparedRow row{&comparison.cases.at(0), &drag, &entry};
-        put(table, column.name, figure_of(report::compared_figures(), column.exact, row));
-      }
+  for (const Row& row : rows) {
+    put_names(table, row);
+  }
+  for (const report::Figure* figure : report::every_figure()) {
+    if (std::ranges::any_of(rows, [&](const Row& row) { return row.find(*figure) != nullptr; })) {
+      put_figure(table, rows, *figure);
     }
   }
   return table;
 }
 
-void put_row(py::dict& table, const report::PhysicsObject& object, const report::PhysicsDrag& drag,
-             const report::PhysicsEntry& entry) {
-  const report::PhysicsRow row{&object, &drag, &entry};
-  for (const Column& column : columns) {
-    const bool is_shown = entry.contestant.algorithm || !column.is_time;  // an object that does not move has no times
-    const std::string_view figure = drag.moves > 1 ? column.physics : column.of_one_move;
-    put(table, column.name, figure_of(report::physics_figures(), is_shown ? figure : "", row));
-  }
-}
+// Comparisons
 
-py::dict table_of(const report::PhysicsReport& comparison) {
-  py::dict table;
-  const report::PhysicsObject& object = comparison.objects.at(0);
-  for (const report::PhysicsDrag& drag : object.drags) {
-    for (const report::PhysicsEntry& entry : drag.entries) {
-      const auto& method = entry.contestant.algorithm;
-      put_names(table, drag.name, method ? info(*method).offered_name() : "nothing", label(entry.contestant));
-      put_row(table, object, drag, entry);
-    }
-    if (!drag.no_reference.empty()) {
-      put_names(table, drag.name, "", "");
-      put_row(table, object, drag, {.contestant = {}, .measurement = {}, .refusal = drag.no_reference});
+/// Returns the table of the drags of the object. A drag without a reference has one row, with the reason.
+py::dict table_by_drag(const Results& results) {
+  std::vector<Row> rows;
+  const auto& drags = results.objects.front().drags;
+  for (std::size_t drag = 0; drag < drags.size(); ++drag) {
+    const std::size_t before = rows.size();
+    std::ranges::copy_if(results.rows, std::back_inserter(rows), [&](const Row& row) { return row.drag == drag; });
+    if (rows.size() == before) {
+      rows.push_back({.drag = drag, .refusal = drags[drag].no_reference});
     }
   }
-  return table;
+  return table_of(rows, [&](py::dict& table, const Row& row) {
+    const report::Contestant& who = row.contestant;
+    const bool is_nobody = !who.algorithm && !row.has_figures();
+    put(table, "drag", py::str(results.drag_of(row)->name));
+    put(table, "method", who.algorithm ? py::cast(*who.algorithm) : py::str(is_nobody ? "" : name(who)));
+    put(table, "label", py::str(is_nobody ? "" : label(who)));
+    put(table, "sweeps", py::int_(who.sweeps));
+    put(table, "equilibrium", py::bool_(who.equilibrium));
+    put(table, "refusal", py::str(row.refusal));
+  });
 }
 
 py::dict compare(const Used<Object>& object, const py::sequence& drags, const py::sequence& methods,
@@ -278,25 +231,35 @@ py::dict compare(const Used<Object>& object, const py::sequence& drags, const py
                  Precision precision, std::optional<int> repetitions, double seconds, Reference against,
                  const std::string& title, const std::optional<std::filesystem::path>& folder, const Progress* job,
                  const py::object& progress) {
-  CompareOptions options{.physics = {}, .against = against, .title = title, .folder = folder};
-  report::CompareOptions& contest = options.physics.contest;
-  contest.algorithms = methods_of(methods);
-  contest.sweeps = list_of<int>(sweeps, "sweeps");
-  contest.equilibrium = equilibrium;
-  contest.relax_step = relax_step;
-  contest.scheme = scheme;
-  contest.precision = precision;
-  contest.repetitions = repetitions;
-  contest.seconds = seconds;
-  options.physics.growth_seconds = 0;
+  report::CompareOptions with_exact;
+  report::PhysicsOptions with_physics;
+  const bool physics = against == Reference::physics;
+  report::CompareOptions& options = physics ? with_physics : with_exact;
+  options.algorithms = methods_of(methods);
+  options.sweeps = list_of<int>(sweeps, "sweeps");
+  options.equilibrium = equilibrium;
+  options.relax_step = relax_step;
+  options.scheme = scheme;
+  options.precision = precision;
+  options.repetitions = repetitions;
+  options.seconds = seconds;
+  with_physics.growth_seconds = 0;
+  with_physics.turned = folder.has_value();  // only the report shows it
   if (!(seconds >= 0) || !std::isfinite(seconds)) {
     throw Error("seconds", "the time is not a number from 0", "use a number of seconds");
   }
-  check(contest);
+  check(options);
   const auto all = list_of<Drag>(drags, "drags");
-  const AnyReport report =
-      run_long(job, progress, [&](const Progress& run) { return compare_bodies(*object, all, options, run); });
-  return std::visit([](const auto& one) { return table_of(one); }, report);
+  const Results results = run_long(job, progress, [&](const Progress& run) {
+    const std::vector<report::Case> cases{case_of(*object, all, against, title, run)};
+    Results made = finished(physics ? report::compare_with_physics(cases, with_physics, run)
+                                    : report::compare(cases, with_exact, run));
+    if (folder) {
+      write_report(*folder, made);
+    }
+    return made;
+  });
+  return table_by_drag(results);
 }
 
 // Calibration
@@ -307,26 +270,31 @@ constexpr bool has_calibrate = true;
 constexpr bool has_calibrate = false;
 #endif
 
-void put_errors(py::dict& table, const char* drags, const TestedDrags& tested) {
-  using Errors = std::pair<const char*, const Residual&>;
-  for (const auto& [state, residual] :
-       {Errors("nothing", tested.nothing), Errors("before", tested.before), Errors("after", tested.after)}) {
-    put(table, "drags", py::str(drags));
-    put(table, "state", py::str(state));
-    put(table, "relative", py::float_(residual.relative));
-    put(table, "rms", py::float_(residual.rms));
-    put(table, "max", py::float_(residual.max));
+/// Returns the means over the drags of the search (`fitted`) and over the others (`held out`).
+py::dict errors_of(const Results& results) {
+  std::vector<Row> means;
+  const auto& drags = results.objects.front().drags;
+  for (std::size_t drag = 0; drag < drags.size(); ++drag) {
+    if (drag > 0 && drags[drag].name == drags[drag - 1].name) {
+      continue;
+    }
+    for (const report::Contestant& one : report::contestants_in(results, std::size_t(0))) {
+      means.push_back(joined(results, 0, one, report::Drags::all, drags[drag].name).row);
+      means.back().drag = drag;
+    }
   }
+  return table_of(means, [&](py::dict& table, const Row& row) {
+    put(table, "drags", py::str(results.drag_of(row)->name));
+    put(table, "state", py::str(row.contestant.calibrated ? "after" : row.contestant.algorithm ? "before" : "nothing"));
+  });
 }
 
-py::dict result_of(const CalibrationOptions& options, const CalibrationResult& found) {
-  py::dict errors;
-  put_errors(errors, "fitted", found.fitted);
-  put_errors(errors, "held_out", found.held_out);
+py::dict result_of(const CalibrationResult& found, const Results& results) {
   std::ostringstream json;
-  write_json(json, options, found);
+  write_json(json, results);
   return py::dict(py::arg("softness") = found.softness, py::arg("sweeps") = found.sweeps,
-                  py::arg("evaluations") = found.evaluations, py::arg("errors") = errors, py::arg("json") = json.str());
+                  py::arg("evaluations") = found.evaluations, py::arg("errors") = errors_of(results),
+                  py::arg("json") = json.str());
 }
 
 void check_at_least(int lowest, const char* name, int value) {
@@ -357,46 +325,34 @@ py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t s
                                      .not_these = {},
                                      .scheme = scheme,
                                      .energy = energy_of_links(body.softness().energy)};
-    return result_of(options, run_long(job, progress, [&](const Progress& run) {
-                       return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
-                     }));
+    const CalibrationResult found = run_long(job, progress, [&](const Progress& run) {
+      return chainmail::calibrate(body.mesh_pointer(), body.cuts(), options, run);
+    });
+    return result_of(found, results_of("object", body.mesh(), options, found));
   }
 }
 
 // Ramps
 
-py::dict sizes_of(const report::Ramp& ramp) {
-  py::dict table;
-  for (const report::RampRow& row : ramp.rows) {
-    for (const report::Figure<report::RampRow>& figure : report::ramp_figures()) {
-      const bool is_method = figure.column == "algorithm";
-      put(table, is_method ? "method" : figure.column.data(),
-          is_method ? py::cast(row.algorithm) : to_python(figure.value(row)));
-    }
-  }
-  return table;
+py::dict sizes_of(const Results& results) {
+  return table_of(results.rows, [&](py::dict& table, const Row& row) {
+    const report::ObjectInfo& grid = results.object_of(row);
+    put(table, "width", py::int_(width_of(grid)));
+    put(table, "elements", py::int_(grid.elements));
+    put(table, "links", py::int_(grid.links));
+    put(table, "method", py::cast(*row.contestant.algorithm));
+  });
 }
 
-py::dict verdicts_of(const report::Ramp& ramp) {
+py::dict verdicts_of(const Results& results) {
   py::dict table;
-  for (const report::RampVerdict& verdict : ramp.verdicts) {
+  for (const report::RampVerdict& verdict : ramp_verdicts(results)) {
     put(table, "method", py::cast(verdict.algorithm));
-    put(table, "largest_width", py::cast(verdict.largest_width));
+    put(table, "largest_width", verdict.largest ? py::cast(width_of(results.objects[*verdict.largest])) : py::none());
     put(table, "lost", py::cast(verdict.lost));
     put(table, "growth_exponent", verdict.growth ? py::cast(verdict.growth->power) : py::none());
   }
   return table;
-}
-
-report::Ramp run_ramp(const report::RampOptions& options, const Progress& job) {
-  const auto tell = [&](const report::RampProgress& at) {
-    job.report(std::min(1.0, double(at.width) * at.width / double(options.largest)));
-  };
-  report::Ramp made = report::ramp(options, tell, job);
-  if (made.stopped) {
-    throw Cancelled();
-  }
-  return made;
 }
 
 py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, std::uint64_t largest, int drags,
@@ -411,9 +367,11 @@ py::dict ramp(const py::sequence& methods, std::uint64_t seed, double budget, st
                                     .drags = drags,
                                     .moves = moves};
   check(options);
-  const report::Ramp found = run_long(job, progress, [&](const Progress& run) { return run_ramp(options, run); });
+  const Results found =
+      run_long(job, progress, [&](const Progress& run) { return finished(report::ramp(options, run)); });
+  const auto seconds = std::ranges::find(found.settings, "seconds", &report::Setting::first);
   return py::dict(py::arg("sizes") = sizes_of(found), py::arg("methods") = verdicts_of(found),
-                  py::arg("seconds") = found.seconds);
+                  py::arg("seconds") = std::get<double>(seconds->second));
 }
 
 void add_drag(py::module_& module) {
@@ -455,13 +413,15 @@ void add_compare(py::module_& module) {
       "against `physics` all. `sweeps` are numbers of sweeps of relaxation after each move, a row for each.\n"
       "`against` is `exact` (Exact ChainMail in double) or `physics` (neo-Hookean finite elements; the object needs\n"
       "pins). `seconds` is the time for all runs of one drag, unless `repetitions` is given. `folder` receives\n"
-      "report.html, report.json and report.csv. `progress` is called with the share that is done, 0 to 1.\n\n"
+      "report.html, report.json, report.csv and the plots. `progress` is called with the share that is done, 0 to "
+      "1.\n\n"
       "Returns a dictionary of columns (lists of equal length), one row per drag and method, for pandas.DataFrame:\n"
-      "drag, method, label, sweeps, equilibrium, refusal (the reason why there is no result), ms_per_move,\n"
-      "ms_lower_quartile, ms_upper_quartile, prepare_ms (ms), violation_max, violation_rms (rest lengths),\n"
-      "violation_fraction, exact_distance_max, exact_distance_rms, float_double_max, float_double_rms (mean rest\n"
-      "lengths), energy_over_exact, relative_error, physical_error_rms and physical_error_max. A figure that was\n"
-      "not measured is None. All figures except times are the same on every machine.\n\n"
+      "drag, method, label, sweeps, equilibrium, refusal (the reason why there is no result), then a column for each\n"
+      "figure that was measured. Its name is the key in report.json, where `figures` has all keys with their units "
+      "and\n"
+      "definitions: ms_per_move (ms), violation_max (rest lengths), exact_distance_rms (mean rest lengths) …; against\n"
+      "physics relative, error_rms … (ratios). Times also have KEY_lower_quartile and KEY_upper_quartile. None stands\n"
+      "for a figure that a row does not have. All figures except times and bytes are the same on every machine.\n\n"
       "Raises Error for an unknown method, an option out of its range, or a drag that is empty, not finite, or\n"
       "grabs elements that do not exist or are pinned; against physics also if the object has cuts or no pins; and\n"
       "Cancelled.");
@@ -480,9 +440,9 @@ void add_calibrate(py::module_& module) {
       "`held_out` are numbers of drags, for the search and to test the result. The same options give the same\n"
       "result on every machine. `progress` is called with the share that is done, 0 to 1.\n\n"
       "Returns a dictionary: `softness` (LinkSoftness), `sweeps` after each move, the number of `evaluations`,\n"
-      "`errors`, and `json` with all figures, drag by drag. `errors` is a dictionary of columns for\n"
-      "pandas.DataFrame: drags (`fitted` or `held_out`), state (`nothing` moves but the handle, `before`, `after`),\n"
-      "relative, rms and max.\n\n"
+      "`errors`, and `json`, a report with all figures, drag by drag. `errors` is a dictionary of columns for\n"
+      "pandas.DataFrame: drags (`fitted` or `held out`), state (`nothing` moves but the handle, `before`, `after`),\n"
+      "relative, error_rms (means) and error_max.\n\n"
       "Raises Error if nothing is pinned, if the method is unknown or not of the ChainMail family, if an option is\n"
       "out of its range, if the object has no static solution, and if no reference solution converges; and\n"
       "Cancelled.");

@@ -1,8 +1,8 @@
 // Compares two algorithms on the same drag of a sheet: time per pass, and what they do to the links.
 //   compare [FOLDER]      also writes the report into FOLDER
 #include <chainmail/chainmail.h>
-#include <chainmail/files/results/report_json.h>
-#include <chainmail/report/page/html.h>
+#include <chainmail/files/results/results_json.h>
+#include <chainmail/report/page/report.h>
 #include <chainmail/report/run/compare.h>
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <iostream>
 
 namespace cm = chainmail;
+namespace figures = chainmail::report::figures;
 
 int main(int argc, char** argv) {
   const cm::Body sheet(cm::generate({cm::MeshKind::cloth, {24, 24, 1}}), cm::Precision::double_precision);
@@ -24,21 +25,20 @@ int main(int argc, char** argv) {
   options.algorithms = {cm::Algorithm::generalized, cm::Algorithm::exact};
   options.sweeps = {0};
   options.repetitions = 5;
-  const cm::report::Comparison comparison = cm::report::compare({object}, options);
+  cm::report::Results results = cm::report::compare({object}, options);
 
-  for (const cm::report::Entry& entry : comparison.cases[0].drags[0].entries) {
-    const cm::Violation& violation = entry.measurement->errors.violation;
-    std::cout << label(entry.contestant) << ": " << entry.measurement->ms_per_move.median
-              << " ms per pass, largest violation " << violation.max << " of rest length, " << 100 * violation.fraction
+  for (const cm::report::Row& row : results.rows) {
+    std::cout << label(row.contestant) << ": " << *row[figures::ms_per_move] << " ms per pass, largest violation "
+              << *row[figures::violation_max] << " of rest length, " << 100 * *row[figures::violation_fraction]
               << " % of the links violated\n";
   }
   if (argc > 1) {
     const std::filesystem::path folder = argv[1];
-    const cm::report::Origin origin{cm::report::this_machine(), "compare", cm::report::now_in_words(), "example"};
+    results.runs = {{{cm::report::this_machine(), "compare", cm::report::now_in_words(), "example"}}};
     std::filesystem::create_directories(folder);
     std::ofstream html(folder / "report.html"), json(folder / "report.json");
-    write_html(html, comparison, origin);
-    cm::write_json(json, comparison, origin);
+    write_html(html, results);
+    cm::write_json(json, results);
   }
   return 0;
 }

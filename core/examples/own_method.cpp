@@ -58,10 +58,10 @@ int main() {
   options.algorithms = {rings, cm::Algorithm::natural_queue};
   options.sweeps = {0};
   options.repetitions = 3;
-  const cm::report::Comparison comparison = cm::report::compare({object}, options);
-  for (const cm::report::Entry& entry : comparison.cases[0].drags[0].entries) {
-    std::cout << label(entry.contestant) << ": RMS distance to Exact ChainMail "
-              << entry.measurement->errors.to_exact->rms << "\n";
+  const cm::report::Results results = cm::report::compare({object}, options);
+  for (const cm::report::Row& row : results.rows) {
+    std::cout << label(row.contestant) << ": RMS distance to Exact ChainMail "
+              << *row[cm::report::figures::exact_distance_rms] << "\n";
   }
   return 0;
 }

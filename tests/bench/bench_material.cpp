@@ -14,7 +14,7 @@
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "report/run/physics_cases.h"
-#include "report/run/physics_contestant.h"
+#include "report/table/contestant.h"
 #include "simulate/simulation.h"
 
 namespace chainmail::bench {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "equilibrium/equilibrium_solver.h"
-#include "report/run/physics_contestant.h"
 #include "report/run/preparing.h"
 #include "report/run/suite_experiments.h"
+#include "report/table/contestant.h"
 #include "simulate/simulation.h"
 #include "solver/algorithms.h"
 

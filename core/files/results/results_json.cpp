@@ -1,7 +1,6 @@
 #include "files/results/results_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "files/results/json_kind.h"
@@ -9,6 +8,7 @@
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "report/page/tables.h"
+#include "report/run/ramp.h"
 #include "report/table/summary.h"
 
 namespace chainmail {
@@ -157,7 +157,7 @@ void add_ramp(Json& json, const Results& results) {
   json["sizes"] = Json::array();
   for (const Row& row : results.rows) {
     const ObjectInfo& grid = results.object_of(row);
-    Json& one = json["sizes"].emplace_back(Json{{"width", std::llround(std::sqrt(double(grid.elements)))},
+    Json& one = json["sizes"].emplace_back(Json{{"width", width_of(grid)},
                                                 {"elements", grid.elements},
                                                 {"links", grid.links},
                                                 {"algorithm", name(row.contestant)}});
@@ -169,8 +169,7 @@ void add_ramp(Json& json, const Results& results) {
   json["algorithms"] = Json::array();
   for (const RampVerdict& verdict : ramp_verdicts(results)) {
     Json& one = json["algorithms"].emplace_back(Json{{"algorithm", info(verdict.algorithm).name}});
-    one["largest_width"] =
-        verdict.largest ? Json(std::llround(std::sqrt(double(results.objects[*verdict.largest].elements)))) : Json();
+    one["largest_width"] = verdict.largest ? Json(width_of(results.objects[*verdict.largest])) : Json();
     one["lost"] = verdict.lost;
     one["growth"] = verdict.growth ? Json{{"exponent", verdict.growth->power},
                                           {"from", verdict.growth->from},

@@ -1,11 +1,11 @@
 #include "report/page/report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "report/page/svg.h"
 #include "report/page/tables.h"
+#include "report/run/ramp.h"
 #include "report/run/suite.h"
 #include "report/table/format.h"
 #include "report/table/summary.h"
@@ -100,10 +100,7 @@ constexpr RowColumn row_columns[]{
     {"refusal", [](const Results&, const Row& row) { return csv_field(row.refusal); }},
 };
 constexpr RowColumn ramp_columns[]{
-    {"width",
-     [](const Results& all, const Row& row) {
-       return std::to_string(std::llround(std::sqrt(double(all.object_of(row).elements))));
-     }},
+    {"width", [](const Results& all, const Row& row) { return std::to_string(width_of(all.object_of(row))); }},
     row_columns[2],
     row_columns[3],
     row_columns[11],

@@ -399,8 +399,9 @@ std::vector<Row> Contest::run(const RecordedMoves& moves, Referee* referee, cons
   }
   // Contestants run in turns, so that other load on the machine affects all of them equally. Slow contestants repeat
   // less often.
+  const double most = options_.repetitions.value_or(max_repetitions);
   for (int repetition = 0, left = 1; left > 0 && !progress.cancelled(); ++repetition) {
-    progress.show(0.5 + 0.5 * std::min(1.0, double(repetition) / max_repetitions));
+    progress.show(0.5 + 0.5 * std::min(1.0, repetition / most));
     left = 0;
     for (std::size_t turn = 0; turn < participants_.size(); ++turn) {
       Participant& one = *participants_[(turn + std::size_t(repetition)) % participants_.size()];

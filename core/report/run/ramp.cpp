@@ -159,6 +159,8 @@ class RampRun {
 
 std::uint32_t next_width(std::uint32_t width) { return width + std::max(1U, (width + 5) / 10); }
 
+std::uint32_t width_of(const ObjectInfo& grid) { return std::uint32_t(std::lround(std::sqrt(double(grid.elements)))); }
+
 Results ramp(const RampOptions& options, const Progress& progress) { return RampRun(options, progress).run(); }
 
 void check(const RampOptions& options) {

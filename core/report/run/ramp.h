@@ -29,6 +29,9 @@ void check(const RampOptions& options);
 /// Returns a width that is about a tenth larger.
 std::uint32_t next_width(std::uint32_t width);
 
+/// Returns the width of a square grid, an object of a ramp.
+std::uint32_t width_of(const ObjectInfo& grid);
+
 /// Runs the ramp of Dean 2004, chapter 6: square grids grow until no algorithm can answer a move within the budget. The
 /// grids are the objects of one series.
 ///
