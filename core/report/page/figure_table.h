@@ -22,11 +22,11 @@ struct FigureTable {
     std::string refusal;
   };
 
-  std::string caption, about;
-  std::string style;   // CSS class: main, detail
-  std::string corner;  // head of the column of labels
-  std::vector<Column> columns;
-  std::vector<Row> rows;
+  std::string caption, about = {};
+  std::string style = {};  // CSS class: main, detail
+  std::string corner;      // head of the column of labels
+  std::vector<Column> columns = {};
+  std::vector<Row> rows = {};
 };
 
 /// Writes the table as part of a page, in a box that scrolls horizontally.
