@@ -102,7 +102,7 @@ Softness softness_of(const CompareArguments& arguments) {
 report::Case case_of(const std::string& file, const CompareArguments& arguments) {
   Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
-  OpenedMesh opened = chainmail::open_mesh(path);
+  OpenedMesh opened = open_mesh(file);
   softness.links = std::move(opened.softness);
   softness.axes = axes_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()), "mesh from a file", opened.mesh, {}, {}, std::move(softness), {}};
