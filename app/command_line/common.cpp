@@ -213,6 +213,11 @@ OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input) {
                  [&](const Progress& progress) { return chainmail::open_mesh(std::move(input), mesh.how, progress); });
 }
 
+OpenedMesh open_mesh(const std::string& path) {
+  return watched("reading " + shown(path), {},
+                 [&](const Progress& progress) { return chainmail::open_mesh(path, {}, progress); });
+}
+
 // Outputs
 
 void say_note(const std::string& words) {
@@ -233,7 +238,10 @@ void add_mesh_file(Outputs& outputs, const std::string& read, const std::string&
   check_holds(format, *mesh, target);
   say_note(lost_in(format, *mesh));
   outputs.keep(read);
-  outputs.add(target, [&format, mesh, softness](std::ostream& out) { write_mesh(out, format, *mesh, softness); });
+  outputs.add(target, [&format, mesh, softness, name = shown(target)](std::ostream& out) {
+    const Watch watch("writing " + name);
+    write_mesh(out, format, *mesh, softness, watch.progress());
+  });
 }
 
 void write_mesh_file(const std::string& read, const std::string& target, const MeshPointer& mesh,

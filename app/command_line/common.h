@@ -194,6 +194,8 @@ double tolerance_of(const std::string& where, const std::string& text);
 OpenedMesh open_mesh(const MeshArguments& mesh);
 /// The same for an open file, with options that were read.
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input);
+/// Reads a mesh without options.
+OpenedMesh open_mesh(const std::string& path);
 /// Returns the folder of the samples that come with the programs. It may be missing.
 std::filesystem::path samples_folder();
 

@@ -102,7 +102,7 @@ Softness softness_of(const CompareArguments& arguments) {
 report::Case case_of(const std::string& file, const CompareArguments& arguments) {
   Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
-  OpenedMesh opened = chainmail::open_mesh(path);
+  OpenedMesh opened = open_mesh(file);
   softness.links = std::move(opened.softness);
   softness.axes = axes_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()), "mesh from a file", opened.mesh, {}, {}, std::move(softness), {}};
@@ -153,7 +153,8 @@ std::vector<report::Case> cases_of(const CompareArguments& arguments) {
   }
   for (report::Case& object : cases) {
     if (!arguments.moves) {
-      object.drags = report::three_drags(object);
+      object.drags = watched("finding drags of " + object.name, {},
+                             [&](const Progress& progress) { return report::three_drags(object, progress); });
     }
   }
   return cases;
@@ -173,7 +174,9 @@ std::vector<report::Case> physics_cases_of(const CompareArguments& arguments) {
   }
   for (report::Case& object : cases) {
     if (object.drags.empty() || arguments.refined) {
-      object.drags = report::physics_drags(object, true, arguments.refined ? report::patch_share : 0);
+      object.drags = watched("finding drags of " + object.name, {}, [&](const Progress&) {
+        return report::physics_drags(object, true, arguments.refined ? report::patch_share : 0);
+      });
     }
   }
   return cases;
@@ -183,10 +186,9 @@ std::vector<report::Case> physics_cases_of(const CompareArguments& arguments) {
 
 void compare_with_exact(const CompareArguments& arguments) {
   OutputFolder folder(*arguments.output);
-  const report::Comparison comparison = [&] {
-    ProgressLine line;
-    return report::compare(cases_of(arguments), arguments.contest, progress_on(line));
-  }();
+  const std::vector<report::Case> cases = cases_of(arguments);
+  const report::Comparison comparison = watched(
+      "comparing", {}, [&](const Progress& progress) { return report::compare(cases, arguments.contest, progress); });
   write_report(folder, comparison, {}, {}, origin_of(arguments));
 }
 
@@ -196,10 +198,9 @@ void compare_with_physics(const CompareArguments& arguments) {
   arguments.elastic_options.read();
   const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic.material);
   const auto cases = physics_cases_of(arguments);
-  const report::PhysicsReport report = [&] {
-    ProgressLine line;
-    return report::compare_with_physics(report::with_laws(cases, laws), options, progress_on(line));
-  }();
+  const report::PhysicsReport report = watched("comparing with physics", {}, [&](const Progress& progress) {
+    return report::compare_with_physics(report::with_laws(cases, laws), options, progress);
+  });
   write_report(folder, report, plots_of(report), {}, origin_of(arguments));
 }
 
@@ -313,11 +314,6 @@ void compare(CompareArguments& arguments) {
 
 report::Origin origin_of(const CompareArguments& arguments) {
   return {report::this_machine(), arguments.command_line, report::now_in_words(), version_in_words("chainmail")};
-}
-
-Progress progress_on(ProgressLine& line) {
-  return Progress::watched(
-      [&line](double share, const std::string& text) { line.show([&] { return percent(share) + text; }); });
 }
 
 Command add_compare(CLI::App& root, const std::string& command_line) {

@@ -75,8 +75,6 @@ void judge_answers(const CompareArguments& arguments);
 
 /// Returns where a report comes from, which ends now.
 report::Origin origin_of(const CompareArguments& arguments);
-/// Returns a function that shows the progress of a report on a line.
-Progress progress_on(ProgressLine& line);
 
 /// Writes report.html, report.json, report.csv and plots into the folder, and the tables to standard output.
 template <class Report, class... Origin>

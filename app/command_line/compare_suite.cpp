@@ -82,10 +82,9 @@ void run_suite(const CompareArguments& arguments) {
   if (needs_organ(experiments)) {
     options.organs = sample_organs();
   }
-  report::Suite suite = [&] {
-    ProgressLine line;
-    return report::run_suite(experiments, options, progress_on(line));
-  }();
+  report::Suite suite = watched("running the suite", {}, [&](const Progress& progress) {
+    return report::run_suite(experiments, options, progress);
+  });
   suite.runs = {{origin_of(arguments), arguments.shard.value_or("1/1"), experiments}};
   write_report(folder, suite, plots_of(suite), {});
 }

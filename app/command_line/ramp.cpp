@@ -49,10 +49,11 @@ double budget_of(const std::string& where, const std::string& text) {
   return budget;
 }
 
-std::string in_words(const report::RampProgress& at) {
+std::string in_words(const report::RampProgress& at, std::uint64_t largest) {
   const std::string width = std::to_string(at.width);
-  return width + 'x' + width + ", drag " + std::to_string(at.drag) + " of " + std::to_string(at.drags) +
-         (at.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(at.in_race.size());
+  return width + 'x' + width + " of at most " + std::to_string(largest) + " elements, drag " + std::to_string(at.drag) +
+         " of " + std::to_string(at.drags) + (at.repeated ? ", repeated" : "") +
+         ", in real time so far: " + std::to_string(at.in_race.size());
 }
 
 void run_ramp(RampArguments& arguments) {
@@ -71,11 +72,11 @@ void run_ramp(RampArguments& arguments) {
     Outputs outputs;
     add_files(outputs, trial);
   }
-  {
-    ProgressLine line;
-    result =
-        report::ramp(arguments.how, [&](const report::RampProgress& at) { line.show([&] { return in_words(at); }); });
-  }
+  // No share is reported, because a ramp may end long before the largest grid.
+  result = watched("running grids", {}, [&](const Progress& progress) {
+    return report::ramp(arguments.how,
+                        [&](const report::RampProgress& at) { progress.say(in_words(at, arguments.how.largest)); });
+  });
   write_outputs({}, files);
 }
 
