@@ -76,6 +76,7 @@ Row measure(const Contestant& contestant, Budget& budget, const Case& object,
   options.seconds = 0;
   options.repetitions = 1;
   options.own_limit = 0;
+  options.longest = 0;  // the budget limits it
   std::optional<PhysicsReferee> referee;
   if (reference) {
     referee.emplace(*reference);
