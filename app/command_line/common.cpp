@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "version/version.h"
+
 namespace chainmail::command_line {
 
 void require(bool holds, const std::string& where, const std::string& problem, const std::string& remedy) {
@@ -219,6 +221,10 @@ OpenedMesh open_mesh(const std::string& path) {
 }
 
 // Outputs
+
+report::Origin origin_of(const std::string& command_line) {
+  return {report::this_machine(), command_line, report::now_in_words(), version_in_words("chainmail")};
+}
 
 void say_note(const std::string& words) {
   if (!words.empty()) {
