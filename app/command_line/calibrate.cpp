@@ -1,10 +1,12 @@
 #include "calibrate/calibrate.h"
 
+#include "calibrate/for_report.h"
 #include "command_line/model.h"
-#include "files/results/report_json.h"
+#include "files/results/results_json.h"
 #include "files/results/summary.h"
 #include "files/session/softness_presets.h"
 #include "files/text/limits.h"
+#include "report/page/report.h"
 #include "report/table/format.h"
 
 namespace chainmail::command_line {
@@ -48,11 +50,14 @@ void calibrate_file(CalibrateArguments& arguments) {
       watched("calibrating softness for " + object,
               {{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}},
               [&](const Progress& progress) { return calibrate(mesh, Cuts(mesh), how, progress); });
+  const report::Results table = results_of(object, *mesh, how, result);
   const std::vector presets{SoftnessPreset{name, result.softness}};
   write_outputs({path}, {{arguments.preset, [&](std::ostream& out) { write_presets(out, presets); }},
-                         {arguments.json, [&](std::ostream& out) { write_json(out, how, result); }},
-                         {free_output({arguments.preset, arguments.json}),
-                          [&](std::ostream& out) { write_text(out, how, result); }}});
+                         {arguments.json, [&](std::ostream& out) { write_json(out, table); }},
+                         {free_output({arguments.preset, arguments.json}), [&](std::ostream& out) {
+                            write_text(out, how, result);
+                            write_text(out, table);
+                          }}});
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "version/version.h"
+
 namespace chainmail::command_line {
 
 void require(bool holds, const std::string& where, const std::string& problem, const std::string& remedy) {
@@ -213,7 +215,16 @@ OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input) {
                  [&](const Progress& progress) { return chainmail::open_mesh(std::move(input), mesh.how, progress); });
 }
 
+OpenedMesh open_mesh(const std::string& path) {
+  return watched("reading " + shown(path), {},
+                 [&](const Progress& progress) { return chainmail::open_mesh(path, {}, progress); });
+}
+
 // Outputs
+
+report::Origin origin_of(const std::string& command_line) {
+  return {report::this_machine(), command_line, report::now_in_words(), version_in_words("chainmail")};
+}
 
 void say_note(const std::string& words) {
   if (!words.empty()) {
@@ -233,7 +244,10 @@ void add_mesh_file(Outputs& outputs, const std::string& read, const std::string&
   check_holds(format, *mesh, target);
   say_note(lost_in(format, *mesh));
   outputs.keep(read);
-  outputs.add(target, [&format, mesh, softness](std::ostream& out) { write_mesh(out, format, *mesh, softness); });
+  outputs.add(target, [&format, mesh, softness, name = shown(target)](std::ostream& out) {
+    const Watch watch("writing " + name);
+    write_mesh(out, format, *mesh, softness, watch.progress());
+  });
 }
 
 void write_mesh_file(const std::string& read, const std::string& target, const MeshPointer& mesh,

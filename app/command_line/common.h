@@ -21,6 +21,7 @@
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
+#include "report/table/machine.h"
 #include "solver/algorithms.h"
 #include "solver/deformer.h"
 
@@ -41,10 +42,10 @@ Command add_repair(CLI::App& root);
 Command add_simplify(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_deform(CLI::App& root);
-/// `command_line` is shown in the report.
+// `command_line` is shown in the report.
 Command add_compare(CLI::App& root, const std::string& command_line);
+Command add_ramp(CLI::App& root, const std::string& command_line);
 Command add_calibrate(CLI::App& root);
-Command add_ramp(CLI::App& root);
 /// Adds the command that prints a script with which a shell completes subcommands, options and values. The script is
 /// made from the options of all commands of `root`.
 Command add_completion(CLI::App& root);
@@ -194,9 +195,13 @@ double tolerance_of(const std::string& where, const std::string& text);
 OpenedMesh open_mesh(const MeshArguments& mesh);
 /// The same for an open file, with options that were read.
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input);
+/// Reads a mesh without options.
+OpenedMesh open_mesh(const std::string& path);
 /// Returns the folder of the samples that come with the programs. It may be missing.
 std::filesystem::path samples_folder();
 
+/// Returns where a report comes from, which ends now.
+report::Origin origin_of(const std::string& command_line);
 /// Prints a sentence for the user on standard error; nothing if it is empty.
 void say_note(const std::string& words);
 /// Adds the required option for a mesh file.

@@ -7,20 +7,27 @@
 #include "files/session/softness_presets.h"
 #include "report/run/drags.h"
 #include "report/run/physics_cases.h"
-#include "report/run/runner.h"
+#include "report/run/preparing.h"
+#include "report/table/format.h"
 #include "simulate/move_history.h"
-#include "version/version.h"
 
 namespace chainmail::command_line {
 namespace {
 
+// Seconds: for the repetitions of a drag, and for a contestant on one object.
+constexpr double quick_seconds = 0.3, longest_if_quick = 2, longest_on_meshes = 15;
+
 constexpr const char* compare_footer =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
-    "from rest: locally, as a whole, and back and forth. Writes report.html, report.json and report.csv to FOLDER and\n"
-    "prints the main table.\n\n"
+    "from rest: locally, as a whole, and back and forth. Writes report.html, report.json, report.csv and plots as SVG\n"
+    "to FOLDER and prints the main table.\n\n"
     "--against physics: the reference is neo-Hookean FEM on the same cells. The methods of elasticity and an\n"
-    "object that does not move are added. Without MESH, a bar and a sheet are used. Each object is nudged, pulled and\n"
-    "bent, near and far, at three handles, and cut once between two moves. FOLDER also receives the plots as SVG.\n\n"
+    "object that does not move are added. Without MESH, a bar and a sheet are used, which takes about five minutes.\n"
+    "Each object is nudged, pulled and bent, near and far, at each handle, and cut once between two moves.\n\n"
+    "With MESH, contestants that take longer than 15 s on an object are left out, unless --algorithms names them, and\n"
+    "physics has one handle and no growing objects. A MESH takes a few minutes, a large one more.\n"
+    "--quick gives a first answer, mostly within a minute: one drag of each object (physics: one bend and one cut),\n"
+    "few repetitions, nothing calibrated, turned or growing, and at most 2 s for a contestant on an object.\n\n"
     "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
     "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]},\n"
@@ -29,6 +36,7 @@ constexpr const char* compare_footer =
     "Example:\n"
     "  chainmail compare cloth.obj --algorithms natural-queue,exact --relax 0,10 -o report\n"
     "  chainmail compare organ.msh --against physics --pins bottom --poisson 0.45 -o report\n"
+    "  chainmail compare organ.msh --against physics --pins bottom --quick -o report\n"
     "  chainmail compare --suite -o suite\n"
     "  chainmail compare --merge part1/report.json part2/report.json -o suite";
 
@@ -53,23 +61,40 @@ void read_relax(const CLI::Option* option, report::CompareOptions& result) {
   }
 }
 
-report::PhysicsOptions physics_options(const CompareArguments& arguments) {
-  report::PhysicsOptions options;
-  const auto [sweeps, seconds] = std::pair(options.contest.sweeps, options.contest.seconds);
-  options.contest = arguments.contest;
-  options.contest.seconds = seconds;
-  if (!arguments.options.has("--relax")) {
-    options.contest.sweeps = sweeps;
+/// Sets what is not the same for all references, meshes and times. Options override it.
+void set_defaults(CompareArguments& arguments) {
+  report::PhysicsOptions& how = arguments.how;
+  const bool is_quick = arguments.is_quick();
+  how.equilibrium = true;
+  how.turned = !is_quick;
+  if (is_quick || arguments.has_meshes()) {
+    how.growth_seconds = 0;
+    arguments.handles = 1;
   }
-  std::ranges::sort(options.contest.sweeps);  // in ascending order, because a curve connects them
-  if (arguments.calibrated.value_or(true)) {
-    options.calibrate = calibrator_for_reports(options.contest.scheme);
+}
+
+/// Sets what depends on the options that were read.
+void complete(CompareArguments& arguments) {
+  report::PhysicsOptions& how = arguments.how;
+  const bool is_quick = arguments.is_quick();
+  if (!arguments.against_physics) {
+    const report::CompareOptions usual;
+    how.own_limit = usual.own_limit;
+    how.seconds = usual.seconds;
+    how.sweeps = usual.sweeps;
+  }
+  read_relax(arguments.options.app().get_option("--relax"), how);
+  std::ranges::sort(how.sweeps);  // because a curve connects them
+  how.seconds = is_quick ? quick_seconds : how.seconds;
+  if (how.algorithms.empty()) {
+    how.longest = is_quick ? longest_if_quick : arguments.has_meshes() ? longest_on_meshes : 0;
+  }
+  if (arguments.calibrated.value_or(!is_quick)) {
+    how.calibrate = calibrator_for_reports(how.scheme);
   }
   if (arguments.refined) {
-    options.refine = ConvergingOptions();
+    how.refine = ConvergingOptions();
   }
-  options.growth_seconds = arguments.growth_seconds;
-  return options;
 }
 
 // Objects
@@ -102,105 +127,99 @@ Softness softness_of(const CompareArguments& arguments) {
 report::Case case_of(const std::string& file, const CompareArguments& arguments) {
   Softness softness = softness_of(arguments);
   const std::filesystem::path path = file;
-  OpenedMesh opened = chainmail::open_mesh(path);
+  OpenedMesh opened = open_mesh(file);
   softness.links = std::move(opened.softness);
   softness.axes = axes_of(arguments.softness, *opened.mesh);
   return {printable(path.filename().string()), "mesh from a file", opened.mesh, {}, {}, std::move(softness), {}};
 }
 
-std::vector<report::Case> with_axes(std::vector<report::Case> cases, const CompareArguments& arguments) {
-  for (report::Case& one : cases) {
-    one.softness.axes = axes_of(arguments.softness, *one.mesh);
+/// Returns the objects at rest. Only the built-in ones have drags.
+std::vector<report::Case> objects_of(const CompareArguments& arguments) {
+  std::vector<report::Case> cases;
+  if (!arguments.has_meshes()) {
+    require(!arguments.pins, "--pins", "the built-in objects have their own pins",
+            "add a mesh, or leave out the option");
+    const Softness softness = softness_of(arguments);
+    cases = arguments.against_physics ? report::physics_cases(softness, arguments.elastic)
+                                      : report::default_cases(softness);
+    for (report::Case& one : cases) {
+      one.softness.axes = axes_of(arguments.softness, *one.mesh);
+    }
+  }
+  for (const std::string& file : arguments.meshes->results()) {
+    report::Case& object = cases.emplace_back(case_of(file, arguments));
+    object.elastic = arguments.elastic;
+    if (arguments.pins || arguments.against_physics) {
+      object.pins = pins_of(arguments.pins, object.name, *object.mesh);
+    }
   }
   return cases;
 }
 
-void refuse_pins(const CompareArguments& arguments) {
-  require(!arguments.pins, "--pins", "the built-in objects have their own pins", "add a mesh, or leave out the option");
-}
-
 /// Reads recorded moves of an object that a comparison can repeat.
-report::RecordedMoves moves_of(const std::string& file, const MeshPointer& mesh) {
+report::RecordedMoves moves_of(const std::string& file, const MeshPointer& mesh, const Progress& progress) {
   const std::string name = printable(file);
   const std::filesystem::path path = file;
-  Watch watch("reading " + name);
+  progress.say("reading " + name);
   report::RecordedMoves moves{"recorded", "recorded in " + printable(path.filename().string()),
-                              read_moves(path, mesh, watch.progress())};
+                              read_moves(path, mesh, progress)};
   require(last_mesh(mesh, moves.commands) == mesh, name, "its moves split the object, which a comparison cannot repeat",
           "save the split object, and record moves of it");
   require(report::count_moves(moves) > 0, name, "it contains no move", "write a grab and a drag, as in compare --help");
   return moves;
 }
 
-std::vector<report::Case> cases_of(const CompareArguments& arguments) {
-  const bool has_meshes = arguments.meshes->count() > 0;
-  require(has_meshes || !arguments.moves, "--moves", "the mesh of the recorded moves is missing", "add its file");
-  if (!has_meshes) {
-    refuse_pins(arguments);
-    return with_axes(report::default_cases(softness_of(arguments)), arguments);
+/// Returns the drags of an object: for a quick comparison, the first one, or against physics a bend and a cut.
+std::vector<report::RecordedMoves> drags_of(const report::Case& object, const CompareArguments& arguments,
+                                            const Progress& progress) {
+  if (arguments.moves) {
+    return {moves_of(*arguments.moves, object.mesh, progress)};
   }
-  std::vector<report::Case> cases;
-  for (const std::string& file : arguments.meshes->results()) {
-    report::Case& object = cases.emplace_back(case_of(file, arguments));
-    arguments.elastic_options.read();
-    object.elastic = arguments.elastic;
-    if (arguments.pins) {
-      object.pins = pins_of(arguments.pins, object.name, *object.mesh);
-    }
-    if (arguments.moves) {
-      object.drags.push_back(moves_of(*arguments.moves, object.mesh));
-    }
+  auto drags = arguments.against_physics
+                   ? report::physics_drags(object, true, arguments.refined ? report::patch_share : 0, arguments.handles)
+               : object.drags.empty() ? report::three_drags(object, progress)
+                                      : object.drags;
+  if (arguments.is_quick() && arguments.against_physics) {
+    std::erase_if(drags,
+                  [](const report::RecordedMoves& one) { return one.name != "bend" && report::cuts_of(one).empty(); });
+  } else if (arguments.is_quick()) {
+    drags.resize(1);
   }
-  for (report::Case& object : cases) {
-    if (!arguments.moves) {
-      object.drags = report::three_drags(object);
-    }
-  }
-  return cases;
+  return drags;
 }
 
-std::vector<report::Case> physics_cases_of(const CompareArguments& arguments) {
-  require(!arguments.moves, "--moves", "the comparison with physics uses its own drags", "leave out the option");
-  std::vector<report::Case> cases;
-  if (arguments.meshes->count() == 0) {
-    refuse_pins(arguments);
-    cases = with_axes(report::physics_cases(softness_of(arguments), arguments.elastic), arguments);
+std::vector<report::Case> cases_of(const CompareArguments& arguments) {
+  require(!arguments.moves || !arguments.against_physics, "--moves", "the comparison with physics uses its own drags",
+          "leave out the option");
+  require(!arguments.moves || arguments.has_meshes(), "--moves", "the mesh of the recorded moves is missing",
+          "add its file");
+  if (arguments.against_physics || arguments.has_meshes()) {
+    arguments.elastic_options.read();
   }
-  for (const std::string& file : arguments.meshes->results()) {
-    report::Case& object = cases.emplace_back(case_of(file, arguments));
-    object.pins = pins_of(arguments.pins, object.name, *object.mesh);
-    object.elastic = arguments.elastic;
-  }
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic.material);
+  std::vector<report::Case> cases = objects_of(arguments);
   for (report::Case& object : cases) {
-    if (object.drags.empty() || arguments.refined) {
-      object.drags = report::physics_drags(object, true, arguments.refined ? report::patch_share : 0);
-    }
+    object.drags = watched("finding drags of " + object.name, {},
+                           [&](const Progress& progress) { return drags_of(object, arguments, progress); });
   }
-  return cases;
+  return report::with_laws(cases, laws);
 }
 
 // Runs
 
-void compare_with_exact(const CompareArguments& arguments) {
-  OutputFolder folder(*arguments.output);
-  const report::Comparison comparison = [&] {
-    ProgressLine line;
-    return report::compare(cases_of(arguments), arguments.contest, progress_on(line));
-  }();
-  write_report(folder, comparison, {}, {}, origin_of(arguments));
-}
-
-void compare_with_physics(const CompareArguments& arguments) {
-  const report::PhysicsOptions options = physics_options(arguments);
-  OutputFolder folder(*arguments.output);
-  arguments.elastic_options.read();
-  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic.material);
-  const auto cases = physics_cases_of(arguments);
-  const report::PhysicsReport report = [&] {
-    ProgressLine line;
-    return report::compare_with_physics(report::with_laws(cases, laws), options, progress_on(line));
-  }();
-  write_report(folder, report, plots_of(report), {}, origin_of(arguments));
+/// Names, on standard error, the contestants that took too long.
+void say_left_out(const report::Results& results, double longest) {
+  std::vector<std::string> left_out;
+  for (const report::Row& row : results.rows) {
+    const std::string name = label(row.contestant);
+    if (row.refusal == report::left_out_after(longest) && std::ranges::count(left_out, name) == 0) {
+      left_out.push_back(name);
+    }
+  }
+  if (!left_out.empty()) {
+    say_note("left out, because they take longer than " + report::figure(longest) +
+             " s: " + joined_words(left_out, "; "));
+  }
 }
 
 /// Refuses options that work only with another one, `with`.
@@ -219,25 +238,34 @@ void group(CLI::App& app, const std::string& title, const std::vector<std::strin
   }
 }
 
-const std::vector<std::string> only_physics{"--grow",     "--calibrated", "--reference",
+const std::vector<std::string> only_physics{"--handles",  "--grow",       "--calibrated",   "--reference",
                                             "--material", "--gent-limit", "--fung-exponent"};
 
+std::size_t handles_of(const std::string& where, const std::string& text) {
+  const auto count = parse_count(text);
+  require(count && *count >= 1 && *count <= report::max_handles, where, in_quotes(text) + " is no number of handles",
+          "use 1 to " + std::to_string(report::max_handles));
+  return *count;
+}
+
 void add_contest(Options& options, CompareArguments& arguments) {
-  report::CompareOptions& contest = arguments.contest;
-  contest.equilibrium = true;
+  report::PhysicsOptions& how = arguments.how;
   options.add("--against", Choices<bool>{{"exact", false}, {"physics", true}}, "reference for the errors [exact]",
               arguments.against_physics);
   add_algorithms(options, "algorithms to compare: see deform --help [all; against exact: the ChainMail family]",
-                 every_algorithm, contest.algorithms);
+                 every_algorithm, how.algorithms);
   add_value(options.app(), "--relax", "N,N,…",
             "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
             "to the equilibrium [0,10,equilibrium; physics: 0,1,3,10,30,100,equilibrium]");
-  add_relaxation(options, true, contest.scheme);
-  options.add(parameters::relax_step, contest.relax_step);
-  add_precision(options, contest.precision);
+  add_relaxation(options, true, how.scheme);
+  options.add(parameters::relax_step, how.relax_step);
+  add_precision(options, how.precision);
   options.add("--repetitions", "N",
-              "runs of each drag [as many as fit into 4 s, at least 5; physics: 1.5 s, at least 3]",
-              contest.repetitions, count_from(1));
+              "runs of each drag [as many as fit into 4 s, at least 3; physics: 1.5 s; --quick: 0.3 s]",
+              how.repetitions, count_from(1));
+  options.app().add_flag("--quick")->description(
+      "a first answer: one drag, few repetitions, and nobody who takes longer than 2 s, unless --algorithms names "
+      "them");
 }
 
 void add_physics(Options& options, CompareArguments& arguments) {
@@ -248,15 +276,19 @@ void add_physics(Options& options, CompareArguments& arguments) {
               "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
               "answer changes by less than 2 % [same-cells]",
               arguments.refined);
-  options.add("--grow", "SECONDS", "time that each contestant may use on a growing bar and a growing sheet; 0: off [1]",
-              arguments.growth_seconds, [](const std::string& where, const std::string& text) {
+  options.add("--handles", "N", "number of handles of each object, 1 to 3 [3; with MESH or --quick: 1]",
+              arguments.handles, handles_of);
+  options.add("--grow", "SECONDS",
+              "time that each contestant may use on a growing bar and a growing sheet; 0: off [1; with MESH or "
+              "--quick: 0]",
+              arguments.how.growth_seconds, [](const std::string& where, const std::string& text) {
                 const double seconds = parse_number_of(where, text);
                 require(seconds >= 0, where, text + " is below 0", "use a number of seconds, or 0");
                 return seconds;
               });
   options.add("--calibrated", on_or_off,
               "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 "
-              "sweeps [on; with --suite: off]",
+              "sweeps [on; with --suite or --quick: off]",
               arguments.calibrated);
   group(options.app(), "Against physics", only_physics);
   group(options.app(), "Pins and methods of elasticity",
@@ -301,24 +333,24 @@ void compare(CompareArguments& arguments) {
     }
   }
   refuse_without("--suite", arguments, {"--experiments", "--shard"});
+  set_defaults(arguments);
   arguments.options.read();
   if (!arguments.against_physics) {
     refuse_without("--against physics", arguments, only_physics);
   }
-  read_relax(arguments.options.app().get_option("--relax"), arguments.contest);
-  arguments.against_physics ? compare_with_physics(arguments) : compare_with_exact(arguments);
+  complete(arguments);
+  OutputFolder folder(*arguments.output);
+  const std::vector<report::Case> cases = cases_of(arguments);
+  report::Results results = watched("comparing", {}, [&](const Progress& progress) {
+    return arguments.against_physics ? report::compare_with_physics(cases, arguments.how, progress)
+                                     : report::compare(cases, arguments.how, progress);
+  });
+  results.runs.push_back({origin_of(arguments.command_line)});
+  folder.write_report(results);
+  say_left_out(results, arguments.how.longest);
 }
 
 }  // namespace
-
-report::Origin origin_of(const CompareArguments& arguments) {
-  return {report::this_machine(), arguments.command_line, report::now_in_words(), version_in_words("chainmail")};
-}
-
-Progress progress_on(ProgressLine& line) {
-  return Progress::watched(
-      [&line](double share, const std::string& text) { line.show([&] { return percent(share) + text; }); });
-}
 
 Command add_compare(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of time against error");

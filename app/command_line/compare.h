@@ -1,22 +1,8 @@
 #pragma once
 
-#include <set>
-
 #include "command_line/model.h"
-#include "files/results/report_json.h"
-#include "files/results/suite_json.h"
-#include "report/page/compared_figures.h"
-#include "report/page/html.h"
-#include "report/page/physics_figures.h"
-#include "report/page/physics_html.h"
-#include "report/page/physics_plot.h"
-#include "report/page/physics_table.h"
-#include "report/page/suite_page.h"
-#include "report/page/suite_table.h"
-#include "report/page/svg.h"
-#include "report/page/table.h"
-#include "report/table/machine.h"
 #include "report/run/physics.h"
+#include "report/run/physics_cases.h"
 
 namespace chainmail::command_line {
 
@@ -27,14 +13,17 @@ struct CompareArguments {
   CLI::Option* meshes = nullptr;
   std::optional<std::string> output = {}, preset = {}, moves = {}, pins = {}, experiments = {}, shard = {};
   bool against_physics = false,
-       refined = false;  // what errors refer to: physics, on the object's cells or refined ones
-  report::CompareOptions contest = {};
+       refined = false;             // what errors refer to: physics, on the object's cells or refined ones
+  report::PhysicsOptions how = {};  // against Exact, only what both comparisons have
   SoftnessArguments softness = {};
   Options elastic_options;  // apart: they are read only for meshes
   ElasticOptions elastic = {};
   StrainLawArguments laws = {};
-  double growth_seconds = report::PhysicsOptions().growth_seconds;
   std::optional<bool> calibrated = {};
+  std::size_t handles = report::max_handles;
+
+  bool has_meshes() const { return meshes->count() > 0; }
+  bool is_quick() const { return options.has("--quick"); }
 };
 
 /// A folder for results. It is created if it is missing, and removed again if the results are not written.
@@ -48,15 +37,15 @@ class OutputFolder {
   /// Removes the folders that were created, unless the files were written.
   ~OutputFolder();
 
-  /// Creates the folder and writes the files into it, and a text to standard output. `read` are files that stay.
-  /// Notes on standard error which plots in the folder are of an earlier report. They stay, because only the user knows
-  /// whether somebody needs them.
-  void write(const std::vector<std::pair<std::string, Outputs::Writer>>& files, const Outputs::Writer& text = {},
-             const std::vector<std::string>& read = {});
+  /// Creates the folder and writes the files into it, or to standard output. `read` are files that stay.
+  void write(std::vector<OutputFile> files, const std::vector<std::string>& read = {});
+  /// Writes report.html, report.json, report.csv and plots, and the tables to standard output. Notes on standard error
+  /// which plots in the folder are of an earlier report. They stay, because only the user knows whether somebody needs
+  /// them.
+  void write_report(const report::Results& results, const std::vector<std::string>& read = {});
 
  private:
   void make();
-  void say_older_plots(const std::set<std::string>& written) const;
 
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;  // outermost first
@@ -72,25 +61,5 @@ void merge_suites(const CompareArguments& arguments);
 void write_cases(const CompareArguments& arguments);
 /// Judges answers of other solvers to a case.
 void judge_answers(const CompareArguments& arguments);
-
-/// Returns where a report comes from, which ends now.
-report::Origin origin_of(const CompareArguments& arguments);
-/// Returns a function that shows the progress of a report on a line.
-Progress progress_on(ProgressLine& line);
-
-/// Writes report.html, report.json, report.csv and plots into the folder, and the tables to standard output.
-template <class Report, class... Origin>
-void write_report(OutputFolder& folder, const Report& made, const std::vector<report::PlotFile>& plots,
-                  const std::vector<std::string>& read, const Origin&... origin) {
-  std::vector<std::pair<std::string, Outputs::Writer>> files{
-      {"report.html", [&](std::ostream& out) { write_html(out, made, origin...); }},
-      {"report.json", [&](std::ostream& out) { write_json(out, made, origin...); }},
-      {"report.csv", [&](std::ostream& out) { write_csv(out, made); }}};
-  for (const report::PlotFile& one : plots) {
-    files.emplace_back(one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); });
-  }
-  folder.write(
-      files, [&](std::ostream& out) { write_text(out, made); }, read);
-}
 
 }  // namespace chainmail::command_line

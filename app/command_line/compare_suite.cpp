@@ -1,8 +1,10 @@
 #include "calibrate/for_report.h"
 #include "command_line/compare.h"
 #include "files/results/peer_json.h"
+#include "files/results/results_json.h"
+#include "report/page/report.h"
 #include "report/run/peer.h"
-#include "report/run/suite_experiments.h"
+#include "report/run/suite.h"
 #ifdef CHAINMAIL_HAS_BULLET
 #include "bullet/register_bullet.h"
 #endif
@@ -72,8 +74,8 @@ void run_suite(const CompareArguments& arguments) {
   add_bullet();
   read_only(arguments, "--suite", {"--shard", "--experiments", "--algorithms", "--repetitions", "--calibrated", "-o"});
   report::SuiteOptions options;
-  options.algorithms = arguments.contest.algorithms;
-  options.repetitions = arguments.contest.repetitions;
+  options.algorithms = arguments.how.algorithms;
+  options.repetitions = arguments.how.repetitions;
   if (arguments.calibrated.value_or(false)) {
     options.calibrate = calibrator_for_reports(RelaxationScheme::mean);
   }
@@ -82,12 +84,11 @@ void run_suite(const CompareArguments& arguments) {
   if (needs_organ(experiments)) {
     options.organs = sample_organs();
   }
-  report::Suite suite = [&] {
-    ProgressLine line;
-    return report::run_suite(experiments, options, progress_on(line));
-  }();
-  suite.runs = {{origin_of(arguments), arguments.shard.value_or("1/1"), experiments}};
-  write_report(folder, suite, plots_of(suite), {});
+  report::Results suite = watched("running the suite", {}, [&](const Progress& progress) {
+    return report::run_suite(experiments, options, progress);
+  });
+  suite.runs.push_back({origin_of(arguments.command_line), arguments.shard.value_or("1/1"), experiments});
+  folder.write_report(suite);
 }
 
 void merge_suites(const CompareArguments& arguments) {
@@ -96,20 +97,22 @@ void merge_suites(const CompareArguments& arguments) {
   require(!reports.empty(), "--merge", "the files are missing", "name the report.json of each part");
   add_bullet();
   OutputFolder folder(*arguments.output);
-  std::vector<report::Suite> parts;
-  std::ranges::transform(reports, std::back_inserter(parts), read_suite);
-  const report::Suite suite = report::merged(parts);
-  write_report(folder, suite, plots_of(suite), reports);
+  std::vector<report::Results> parts;
+  for (const std::string& file : reports) {
+    const report::Results& part = parts.emplace_back(read_results(file));
+    require(part.kind == report::ReportKind::suite, shown(file), "it is not a report of compare --suite",
+            "give the report.json of each part of a suite");
+  }
+  folder.write_report(report::merged(parts), reports);
 }
 
 void write_cases(const CompareArguments& arguments) {
   read_only(arguments, "--cases", {"-o"});
   OutputFolder folder(*arguments.output);
   const auto cases = report::peer_cases_of_suite(sample_organs());
-  std::vector<std::pair<std::string, Outputs::Writer>> files;
-  files.reserve(cases.size());
+  std::vector<OutputFile> files;
   for (const report::PeerCase& one : cases) {
-    files.emplace_back(one.name + ".json", [&one](std::ostream& out) { write_json(out, one); });
+    files.push_back({one.name + ".json", [&one](std::ostream& out) { write_json(out, one); }});
   }
   folder.write(files);
 }
@@ -119,11 +122,10 @@ void judge_answers(const CompareArguments& arguments) {
   const std::vector<std::string> files = arguments.meshes->results();
   require(files.size() >= 2, "--judge", "the files are missing", "name a case, then one or more answers to it");
   const report::PeerCase object = read_peer_case(files.front());
-  report::FigureTable table = peer_table(object);
-  for (const std::string& file : std::span(files).subspan(1)) {
-    table.rows.push_back(peer_row(object, read_peer_answer(file)));
-  }
-  write_file("-", [&](std::ostream& out) { write_text(out, table); });
+  std::vector<report::PeerAnswer> answers;
+  std::transform(files.begin() + 1, files.end(), std::back_inserter(answers), read_peer_answer);
+  const report::Results judged = report::judge(object, answers);
+  write_file("-", [&](std::ostream& out) { write_text(out, judged); });
 }
 
 }  // namespace chainmail::command_line

@@ -29,7 +29,7 @@ Command add_fill(CLI::App& root) {
   return {app, [=] {
             const std::string path = *value_of(mesh), name = shown(path);
             mesh_format(*value_of(target), FormatUse::write);
-            const OpenedMesh surface = chainmail::open_mesh(path);
+            const OpenedMesh surface = open_mesh(path);
             say_flaws(surface);
             const auto length = value_of(edge);
             const double size = length ? parse_number_of("--edge", *length) : surface.mesh->mean_link_length;

@@ -134,19 +134,16 @@ void deform(DeformArguments& arguments) {
   const std::vector<chainmail::Command> recorded = recorded_moves(arguments, opened.mesh);
   check_actions(actions, *last_mesh(opened.mesh, recorded), schedule.steps);
 
-  std::optional<ProgressLine> line(std::chrono::seconds(1));
-  const std::string of_all = " of " + std::to_string(passes_of(recorded, actions, schedule.steps));
-  const auto on_end = [&, done = 0]() mutable {
-    ++done;
-    line->show([&] { return "pass " + std::to_string(done) + of_all; });
-  };
+  std::optional<Watch> watch("deforming " + shown(arguments.mesh->path()));
+  const auto passes = double(passes_of(recorded, actions, schedule.steps));
+  const auto on_end = [&, done = 0.0]() mutable { watch->progress().show(++done / passes); };
   Deformation deformation(opened.mesh, arguments.algorithm, arguments.precision,
                           {*schedule.relax, schedule.until, arguments.trace.has_value(), on_end});
   deformation.apply(commands::SetSoftness{softness});
   deformation.apply(commands::SetElastic{arguments.elastic});
   deformation.apply(schedule.how);
   carry_out(deformation, recorded, actions, schedule.steps);
-  line.reset();
+  watch.reset();
   write_results(arguments, deformation);
 }
 

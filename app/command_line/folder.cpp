@@ -1,13 +1,42 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <set>
 #include <system_error>
 
 #include "command_line/compare.h"
+#include "files/results/results_json.h"
+#include "report/page/report.h"
+#include "report/page/svg.h"
+#include "report/table/summary.h"
 
 namespace chainmail::command_line {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Returns the names of plots of a report in a folder.
+std::set<std::string> plots_in(const fs::path& folder) {
+  std::error_code error;
+  std::set<std::string> names;
+  const auto add = [&](const std::string& name) {
+    return fs::exists(folder / (name + ".svg"), error) && names.insert(name + ".svg").second;
+  };
+  for (const report::SpeedAgainstError& speed : report::speeds_against_error()) {
+    add(std::string(speed.file));
+  }
+  for (const char* growth : {"growth-error", "growth-prepare", "growth-time"}) {
+    add(growth);
+  }
+  for (const std::string of_object : {"object-", "violation-", "distance-"}) {
+    for (int i = 1; add(of_object + std::to_string(i)); ++i) {
+    }
+  }
+  return names;
+}
+
+}  // namespace
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   require(!path_.empty(), "-o", "the folder's name is empty", "use the name of a folder");
@@ -46,40 +75,34 @@ void OutputFolder::make() {
   }
 }
 
-void OutputFolder::say_older_plots(const std::set<std::string>& written) const {
-  std::set<std::string> names{report::physics_plots.begin(), report::physics_plots.end()};
-  for (const report::SpeedAgainstError& measure : report::speeds_against_error) {
-    names.insert(std::string(measure.file) + ".svg");
+void OutputFolder::write(std::vector<OutputFile> files, const std::vector<std::string>& read) {
+  make();
+  for (OutputFile& file : files) {
+    if (file.path != standard_output) {
+      file.path = path_ / *file.path;
+    }
   }
-  std::error_code error;
-  for (std::size_t i = 1; fs::exists(path_ / report::object_plot(i), error); ++i) {
-    names.insert(report::object_plot(i));
-  }
-  std::vector<std::string> older;
-  std::ranges::copy_if(names, std::back_inserter(older), [&](const std::string& name) {
-    return !written.contains(name) && fs::exists(path_ / name, error);
-  });
-  if (!older.empty()) {
-    say_note(shown(path_) + " also has plots of an earlier report: " + joined_words(older, ", "));
-  }
+  write_outputs(read, files);
+  made_.clear();
 }
 
-void OutputFolder::write(const std::vector<std::pair<std::string, Outputs::Writer>>& files, const Outputs::Writer& text,
-                         const std::vector<std::string>& read) {
-  make();
-  std::vector<OutputFile> outputs;
-  std::set<std::string> written;
-  for (const auto& [name, writer] : files) {
-    outputs.push_back({path_ / name, writer});
-    written.insert(name);
+void OutputFolder::write_report(const report::Results& results, const std::vector<std::string>& read) {
+  const auto plots = plots_of(results);
+  std::vector<OutputFile> files{{"report.html", [&](std::ostream& out) { write_html(out, results); }},
+                                {"report.json", [&](std::ostream& out) { write_json(out, results); }},
+                                {"report.csv", [&](std::ostream& out) { write_csv(out, results); }}};
+  for (const auto& [name, plot] : plots) {
+    files.push_back({name, [&](std::ostream& out) { write_svg(out, plot, report::file_ink); }});
   }
-  if (text) {
-    outputs.push_back({standard_output, text});
+  files.push_back({standard_output, [&](std::ostream& out) { write_text(out, results); }});
+  write(files, read);
+  std::set<std::string> older = plots_in(path_);
+  for (const report::PlotFile& plot : plots) {
+    older.erase(plot.name);
   }
-  write_outputs(read, outputs);
-  made_.clear();
-  if (text) {
-    say_older_plots(written);
+  if (!older.empty()) {
+    say_note(shown(path_) +
+             " also has plots of an earlier report: " + joined_words({older.begin(), older.end()}, ", "));
   }
 }
 

@@ -37,8 +37,9 @@ void generate_to_file(GenerateArguments& arguments) {
   read_kind_and_size(arguments);
   const std::string path = *value_of(arguments.output), named = path == "-" ? "standard_output.dat" : path;
   const MeshFormat& format = mesh_format(named, FormatUse::write);
-  const MeshPointer mesh = in_options({{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
-                                      [&] { return generate(arguments.recipe); });
+  const MeshPointer mesh =
+      watched("generating a mesh", {{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
+              [&](const Progress& progress) { return generate(arguments.recipe, progress); });
   check_holds(format, *mesh, named);
   write_file(path, [&](std::ostream& out) { write_mesh(out, format, *mesh, {}); });
 }

@@ -14,12 +14,14 @@ OpenedMesh contents_of(const MeshArguments& mesh) {
   if (input.kind != FileKind::session) {
     return open_mesh(mesh, std::move(input));
   }
-  const Session session = read_session(
-      std::move(input.file), {}, [&](const std::string& name, std::uint32_t /*across*/, const Progress& /*progress*/) {
-        const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
-        std::error_code none;
-        return read_mesh(!exists(beside, none) && exists(sample, none) ? sample : beside);
-      });
+  const auto open = [&](const std::string& name, std::uint32_t /*across*/, const Progress& progress) {
+    const std::filesystem::path beside = path.parent_path() / name, sample = samples_folder() / name;
+    std::error_code none;
+    return read_mesh(!exists(beside, none) && exists(sample, none) ? sample : beside, {}, progress);
+  };
+  const Session session = watched("reading " + shown(path), {}, [&](const Progress& progress) {
+    return read_session(std::move(input.file), progress, open);
+  });
   return {session.mesh, {}, {}, {}};
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <ostream>
 #include <string>
 #include <thread>
 
@@ -10,39 +11,35 @@
 
 namespace chainmail::command_line {
 
-/// Returns a share from 0 to 1 as the beginning of a progress line: "42% ".
-std::string percent(double share);
-
-/// A line of progress on standard error, if that is a terminal. The destructor clears it.
+/// Shows how far long work is, and about how long it still takes: on a terminal, one line that is rewritten; elsewhere,
+/// a line after 10 s and then one per minute. Short work shows nothing. The destructor clears the line of a terminal.
 class ProgressLine {
  public:
-  /// Shows nothing until `delay` has passed: short work shows nothing.
-  explicit ProgressLine(std::chrono::milliseconds delay = std::chrono::milliseconds(300));
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// `start` is when the work begins.
+  ProgressLine(std::ostream& out, bool is_terminal, Time start);
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
 
-  /// Shows `text()`, at most five times per second.
-  template <typename Text>
-  void show(const Text& text) {
-    if (is_terminal_ && is_due()) {
-      write(text());
-    }
-  }
-  bool is_terminal() const { return is_terminal_; }
+  /// When the next line is due.
+  Time next() const { return next_; }
+  /// Shows the share and the text of the work. Work that reports no share shows only its text: how long it takes is not
+  /// known.
+  void show(const Progress& job, Time now);
 
  private:
-  bool is_due() const { return std::chrono::steady_clock::now() >= next_; }
-  void write(const std::string& text);
-
+  std::ostream& out_;
   bool is_terminal_;
   bool is_shown_ = false;
-  std::chrono::steady_clock::time_point next_;
+  Time start_, next_;
 };
 
-/// Shows the share of a job that is done, and a text, while this object exists.
+/// Shows the progress of work on standard error while this object exists. Only one at a time.
 class Watch {
  public:
+  /// The text is shown until the work sets another.
   explicit Watch(std::string text);
 
   const Progress& progress() const { return job_; }
@@ -54,7 +51,7 @@ class Watch {
   ProgressLine line_;
   std::mutex mutex_;
   std::condition_variable_any over_;
-  std::jthread thread_;  // last member, because it uses the others; none without a terminal
+  std::jthread thread_;  // last member, because it uses the others
 };
 
 }  // namespace chainmail::command_line

@@ -5,21 +5,20 @@
 #include <algorithm>
 
 #include "command_line/common.h"
-#include "files/results/report_json.h"
-#include "report/page/ramp_page.h"
+#include "files/results/results_json.h"
+#include "report/page/plots.h"
+#include "report/page/report.h"
 #include "report/page/svg.h"
-#include "report/table/machine.h"
 
 namespace chainmail::command_line {
 namespace {
 
 struct RampArguments {
   Options options;
+  std::string command_line;  // shown in the JSON
   report::RampOptions how = {};
   std::optional<std::string> json = {}, csv = {}, svg = {};
 };
-
-constexpr std::uint32_t smallest_grid = 16;
 
 constexpr const char* ramp_footer =
     "Runs square grids from 4x4 upward. At each size all algorithms run the same drags, with steps in proportion to\n"
@@ -36,62 +35,42 @@ std::uint64_t largest_for_memory(std::uint64_t limit) {
   return std::min(limit, memory / 2 / bytes_per_element);
 }
 
-std::uint64_t largest_of(const std::string& where, const std::string& text) {
-  const std::uint32_t largest = count_from(smallest_grid)(where, text);
-  require(largest <= element_limit, where, std::to_string(largest) + " is more elements than a mesh may have",
-          "use " + std::to_string(smallest_grid) + " to " + std::to_string(element_limit));
-  return largest;
-}
-
-double budget_of(const std::string& where, const std::string& text) {
-  const double budget = parse_number_of(where, text);
-  require(budget > 0, where, text + " is not above 0", "write a number of seconds above 0, like 0.0167");
-  return budget;
-}
-
-std::string in_words(const report::RampProgress& at) {
-  const std::string width = std::to_string(at.width);
-  return width + 'x' + width + ", drag " + std::to_string(at.drag) + " of " + std::to_string(at.drags) +
-         (at.repeated ? ", repeated" : "") + ", in real time so far: " + std::to_string(at.in_race.size());
-}
-
 void run_ramp(RampArguments& arguments) {
   arguments.options.read();
-  const report::Machine machine = report::this_machine();
-  report::Ramp result;
+  in_options({{"budget", "--budget"}, {"largest", "--largest"}}, [&] { check(arguments.how); });
+  report::Results result;
   std::vector<OutputFile> files{
-      {arguments.json, [&](std::ostream& out) { write_json(out, result, machine); }},
+      {arguments.json, [&](std::ostream& out) { write_json(out, result); }},
       {arguments.csv, [&](std::ostream& out) { write_csv(out, result); }},
       {arguments.svg, [&](std::ostream& out) { write_svg(out, ramp_plot(result), report::file_ink); }},
       {free_output({arguments.json, arguments.csv, arguments.svg}),
-       [&](std::ostream& out) { write_text(out, result, machine); }}};
+       [&](std::ostream& out) { write_text(out, result); }}};
   {  // if an output cannot be written, this fails before minutes of work
     std::vector<OutputFile> trial = files;
     std::ranges::for_each(trial, [](OutputFile& file) { file.writer = [](std::ostream&) {}; });
     Outputs outputs;
     add_files(outputs, trial);
   }
-  {
-    ProgressLine line;
-    result =
-        report::ramp(arguments.how, [&](const report::RampProgress& at) { line.show([&] { return in_words(at); }); });
-  }
+  // The share does not count, because a ramp may end long before the largest grid.
+  result = watched("running grids", {},
+                   [&](const Progress& progress) { return report::ramp(arguments.how, progress.part(0, 0)); });
+  result.runs.push_back({origin_of(arguments.command_line)});
   write_outputs({}, files);
 }
 
 }  // namespace
 
-Command add_ramp(CLI::App& root) {
+Command add_ramp(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("ramp", "Find the largest grid on which each algorithm runs in real time");
-  const auto arguments = std::make_shared<RampArguments>(RampArguments{Options(*app)});
+  const auto arguments = std::make_shared<RampArguments>(RampArguments{Options(*app), command_line});
   Options& options = arguments->options;
   report::RampOptions& how = arguments->how;
   how.largest = largest_for_memory(how.largest);
   add_algorithms(options, "algorithms to run: see deform --help [all]", algorithms, how.algorithms);
   options.add("--seed", "N", "random seed of the drags [1]", how.seed, count_from(0));
-  options.add("--budget", "SECONDS", "time per pass [1/60]", how.budget, budget_of);
+  options.add("--budget", "SECONDS", "time per pass [1/60]", how.budget, parse_number_of);
   options.add("--largest", "ELEMENTS", "largest number of elements in a grid [4000000, or as many as fit into memory]",
-              how.largest, largest_of);
+              how.largest, count_from(1));
   add_precision(options, how.precision);
   options.add(parameters::compression, how.softness.compression);
   options.add(parameters::stretch, how.softness.stretch);

@@ -99,10 +99,11 @@ void run(int argc, char** argv) {
   root.set_version_flag("--version", version_in_words("chainmail") + licence, "Print version and licence, and exit");
   root.footer(run_footer);
   root.allow_extras()->require_subcommand(0, 1);
-  const std::vector<Command> commands{
-      add_generate(root),  add_convert(root), add_fill(root),      add_repair(root),
-      add_simplify(root),  add_info(root),    add_deform(root),    add_compare(root, as_typed(argc, argv)),
-      add_calibrate(root), add_ramp(root),    add_completion(root)};
+  const std::string typed = as_typed(argc, argv);
+  const std::vector<Command> commands{add_generate(root),    add_convert(root),        add_fill(root),
+                                      add_repair(root),      add_simplify(root),       add_info(root),
+                                      add_deform(root),      add_compare(root, typed), add_calibrate(root),
+                                      add_ramp(root, typed), add_completion(root)};
   for (const Command& command : commands) {
     command.app->allow_extras();
   }

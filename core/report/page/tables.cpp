@@ -171,7 +171,8 @@ std::string cell_of(const Figure& of, const Row& row) {
     return "-";
   }
   if (&of == &relative || &of == &relative_turned) {
-    return *value < reference_found_again ? "<1e-5" : error_figure(*value, row[reference_change]);
+    const auto change = row[reference_change];
+    return !change && *value < reference_found_again ? "<1e-5" : error_figure(*value, change);
   }
   switch (of.format) {
     case FigureFormat::count:

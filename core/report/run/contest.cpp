@@ -63,6 +63,10 @@ void add_shape(Row& row, const Mesh& mesh, const Softness& softness, const Cuts&
   row.set(figures::violation_max, measure_violation(mesh, softness, cuts, positions).max);
 }
 
+std::string left_out_after(double seconds) {
+  return "left out after " + figure(seconds) + " s; a contestant that is asked for by name takes as long as it needs";
+}
+
 void add_error(Row& row, const PhysicalError& error) {
   row.set(figures::relative, error.relative);
   row.set(figures::error_rms, error.rms);
@@ -184,7 +188,6 @@ class Contest::Participant {
       return;
     }
     try {
-      const PreparingTimes* preparing = preparations != nullptr ? &prepared(*preparations) : nullptr;
       has_cut_ = !cuts_of(moves).empty();
       moves_ = prepares(contestant_) ? with_preparing_move(*object_.mesh, moves) : moves;
       const auto before = bytes_in_use();
@@ -196,8 +199,8 @@ class Contest::Participant {
       bytes_ = has_run_ ? bytes_ : sum_of(bytes_, bytes_since(before));
       has_run_ = true;
       measure(referee, progress);
-      if (is_measured_ && preparing != nullptr) {
-        prepare_ = preparing->of(handle_of(moves));
+      if (is_measured_ && preparations != nullptr && !progress.cancelled()) {
+        prepare_ = prepared(*preparations).of(handle_of(moves));  // last, because nothing cancels it
       }
     } catch (const Error& error) {
       refuse(error.what());
@@ -255,9 +258,11 @@ class Contest::Participant {
       return found->second;
     }
     const Algorithm method = *contestant_.algorithm;
+    const double seconds = std::min(enough_preparing, options_.seconds);
     return preparations
-        .emplace_back(shared, info(method).elastic ? PreparingTimes(object_, method, options_.clocks)
-                                                   : PreparingTimes(object_, method, contestant_.equilibrium, options_))
+        .emplace_back(shared, info(method).elastic
+                                  ? PreparingTimes(object_, method, seconds, options_.clocks)
+                                  : PreparingTimes(object_, method, contestant_.equilibrium, seconds, options_))
         .second;
   }
 
@@ -306,6 +311,7 @@ class Contest::Participant {
   void refuse(const std::string& reason) {
     row_ = {.contestant = contestant_, .refusal = reason};
     is_measured_ = false;
+    limited_ = nullptr;  // nothing is repeated
   }
 
   /// Returns why the answer has no figures: a contestant that did not converge, by its own rule, unless its iterations
@@ -353,11 +359,7 @@ class Contest::Participant {
     }
   }
 
-  std::string left_out() const {
-    return "left out after " + figure(options_.longest) +
-           " s; a contestant that is asked for by name takes as long as "
-           "it needs";
-  }
+  std::string left_out() const { return left_out_after(options_.longest); }
 
   Case object_;        // with the softness of the contestant
   const Case& whole_;  // as it was given

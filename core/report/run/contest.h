@@ -27,6 +27,9 @@ struct ContestOptions : RunOptions {
   bool only_errors = false;  // true: no preparation is timed, and no drag is repeated
 };
 
+/// Returns the refusal of a contestant that needs more time than ContestOptions::longest.
+std::string left_out_after(double seconds);
+
 /// Measures the answers of contestants at the end of a drag.
 class Referee {
  public:

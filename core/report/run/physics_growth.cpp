@@ -75,6 +75,7 @@ Row measure(const Contestant& contestant, Budget& budget, const Case& object,
   const double start = growth_clock();
   options.repetitions = 0;
   options.own_limit = 0;
+  options.longest = 0;  // the budget limits it
   std::optional<PhysicsReferee> referee;
   if (reference) {
     referee.emplace(*reference);

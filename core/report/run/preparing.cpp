@@ -12,7 +12,6 @@ namespace chainmail::report {
 namespace {
 
 constexpr int max_preparations = 15;
-constexpr double enough_preparing = 1;  // seconds
 
 /// Returns the handle of the first drag that grabs an element, about its middle.
 ElasticHandle elastic_handle(const Case& object, ElementId handle) {
@@ -62,18 +61,19 @@ RecordedMoves short_drag_of_another(const Case& object) {
 
 }  // namespace
 
-PreparingTimes::PreparingTimes(const Case& object, Algorithm method, const Clocks& clocks) {
+PreparingTimes::PreparingTimes(const Case& object, Algorithm method, double seconds, const Clocks& clocks) {
   const ElasticProblem problem = elastic_problem(object);
   const std::vector<ElementId> handles = handles_of(object);
   const double start = clocks.wall();
-  for (int repetition = 0;
-       repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
+  for (int repetition = 0; repetition == 0 || (repetition < max_preparations && clocks.wall() - start < seconds);
+       ++repetition) {
     std::unique_ptr<ElasticSolver> solver;
     factorize_.push_back(1e3 * seconds_of(clocks, [&] { solver = make_elastic(method, problem); }));
     for (const ElementId handle : handles) {
       try {
-        const double seconds = seconds_of(clocks, [&] { solver->hold(elastic_handle(object, handle)); });
-        grab_[handle].push_back(1e3 * seconds);
+        const auto hold = [&] { solver->hold(elastic_handle(object, handle)); };
+        const double ms = 1e3 * seconds_of(clocks, hold);
+        grab_[handle].push_back(ms);
       } catch (const Error&) {
         grab_.erase(handle);  // the drag itself reports the reason
       }
@@ -81,13 +81,14 @@ PreparingTimes::PreparingTimes(const Case& object, Algorithm method, const Clock
   }
 }
 
-PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const RunOptions& options) {
+PreparingTimes::PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, double seconds,
+                               const RunOptions& options) {
   const Clocks& clocks = options.clocks;
   const Relaxing one_iteration(0, equilibrium, 1);
   const RecordedMoves other = short_drag_of_another(object);
   const double start = clocks.wall();
-  for (int repetition = 0;
-       repetition == 0 || (repetition < max_preparations && clocks.wall() - start < enough_preparing); ++repetition) {
+  for (int repetition = 0; repetition == 0 || (repetition < max_preparations && clocks.wall() - start < seconds);
+       ++repetition) {
     std::unique_ptr<Runner> runner;
     const auto run = [&](const RecordedMoves& moves) { return runner->run(moves, one_iteration); };
     const double first = seconds_of(clocks, [&] {

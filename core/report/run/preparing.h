@@ -16,17 +16,21 @@ struct Preparation {
   double ms() const { return factorize.median + grab.median; }
 };
 
+/// Preparation is repeated for about a second, unless there is less time.
+inline constexpr double enough_preparing = 1;
+
 /// Times of a contestant to prepare for an object, and for each element that its drags grab.
 class PreparingTimes {
  public:
   PreparingTimes() = default;
-  /// Of a method of elasticity. Repeats the preparation for about a second, and does it at least once. Throws Error if
-  /// the method has no solution.
-  PreparingTimes(const Case& object, Algorithm method, const Clocks& clocks = machine_clocks());
+  /// Of a method of elasticity. Repeats the preparation for about so many seconds, and does it at least once. Throws
+  /// Error if the method has no solution.
+  PreparingTimes(const Case& object, Algorithm method, double seconds = enough_preparing,
+                 const Clocks& clocks = machine_clocks());
   /// Of ChainMail, which prepares in the first move after a grab: a move that repeats the last one takes so much less.
   /// Between two handles it grabs another element, so that it keeps nothing of the last drag. Throws Error if the
   /// object does not fit the algorithm.
-  PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, const RunOptions& options);
+  PreparingTimes(const Case& object, Algorithm algorithm, bool equilibrium, double seconds, const RunOptions& options);
 
   Preparation of(ElementId handle) const;
 
