@@ -306,6 +306,7 @@ class Contest::Participant {
   void refuse(const std::string& reason) {
     row_ = {.contestant = contestant_, .refusal = reason};
     is_measured_ = false;
+    limited_ = nullptr;  // of a drag before
   }
 
   /// Returns why the answer has no figures: a contestant that did not converge, by its own rule, unless its iterations
