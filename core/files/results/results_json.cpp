@@ -226,6 +226,7 @@ class ResultsReader {
     for (const Read& one : fields_.array(json, "objects")) {
       add_object(results, one);
     }
+    results.stopped = is_true(json, "stopped");
     return results;
   }
 

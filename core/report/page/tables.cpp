@@ -363,7 +363,8 @@ FigureTable growth_table(const Results& results, const std::string& series) {
     last_of_all = results.objects[i].series == series ? i : last_of_all;
   }
   table.about = results.objects[last_of_all].description;
-  for (const Contestant& contestant : contestants_in(results, series)) {
+  const std::vector<Contestant> all = contestants_in(results, series);
+  for (const Contestant& contestant : all) {
     auto points = points_of(results, series, contestant);
     const std::string refusal = points.empty() ? "" : points.back().figures.row.refusal;
     std::erase_if(points, [](const SeriesPoint& one) { return !one.figures.row.has_figures(); });
@@ -387,7 +388,9 @@ FigureTable growth_table(const Results& results, const std::string& series) {
                    : refusal.empty()     ? "its time is used up"
                                          : refusal};
     }
-    table.rows.push_back(std::move(row));
+    if (!repeats(table, contestant, &contestant == &all.front() ? nullptr : &contestant - 1, row.refusal)) {
+      table.rows.push_back(std::move(row));
+    }
   }
   return table;
 }

@@ -10,6 +10,7 @@ namespace chainmail::test_compare {
 
 using namespace chainmail::report;
 using namespace chainmail::report::test;
+using namespace chainmail::report::figures;
 using chainmail::test::make_mesh;
 
 /// The experiment: its contestants and its measurements.
@@ -28,72 +29,71 @@ class CompareTest : public QObject {
 };
 
 void CompareTest::everyone_takes_part_or_is_refused() {
-  const auto result = compare_one(jittered(), quick({}, {0, 3}));
-  QCOMPARE(result.entries.size(), 2 * algorithms().size());
-  QCOMPARE(result.moves, 4);
-  for (std::size_t i = 0; i < result.entries.size(); ++i) {
-    const Entry& entry = result.entries[i];
-    QVERIFY(entry.contestant.algorithm == algorithms()[i / 2].algorithm);
-    QCOMPARE(entry.contestant.sweeps, i % 2 == 0 ? 0 : 3);
-    const bool fits = entry.contestant.algorithm != Algorithm::chainmail_3d;
-    QCOMPARE(entry.measurement.has_value(), fits);
-    QCOMPARE(QString::fromStdString(entry.refusal).contains("it works only on grids"), !fits);
+  const Results result = compare({jittered()}, quick({}, {0, 3}));
+  QCOMPARE(result.rows.size(), 2 * algorithms().size());
+  QCOMPARE(result.objects.at(0).drags.at(0).moves, 4);
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const Row& row = result.rows[i];
+    QVERIFY((row.contestant == Contestant{algorithms()[i / 2].algorithm, i % 2 == 0 ? 0 : 3}));
+    const bool fits = row.contestant.algorithm != Algorithm::chainmail_3d;
+    QCOMPARE(row.has_figures(), fits);
+    QCOMPARE(QString::fromStdString(row.refusal).contains("it works only on grids"), !fits);
   }
-  QCOMPARE(label(result.entries[1].contestant), std::string("Generalized ChainMail, 3 sweeps"));
+  QCOMPARE(label(result.rows[1].contestant), std::string("Generalized ChainMail, 3 sweeps"));
 }
 
 void CompareTest::exact_is_at_no_distance_from_itself() {
-  const Errors errors = errors_of(jittered(), Algorithm::exact);
-  QVERIFY(errors.to_exact == Distance{});
-  QCOMPARE(errors.energy_over_exact.value(), 1.0);
-  QVERIFY(errors.violation.max < rounding);
-  QVERIFY(errors.largest_over_handle.value() <= 1 + rounding);
+  const Row row = row_of(jittered(), Algorithm::exact);
+  QCOMPARE(row[exact_distance_max].value(), 0.0);
+  QCOMPARE(row[exact_distance_rms].value(), 0.0);
+  QCOMPARE(row[energy_over_exact].value(), 1.0);
+  QVERIFY(row[violation_max].value() < rounding);
+  QVERIFY(row[largest_over_handle].value() <= 1 + rounding);
   // Float is close to double, but not equal.
-  QVERIFY(errors.float_to_double.max > 0 && errors.float_to_double.max < 1e-5);
+  QVERIFY(row[float_double_max].value() > 0 && row[float_double_max].value() < 1e-5);
 }
 
 void CompareTest::errors_by_hand_on_a_chain() {
   // Element 0 moves to -1 in one move. 1 and 2 follow to 0.2 and 1.4, and 3 to 2.6.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
-  const auto result = compare_one(object(line, drag(*line, 0, {-1, 0, 0}, 1)), quick({Algorithm::spiral}));
-  const Measurement& measurement = result.entries[0].measurement.value();
-  QCOMPARE(measurement.moved, std::uint64_t{3});
-  QCOMPARE(measurement.checked, std::uint64_t{3});
-  QCOMPARE(measurement.errors.violation.links, std::uint64_t{3});
-  QCOMPARE(measurement.errors.largest_over_handle.value(), 1.0);
-  QVERIFY(measurement.errors.to_exact->max < rounding);
+  const Row row = row_of(object(line, drag(*line, 0, {-1, 0, 0}, 1)), Algorithm::spiral);
+  QCOMPARE(row[moved].value(), 3.0);
+  QCOMPARE(row[checked].value(), 3.0);
+  QCOMPARE(row[largest_over_handle].value(), 1.0);
+  QVERIFY(row[exact_distance_max].value() < rounding);
 }
 
 void CompareTest::relaxation_is_made_and_counted() {
   // One sweep after 0 moved to -0.3: 1 moves to 0.85, 2 to 1.925, 3 to 2.925. Without it, only 1 moves, to 0.9.
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   const Case one = object(line, drag(*line, 0, {-0.3, 0, 0}, 1));
-  const Errors errors = errors_of(one, Algorithm::spiral, 1);
-  QVERIFY(std::abs(errors.to_exact->max - 0.075) < rounding);
+  const Row row = row_of(one, Algorithm::spiral, 1);
+  QVERIFY(std::abs(row[exact_distance_max].value() - 0.075) < rounding);
   const double relaxed = 0.15 * 0.15 + 0.075 * 0.075, exact = 0.2 * 0.2 + 0.1 * 0.1;
-  QVERIFY(std::abs(errors.energy_over_exact.value() - relaxed / exact) < 1e-10);
+  QVERIFY(std::abs(row[energy_over_exact].value() - relaxed / exact) < 1e-10);
   auto half = quick({Algorithm::spiral}, {1});
   half.relax_step = 0.5;
-  QVERIFY(compare_one(one, half).entries[0].measurement->errors.to_exact->max < 0.07);
+  QVERIFY(compare({one}, half).rows[0][exact_distance_max].value() < 0.07);
   auto by_links = quick({Algorithm::spiral}, {1});
   by_links.scheme = RelaxationScheme::link;
-  QVERIFY(!(compare_one(one, by_links).entries[0].measurement->errors == errors));
+  QVERIFY(same_everywhere(compare({one}, by_links).rows[0]) != same_everywhere(row));
 }
 
 void CompareTest::cuts_pins_and_softness_are_taken() {
   const auto line = make_mesh(MeshKind::line, {4, 1, 1});
   Case one = object(line, drag(*line, 0, {-1, 0, 0}));
-  const auto moved = [&] { return compare_one(one, quick({Algorithm::natural_queue})).entries[0].measurement.value(); };
-  QVERIFY(moved().moved > 0);
+  const auto moved_by_queue = [&] { return row_of(one, Algorithm::natural_queue)[moved].value(); };
+  QVERIFY(moved_by_queue() > 0);
   one.cuts = {0, 0};
-  QCOMPARE(moved().moved, std::uint64_t{0});
-  QCOMPARE(compare({one}, quick()).cases[0].links, std::uint64_t{2});
+  QCOMPARE(moved_by_queue(), 0.0);
+  QCOMPARE(compare({one}, quick()).objects[0].links, std::uint64_t{2});
   one.cuts = {};
   one.pins = {1};
-  QVERIFY(moved().errors.violation.max > 0.7);  // Natural Queue does not stop at pins: 2 − 1.2
+  // Natural Queue does not stop at pins: 2 − 1.2.
+  QVERIFY(row_of(one, Algorithm::natural_queue)[violation_max].value() > 0.7);
   one.pins = {};
   one.softness.links.set(0, {0, 3, 0});
-  QCOMPARE(moved().moved, std::uint64_t{0});
+  QCOMPARE(moved_by_queue(), 0.0);
 }
 
 void CompareTest::what_moves_change_is_undone_for_the_next_run() {
@@ -103,29 +103,21 @@ void CompareTest::what_moves_change_is_undone_for_the_next_run() {
                         {commands::Cut{{2}}, commands::Pin{{5}}, commands::SetSoftness{{{0.5, 1.3, 0}, {}}},
                          commands::Drag{Point(-3, 0, 0)}, commands::SetAlgorithm{Algorithm::exact},
                          commands::SetRelaxation{true, 1, RelaxationScheme::link}, commands::Release{}});
-  const Case one = object(line, moves);
   auto options = quick({Algorithm::spiral}, {0, 0});  // two contestants, one solver
   options.repetitions = 3;
-  const auto entries = compare_one(one, options).entries;
-  QVERIFY(entries[0].measurement->errors == entries[1].measurement->errors);
-  QCOMPARE(entries[0].measurement->moved, entries[1].measurement->moved);
-  QCOMPARE(entries[0].measurement->errors.violation.links, std::uint64_t{4});
-  QVERIFY(entries[0].measurement->errors.violation.max < rounding);
+  const auto rows = compare({object(line, moves)}, options).rows;
+  QVERIFY(same_everywhere(rows.at(0)) == same_everywhere(rows.at(1)));
+  QVERIFY(rows[0][violation_max].value() < rounding);
 }
 
 void CompareTest::errors_are_the_same_each_time() {
   auto options = quick({}, {0, 10}, Precision::single_precision);
-  const auto first = compare_one(jittered(), options);
+  const auto first = compare({jittered()}, options).rows;
   options.repetitions = 5;
-  const auto second = compare_one(jittered(), options);
-  for (std::size_t i = 0; i < first.entries.size(); ++i) {
-    const auto &one = first.entries[i].measurement, &other = second.entries[i].measurement;
-    QCOMPARE(one.has_value(), other.has_value());
-    if (one) {
-      QVERIFY(one->errors == other->errors);
-      QCOMPARE(one->checked, other->checked);
-      QCOMPARE(one->moved, other->moved);
-    }
+  const auto second = compare({jittered()}, options).rows;
+  QCOMPARE(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    QVERIFY(same_everywhere(first[i]) == same_everywhere(second[i]));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <ctime>
 #include <thread>
+#include <tuple>
 
 #include "core/report/comparisons.h"
 #include "core/threads.h"
@@ -21,7 +22,9 @@ class CompareRunTest : public QObject {
 
  private slots:
   void repetitions_are_counted();
+  void who_takes_too_long_is_left_out();
   void stops_at_once();
+  void what_is_finished_stays();
   void stops_between_repetitions();
   void stops_between_sweeps_data();
   void stops_between_sweeps();
@@ -31,30 +34,64 @@ class CompareRunTest : public QObject {
 };
 
 void CompareRunTest::repetitions_are_counted() {
-  auto options = quick({Algorithm::spiral});
-  const auto ms = [&] { return compare_one(jittered(), options).entries[0].measurement.value(); };
-  QCOMPARE(ms().ms_per_move.count, 2);
-  options.repetitions.reset();
-  options.seconds = 0;
-  const Measurement measurement = ms();
-  QCOMPARE(measurement.ms_per_move.count, 5);
-  const TimeSpread& spread = measurement.ms_per_move;
-  QVERIFY(0 < spread.min && spread.min <= spread.lower_quartile && spread.lower_quartile <= spread.median);
-  QVERIFY(spread.median <= spread.upper_quartile && spread.upper_quartile <= spread.max);
-  QVERIFY(measurement.worst_move_ms > 0);
+  // A drag of four moves reads the clocks a few dozen times.
+  for (const auto& [seconds_of_reading, seconds, count] :
+       {std::tuple(1e-4, 0.0, 3), {1e-4, 1e3, 51}, {1.0, 1e3, 1}}) {  // at least, at most, and a slow drag
+    DrivenClocks driven(seconds_of_reading);
+    auto options = quick({Algorithm::spiral});
+    options.clocks = driven.clocks();
+    options.repetitions.reset();
+    options.seconds = seconds;
+    const Row row = compare({jittered()}, options).rows.at(0);
+    const TimeSpread spread = row.find(figures::ms_per_move)->spread.value();
+    QCOMPARE(spread.count, count);
+    QVERIFY(0 < spread.min && spread.min <= spread.lower_quartile && spread.lower_quartile <= spread.median);
+    QVERIFY(spread.median <= spread.upper_quartile && spread.upper_quartile <= spread.max);
+    QVERIFY(row[figures::worst_move_ms].value() >= row[figures::first_ms].value());
+  }
+  QCOMPARE(row_of(jittered(), Algorithm::spiral).find(figures::ms_per_move)->spread->count, 2);
+}
+
+/// One of them would take hours.
+void CompareRunTest::who_takes_too_long_is_left_out() {
+  Case one = jittered();
+  one.drags.push_back(one.drags[0]);
+  auto options = quick({Algorithm::exact}, {0, 100'000'000});
+  options.longest = 1;
+  const Results result = compare({one}, options);
+  QVERIFY(!result.stopped);
+  for (const std::size_t drag : {0, 1}) {
+    QVERIFY(row_of(result, 0, drag, {Algorithm::exact}).has_figures());
+    const Row& slow = row_of(result, 0, drag, {Algorithm::exact, 100'000'000});
+    QVERIFY(!slow.has_figures());
+    QVERIFY2(slow.refusal.starts_with("left out after 1 s;"), slow.refusal.c_str());
+  }
 }
 
 void CompareRunTest::stops_at_once() {
   const Progress job = Progress::watched();
   job.cancel();
-  const auto comparison = compare({jittered()}, quick(), job);
-  QVERIFY(comparison.stopped);
-  QVERIFY(comparison.cases.at(0).drags.empty());
+  const Results result = compare({jittered()}, quick(), job);
+  QVERIFY(result.stopped);
+  QVERIFY(result.objects.at(0).drags.empty() && result.rows.empty());
+}
+
+void CompareRunTest::what_is_finished_stays() {
+  Case one = jittered();
+  one.drags.push_back(one.drags[0]);
+  const Progress job = Progress::watched();
+  std::size_t rows = 0;
+  const Results result = compare({one}, quick(), job, [&](const Results& finished) {
+    rows = finished.rows.size();
+    job.cancel();
+  });
+  QVERIFY(result.stopped);
+  QCOMPARE(result.objects.at(0).drags.size(), std::size_t{1});
+  QCOMPARE(rows, algorithms().size());
+  QCOMPARE(result.rows.size(), rows);
 }
 
 void CompareRunTest::stops_between_repetitions() {
-  Case one = jittered();
-  one.drags.push_back(one.drags[0]);
   auto options = quick();
   options.repetitions = 1'000'000'000;  // would take years
   int reported = 0;
@@ -64,10 +101,10 @@ void CompareRunTest::stops_between_repetitions() {
       job.cancel();
     }
   });
-  const auto comparison = compare({one}, options, job);
-  QVERIFY(comparison.stopped);
+  const Results result = compare({jittered()}, options, job);
+  QVERIFY(result.stopped);
   QCOMPARE(reported, 10);
-  QVERIFY(comparison.cases.at(0).drags.empty());
+  QVERIFY(result.objects.at(0).drags.empty());
 }
 
 void CompareRunTest::stops_between_sweeps_data() {
@@ -94,8 +131,8 @@ void CompareRunTest::stops_between_sweeps() {
     job.cancel();
   });
   // This number of sweeps would take hours.
-  const auto comparison = compare({one}, quick({Algorithm::exact}, {after_a_move}), job);
-  QVERIFY(comparison.stopped);
+  const Results result = compare({one}, quick({Algorithm::exact}, {after_a_move}), job);
+  QVERIFY(result.stopped);
   // It may still be in the pass before the sweeps. Processor time, because other programs may run.
   QVERIFY(std::clock() - asked < 2 * CLOCKS_PER_SEC);
 }
@@ -122,12 +159,13 @@ void CompareRunTest::contradicting_pins_are_told() {
                                                commands::Drag{Point(2, 0, 0)}, commands::Drag{Point(3, 0, 0)}});
   Case one = object(line, moves);
   one.pins = {1};
-  const auto result = compare_one(one, quick({Algorithm::natural_queue, Algorithm::exact}));
+  const Results result = compare({one}, quick({Algorithm::natural_queue, Algorithm::exact}));
   // No contestant can grab a pinned element: all are listed with the reason.
-  for (const Entry& entry : result.entries) {
-    QVERIFY(!entry.measurement && QString::fromStdString(entry.refusal).contains("pinned"));
+  QCOMPARE(result.rows.size(), std::size_t{2});
+  for (const Row& row : result.rows) {
+    QVERIFY(!row.has_figures() && QString::fromStdString(row.refusal).contains("pinned"));
   }
-  QVERIFY(!result.no_exact.empty());
+  QVERIFY(!result.objects[0].drags[0].no_reference.empty());
 }
 
 void CompareRunTest::wrong_moves_and_numbers_are_refused() {

@@ -5,10 +5,10 @@
 #include "core/families.h"
 #include "program.h"
 #include "report/page/ramp_page.h"
-#include "report/table/growth.h"
 #include "report/run/ramp.h"
 #include "report/run/ramp_rule.h"
 #include "report/run/scripted_drags.h"
+#include "report/table/growth.h"
 
 namespace chainmail::test_ramp {
 

@@ -1,21 +1,23 @@
 #include <QXmlStreamReader>
 #include <QtTest>
+#include <locale>
 #include <sstream>
 
-#include "core/support.h"
+#include "core/report/made_results.h"
 #include "program.h"
-#include "report/page/compared_figures.h"
-#include "report/table/format.h"
-#include "report/page/html.h"
-#include "report/page/plot.h"
+#include "report/page/plots.h"
+#include "report/page/report.h"
 #include "report/page/svg.h"
-#include "report/page/table.h"
+#include "report/page/tables.h"
+#include "report/table/format.h"
 
 namespace chainmail::test_report {
 
 using namespace chainmail::report;
+using namespace chainmail::report::figures;
+using namespace chainmail::report::test;
 
-/// The output of a comparison: page and tables.
+/// What is written of results: pages, tables, plots and CSV.
 class ReportTest : public QObject {
   Q_OBJECT
 
@@ -25,44 +27,46 @@ class ReportTest : public QObject {
   void a_layout_keeps_all_parts_apart_and_inside();
   void a_drawing_names_what_it_shows();
   void a_page_is_well_formed_and_needs_nothing_else();
+  void plots_are_well_formed_files();
   void the_main_table_takes_the_worst();
+  void a_refusal_is_one_drag_s();
+  void who_cannot_take_part_has_one_row();
+  void the_closest_has_a_star();
   void csv_has_a_row_for_each();
+  void csv_has_all_digits_in_every_locale();
 };
 
 namespace {
 
-const std::string nasty = "a<b & \"c\" 'd' ]]> \x01\xff \xc3\xa9";
-
-Measurement measured(double ms, double violation, double distance) {
-  Measurement measurement;
-  measurement.ms_per_move = {ms, ms / 2, 2 * ms, ms / 4, 4 * ms, 5};
-  measurement.checked = 12;
-  measurement.moved = 8;
-  measurement.errors.violation = {violation, violation / 2, violation / 4, 100};
-  measurement.errors.to_exact = Distance{distance, distance / 2};
-  return measurement;
-}
-
 /// A comparison of two drags on one object: Natural Queue with and without sweeps, 3D ChainMail refused, Exact.
-Comparison comparison() {
-  const auto entries = [](double scale) {
-    return std::vector<Entry>{
-        {{Algorithm::natural_queue, 0}, measured(0.01 * scale, 0.5, 0.25 / scale), ""},
-        {{Algorithm::natural_queue, 10}, measured(0.1 * scale, 0.25 * scale, 1), ""},
-        {{Algorithm::chainmail_3d, 0}, std::nullopt, "it works, on grids, alone"},
-        {{Algorithm::exact, 0}, measured(0.02 * scale, 0, 0), ""},
+Results comparison() {
+  Results results = results_of(ReportKind::compare, {"one", nasty.c_str()});
+  results.runs = {{{{nasty, 2, "a compiler", "Release"}, "chainmail compare '" + nasty + "'", "today", "v"}}};
+  results.settings = {{"relaxation", nasty}, {"relax_step", 1.0}};
+  results.objects[0].name = nasty;
+  results.objects[0].notes = {nasty};
+  for (const std::size_t drag : {0, 1}) {
+    const double scale = drag == 0 ? 1 : 2;
+    const auto add = [&](const Contestant& contestant, double time, double violation, double distance) {
+      add_row(results, drag, contestant,
+              {{&ms_per_move, time * scale},
+               {&violation_max, violation},
+               {&violation_fraction, violation / 4},
+               {&exact_distance_max, distance},
+               {&exact_distance_rms, distance / 2}});
     };
-  };
-  return {{},
-          {{nasty, "an object", 9, 12, {{"one", "first", 4, entries(1), ""}, {nasty, "second", 4, entries(2), ""}}}},
-          false};
+    add({Algorithm::natural_queue}, 0.01, 0.5, 0.25 / scale);
+    add({Algorithm::natural_queue, 10}, 0.1, 0.25 * scale, 1);
+    add_row(results, drag, {Algorithm::chainmail_3d}, {}, "it works, on grids, alone");
+    add({Algorithm::exact}, 0.02, 0, 0);
+  }
+  return results;
 }
 
-Origin origin() { return {{nasty, 2, "a compiler", "Release"}, "chainmail compare '" + nasty + "'", "today", "v"}; }
-
-std::string page() {
+template <class Write>
+std::string written(const Results& results, Write write) {
   std::ostringstream out;
-  write_html(out, comparison(), origin());
+  write(out, results);
   return out.str();
 }
 
@@ -85,10 +89,43 @@ QStringList elements_of(const std::string& text, QString* all_text = nullptr) {
   return names;
 }
 
+/// Returns the fields of a line of CSV.
+QStringList fields_of(const QString& line) {
+  QStringList fields{{}};
+  bool is_quoted = false;
+  for (qsizetype i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && is_quoted && line.mid(i + 1, 1) == "\"") {
+      fields.back() += line[i++];
+    } else if (line[i] == '"') {
+      is_quoted = !is_quoted;
+    } else if (line[i] == ',' && !is_quoted) {
+      fields << QString();
+    } else {
+      fields.back() += line[i];
+    }
+  }
+  return fields;
+}
+
+/// Returns a cell of a row by the heading of its column; that heading if there is no such column.
+QString cell(const FigureTable& table, std::size_t row, const std::string& group, const std::string& name) {
+  const auto column = std::ranges::find(table.columns, FigureTable::Column{group, name});
+  return QString::fromStdString(column == table.columns.end()
+                                    ? "no column " + group + ": " + name
+                                    : table.rows.at(row).cells.at(std::size_t(column - table.columns.begin())));
+}
+
+/// A locale that writes 1.000,5.
+class CommaLocale : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
 }  // namespace
 
 void ReportTest::text_is_escaped() {
-  QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39; ]]&gt; ?? \xc3\xa9"));
+  QCOMPARE(escaped(nasty), std::string("a&lt;b &amp; &quot;c&quot; &#39;d&#39;, ]]&gt; ?? \xc3\xa9"));
   // A truncated character, a surrogate, an overlong form, and one beyond the last; then valid ones of each length.
   QCOMPARE(escaped("\xc3"), std::string("?"));
   QCOMPARE(escaped("\xed\xa0\x80|\xc0\xaf|\xf4\x90\x80\x80"), std::string("???|??|????"));
@@ -106,7 +143,7 @@ void ReportTest::an_axis_of_nothing_stands() {
 }
 
 void ReportTest::a_layout_keeps_all_parts_apart_and_inside() {
-  const Plot plot = violation_plot(comparison().cases.front());
+  const Plot plot = error_plot(comparison(), 0, {0, 1}, figures::violation_max);
   for (const double width : {0.0, 330.0, 700.0}) {
     for (const double height : {230.0, 600.0}) {
       const PlotLayout layout(plot, {.width = width, .height = height, .font_size = 13});
@@ -128,7 +165,7 @@ void ReportTest::a_layout_keeps_all_parts_apart_and_inside() {
 }
 
 void ReportTest::a_drawing_names_what_it_shows() {
-  const Plot plot = violation_plot(comparison().cases.front());
+  const Plot plot = error_plot(comparison(), 0, {0, 1}, figures::violation_max);
   const auto words_of = [&](const SvgStyle& style) {
     std::ostringstream out;
     write_svg(out, plot, style);
@@ -151,50 +188,175 @@ void ReportTest::a_drawing_names_what_it_shows() {
 }
 
 void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
-  const std::string text = page();
+  std::ostringstream out;
+  write_html(out, comparison());
   QString words;
-  const QStringList elements = elements_of(text, &words);
+  const QStringList elements = elements_of(out.str(), &words);
   QCOMPARE(elements.count("svg"), 2);
-  QCOMPARE(elements.count("table"), 3);
+  QCOMPARE(elements.count("table"), 2);
   for (const char* foreign : {"script", "link", "img", "iframe", "object"}) {
     QVERIFY2(!elements.contains(foreign), foreign);
   }
-  QString without_namespace = QString::fromStdString(text);
+  QString without_namespace = QString::fromStdString(out.str());
   without_namespace.remove("http://www.w3.org/2000/svg");
   QVERIFY(!without_namespace.contains("http") && !without_namespace.contains("url(") &&
           !without_namespace.contains("@import"));
-  QVERIFY(words.contains("How to read it"));
+  for (const char* part : {"How to read it", "Main figures", "All figures", "it works, on grids, alone",
+                           "chainmail compare 'a<b", "today", "a compiler", "relax_step"}) {
+    QVERIFY2(words.contains(part), part);
+  }
+}
+
+void ReportTest::plots_are_well_formed_files() {
+  const auto files = plots_of(comparison());
+  QCOMPARE(files.size(), std::size_t{2});
+  QCOMPARE(files[0].name, std::string("violation-1.svg"));
+  QCOMPARE(files[1].name, std::string("distance-1.svg"));
+  for (const PlotFile& file : files) {
+    std::ostringstream out;
+    write_svg(out, file.plot, file_ink);
+    QCOMPARE(elements_of(out.str()).value(0), QString("svg"));
+  }
+  const Plot& plot = files[1].plot;
+  QCOMPARE(plot.panels.size(), std::size_t{2});
+  QCOMPARE(plot.panels[1].title, nasty);
+  const auto& marks = plot.panels[0].marks;
+  QCOMPARE(marks.size(), std::size_t{3});
+  QVERIFY(marks[1].hollow && !marks[0].hollow && !marks[2].hollow);  // with sweeps
+  QVERIFY(marks[1].x == 0.1 && marks[1].x_low == 0.05 && marks[1].x_high == 0.2 && marks[1].y == 0.5);
+  QVERIFY(marks[0].series == marks[1].series && marks[0].series != marks[2].series);
 }
 
 void ReportTest::the_main_table_takes_the_worst() {
-  const auto tables = main_tables(comparison());
-  QCOMPARE(tables.size(), std::size_t{1});
-  QCOMPARE(tables[0].drags.size(), std::size_t{2});
-  QCOMPARE(tables[0].rows.size(), std::size_t{4});
-  const MainRow& plain = tables[0].rows[0];
-  QCOMPARE(plain.contestant, std::string("Natural Queue ChainMail"));
-  QVERIFY(plain.ms_per_move == (std::vector<std::optional<double>>{0.01, 0.02}));
-  QCOMPARE(plain.to_exact->max, 0.25);             // of the first drag
-  QCOMPARE(tables[0].rows[1].violation.max, 0.5);  // of the second
-  QCOMPARE(tables[0].rows[1].violation.fraction, 0.125);
+  const FigureTable table = object_table(comparison(), 0, Medium::terminal);
+  QCOMPARE(table.rows.size(), std::size_t{4});
+  QCOMPARE(table.rows[0].label, std::string("Natural Queue ChainMail"));
+  QCOMPARE(cell(table, 0, "time (ms)", "one"), QString("0.01"));
+  QCOMPARE(cell(table, 0, "time (ms)", nasty), QString("0.02"));
+  QCOMPARE(cell(table, 0, "distance to Exact (mean rest lengths)", "largest"), QString("0.25"));  // of the first drag
+  QCOMPARE(cell(table, 1, "violation (rest lengths)", "largest"), QString("0.5"));                // of the second
+  QCOMPARE(cell(table, 1, "violation (share)", "links"), QString("12.5%"));
+  QCOMPARE(table.rows[2].refusal, std::string("it works, on grids, alone"));
+  const FigureTable page = object_table(comparison(), 0, Medium::page);
+  QCOMPARE(cell(page, 0, "time (ms)", "one"), QString("0.01 (0.005–0.02, 5)"));  // quartiles and repetitions
+}
+
+/// A contestant that one drag refuses keeps its figures of the others. Its mean is not in the plot, where it would
+/// stand for drags that it leaves out.
+void ReportTest::a_refusal_is_one_drag_s() {
+  const Contestant fem{Algorithm::linear_fem};
+  const auto with = [&](std::size_t drags_with_figures) {
+    Results results = results_of(ReportKind::physics, {"pull", "pull"});
+    for (const std::size_t drag : {0, 1}) {
+      if (drag < drags_with_figures) {
+        add_row(results, drag, fem, {{&relative, 0.11}, {&later_ms, 2}});
+      } else {
+        add_row(results, drag, fem, {}, "it did not converge");
+      }
+    }
+    return results;
+  };
+  const auto marks = [&](const Results& results) {
+    const auto files = plots_of(results);
+    return files.empty() ? 0 : int(files[0].plot.panels.at(0).marks.size());
+  };
+  QCOMPARE(marks(with(2)), 1);
+  QCOMPARE(marks(with(1)), 0);
+  for (const Medium medium : {Medium::page, Medium::terminal}) {
+    QCOMPARE(cell(object_table(with(1), 0, medium), 0, "relative error (ratio)", "pull"), QString("0.11 (1 of 2)"));
+  }
+  QCOMPARE(cell(summary_table(with(1)), 0, "relative error (ratio)", "bar"), QString("0.11 (not all drags)"));
+  QCOMPARE(object_table(with(0), 0, Medium::page).rows.at(0).refusal, std::string("it did not converge"));
+}
+
+/// An algorithm that cannot take part has one row for all numbers of sweeps.
+void ReportTest::who_cannot_take_part_has_one_row() {
+  Results results = results_of(ReportKind::physics, {"pull"});
+  for (const int sweeps : {0, 1}) {
+    add_row(results, 0, {Algorithm::chainmail_3d, sweeps}, {}, "it is no grid");
+    add_row(results, 0, {Algorithm::exact, sweeps}, {{&relative, 0.5}, {&later_ms, 2}});
+  }
+  std::ranges::stable_sort(results.rows, {}, [](const Row& row) { return row.contestant.algorithm; });
+  QCOMPARE(object_table(results, 0, Medium::page).rows.size(), std::size_t{3});
+  results.objects[0].series = "bars";
+  const FigureTable grown = growth_table(results, "bars");
+  QCOMPARE(grown.rows.size(), std::size_t{3});
+  QCOMPARE(cell(grown, grown.rows[0].refusal.empty() ? 0 : 1, "why not larger", ""),
+           QString("this is the largest object"));
+}
+
+void ReportTest::the_closest_has_a_star() {
+  Results results = results_of(ReportKind::physics, {"pull"});
+  const auto add = [&](const Contestant& contestant, double error, double change) {
+    add_row(results, 0, contestant, {{&relative, error}, {&reference_change, change}, {&later_ms, 2}});
+  };
+  add({}, 1, 0.02);
+  add({Algorithm::neo_hookean}, 1e-9, 0.02);
+  add({Algorithm::linear_fem}, 0.01, 0.02);
+  add({Algorithm::exact}, 0.5, 0.02);
+  const FigureTable table = summary_table(results);
+  for (const auto& [row, expected] : {std::pair(0, "1"), {1, "below 0.02"}, {2, "below 0.02*"}, {3, "0.5"}}) {
+    QCOMPARE(cell(table, std::size_t(row), "relative error (ratio)", "bar"), QString(expected));
+  }
+  const std::string text = written(results, [](auto& out, const Results& all) { write_text(out, all); });
+  QVERIFY2(text.starts_with("bar: Linear FEM, on the same cells (below 0.02) is closest\n"), text.c_str());
 }
 
 void ReportTest::csv_has_a_row_for_each() {
-  Comparison plain = comparison();
-  plain.cases[0].name = "a \"b\", c";
-  std::ostringstream out;
-  write_csv(out, plain);
-  const auto lines = QString::fromStdString(out.str()).trimmed().split('\n');
-  QCOMPARE(lines.size(), 9);
-  const auto columns = lines[0].split(',').size();
+  Results results = comparison();
+  results.objects[0].name = "a \"b\", c";
+  const std::string csv = written(results, write_csv);
+  const auto lines = QString::fromStdString(csv).trimmed().split('\n');
+  QCOMPARE(lines.size(), qsizetype(1 + results.rows.size()));
+  const QStringList names = fields_of(lines[0]);
+  QCOMPARE(QSet<QString>(names.begin(), names.end()).size(), names.size());
   for (int i = 1; i < lines.size(); ++i) {
-    const QString start = "\"a \"\"b\"\", c\",9,12,";
-    QVERIFY2(lines[i].startsWith(start), qPrintable(lines[i]));
-    // The name contains one comma, and the refusal two.
-    QCOMPARE(lines[i].split(',').size(), columns + 1 + (lines[i].contains("original") ? 2 : 0));
+    const QStringList fields = fields_of(lines[i]);
+    QVERIFY2(fields.size() == names.size(), qPrintable(lines[i]));
+    QCOMPARE(fields[names.indexOf("object")], QString("a \"b\", c"));
+    QCOMPARE(fields[names.indexOf("drag")], i > 4 ? QString::fromStdString(nasty) : QString("one"));
   }
-  QVERIFY(lines[1].contains(",one,4,natural-queue,0,,5,0.01,0.005,0.02,0.0025,0.04,0,12,8,0.5,0.25,0.125,0.25,0.125,"));
-  QVERIFY(lines[3].endsWith(",original,0,\"it works, on grids, alone\"" + QString(20, ',') + ",0,,,,"));
+  const auto at = [&](int line, const char* name) { return fields_of(lines[line]).value(names.indexOf(name)); };
+  const QList<std::pair<const char*, const char*>> expected{{"elements", "9"},
+                                                            {"moves", "4"},
+                                                            {"algorithm", "natural-queue"},
+                                                            {"sweeps", "10"},
+                                                            {"limit", "0"},
+                                                            {"refusal", ""},
+                                                            {"ms_per_move", "0.1"},
+                                                            {"ms_per_move_lower_quartile", "0.05"},
+                                                            {"ms_per_move_upper_quartile", "0.2"},
+                                                            {"ms_per_move_repetitions", "5"},
+                                                            {"violation_max", "0.25"},
+                                                            {"exact_distance_rms", "0.5"}};
+  for (const auto& [name, value] : expected) {
+    QVERIFY2(at(2, name) == value, name);
+  }
+  QCOMPARE(at(3, "refusal"), QString("it works, on grids, alone"));
+  for (const char* missing : {"ms_per_move", "ms_per_move_repetitions", "violation_max"}) {
+    QVERIFY2(at(3, missing).isEmpty(), missing);
+  }
+  QVERIFY(!names.contains("relative"));  // nobody measured it
+}
+
+void ReportTest::csv_has_all_digits_in_every_locale() {
+  Results results = results_of(ReportKind::compare, {"one"});
+  results.objects[0].elements = 1'234'567;
+  const double third = 1000.0 / 3;
+  add_row(results, 0, {Algorithm::exact}, {{&violation_max, third}, {&ms_per_move, 1234.5}});
+  const auto all = [&](const std::locale& locale) {
+    std::ostringstream out;
+    out.imbue(locale);
+    write_csv(out, results);
+    write_text(out, results);
+    write_html(out, results);
+    return out.str();
+  };
+  const std::string plain = all(std::locale::classic());
+  QCOMPARE(all(std::locale(std::locale::classic(), new CommaLocale)), plain);
+  const QStringList lines = QString::fromStdString(plain).split('\n');
+  const QString number = fields_of(lines[1]).value(fields_of(lines[0]).indexOf("violation_max"));
+  QVERIFY(number.toDouble() == third && lines[1].contains(",1234567,") && lines[1].contains(",1234.5,"));
 }
 
 CHAINMAIL_TEST(ReportTest)
