@@ -118,7 +118,7 @@ class ExactReferee : public Referee {
   std::unique_ptr<Runner> other_;  // runs the algorithm of the last contestant in the other precision
 };
 
-std::vector<Contestant> contestants_of(const CompareOptions& options) {
+std::vector<Contestant> family_of(const CompareOptions& options) {
   std::vector<Contestant> all;
   for (const Algorithm algorithm : options.algorithms) {
     if (!info(algorithm).relaxes()) {
@@ -215,7 +215,7 @@ Results compare(const std::vector<Case>& cases, const CompareOptions& asked, con
   for (const Case& object : cases) {
     results.objects.push_back(info_of(object));
     results.objects.back().reference = "Exact ChainMail in double";
-    Contest contest(object, contestants_of(options), options);
+    Contest contest(object, family_of(options), options);
     for (const RecordedMoves& moves : object.drags) {
       const Progress part = part_of(progress, double(done), double(drags), object.name + ", " + moves.name);
       ExactReferee referee(object, moves, options, part);

@@ -40,17 +40,17 @@ bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>&
   });
 }
 
-PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
-  return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
-}
-
-std::vector<double> moved(const Mesh& mesh, const ReferenceSolution& reference) {
+std::vector<double> places_of(const Mesh& mesh, const ReferenceSolution& reference) {
   std::vector<double> at = mesh.rest;
   std::ranges::transform(at, reference.displacements, at.begin(), std::plus());
   return at;
 }
 
 }  // namespace
+
+PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
+  return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
+}
 
 void add_shape(Row& row, const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& positions,
                const std::optional<PositionView>& reference) {
@@ -80,7 +80,7 @@ void PhysicsReferee::judge(const Runner& runner, const Contestant& /*contestant*
   const Simulation& simulation = runner.simulation();
   const Mesh& mesh = simulation.mesh();
   const PositionView positions = simulation.body().positions();
-  const std::vector<double> right = moved(mesh, reference_);
+  const std::vector<double> right = places_of(mesh, reference_);
   add_error(row, measure_physical_error(mesh, positions, reference_));
   row.set(figures::reference_change, change_);
   add_shape(row, mesh, simulation.softness(), simulation.body().cuts(), positions, view_of(mesh, right));
@@ -88,7 +88,7 @@ void PhysicsReferee::judge(const Runner& runner, const Contestant& /*contestant*
 
 void PhysicsReferee::judge_nothing(const Case& object, Row& row) {
   const Mesh& mesh = *object.mesh;
-  const std::vector<double> at = positions_of_nothing_moving(mesh, reference_), right = moved(mesh, reference_);
+  const std::vector<double> at = positions_of_nothing_moving(mesh, reference_), right = places_of(mesh, reference_);
   add_error(row, error_of_nothing_moving(mesh, reference_));
   row.set(figures::reference_change, change_);
   add_shape(row, mesh, object.softness, Cuts(object.mesh), view_of(mesh, at), view_of(mesh, right));

@@ -58,6 +58,8 @@ class PhysicsReferee : public Referee {
   std::optional<double> change_;
 };
 
+/// Returns a view of the positions of all elements, space_dimension coordinates each.
+PositionView view_of(const Mesh& mesh, const std::vector<double>& positions);
 /// Adds figures about the shape, with a reference for the Hausdorff distance if there is one.
 void add_shape(Row& row, const Mesh& mesh, const Softness& softness, const Cuts& cuts, const PositionView& positions,
                const std::optional<PositionView>& reference);

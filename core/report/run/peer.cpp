@@ -79,18 +79,15 @@ Row row_of(const PeerCase& object, const PeerAnswer& answer) {
   check(object, answer);
   const Mesh& mesh = *object.mesh;
   const std::vector<double> positions = on_axes(mesh, answer.positions), reference = on_axes(mesh, object.reference);
-  const auto view = [&](const std::vector<double>& all) {
-    return PositionView{all.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
-  };
   Row row{.drag = 0, .contestant = {.solver = answer.solver}};
-  const PhysicalError error = measure_physical_error(mesh, view(positions), reference_of(object));
+  const PhysicalError error = measure_physical_error(mesh, view_of(mesh, positions), reference_of(object));
   if (!std::isfinite(error.relative)) {
     throw Error(answer.solver, "its error is not a number: positions are too large, or nothing moves in the case",
                 "check the positions of the answer and of the case");
   }
   add_error(row, error);
   row.set(figures::reference_change, object.reference_change);
-  add_shape(row, mesh, Softness(), Cuts(object.mesh), view(positions), view(reference));
+  add_shape(row, mesh, Softness(), Cuts(object.mesh), view_of(mesh, positions), view_of(mesh, reference));
   row.set(figures::factorize_ms, answer.factorize_ms);
   row.set(figures::grab_ms, answer.grab_ms);
   if (const auto& ms = answer.moves_ms; !ms.empty()) {

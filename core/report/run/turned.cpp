@@ -67,10 +67,6 @@ std::vector<double> answer_of(const Case& object, const Contestant& contestant, 
   return positions;
 }
 
-PositionView view_of(const Mesh& mesh, const std::vector<double>& positions) {
-  return {positions.data(), std::size_t(mesh.space_dimension) * sizeof(double), Precision::double_precision};
-}
-
 bool takes_part(const Contestant& contestant) {
   return contestant.algorithm && (contestant.sweeps == 0 || contestant.calibrated);
 }
