@@ -17,7 +17,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int exact = 0, physics = 1;  // rows of the list of references
+constexpr int exactRow = 0, physicsRow = 1;  // rows of the list of references
 constexpr int sweepsPerMove = 10;
 constexpr int withEquilibrium = 3;        // row of the list of sweeps
 constexpr int listMarkSize = 13;          // logical pixels
@@ -25,7 +25,7 @@ constexpr int listHeight = 48;            // the least, in logical pixels
 constexpr double longestContestant = 20;  // seconds per object: nobody waits for an exotic method
 constexpr int ofMaterial = -1;            // stands for relaxation to the material where others have their algorithm
 
-const report::Contestant material{.algorithm = Algorithm::natural_queue, .equilibrium = true, .open_regions = true};
+const report::Contestant toMaterial{.algorithm = Algorithm::natural_queue, .equilibrium = true, .open_regions = true};
 
 Qt::ItemFlags enabledIf(bool is, Qt::ItemFlags flags) {
   return is ? flags | Qt::ItemIsEnabled : flags & ~Qt::ItemFlags(Qt::ItemIsEnabled);
@@ -155,7 +155,7 @@ void ReportChoices::fillContestants() {
     chosen.push_back(document_.algorithm(panel));
   }
   if (againstPhysics()) {
-    add(contestants_, text(report::label(material)), ofMaterial, true);
+    add(contestants_, text(report::label(toMaterial)), ofMaterial, true);
   }
   for (const AlgorithmInfo& one : againstPhysics() ? every_algorithm() : algorithms()) {
     add(contestants_, text(one.label), int(one.algorithm),
@@ -194,7 +194,7 @@ void ReportChoices::drawMarks() {
   for (int row = 0; row < contestants_->count(); ++row) {
     const int value = contestants_->item(row)->data(Qt::UserRole).toInt();
     const bool isMaterial = value == ofMaterial;
-    contestants_->item(row)->setIcon(QIcon(plotMark(isMaterial ? *material.algorithm : Algorithm(value), isMaterial,
+    contestants_->item(row)->setIcon(QIcon(plotMark(isMaterial ? *toMaterial.algorithm : Algorithm(value), isMaterial,
                                                     listMarkSize, devicePixelRatioF(), QGuiApplication::palette())));
   }
 }
@@ -207,13 +207,13 @@ void ReportChoices::adaptToObject() {
   } catch (const Error& error) {
     reason = text(error.problem() + "; " + error.remedy());
   }
-  auto* item = qobject_cast<QStandardItemModel*>(against_->model())->item(physics);
+  auto* item = qobject_cast<QStandardItemModel*>(against_->model())->item(physicsRow);
   item->setEnabled(reason.isEmpty());
   item->setToolTip(reason);
   noPhysics_->setText(QStringLiteral("Not against physics: ") + reason);
   noPhysics_->setVisible(!reason.isEmpty());
   if (!reason.isEmpty()) {
-    against_->setCurrentIndex(exact);
+    against_->setCurrentIndex(exactRow);
   }
 }
 
@@ -222,7 +222,7 @@ void ReportChoices::adaptToMesh() {
   for (int row = 0; row < contestants_->count(); ++row) {
     QListWidgetItem* item = contestants_->item(row);
     const int value = item->data(Qt::UserRole).toInt();
-    const Algorithm algorithm = value == ofMaterial ? *material.algorithm : Algorithm(value);
+    const Algorithm algorithm = value == ofMaterial ? *toMaterial.algorithm : Algorithm(value);
     QString reason;
     try {
       check(algorithm, *document_.mesh());
@@ -295,7 +295,7 @@ void ReportChoices::addContestants(report::PhysicsOptions& options) const {
   // It is a choice of its own, once.
   std::erase_if(options.contestants, [](const report::Contestant& one) { return one.open_regions; });
   if (hasMaterial) {
-    options.contestants.push_back(material);
+    options.contestants.push_back(toMaterial);
   }
 }
 
