@@ -2,12 +2,13 @@
 
 #include <QDir>
 #include <QHeaderView>
+#include <QImage>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QRegularExpression>
 #include <QScrollBar>
 
-#include "document/edits.h"
 #include "report_bench.h"
 #include "safe_bench.h"
 
@@ -55,13 +56,81 @@ class WindowReport : public QObject {
       QCOMPARE(bench.table().rowCount(), 12);  // six algorithms, with and without sweeps
       QCOMPARE(bench.marks().size(), std::size_t{12});
       for (int row = 0; row < bench.table().rowCount(); ++row) {
-        QVERIFY(bench.table().item(row, msColumn)->text().toDouble() > 0);
+        const QString time = bench.cellOf(row, msColumn);  // with a unit that fits
+        QVERIFY2(time.section(QLatin1Char(' '), 0, 0).toDouble() > 0 && time.endsWith(QLatin1Char('s')),
+                 qPrintable(time));
       }
     }
     const std::vector<std::string>& notes = bench.plot().plot().legend_notes;
-    QVERIFY(std::ranges::find(notes, std::string("filled: no sweeps")) != notes.end());
+    QVERIFY(std::ranges::find(notes, std::string("filled: without relaxation")) != notes.end());
+    QCOMPARE(bench.find<QComboBox>("reportError")->count(), 4);
     QVERIFY(bench.find<QLabel>("reportTimesNote")->isVisible());
     QVERIFY(!bench.find<QLabel>("reportRefusals")->isVisible());
+    QVERIFY(bench.table().isColumnHidden(bench.table().columnCount() - 1));
+    bench.find<QCheckBox>("reportAllFigures")->click();
+    QVERIFY(!bench.table().isColumnHidden(bench.table().columnCount() - 1));
+  }
+
+  void aMarkIsReadWithContestantTimeAndError() {
+    ReportBench bench;
+    bench.run();
+    QSet<QString> readings;
+    for (int x = 0; x < bench.plot().width(); x += 4) {
+      for (int y = 0; y < bench.plot().height(); y += 4) {
+        readings << bench.plot().readingAt(QPointF(x, y));
+      }
+    }
+    static const QRegularExpression whole(QStringLiteral(
+        "^[A-Z3].* ChainMail.*: [0-9.,]+ (µs|ms|s) per move \\(.*\\), largest violation .* rest lengths$"));
+    QVERIFY2(!QStringList(readings.values()).filter(whole).isEmpty(),
+             qPrintable(QStringList(readings.values()).join(QLatin1Char('\n'))));
+  }
+
+  void physicsNeedsPinsAndSaysSo() {
+    ReportBench bench(generate({MeshKind::tetra, {4, 2, 2}, 1, {}}));
+    auto* against = bench.find<QComboBox>("reportAgainst");
+    auto* reason = bench.find<QLabel>("reportNoPhysics");
+    const auto isOffered = [&] {
+      return (against->model()->flags(against->model()->index(1, 0)) & Qt::ItemIsEnabled) != 0;
+    };
+    QVERIFY(!isOffered() && reason->isVisible());
+    QVERIFY2(reason->text().contains(QStringLiteral("pin a side")), qPrintable(reason->text()));
+    edits::setPinned(bench.document(), {0, 1}, true);
+    QVERIFY(isOffered() && !reason->isVisible());
+    against->setCurrentIndex(1);
+    edits::cut(bench.document(), {0});
+    QVERIFY(!isOffered());
+    QCOMPARE(against->currentIndex(), 0);
+    QVERIFY2(reason->text().contains(QStringLiteral("cut")), qPrintable(reason->text()));
+    MeshParts surface;
+    surface.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    surface.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    surface.links = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+    edits::replaceMesh(bench.document(), build_mesh(std::move(surface)), QStringLiteral("surface"), {});
+    edits::setPinned(bench.document(), {0}, true);
+    QVERIFY(!isOffered());
+    QVERIFY2(reason->text().contains(QStringLiteral("not a solid")), qPrintable(reason->text()));
+  }
+
+  void againstPhysicsErrorsAreOverTime() {
+    PinnedBench bench;
+    bench.run();
+    QCOMPARE(bench.find<QComboBox>("reportDrag")->currentText(), QStringLiteral("all drags"));
+    QVERIFY(bench.find<QComboBox>("reportDrag")->findText(QStringLiteral("far bend")) > 0);
+    const double linear = bench.numberOf(QStringLiteral("Linear FEM"), report::figures::relative);
+    const double nothing = bench.numberOf(QStringLiteral("Nothing moves"), report::figures::relative);
+    QVERIFY2(linear > 0 && linear < nothing && nothing < 1.5, qPrintable(QString::number(linear)));
+    const double material = bench.numberOf(QStringLiteral("Material"), report::figures::relative);
+    QVERIFY2(material > 0 && material < linear, qPrintable(QString::number(material)));
+    QCOMPARE(bench.find<QComboBox>("reportError")->currentText(), QStringLiteral("Later move"));
+    QVERIFY(bench.find<QComboBox>("reportError")->findText(QStringLiteral("Fresh grab")) > 0);
+    const auto isLinear = [](const report::PlotMark& mark) { return mark.title.starts_with("Linear FEM"); };
+    const auto mark = std::ranges::find_if(bench.marks(), isLinear);
+    QVERIFY(mark != bench.marks().end());
+    QVERIFY(mark->x > 0 && std::abs(mark->y - linear) < 1e-9);
+    bench.find<QComboBox>("reportDrag")->setCurrentText(QStringLiteral("pull"));
+    QVERIFY(bench.find<QLabel>("reportHeading")->text().contains(QStringLiteral("away from the pins; 24 moves")));
+    QVERIFY(bench.numberOf(QStringLiteral("Linear FEM"), report::figures::relative) != linear);
   }
 
   void whoIsRefusedIsListedWithTheReason() {
@@ -69,7 +138,7 @@ class WindowReport : public QObject {
     const QPoint from = bench.place(0, 31);
     bench.stroke(0, {from, from + QPoint(70, -60)});
     edits::setPinned(bench.document(), {31}, true);
-    bench.choose("reportDrags", 1);
+    bench.check("reportDrags", {myLastDrag});
     bench.run();
     auto* refusals = bench.find<QLabel>("reportRefusals");
     QVERIFY(refusals->isVisible());
@@ -85,14 +154,18 @@ class WindowReport : public QObject {
     QTemporaryDir folder;
     bench.results().saveTo(folder.path());
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files),
-             (QStringList{QStringLiteral("report.csv"), QStringLiteral("report.html"), QStringLiteral("report.json")}));
+             (QStringList{QStringLiteral("distance-1.svg"), QStringLiteral("report.csv"), QStringLiteral("report.html"),
+                          QStringLiteral("report.json"), QStringLiteral("violation-1.svg")}));
+    bench.results().savePlotTo(folder.filePath(QStringLiteral("plot.png")), {127, 63.5, 100});
+    QCOMPARE(QImage(folder.filePath(QStringLiteral("plot.png"))).size(), QSize(500, 250));
     const QJsonObject json = QJsonDocument::fromJson(read(folder, "report.json")).object();
     const QJsonArray drags = json[QStringLiteral("objects")][0][QStringLiteral("drags")].toArray();
     QVERIFY2(drags.size() == 3, read(folder, "report.json").left(600));
     const QList<QByteArray> rows = read(folder, "report.csv").trimmed().split('\n');
     QCOMPARE(rows.size(), 1 + 3 * 12);
+    static const QRegularExpression quoted(QStringLiteral("\"[^\"]*\""));  // labels contain commas
     for (const QByteArray& row : rows) {
-      QCOMPARE(row.count(','), rows.first().count(','));
+      QCOMPARE(QString::fromUtf8(row).remove(quoted).count(QLatin1Char(',')), rows.first().count(','));
     }
     QVERIFY(read(folder, "report.html").contains("</html>"));
 
@@ -105,7 +178,8 @@ class WindowReport : public QObject {
       const Answer cancel(QStringLiteral("Cancel"));
       bench.results().askAndSaveTo(target.path());
       QCOMPARE(cancel.questions, 1);
-      QVERIFY2(cancel.said.contains(QStringLiteral("report.html, report.json, report.csv")), qPrintable(cancel.said));
+      QVERIFY2(cancel.said.contains(QStringLiteral("report.html, report.json, report.csv, violation-1.svg")),
+               qPrintable(cancel.said));
       QCOMPARE(read(target, "report.csv"), QByteArray("mine"));
     }
     const Answer replace(QStringLiteral("Replace"));

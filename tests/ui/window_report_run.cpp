@@ -1,7 +1,9 @@
 // Tests the runs of the Report dock in a real window: the compared object, cancelling, and edits during a run.
 
-#include "document/edits.h"
+#include <QFile>
+
 #include "fair_timer.h"
+#include "files/results/results_json.h"
 #include "report/table/format.h"
 #include "report_bench.h"
 
@@ -23,7 +25,7 @@ class WindowReportRun : public QObject {
     ReportBench bench;
     bench.click("reportRun");
     ReportThread::Order order{
-        {"large", "", generate({MeshKind::grid, {800, 800, 1}, 1, {}}), {}, {}, {}, {}}, false, {}};
+        .object = {"large", "", generate({MeshKind::grid, {800, 800, 1}, 1, {}}), {}, {}, {}, {}}};
     order.object.drags = {{"far", "", {commands::Grab{0}, commands::Drag{Point(-900, -900, 0)}}}};
     order.options.algorithms = {Algorithm::enhanced};
     order.options.sweeps = {0};
@@ -51,10 +53,8 @@ class WindowReportRun : public QObject {
 
   void theLastDragIsUsed() {
     ReportBench bench;
-    auto* drags = bench.find<QComboBox>("reportDrags");
-    const auto enabled = [drags] {
-      return (drags->model()->flags(drags->model()->index(1, 0)) & Qt::ItemIsEnabled) != 0;
-    };
+    auto* drags = bench.find<QListWidget>("reportDrags");
+    const auto enabled = [drags] { return (drags->item(myLastDrag)->flags() & Qt::ItemIsEnabled) != 0; };
     const QPoint from = bench.place(0, 31), to = from + QPoint(70, -60);
     bench.stroke(0, {from});
     QVERIFY(!enabled());  // a press without a move is not a drag
@@ -64,7 +64,7 @@ class WindowReportRun : public QObject {
     QCOMPARE(std::get<commands::Grab>(commands.front()).elements, std::vector<ElementId>{31});
     // The panels store floats.
     QVERIFY((std::get<commands::Drag>(commands.back()).target - bench.position(1, 31)).norm() < 1e-5);
-    drags->setCurrentIndex(1);
+    bench.check("reportDrags", {myLastDrag});
     bench.run();
     QCOMPARE(bench.find<QComboBox>("reportDrag")->currentText(), QStringLiteral("my last drag"));
     QVERIFY(bench.find<QLabel>("reportHeading")->text().endsWith(QStringLiteral("%1 moves").arg(commands.size() - 1)));
@@ -74,10 +74,39 @@ class WindowReportRun : public QObject {
     options.algorithms = {Algorithm::generalized};
     options.sweeps = {0};
     options.repetitions = 1;
-    const auto expected = report::compare({object}, options).cases[0].drags[0].entries[0].measurement->errors;
-    QVERIFY(expected.violation.max > 0);
+    const double expected = *report::compare({object}, options).rows[0][report::figures::violation_max];
+    QVERIFY(expected > 0);
     QCOMPARE(bench.cell(QStringLiteral("Generalized"), violationColumn),
-             QString::fromStdString(report::figure(expected.violation.max)));
+             QString::fromStdString(report::figure(expected)));
+  }
+
+  void cancelKeepsTheFinishedDrags() {
+    PinnedBench bench;
+    QObject context;
+    connect(&bench.thread(), &ReportThread::arrived, &context, [&](const ReportThread::Results& results) {
+      if (!results->stopped) {
+        bench.find<QPushButton>("reportCancel")->click();
+      }
+    });
+    bench.effort(60);
+    bench.click("reportRun");
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.thread().running(), 60'000);
+    bench.isReady();
+    QVERIFY(bench.find<QLabel>("reportHeading")->text().endsWith(QStringLiteral("; stopped")));
+    QVERIFY(bench.table().rowCount() > 0);
+    const QTemporaryDir folder;
+    bench.results().saveTo(folder.path());
+    const report::Results read = read_results(folder.filePath(QStringLiteral("report.json")).toStdString());
+    QVERIFY(read.stopped && !read.rows.empty());
+    QVERIFY(read.objects.front().drags.size() < 5);
+  }
+
+  void theTimeThatIsLeftIsSaidWhenItIsKnown() {
+    QVERIFY(timeLeft(0.5, 4).isEmpty() && timeLeft(0.02, 60).isEmpty());
+    QCOMPARE(timeLeft(0.25, 10), QStringLiteral("about 30 s left"));
+    QCOMPARE(timeLeft(0.25, 60), QStringLiteral("about 3 min left"));
+    QCOMPARE(timeLeft(0.1, 1200), QStringLiteral("about 3 h left"));
+    QCOMPARE(timeLeft(1, 10), QStringLiteral("about 1 s left"));
   }
 
   void theObjectIsComparedAsItIs() {

@@ -75,8 +75,8 @@ void add_mark(Plot& plot, PlotPanel& panel, const Standing& one, const std::stri
   if (one.ms) {
     panel.marks.push_back({one.ms->median, one.ms->lower_quartile, one.ms->upper_quartile, one.counted_error(),
                            series_of(plot, *contestant.algorithm), contestant.is_relaxed(), note(contestant),
-                           label(contestant) + ": " + figure(one.ms->median) + " ms per " + what + ", relative error " +
-                               error_figure(one.error, one.change)});
+                           label(contestant) + ": " + time_in_words(one.ms->median) + " per " + what +
+                               ", relative error " + error_figure(one.error, one.change)});
   }
 }
 
@@ -194,9 +194,9 @@ Plot error_plot(const Results& results, std::size_t object, const std::vector<st
       panel.marks.push_back({spread.median, spread.lower_quartile, spread.upper_quartile, *value,
                              series_of(plot, *row->contestant.algorithm), row->contestant.is_relaxed(),
                              note(row->contestant),
-                             label(row->contestant) + ": " + figure(spread.median) + " ms per move (quartiles " +
-                                 figure(spread.lower_quartile) + " and " + figure(spread.upper_quartile) + "), " +
-                                 what + " " + figure(*value) + " " + unit});
+                             label(row->contestant) + ": " + time_in_words(spread.median) + " per move (quartiles " +
+                                 time_in_words(spread.lower_quartile) + " and " + time_in_words(spread.upper_quartile) +
+                                 "), " + what + " " + figure(*value) + " " + unit});
     }
   }
   add_legend_notes(plot, all);

@@ -165,6 +165,16 @@ std::string about(const Results& results, std::size_t object) {
   return text + (one.notes.empty() ? "" : "; " + joined_with(one.notes, "; "));
 }
 
+std::vector<const Figure*> first_figures(ReportKind kind) {
+  std::vector<const Figure*> first;
+  for (const MainFigure& one : main_figures(kind)) {
+    if (one.on_terminal) {
+      first.push_back(one.figure);
+    }
+  }
+  return first;
+}
+
 std::string cell_of(const Figure& of, const Row& row) {
   const auto value = row[of];
   if (!value) {

@@ -17,6 +17,9 @@ std::string about(const Results& results, std::size_t object);
 /// Returns a figure as text: `0.12`, `below 0.01`, `+3%`; `-` if there is none.
 std::string cell_of(const Figure& figure, const Row& row);
 
+/// The figures that a reader needs first, in their order: those of the main table in a terminal.
+std::vector<const Figure*> first_figures(ReportKind kind);
+
 /// The relative error of each contestant on each object. The closest has a star.
 FigureTable summary_table(const Results& results);
 /// The main figures of the contestants on one object, as means or worst over its drags.

@@ -6,13 +6,17 @@
 
 #include "mesh/error.h"
 #include "report/run/preparing.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::report {
 namespace {
 
-void check_pins(const Case& object) {
-  if (object.pins.empty()) {
-    throw Error(object.name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
+void check_pins_and_cuts(const std::string& name, bool has_pins, bool has_cuts) {
+  if (!has_pins) {
+    throw Error(name, "nothing pins it, so physics has no solution", "pin a side, the boundary, or elements");
+  }
+  if (has_cuts) {
+    throw Error(name, "it is cut, and the reference is for an object that is whole at rest", "undo the cuts");
   }
 }
 
@@ -69,6 +73,15 @@ ReferenceSolution closed_form_of(const Case& object, const RecordedMoves& moves)
 
 }  // namespace
 
+void check_reference(const std::string& name, const Mesh& mesh, bool has_pins, bool has_cuts) {
+  check_pins_and_cuts(name, has_pins, has_cuts);
+  try {
+    chainmail::check(Algorithm::neo_hookean, mesh);
+  } catch (const Error& error) {
+    throw error.at(name);
+  }
+}
+
 RigidMotion motion_at_end(const Mesh& mesh, const RecordedMoves& moves) {
   RigidMotion motion;
   for (const Command& command : moves.commands) {
@@ -82,7 +95,7 @@ RigidMotion motion_at_end(const Mesh& mesh, const RecordedMoves& moves) {
 
 DragReferences::DragReferences(const Case& object, const std::optional<ConvergingOptions>& refine)
     : object_(object), refine_(refine) {
-  check_pins(object);
+  check_pins_and_cuts(object.name, !object.pins.empty(), !object.cuts.empty());
   if (!refine_ || !refine_->every_level) {
     solver_.emplace(solver_of(object, {}));  // refuses at once what has no solution
   }

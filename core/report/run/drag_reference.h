@@ -1,11 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "measure/converging_reference.h"
 #include "report/run/cases.h"
 
 namespace chainmail::report {
+
+/// Throws Error, with the reason, if physics has no solution for an object of this kind, without pins or with cuts.
+/// Cheap: cells and parts are not checked.
+void check_reference(const std::string& name, const Mesh& mesh, bool has_pins, bool has_cuts);
 
 /// What the answers at the end of a drag are compared with.
 struct DragReference {

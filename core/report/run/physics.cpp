@@ -140,6 +140,7 @@ Results compare_with_physics(const std::vector<Case>& cases, const PhysicsOption
                   .settings = settings_of(options, cases.empty() ? ElasticOptions() : cases.front().elastic)};
   std::size_t drags = 0;
   for (const Case& object : cases) {
+    std::ranges::for_each(object.drags, [](const RecordedMoves& moves) { check(moves); });
     drags += object.drags.size();
   }
   const bool grows = options.growth_seconds > 0;

@@ -144,6 +144,11 @@ std::string energy_in_words(const LinkSoftness& softness) {
   return in_words(softness, found);
 }
 
+std::string time_in_words(double ms) {
+  constexpr double least_ms = 0.1, most_ms = 1000;
+  return ms < least_ms ? figure(1e3 * ms) + " µs" : ms > most_ms ? figure(ms / 1e3) + " s" : figure(ms) + " ms";
+}
+
 std::string signed_percent(const std::optional<double>& change) {
   return change ? (*change > 0 ? "+" : "") + figure(100 * *change) : figure(change);
 }

@@ -22,6 +22,8 @@ std::string thousands(std::uint64_t count);
 /// Pads the figures of a column with spaces as wide as digits, so that their decimal points stand below each other when
 /// they are aligned to the right. Texts that are not one number stay.
 std::vector<std::string> aligned(std::vector<std::string> column);
+/// Formats a time (ms) with a fitting unit: 21 µs, 0.45 ms, 1.2 s.
+std::string time_in_words(double ms);
 /// Formats a share for people, in percent; `n/a` if there is none.
 std::string percent(double share);
 std::string percent(const std::optional<double>& share);

@@ -1,37 +1,16 @@
 #include "docks/report/report_dock.h"
 
 #include <QAction>
-#include <QFormLayout>
-#include <QGuiApplication>
 #include <QScreen>
-#include <QStandardItemModel>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
-#include "common/colours.h"
+#include "common/describe.h"
 #include "common/dock_scroll.h"
-#include "common/number_field.h"
-#include "common/plot_painting.h"
-#include "common/text.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
-
-constexpr int generatedDrags = 0, lastDrag = 1;  // rows of the list of drags
-constexpr int sweepsPerMove = 10;
-constexpr int withEquilibrium = 3;  // row of the list of sweeps
-constexpr int listMarkSize = 13;    // logical pixels
-
-void name(QWidget* widget, const char* object, const QString& accessible, const QString& help) {
-  widget->setObjectName(QLatin1String(object));
-  widget->setAccessibleName(accessible);
-  widget->setToolTip(help);
-}
-
-void enable(QComboBox* box, int row, bool enabled) {
-  qobject_cast<QStandardItemModel*>(box->model())->item(row)->setEnabled(enabled);
-}
 
 constexpr int reportControlsWidth = 230;
 constexpr int smallestReportHeight = 300;
@@ -52,147 +31,16 @@ class ReportContent : public QWidget {
 
 }  // namespace
 
-ReportChoices::ReportChoices(Document& document)
-    : document_(document),
-      drags_(new QComboBox),
-      algorithms_(new QListWidget),
-      sweeps_(new QComboBox),
-      precision_(new QComboBox),
-      seconds_(new NumberField(QStringLiteral("Time"))) {
-  fillDrags();
-  fillAlgorithms();
-  fillRest();
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  auto* form = new QFormLayout;
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  form->setVerticalSpacing(3);
-  form->addRow(QStringLiteral("Drags"), drags_);
-  form->addRow(QStringLiteral("Relax"), sweeps_);
-  form->addRow(QStringLiteral("Precision"), precision_);
-  form->addRow(QStringLiteral("Run time"), seconds_);
-  column->addWidget(algorithms_, 1);
-  column->addLayout(form);
-  connect(algorithms_, &QListWidget::itemChanged, this, &ReportChoices::changed);
-  connect(&document, &Document::meshChanged, this, &ReportChoices::adaptToMesh);
-  connect(&document.moves(), &MovePlayer::lastDragChanged, this, &ReportChoices::adaptToLastDrag);
-  adaptToMesh();
-  adaptToLastDrag();
-}
-
-void ReportChoices::fillDrags() {
-  name(drags_, "reportDrags", QStringLiteral("Drags to compare on"),
-       QStringLiteral("Three generated drags: local, of the whole body, back and forth.\n"
-                      "My last drag: repeats your last drag in a panel, from rest."));
-  drags_->addItems({QStringLiteral("three generated"), QStringLiteral("my last drag")});
-}
-
-void ReportChoices::fillAlgorithms() {
-  name(algorithms_, "reportAlgorithms", QStringLiteral("Algorithms to compare"),
-       QStringLiteral("Algorithms to compare, with their marks in the plot"));
-  algorithms_->setIconSize({listMarkSize, listMarkSize});
-  algorithms_->setUniformItemSizes(true);
-  algorithms_->setMinimumHeight(48);
-  for (const AlgorithmInfo& one : algorithms()) {
-    auto* item = new QListWidgetItem(text(one.label), algorithms_);
-    item->setData(Qt::UserRole, int(one.algorithm));
-    item->setCheckState(Qt::Checked);
+QString timeLeft(double share, double seconds) {
+  constexpr double leastShare = 0.02, leastSeconds = 5, minute = 60, hour = 3600;
+  if (share <= leastShare || seconds < leastSeconds) {
+    return {};
   }
-  followTheme(*this, [this] {
-    const QSignalBlocker block(algorithms_);  // the user has changed nothing
-    for (int row = 0; row < algorithms_->count(); ++row) {
-      const auto algorithm = Algorithm(algorithms_->item(row)->data(Qt::UserRole).toInt());
-      algorithms_->item(row)->setIcon(
-          QIcon(plotMark(algorithm, false, listMarkSize, devicePixelRatioF(), QGuiApplication::palette())));
-    }
-  });
-}
-
-void ReportChoices::fillRest() {
-  name(sweeps_, "reportSweeps", QStringLiteral("Relaxation after each move"),
-       QStringLiteral("Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
-                      "Scheme and step are those of the Relaxation dock; the scheme is mean if it is the equilibrium "
-                      "there.\n"
-                      "With equilibrium, Natural Queue and Exact also relax to the equilibrium after each move."));
-  sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 sweeps").arg(sweepsPerMove),
-                     QStringLiteral("off and %1 sweeps").arg(sweepsPerMove),
-                     QStringLiteral("off, %1 sweeps and equilibrium").arg(sweepsPerMove)});
-  sweeps_->setCurrentIndex(2);
-  name(precision_, "reportPrecision", QStringLiteral("Precision of the contestants"),
-       QStringLiteral("Number type that the algorithms use (float or double). Reference solutions always use double"));
-  precision_->addItems({QStringLiteral("float"), QStringLiteral("double")});
-  name(seconds_, "reportSeconds", QStringLiteral("Time in seconds"),
-       QStringLiteral("Time for the repetitions of one drag by all algorithms, at least five repetitions.\n"
-                      "More time gives steadier results; the errors stay the same."));
-  seconds_->setRange(0.1, 60);
-  seconds_->setDecimals(1);
-  seconds_->setValue(2);
-  seconds_->setSuffix(QStringLiteral(" s per drag"));
-  seconds_->setKeyboardTracking(false);
-  connect(seconds_, &QDoubleSpinBox::editingFinished, seconds_, &QWidget::clearFocus);  // shortcuts work again
-}
-
-/// Disables the algorithms that do not work on the mesh. Their tool tips give the reason.
-void ReportChoices::adaptToMesh() {
-  for (int row = 0; row < algorithms_->count(); ++row) {
-    QListWidgetItem* item = algorithms_->item(row);
-    const auto algorithm = Algorithm(item->data(Qt::UserRole).toInt());
-    QString help = text(info(algorithm).source);
-    try {
-      check(algorithm, *document_.mesh());
-      item->setFlags(item->flags() | Qt::ItemIsEnabled);
-    } catch (const Error& error) {
-      item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
-      help = QString::fromStdString(error.what());
-    }
-    item->setToolTip(help);
-  }
-}
-
-void ReportChoices::adaptToLastDrag() {
-  const bool there = !document_.moves().lastDrag().empty();
-  enable(drags_, lastDrag, there);
-  if (!there) {
-    drags_->setCurrentIndex(generatedDrags);
-  }
-}
-
-std::vector<Algorithm> ReportChoices::chosen() const {
-  std::vector<Algorithm> algorithms;
-  for (int row = 0; row < algorithms_->count(); ++row) {
-    const QListWidgetItem* item = algorithms_->item(row);
-    if (item->checkState() == Qt::Checked && (item->flags() & Qt::ItemIsEnabled) != 0) {
-      algorithms.push_back(Algorithm(item->data(Qt::UserRole).toInt()));
-    }
-  }
-  return algorithms;
-}
-
-ReportThread::Order ReportChoices::order() const {
-  ReportThread::Order order;
-  order.object = {document_.name().toStdString(),
-                  "the object of the window, from rest",
-                  document_.mesh(),
-                  document_.cuts().links(),
-                  document_.pins(),
-                  *document_.wholeSoftness(),
-                  {}};
-  order.generateDrags = drags_->currentIndex() == generatedDrags;
-  if (!order.generateDrags) {
-    order.object.drags.push_back({"my last drag", "the last drag in the window", document_.moves().lastDrag()});
-  }
-  order.options.algorithms = chosen();
-  order.options.sweeps = sweeps_->currentIndex() == 0   ? std::vector{0}
-                         : sweeps_->currentIndex() == 1 ? std::vector{sweepsPerMove}
-                                                        : std::vector{0, sweepsPerMove};
-  order.options.equilibrium = sweeps_->currentIndex() == withEquilibrium;
-  if (const RelaxationScheme scheme = document_.relaxation().scheme; info(scheme).sweeps) {
-    order.options.scheme = scheme;
-  }
-  order.options.relax_step = document_.relaxation().step;
-  order.options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;
-  order.options.seconds = seconds_->value();
-  return order;
+  const double left = seconds * (1 - share) / share;
+  const auto words = [](double number, const char* unit) {
+    return QStringLiteral("about %1 %2 left").arg(std::max(1.0, std::round(number))).arg(QLatin1String(unit));
+  };
+  return left < minute ? words(left, "s") : left < hour ? words(left / minute, "min") : words(left / hour, "h");
 }
 
 ReportDock::ReportDock(Document& document)
@@ -202,6 +50,7 @@ ReportDock::ReportDock(Document& document)
       run_(new QPushButton(QStringLiteral("Run"))),
       cancel_(new QPushButton(QStringLiteral("Cancel"))),
       progress_(new QProgressBar),
+      left_(new QLabel),
       pages_(new QStackedWidget) {
   setAccessibleName(QStringLiteral("Report: time against error"));
   pages_->addWidget(makeEmptyPage());
@@ -225,15 +74,13 @@ ReportDock::ReportDock(Document& document)
 }
 
 QWidget* ReportDock::makeControls() {
-  run_->setObjectName(QStringLiteral("reportRun"));
-  run_->setAccessibleName(QStringLiteral("Run the comparison"));
-  run_->setToolTip(QStringLiteral("Runs the drags on the present object with the chosen algorithms, from rest"));
-  cancel_->setObjectName(QStringLiteral("reportCancel"));
-  cancel_->setAccessibleName(QStringLiteral("Cancel the comparison"));
-  cancel_->setToolTip(QStringLiteral("Cancels the run; the last results stay"));
-  progress_->setObjectName(QStringLiteral("reportProgress"));
-  progress_->setAccessibleName(QStringLiteral("Progress of the comparison"));
-  progress_->setToolTip(QStringLiteral("Share of the run that is done, and the present drag"));
+  describe(run_, "reportRun", QStringLiteral("Run the comparison"),
+           QStringLiteral("Runs the drags on the present object with the chosen contestants, from rest"));
+  describe(cancel_, "reportCancel", QStringLiteral("Cancel the comparison"),
+           QStringLiteral("Cancels the run; the results of the finished drags stay"));
+  describe(progress_, "reportProgress", QStringLiteral("Progress of the comparison"),
+           QStringLiteral("Share of the run that is done, and the present drag"));
+  describe(left_, "reportTimeLeft", QStringLiteral("Time that is left"), {});
   progress_->setRange(0, reportProgressSteps);
   auto* controls = new QWidget;
   controls->setFixedWidth(reportControlsWidth);
@@ -246,6 +93,7 @@ QWidget* ReportDock::makeControls() {
   buttons->addWidget(cancel_);
   column->addLayout(buttons);
   column->addWidget(progress_);
+  column->addWidget(left_);
   return controls;
 }
 
@@ -264,13 +112,16 @@ void ReportDock::listen() {
     }
   });
   connect(run_, &QPushButton::clicked, this, &ReportDock::start);
-  connect(cancel_, &QPushButton::clicked, this, &ReportDock::cancel);
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    thread_->cancel();
+    showState();
+  });
   connect(choices_, &ReportChoices::changed, this, &ReportDock::showState);
   connect(results_, &ReportResults::saved, this, &ReportDock::saved);
   connect(results_, &ReportResults::failed, this, &ReportDock::failed);
   connect(thread_, &ReportThread::progressed, this, &ReportDock::showProgress);
-  connect(thread_, &ReportThread::finished, this, [this](const ReportThread::Result& result) {
-    results_->show(result);
+  connect(thread_, &ReportThread::arrived, this, [this](const ReportThread::Results& results) {
+    results_->show(results);
     pages_->setCurrentWidget(results_);
     fitTable();
     showState();
@@ -315,13 +166,9 @@ void ReportDock::placeOverWindow() {
 
 void ReportDock::start() {
   thread_->start(choices_->order());
+  sinceStart_.start();
   showState();
   showProgress(0, QStringLiteral("starting"));
-}
-
-void ReportDock::cancel() {
-  thread_->cancel();
-  showState();
 }
 
 void ReportDock::showState() {
@@ -330,22 +177,24 @@ void ReportDock::showState() {
   cancel_->setEnabled(running);
   choices_->setEnabled(!running);
   progress_->setEnabled(running);
-  empty_->setText(running ? QStringLiteral("Comparing the time and the error of each algorithm on this object…")
-                          : QStringLiteral("Press Run to compare the time and the error of each algorithm on this "
+  empty_->setText(running ? QStringLiteral("Comparing the time and the error of each contestant on this object…")
+                          : QStringLiteral("Press Run to compare the time and the error of each contestant on this "
                                            "object."));
   if (!running) {
     fillBar(0, QStringLiteral("ready"));
+    left_->clear();
   }
 }
 
-void ReportDock::showProgress(double fraction, const QString& text) {
+void ReportDock::showProgress(double share, const QString& text) {
   // Painting the window disturbs the times that are measured.
   if (sinceShown_.isValid() && sinceShown_.elapsed() < reportProgressMilliseconds && text == textShown_) {
     return;
   }
   sinceShown_.start();
   textShown_ = text;
-  fillBar(int(reportProgressSteps * fraction),
+  left_->setText(timeLeft(share, double(sinceStart_.elapsed()) / 1000));
+  fillBar(int(reportProgressSteps * share),
           QStringLiteral("%p% ") + QString(text).replace(QLatin1Char('%'), QLatin1String(" percent")));
 }
 

@@ -1,54 +1,20 @@
 #pragma once
 
-#include <QComboBox>
 #include <QDockWidget>
-#include <QDoubleSpinBox>
 #include <QElapsedTimer>
-#include <QLabel>
-#include <QListWidget>
 #include <QProgressBar>
-#include <QPushButton>
 #include <QStackedWidget>
 
+#include "docks/report/report_choices.h"
 #include "docks/report/report_results.h"
-#include "docks/report/report_thread.h"
-#include "document/document.h"
 
 namespace chainmail {
 
-/// Choices for a comparison: drags, algorithms, sweeps, precision and time limit.
-class ReportChoices : public QWidget {
-  Q_OBJECT
+/// Returns the time that a run still takes, as text; nothing if it is too early for an estimate.
+QString timeLeft(double share, double seconds);
 
- public:
-  explicit ReportChoices(Document& document);
-
-  /// Returns the chosen run, for the current object of the document.
-  ReportThread::Order order() const;
-  /// True if at least one algorithm is chosen.
-  bool complete() const { return !chosen().empty(); }
-
- signals:
-  void changed();
-
- private:
-  void fillDrags();
-  void fillAlgorithms();
-  void fillRest();
-  void adaptToMesh();
-  void adaptToLastDrag();
-  std::vector<Algorithm> chosen() const;
-
-  Document& document_;
-  QComboBox* drags_;
-  QListWidget* algorithms_;
-  QComboBox* sweeps_;
-  QComboBox* precision_;
-  QDoubleSpinBox* seconds_;
-};
-
-/// Compares speed and error of the algorithms on the object of the window. Shows the choices, a run that can be
-/// cancelled, and the results.
+/// Compares speed and error of the contestants on the object of the window. Shows the choices, a run that can be
+/// cancelled, and the results as they come.
 class ReportDock : public QDockWidget {
   Q_OBJECT
 
@@ -64,12 +30,11 @@ class ReportDock : public QDockWidget {
   QWidget* makeEmptyPage();
   void listen();
   void start();
-  void cancel();
   void openedByUser();
   void fitTable();
   void placeOverWindow();
   void showState();
-  void showProgress(double fraction, const QString& text);
+  void showProgress(double share, const QString& text);
   void fillBar(int value, const QString& format);
 
   ReportChoices* choices_;
@@ -78,8 +43,10 @@ class ReportDock : public QDockWidget {
   QPushButton* run_;
   QPushButton* cancel_;
   QProgressBar* progress_;
+  QLabel* left_;  // the time that is left
   QStackedWidget* pages_;
   QLabel* empty_ = nullptr;   // the page before the first results
+  QElapsedTimer sinceStart_;  // since the run began
   QElapsedTimer sinceShown_;  // since progress was last shown
   QString textShown_;
   bool isPlaced_ = false;  // true after it was placed over the window, from where the user may move it

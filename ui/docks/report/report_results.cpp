@@ -1,240 +1,178 @@
 #include "docks/report/report_results.h"
 
-#include <QCoreApplication>
-#include <QDateTime>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDir>
-#include <QGuiApplication>
-#include <QHeaderView>
+#include <QFormLayout>
 #include <QResizeEvent>
-#include <QScrollBar>
-#include <QSettings>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <array>
-#include <limits>
+#include <numeric>
 
 #include "common/as_path.h"
 #include "common/colours.h"
-#include "common/plot_painting.h"
+#include "common/describe.h"
+#include "common/number_field.h"
 #include "common/plot_widget.h"
 #include "common/text.h"
-#include "files/results/report_json.h"
+#include "files/results/results_json.h"
 #include "files/text/outputs.h"
 #include "io/questions.h"
 #include "mesh/error.h"
-#include "report/page/compared_figures.h"
-#include "report/table/format.h"
-#include "report/page/html.h"
+#include "report/page/plots.h"
+#include "report/page/report.h"
+#include "report/page/svg.h"
 
 namespace chainmail {
 namespace {
 
-// In logical pixels.
-constexpr int tableMarkSize = 13;
-constexpr int headMargin = 14;     // both sides of the text of a header
-constexpr int sortMarkWidth = 15;  // on each side, so that the text stays in the middle
-
-/// A cell that is sorted by its number, not by its text. Cells without a number come last.
-class FigureItem : public QTableWidgetItem {
- public:
-  FigureItem(const QString& words, std::optional<double> number)
-      : QTableWidgetItem(words), number_(number.value_or(std::numeric_limits<double>::infinity())) {
-    setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
-  }
-  bool operator<(const QTableWidgetItem& other) const override {
-    const auto* figure = dynamic_cast<const FigureItem*>(&other);
-    return figure != nullptr && number_ < figure->number_;
-  }
-
- private:
-  double number_;
-};
-
-using report::Measurement;
-
-struct Column {
-  const char* head;
-  const char* help;
-  std::optional<double> (*number)(const Measurement& one);
-  /// Text of the cell, if it is not the number alone.
-  std::string (*words)(const Measurement& one) = nullptr;
-};
-
-template <double Distance::*Member>
-std::optional<double> of(const std::optional<Distance>& distance) {
-  return distance ? std::optional((*distance).*Member) : std::nullopt;
-}
-
-constexpr std::array columns{
-    Column{"Time\n(ms per\nmove)", "Median over the repetitions: a pass and its relaxation",
-           [](auto& one) { return std::optional(one.ms_per_move.median); }},
-    Column{"Max\nviolation\n(rest\nlengths)", "Largest violation of a link, in its rest lengths",
-           [](auto& one) { return std::optional(one.errors.violation.max); }},
-    Column{"RMS\nviolation\n(rest\nlengths)", "Root mean square of the violation over all links, in rest lengths",
-           [](auto& one) { return std::optional(one.errors.violation.rms); }},
-    Column{"Violated\nlinks\n(%)", "Share of the links with a violation above 1e-4",
-           [](auto& one) { return std::optional(one.errors.violation.fraction); },
-           [](auto& one) { return report::percent(one.errors.violation.fraction); }},
-    Column{"Max to\nExact\n(mean rest\nlengths)",
-           "Largest distance of an element to its position by Exact ChainMail in double, in mean rest lengths",
-           [](auto& one) { return of<&Distance::max>(one.errors.to_exact); }},
-    Column{"RMS to\nExact\n(mean rest\nlengths)",
-           "Root mean square of the distance to Exact ChainMail in double, in mean rest lengths",
-           [](auto& one) { return of<&Distance::rms>(one.errors.to_exact); }},
-    Column{"Energy\n(ratio to\nExact)", "Elastic energy over that of Exact ChainMail; n/a if that is 0",
-           [](auto& one) { return one.errors.energy_over_exact; }},
-    Column{"Quartiles\n(ms per\nmove)", "Lower and upper quartile of the repetitions (ms per move)",
-           [](auto& one) { return std::optional(one.ms_per_move.lower_quartile); },
-           [](auto& one) {
-             return report::figure(one.ms_per_move.lower_quartile) + " – " +
-                    report::figure(one.ms_per_move.upper_quartile);
-           }},
-    Column{"Moved\n(sum over\nmoves)",
-           "Elements moved, added up over all moves: an element counts once for each move. Without the handle",
-           [](auto& one) { return std::optional(double(one.moved)); },
-           [](auto& one) { return report::thousands(one.moved); }},
-    Column{"Float to\ndouble\n(mean rest\nlengths)",
-           "Largest distance between the contestant in float and in double, in mean rest lengths",
-           [](auto& one) { return std::optional(one.errors.float_to_double.max); }},
-};
-
 constexpr int narrowestPlot = 420;    // beside a table whose columns are not cut (pixels)
 constexpr double widestColumn = 2.4;  // ratio of width to height up to which the table is below the plot
+constexpr int allDrags = -1;          // stands for the index of a drag
 
-constexpr std::array files{"report.html", "report.json", "report.csv"};
+/// A file of a report.
+struct ReportFile {
+  std::string name;
+  Outputs::Writer write;
+};
 
-/// Writes the three files, or none of them.
-void saveReport(const std::filesystem::path& folder, const report::Comparison& comparison) {
-  const QString date = QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyy-MM-dd HH:mm 'UTC'"));
-  const report::Origin origin{report::this_machine(), "the Report dock of the workbench, while its window was open",
-                              date.toStdString(), "chainmail " + QCoreApplication::applicationVersion().toStdString()};
-  Outputs outputs;
-  outputs.add(folder / files[0], [&](std::ostream& out) { write_html(out, comparison, origin); });
-  outputs.add(folder / files[1], [&](std::ostream& out) { write_json(out, comparison, origin); });
-  outputs.add(folder / files[2], [&](std::ostream& out) { write_csv(out, comparison); });
-  outputs.commit();
+std::vector<ReportFile> filesOf(const report::Results& results) {
+  std::vector<ReportFile> files{{"report.html", [&](std::ostream& out) { report::write_html(out, results); }},
+                                {"report.json", [&](std::ostream& out) { write_json(out, results); }},
+                                {"report.csv", [&](std::ostream& out) { report::write_csv(out, results); }}};
+  for (report::PlotFile& one : report::plots_of(results)) {
+    files.push_back({one.name, [plot = std::move(one.plot)](std::ostream& out) {
+                       report::write_svg(out, plot, report::file_ink);
+                     }});
+  }
+  return files;
 }
 
-/// Returns each reason for a refusal once, with the names of the refused algorithms.
-QString refusalsOf(const report::DragResult& drag) {
-  QStringList sentences;
+/// Returns the results of one drag alone, or of all.
+report::Results only(report::Results results, int drag) {
+  if (drag != allDrags) {
+    auto& drags = results.objects.front().drags;
+    drags = {drags[std::size_t(drag)]};
+    std::erase_if(results.rows, [&](const report::Row& row) { return row.drag != std::size_t(drag); });
+    std::ranges::for_each(results.rows, [](report::Row& row) { row.drag = 0; });
+  }
+  return results;
+}
+
+/// Returns each reason for a refusal once, with the names of the refused contestants, and why errors are missing.
+QString refusalsOf(const report::Results& shown) {
+  QStringList reasons, lines;
   QMap<QString, QStringList> refused;
-  for (const report::Entry& entry : drag.entries) {
-    if (entry.measurement) {
-      continue;
+  for (const report::Row& row : shown.rows) {
+    const QString reason = text(row.refusal), name = text(label(report::curve_of(row.contestant)));
+    if (!reason.isEmpty() && !refused.contains(reason)) {
+      reasons << reason;
     }
-    const QString sentence = text(entry.refusal);
-    const QString name = text(info(entry.contestant.algorithm).label);
-    if (!sentences.contains(sentence)) {
-      sentences << sentence;
-    }
-    if (!refused[sentence].contains(name)) {
-      refused[sentence] << name;
+    if (!reason.isEmpty() && !refused[reason].contains(name)) {
+      refused[reason] << name;
     }
   }
-  QStringList lines;
-  for (const QString& sentence : sentences) {
-    lines << QStringLiteral("%1: refused. %2").arg(refused[sentence].join(QStringLiteral(", ")), sentence);
+  for (const QString& reason : reasons) {
+    lines << QStringLiteral("%1: refused. %2").arg(refused[reason].join(QStringLiteral(", ")), reason);
   }
-  if (!drag.no_exact.empty()) {
-    lines << QStringLiteral("No distances to Exact ChainMail: %1").arg(text(drag.no_exact));
+  const report::ObjectInfo& object = shown.objects.front();
+  for (const report::DragInfo& drag : object.drags) {
+    if (!drag.no_reference.empty()) {
+      lines << QStringLiteral("No distances to %1 in '%2': %3")
+                   .arg(text(object.reference), text(drag.name), text(drag.no_reference));
+    }
   }
   return lines.join(QLatin1Char('\n'));
 }
 
-/// Returns the name of a contestant without "ChainMail", which all names have; "3D ChainMail" stays.
-QString shortName(std::string_view label) {
-  QString name = text(label);
-  return name.startsWith(QStringLiteral("3D ")) ? name : name.remove(QStringLiteral(" ChainMail"));
+QString headingOf(const report::Results& shown) {
+  const report::ObjectInfo& object = shown.objects.front();
+  const report::DragInfo* drag = object.drags.size() == 1 ? &object.drags.front() : nullptr;
+  const QString what =
+      drag == nullptr ? QStringLiteral("means of %1").arg(counted(object.drags.size(), QStringLiteral("drag")))
+                      : text(drag->description) + QStringLiteral("; ") + counted(drag->moves, QStringLiteral("move"));
+  return QStringLiteral("%1, %2; %3%4")
+      .arg(text(object.name), counted(object.elements, QStringLiteral("element")), what,
+           shown.stopped ? QStringLiteral("; stopped") : QString());
+}
+
+/// Returns the plots of some drags that show something, with their names.
+std::vector<std::pair<QString, report::Plot>> plotsOf(const report::Results& shown) {
+  std::vector<std::pair<QString, report::Plot>> plots;
+  const auto add = [&](const std::string& name, report::Plot plot) {
+    QString words = text(name);
+    words[0] = words[0].toUpper();
+    for (report::PlotSeries& series : plot.series) {
+      series.label = shortName(series.label).toStdString();
+    }
+    plots.emplace_back(words, std::move(plot));
+  };
+  if (shown.kind == report::ReportKind::compare) {
+    std::vector<std::size_t> drags(shown.objects.front().drags.size());
+    std::iota(drags.begin(), drags.end(), std::size_t{0});
+    for (const report::Figure* error : report::plotted_errors()) {
+      add(std::string(error->heading) + " " + std::string(error->group), error_plot(shown, 0, drags, *error));
+    }
+    return plots;
+  }
+  for (const report::SpeedAgainstError& speed : report::speeds_against_error()) {
+    if (report::Plot plot = report::speed_plot(shown, {0}, speed); !report::is_empty(plot)) {
+      add(std::string(speed.what), std::move(plot));
+    }
+  }
+  return plots;
+}
+
+/// Fills a list, and chooses the entry that was chosen before, else the first one.
+void fill(QComboBox& box, const std::vector<std::pair<QString, int>>& entries) {
+  const QSignalBlocker block(&box);
+  const QString before = box.currentText();
+  box.clear();
+  for (const auto& [name, value] : entries) {
+    box.addItem(name, value);
+  }
+  box.setCurrentIndex(std::max(0, box.findText(before)));
+  box.setEnabled(box.count() > 1);
+}
+
+/// Asks for the size of a saved plot. Returns false if the user cancels.
+bool askSize(QWidget& window, PlotSize& size) {
+  QDialog dialog(&window);
+  dialog.setObjectName(QStringLiteral("plotSize"));
+  dialog.setWindowTitle(QStringLiteral("Size of the plot"));
+  auto* form = new QFormLayout(&dialog);
+  const auto add = [&](const char* name, const QString& label, double value, std::pair<double, double> limits,
+                       const QString& suffix) {
+    auto* field = new NumberField(label);
+    describe(field, name, label, QStringLiteral("A column of a paper is about 88 mm wide. Only PNG has dots"));
+    field->setDecimals(0);
+    field->setRange(limits.first, limits.second);
+    field->setSuffix(suffix);
+    field->setValue(value);
+    form->addRow(label, field);
+    return field;
+  };
+  const auto* width = add("plotWidth", QStringLiteral("Width"), size.widthMm, {20, 300}, QStringLiteral(" mm"));
+  const auto* height = add("plotHeight", QStringLiteral("Height"), size.heightMm, {20, 300}, QStringLiteral(" mm"));
+  const auto* dots = add("plotDots", QStringLiteral("Resolution"), size.dotsPerInch, {50, 600}, QStringLiteral(" dpi"));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  form->addRow(buttons);
+  if (dialog.exec() != QDialog::Accepted) {
+    return false;
+  }
+  size = {width->value(), height->value(), int(dots->value())};
+  return true;
 }
 
 }  // namespace
-
-ReportTable::ReportTable() : QTableWidget(0, int(columns.size()) + 1) {
-  setObjectName(QStringLiteral("reportTable"));
-  setAccessibleName(QStringLiteral("Table of times and errors"));
-  setToolTip(QStringLiteral("Click a column header to sort by it; point at it for an explanation"));
-  setSelectionBehavior(SelectRows);
-  setAlternatingRowColors(true);
-  setShowGrid(false);
-  setIconSize({tableMarkSize, tableMarkSize});
-  verticalHeader()->hide();
-  verticalHeader()->setDefaultSectionSize(21);
-  verticalHeader()->setMinimumSectionSize(21);
-  auto* contestant = new QTableWidgetItem(QStringLiteral("Algorithm"));
-  contestant->setToolTip(QStringLiteral("Algorithm, and relaxation after each move"));
-  setHorizontalHeaderItem(0, contestant);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto* head = new QTableWidgetItem(QLatin1String(columns[i].head));
-    head->setToolTip(QLatin1String(columns[i].help));
-    setHorizontalHeaderItem(int(i) + 1, head);
-  }
-  horizontalHeader()->setHighlightSections(false);
-  sortByColumn(1, Qt::AscendingOrder);  // the fastest first
-  connect(horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, &ReportTable::fitColumns);
-  fitColumns();
-}
-
-/// Makes the columns as narrow as their texts. Qt would make room for the mark of sorting in all of them.
-void ReportTable::fitColumns() {
-  const QFontMetrics letters = horizontalHeader()->fontMetrics();
-  for (int column = 0; column < columnCount(); ++column) {
-    int head = 0;
-    for (const QString& line : horizontalHeaderItem(column)->text().split(QLatin1Char('\n'))) {
-      head = std::max(head, letters.horizontalAdvance(line));
-    }
-    const int mark = column == horizontalHeader()->sortIndicatorSection() ? 2 * sortMarkWidth : 0;
-    setColumnWidth(column, std::max(head + headMargin + mark, sizeHintForColumn(column)));
-  }
-}
-
-int ReportTable::fullWidth() const {
-  return horizontalHeader()->length() + verticalScrollBar()->sizeHint().width() + 2 * frameWidth();
-}
-
-void ReportTable::show(const report::DragResult& drag) {
-  setSortingEnabled(false);  // rows would move while they are filled
-  setRowCount(0);
-  for (const report::Entry& entry : drag.entries) {
-    if (!entry.measurement) {
-      continue;
-    }
-    const int row = rowCount();
-    insertRow(row);
-    auto* name = new QTableWidgetItem(QIcon(plotMark(entry.contestant.algorithm, !entry.contestant.relaxing().is_none(),
-                                                     tableMarkSize, devicePixelRatioF(), QGuiApplication::palette())),
-                                      shortName(report::label(entry.contestant)));
-    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
-    setItem(row, 0, name);
-  }
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    showColumn(drag, int(i));
-  }
-  setSortingEnabled(true);
-  fitColumns();
-}
-
-void ReportTable::showColumn(const report::DragResult& drag, int column) {
-  const Column& shown = columns[std::size_t(column)];
-  std::vector<std::string> cells;
-  std::vector<std::optional<double>> numbers;
-  for (const report::Entry& entry : drag.entries) {
-    if (entry.measurement) {
-      numbers.push_back(shown.number(*entry.measurement));
-      cells.push_back(shown.words != nullptr ? shown.words(*entry.measurement) : report::figure(numbers.back()));
-    }
-  }
-  cells = report::aligned(std::move(cells));
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    setItem(int(row), column + 1, new FigureItem(text(cells[row]), numbers[row]));
-  }
-}
 
 ReportResults::ReportResults()
     : heading_(new QLabel),
       drag_(new QComboBox),
       error_(new QComboBox),
+      all_(new QCheckBox(QStringLiteral("All figures"))),
       savePlot_(new QPushButton(QStringLiteral("Save plot…"))),
       save_(new QPushButton(QStringLiteral("Save report…"))),
       plot_(new PlotWidget(QStringLiteral("No values for this drag"))),
@@ -247,9 +185,8 @@ ReportResults::ReportResults()
   split_->addWidget(makePlot());
   split_->addWidget(table_);
   split_->setSizes({1000, 1000});  // equal shares
-  refusals_->setObjectName(QStringLiteral("reportRefusals"));
-  refusals_->setAccessibleName(QStringLiteral("Refused algorithms, with the reason"));
-  refusals_->setToolTip(refusals_->accessibleName());
+  const QString refused = QStringLiteral("Refused contestants, with the reason");
+  describe(refusals_, "reportRefusals", refused, refused);
   refusals_->setTextFormat(Qt::PlainText);
   refusals_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   refusals_->setWordWrap(true);
@@ -263,8 +200,6 @@ ReportResults::ReportResults()
   followTheme(*this, [this] { showDrag(); });  // the marks depend on the theme
 }
 
-int ReportResults::tableWidth() const { return table_->fullWidth(); }
-
 /// Sets the table beside the plot where there is room for both, otherwise below it.
 void ReportResults::resizeEvent(QResizeEvent* event) {
   const QSize size = event->size();
@@ -274,14 +209,10 @@ void ReportResults::resizeEvent(QResizeEvent* event) {
 }
 
 QWidget* ReportResults::makePlot() {
-  plot_->setObjectName(QStringLiteral("reportPlot"));
-  plot_->setAccessibleName(QStringLiteral("Plot of time against error"));
-  plot_->setToolTip(
-      QStringLiteral("Time per move against the error: left is faster, down is better. Point at a mark "
-                     "to see its values"));
-  legend_->setObjectName(QStringLiteral("reportLegend"));
-  legend_->setAccessibleName(QStringLiteral("Legend of the plot"));
-  legend_->setToolTip(QStringLiteral("Colour and shape show the algorithm; bars are the quartiles of the time"));
+  describe(plot_, "reportPlot", QStringLiteral("Plot of time against error"),
+           QStringLiteral("Time against the error: left is faster, down is better. Point at a mark to see its values"));
+  describe(legend_, "reportLegend", QStringLiteral("Legend of the plot"),
+           QStringLiteral("Colour and shape show the algorithm; bars are the quartiles of the time"));
   auto* both = new QWidget;
   auto* row = new QHBoxLayout(both);
   row->setContentsMargins(0, 0, 0, 0);
@@ -291,92 +222,76 @@ QWidget* ReportResults::makePlot() {
 }
 
 QLayout* ReportResults::makeBar() {
-  const auto name = [](QWidget* widget, const char* object, const QString& accessible, const QString& help) {
-    widget->setObjectName(QLatin1String(object));
-    widget->setAccessibleName(accessible);
-    widget->setToolTip(help);
-  };
-  name(heading_, "reportHeading", QStringLiteral("Compared object and drag"), {});
+  describe(heading_, "reportHeading", QStringLiteral("Compared object and drag"), {});
   heading_->setTextFormat(Qt::PlainText);
   heading_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long name does not widen the dock
-  name(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
-  name(error_, "reportError", QStringLiteral("Error shown"), QStringLiteral("Error that the plot shows against time"));
-  name(savePlot_, "reportSavePlot", QStringLiteral("Save the plot"),
-       QStringLiteral("Saves the plot with its legend as SVG, PDF or PNG"));
-  name(save_, "reportSave", QStringLiteral("Save the report"),
-       QStringLiteral("Writes report.html, report.json and report.csv with all drags into a folder"));
-  for (const report::PlottedError& error : report::plotted_errors()) {
-    QString sentence = text(error.name);
-    sentence[0] = sentence[0].toUpper();
-    error_->addItem(sentence);
-  }
+  describe(drag_, "reportDrag", QStringLiteral("Drag shown"), QStringLiteral("Drag that the plot and the table show"));
+  describe(error_, "reportError", QStringLiteral("Plot shown"),
+           QStringLiteral("Error, or time, that the plot shows; both are means over the drags shown"));
+  describe(all_, "reportAllFigures", all_->text(),
+           QStringLiteral("Shows all figures in the table, not only the main ones"));
+  describe(savePlot_, "reportSavePlot", QStringLiteral("Save the plot"),
+           QStringLiteral("Saves the plot with its legend as SVG, PDF or PNG, in a size for a page"));
+  describe(save_, "reportSave", QStringLiteral("Save the report"),
+           QStringLiteral("Writes report.html, report.json, report.csv and the plots with all drags into a folder"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(drag_);
   bar->addWidget(error_);
+  bar->addWidget(all_);
   bar->addStretch();
   bar->addWidget(savePlot_);
   bar->addWidget(save_);
   connect(drag_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
-  connect(error_, &QComboBox::currentIndexChanged, this, &ReportResults::showDrag);
+  connect(error_, &QComboBox::currentIndexChanged, this, &ReportResults::showPlot);
+  connect(all_, &QCheckBox::toggled, table_, &ReportTable::showAll);
   connect(savePlot_, &QPushButton::clicked, this, &ReportResults::askWherePlot);
   connect(save_, &QPushButton::clicked, this, &ReportResults::save);
   return bar;
 }
 
-void ReportResults::show(const ReportThread::Result& result) {
-  result_ = result;
-  const report::CaseResult& object = result->cases.front();
-  {
-    const QSignalBlocker block(drag_);
-    drag_->clear();
-    for (const report::DragResult& drag : object.drags) {
-      drag_->addItem(text(drag.name));
-      drag_->setItemData(drag_->count() - 1, text(drag.description), Qt::ToolTipRole);
-    }
+void ReportResults::show(const ReportThread::Results& results) {
+  results_ = results;
+  std::vector<std::pair<QString, int>> entries;
+  if (results->kind == report::ReportKind::physics) {
+    entries.emplace_back(QStringLiteral("all drags"), allDrags);
   }
-  drag_->setEnabled(object.drags.size() > 1);
+  int index = 0;
+  for (const report::DragInfo& drag : results->objects.front().drags) {
+    entries.emplace_back(text(drag.name), index++);
+  }
+  fill(*drag_, entries);
   showDrag();
 }
 
 void ReportResults::showDrag() {
-  if (result_ == nullptr) {
+  if (results_ == nullptr) {
     return;
   }
-  const report::CaseResult& object = result_->cases.front();
-  const report::DragResult& drag = object.drags[std::size_t(drag_->currentIndex())];
-  heading_->setText(QStringLiteral("%1, %2; %3; %4")
-                        .arg(text(object.name), counted(object.elements, QStringLiteral("element")),
-                             text(drag.description), counted(drag.moves, QStringLiteral("move"))));
+  const report::Results shown = only(*results_, drag_->currentData().toInt());
+  heading_->setText(headingOf(shown));
   heading_->setToolTip(heading_->text());
-  showPlot(drag);
-  table_->show(drag);
-  const QString refusals = refusalsOf(drag);
+  plots_ = plotsOf(shown);
+  std::vector<std::pair<QString, int>> names;
+  for (const auto& [name, plot] : plots_) {
+    names.emplace_back(name, int(names.size()));
+  }
+  fill(*error_, names);
+  showPlot();
+  table_->show(shown);
+  const QString refusals = refusalsOf(shown);
   refusals_->setText(refusals);
   refusals_->setVisible(!refusals.isEmpty());
 }
 
-void ReportResults::showPlot(const report::DragResult& drag) {
-  report::Plot plot = report::error_plot(drag, report::plotted_errors()[std::size_t(error_->currentIndex())]);
-  for (report::PlotSeries& series : plot.series) {
-    series.label = shortName(series.label).toStdString();
-  }
-  const std::vector<int>& sweeps = result_->options.sweeps;
-  plot.legend_notes.clear();
-  if (std::ranges::count(sweeps, 0) > 0) {
-    plot.legend_notes.emplace_back("filled: no sweeps");
-  }
-  if (const int most = std::ranges::max(sweeps); most > 0) {
-    plot.legend_notes.push_back("hollow: " + std::to_string(most) + " sweeps");
-  }
-  if (result_->options.equilibrium) {
-    plot.legend_notes.emplace_back(report::equilibrium_note);
-  }
+void ReportResults::showPlot() {
+  const report::Plot plot = plots_.empty() ? report::Plot() : plots_[std::size_t(error_->currentIndex())].second;
   legend_->show(plot);
-  plot_->show(std::move(plot));
+  plot_->show(plot);
+  savePlot_->setEnabled(!report::is_empty(plot));
 }
 
 void ReportResults::save() {
-  const QString folder = askFolder(*this, QStringLiteral("Folder for report.html, report.json and report.csv"));
+  const QString folder = askFolder(*this, QStringLiteral("Folder for the report"));
   if (!folder.isEmpty()) {
     askAndSaveTo(folder);
   }
@@ -384,9 +299,9 @@ void ReportResults::save() {
 
 void ReportResults::askAndSaveTo(const QString& folder) {
   QStringList present;
-  for (const char* file : files) {
-    if (QFileInfo::exists(QDir(folder).filePath(QLatin1String(file)))) {
-      present << QLatin1String(file);
+  for (const ReportFile& file : filesOf(*results_)) {
+    if (QFileInfo::exists(QDir(folder).filePath(text(file.name)))) {
+      present << text(file.name);
     }
   }
   if (present.isEmpty() || askBeforeReplacing(*this, folder, present)) {
@@ -394,26 +309,34 @@ void ReportResults::askAndSaveTo(const QString& folder) {
   }
 }
 
+/// Writes all files, or none of them.
 void ReportResults::saveTo(const QString& folder) {
   try {
-    saveReport(asPath(folder), *result_);
-    emit saved(folder + QStringLiteral("/report.html, .json and .csv"));
+    Outputs outputs;
+    for (const ReportFile& file : filesOf(*results_)) {
+      outputs.add(asPath(folder) / file.name, file.write);
+    }
+    outputs.commit();
+    emit saved(folder + QStringLiteral("/report.html, .json, .csv and the plots"));
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));
   }
 }
 
 void ReportResults::askWherePlot() {
+  if (!askSize(*this, size_)) {
+    return;
+  }
   const QString path = askWhere(*this, QStringLiteral("Save plot"), plotFilters(),
-                                asFileName(text(result_->cases.front().name)) + QStringLiteral("-plot"));
+                                asFileName(text(results_->objects.front().name)) + QStringLiteral("-plot"));
   if (!path.isEmpty()) {
-    savePlotTo(path);
+    savePlotTo(path, size_);
   }
 }
 
-void ReportResults::savePlotTo(const QString& path) {
+void ReportResults::savePlotTo(const QString& path, const PlotSize& size) {
   try {
-    savePlot(plot_->plot(), path);
+    savePlot(plot_->plot(), path, size);
     emit saved(path);
   } catch (const Error& error) {
     emit failed(QString::fromStdString(error.what()));

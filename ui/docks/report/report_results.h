@@ -1,50 +1,36 @@
 #pragma once
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QSplitter>
-#include <QTableWidget>
 
+#include "common/plot_pictures.h"
+#include "docks/report/report_table.h"
 #include "docks/report/report_thread.h"
-#include "report/run/compare.h"
 
 namespace chainmail {
 
 class PlotLegend;
 class PlotWidget;
 
-/// All figures of a drag, with one row for each contestant. A click on a column header sorts by that column.
-class ReportTable : public QTableWidget {
-  Q_OBJECT
-
- public:
-  ReportTable();
-  void show(const report::DragResult& drag);
-  /// Width at which no column is cut (pixels).
-  int fullWidth() const;
-
- private:
-  void fitColumns();
-  void showColumn(const report::DragResult& drag, int column);
-};
-
-/// Shows the results of a run: one drag as a plot and a table, and the refused algorithms with the reasons. Saves the
-/// report.
+/// Shows the results of a run: one drag, or all, as a plot and a table, and the refused contestants with the reasons.
+/// Saves the report and the plot.
 class ReportResults : public QWidget {
   Q_OBJECT
 
  public:
   ReportResults();
-  void show(const ReportThread::Result& result);
+  void show(const ReportThread::Results& results);
   /// Width at which no column of the table is cut (pixels).
-  int tableWidth() const;
-  /// Writes the three files of the report into a folder.
+  int tableWidth() const { return table_->fullWidth(); }
+  /// Writes the files of the report into a folder.
   void saveTo(const QString& folder);
   /// The same, but asks before it replaces files.
   void askAndSaveTo(const QString& folder);
   /// Writes the plot shown as SVG, PDF or PNG, by the extension.
-  void savePlotTo(const QString& path);
+  void savePlotTo(const QString& path, const PlotSize& size);
 
  signals:
   void saved(const QString& path);
@@ -56,15 +42,18 @@ class ReportResults : public QWidget {
  private:
   QLayout* makeBar();
   QWidget* makePlot();
-  void showPlot(const report::DragResult& drag);
+  void showPlot();
   void showDrag();
   void save();
   void askWherePlot();
 
-  ReportThread::Result result_;
+  ReportThread::Results results_;
+  std::vector<std::pair<QString, report::Plot>> plots_;  // of the drag shown, with their names
+  PlotSize size_;                                        // of the last saved plot
   QLabel* heading_;
   QComboBox* drag_;
   QComboBox* error_;
+  QCheckBox* all_;
   QPushButton* savePlot_;
   QPushButton* save_;
   PlotWidget* plot_;
