@@ -1,3 +1,0 @@
-#pragma once
-
-#include "common/plot_pictures.h"  // the Report dock includes this header by its earlier name
