@@ -211,7 +211,9 @@ py::dict table_by_drag(const Results& results) {
     const std::size_t before = rows.size();
     std::ranges::copy_if(results.rows, std::back_inserter(rows), [&](const Row& row) { return row.drag == drag; });
     if (rows.size() == before) {
-      rows.push_back({.drag = drag, .refusal = drags[drag].no_reference});
+      Row& missing = rows.emplace_back();
+      missing.drag = drag;
+      missing.refusal = drags[drag].no_reference;
     }
   }
   return table_of(rows, [&](py::dict& table, const Row& row) {
