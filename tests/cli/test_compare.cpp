@@ -19,6 +19,8 @@ class CompareCommandTest : public QObject {
   }
   void writes_the_report();
   void options_are_taken();
+  void a_quick_run_has_the_first_drag();
+  void slow_contestants_are_left_out_by_name();
   void plots_of_an_older_report_are_named();
   void wrong_usage_data();
   void wrong_usage();
@@ -41,7 +43,8 @@ class CompareCommandTest : public QObject {
 void CompareCommandTest::writes_the_report() {
   const auto outcome = program_->run("compare grid.dat cloth.obj" + QByteArray(short_run));
   QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
-  QCOMPARE(report_files(), (QStringList{"report.csv", "report.html", "report.json"}));
+  QCOMPARE(report_files(), (QStringList{"distance-1.svg", "distance-2.svg", "report.csv", "report.html", "report.json",
+                                        "violation-1.svg", "violation-2.svg"}));
   // Two meshes, three drags each, three algorithms without and with sweeps, two of them at equilibrium too.
   QCOMPARE(program_->read("out/report.csv").count('\n'), 1 + 2 * 3 * (3 * 2 + 2));
   const auto objects = report()["objects"].toArray();
@@ -49,7 +52,7 @@ void CompareCommandTest::writes_the_report() {
   QCOMPARE(objects[1]["name"].toString(), QString("cloth.obj"));
   const auto contestants = objects[1]["drags"][0]["contestants"].toArray();
   QVERIFY(contestants[3]["refusal"].toString().contains("only on grids"));
-  QVERIFY(contestants[5]["distance_to_exact"]["max"].toDouble() < 1e-5);  // Exact itself, in float
+  QVERIFY(contestants[5]["exact_distance_max"].toDouble(1) < 1e-5);  // Exact itself, in float
   QXmlStreamReader page(program_->read("out/report.html"));
   while (!page.atEnd()) {
     page.readNext();
@@ -73,14 +76,47 @@ void CompareCommandTest::options_are_taken() {
   const auto options = report()["options"];
   QCOMPARE(options["precision"].toString(), QString("double"));
   QCOMPARE(options["relaxation"].toString(), QString("link"));
-  QVERIFY(contestants("--algorithms exact --relax 0 --precision double")[0]["distance_to_exact"]["max"].toDouble() ==
-          0);
+  QCOMPARE(contestants("--algorithms exact --relax 0 --precision double")[0]["exact_distance_max"].toDouble(1), 0.0);
   // Links that cannot stretch move all elements at once.
-  const auto soft = contestants("--algorithms exact --relax 0")[0]["moved"].toInt();
+  const auto soft = contestants("--algorithms exact --relax 0")[0]["moved_per_move"].toDouble();
   const auto stiff =
-      contestants("--algorithms exact --relax 0 --stretch 1 --compression 1 --shear 0")[0]["moved"].toInt();
-  QCOMPARE(stiff, 24 * 29);
-  QVERIFY(soft < stiff);
+      contestants("--algorithms exact --relax 0 --stretch 1 --compression 1 --shear 0")[0]["moved_per_move"].toDouble();
+  QCOMPARE(stiff, 29.0);
+  QVERIFY(soft > 0 && soft < stiff);
+}
+
+/// Other options work as without it.
+void CompareCommandTest::a_quick_run_has_the_first_drag() {
+  const auto outcome = program_->run("compare grid.dat cloth.obj --quick" + QByteArray(short_run));
+  QVERIFY2(outcome.code == 0 && outcome.error.isEmpty(), outcome.error);
+  const auto objects = report()["objects"].toArray();
+  QCOMPARE(objects.size(), 2);
+  for (const QJsonValue object : objects) {
+    QCOMPARE(object["drags"].toArray().size(), 1);
+    QCOMPARE(object["drags"][0]["name"].toString(), QString("local"));
+    QCOMPARE(object["drags"][0]["contestants"][0]["ms_per_move"]["repetitions"].toInt(), 1);
+  }
+  QCOMPARE(program_->run("compare grid.dat --algorithms exact --repetitions 1 -o out").code, 0);
+  QCOMPARE(report()["objects"][0]["drags"].toArray().size(), 3);
+}
+
+/// A million sweeps of ten thousand elements after each move take minutes. Those who make them are in a note, and the
+/// rows say why they have no figures.
+void CompareCommandTest::slow_contestants_are_left_out_by_name() {
+  QCOMPARE(program_->run("generate grid 100x100 -o large.dat").code, 0);
+  const auto outcome = program_->run("compare large.dat --quick --relax 0,1000000 -o out");
+  QCOMPARE(outcome.code, 0);
+  QStringList left_out;
+  for (const QJsonValue contestant : report()["objects"][0]["drags"][0]["contestants"].toArray()) {
+    QCOMPARE(contestant.toObject().contains("refusal"), contestant["sweeps"].toInt() > 0);
+    if (contestant["sweeps"].toInt() > 0) {
+      QVERIFY(contestant["refusal"].toString().startsWith("left out after 2 s"));
+      left_out.append(contestant["label"].toString());
+    }
+  }
+  QVERIFY(!left_out.isEmpty());
+  const QString note = "note: left out, because they take longer than 2 s: " + left_out.join("; ") + "\n";
+  QVERIFY2(outcome.error.contains(note.toUtf8()), outcome.error);
 }
 
 /// A plot beside the new report looks as if it belonged to it. Files of others are not named, and all of them stay.
@@ -94,7 +130,7 @@ void CompareCommandTest::plots_of_an_older_report_are_named() {
   QCOMPARE(outcome.code, 0);
   QCOMPARE(QString::fromUtf8(outcome.error),
            "chainmail: note: out also has plots of an earlier report: " + plots.join(", ") + "\n");
-  QCOMPARE(report_files().size(), 3 + plots.size() + 2);
+  QCOMPARE(report_files().size(), 5 + plots.size() + 2);
 }
 
 void CompareCommandTest::wrong_usage_data() {
@@ -108,6 +144,8 @@ void CompareCommandTest::wrong_usage_data() {
   row("compare grid.dat --relax 0,-1 -o out", "--relax: '-1' ");
   row("compare grid.dat --repetitions 0 -o out", "--repetitions: '0' ");
   row("compare grid.dat --moves grid.dat -o out", "grid.dat:1: it is not JSON; ");
+  row("compare grid.dat --handles 2 -o out", "--handles: it works only with --against physics; ");
+  row("compare --suite --quick -o out", "--quick: it does not work with --suite; ");
   row("compare --moves none.json -o out", "--moves: the mesh of the recorded moves is missing; ");
 }
 

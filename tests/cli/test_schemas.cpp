@@ -7,7 +7,7 @@
 
 #include "cli/chainmail_program.h"
 #include "cli/json_schemas.h"
-#include "files/results/report_json.h"
+#include "files/results/results_json.h"
 #include "files/results/summary.h"
 #include "files/session/moves.h"
 #include "files/session/softness_presets.h"
@@ -15,6 +15,7 @@
 #include "folders.h"
 #include "mesh/cells.h"
 #include "program.h"
+#include "report/run/ramp.h"
 
 namespace chainmail::test_schemas {
 
@@ -33,6 +34,7 @@ class SchemasTest : public QObject {
   void wrong_documents_are_refused_data();
   void wrong_documents_are_refused();
   void every_schema_has_a_document();
+  void the_report_has_every_figure();
   void every_object_is_closed();
   void parts_with_the_same_name_are_the_same();
 
@@ -118,32 +120,43 @@ MeshPointer with_texture(const MeshPointer& mesh) {
   return result;
 }
 
-/// A comparison with physics that has what a short run does not have: refined references, growth, all materials.
-report::PhysicsReport rare_physics() {
-  report::PhysicsContestant contestant;
-  contestant.algorithm = Algorithm::exact;
-  contestant.calibrated = LinkSoftness();
-  report::PhysicsDrag drag;
-  drag.moves = 4;
-  drag.no_reference = "no solution";
-  drag.refined.emplace();
-  drag.refined->levels = {{9, {}}, {25, 0.5}};
-  drag.refined->order = 1.5;
-  drag.entries = {{contestant, {}, "no grid"}};
-  report::PhysicsObject object;
-  object.drags = {drag};
-  object.calibrations.resize(2);
-  object.calibrations[0].refusal = "no result";
-  object.law.kind = StrainLaw::Kind::fung;
-  object.symmetry = {{contestant, {}, "no result"}};
-  report::PhysicsReport report;
-  report.objects = {object, object};
-  report.objects[1].law.kind = StrainLaw::Kind::gent;
-  report.growths = {{"bar",
-                     "a bar",
-                     {{contestant, {{9, 1, 2, PhysicalError()}, {25, 1, 2, {}}}, "time", report::Growth()},
-                      {contestant, {}, "time", {}}}}};
-  return report;
+/// A report that has what a short run does not have: refined references, series, and reasons.
+report::Results rare_results() {
+  report::Results results{.kind = report::ReportKind::suite};
+  results.runs = {{report::Origin(), "1/2", {"bar"}}};
+  results.settings = {{"young", 1.0}, {"lattice", "5x5x5"}};
+  results.objects = {{.name = "bar",
+                      .description = "a bar",
+                      .series = "bars",
+                      .reference = "FEM",
+                      .notes = {"a note"},
+                      .drags = {{}, {}}}};
+  results.objects[0].drags[0].no_reference = "no solution";
+  results.objects[0].drags[1].reference = Convergence{{{9, {}}, {25, 0.5}}, 1.5, true, "it converged"};
+  report::Contestant contestant{.algorithm = Algorithm::exact, .calibrated = LinkSoftness(), .limit = 5};
+  contestant.open_regions = true;
+  results.rows = {
+      {.drag = 0, .contestant = contestant, .refusal = "no grid"}, {.drag = 1, .contestant = contestant}, {}};
+  for (const report::Figure* figure : report::every_figure()) {
+    results.rows[1].set(*figure, 1.0);
+  }
+  results.rows[1].set(report::figures::later_ms, TimeSpread{2, 1, 3, 1, 3, 3});
+  return results;
+}
+
+/// A ramp with growth.
+report::Results rare_ramp() {
+  report::Results ramp{.kind = report::ReportKind::ramp};
+  for (const std::uint64_t width : {40, 60, 80}) {
+    report::Row& row = ramp.rows.emplace_back(report::ramp_row(Algorithm::exact, {{double(width)}, 3}, 1));
+    row.object = ramp.objects.size();
+    row.drag = 0;
+    report::ObjectInfo& grid = ramp.objects.emplace_back();
+    grid.series = "square grid";
+    grid.elements = width * width;
+    grid.drags.emplace_back();
+  }
+  return ramp;
 }
 
 /// A session with one panel.
@@ -221,14 +234,14 @@ void SchemasTest::add_outputs() {
       "deform line.dat --algorithm exact --stretch 1.25 --pin 0 --by 4:3 --json stopped.json");
   run("equilibrium", "deform", "rest.json",
       "deform cloth.obj --algorithm exact --pin 0 --by 24:1,1 --relaxation equilibrium --json rest.json");
-  run("compare", "compare", "exact/report.json",
+  run("compare", "report", "exact/report.json",
       "compare grid.dat cloth.obj --repetitions 1 --algorithms natural-queue,original,exact -o exact");
-  run("physics", "physics", "physics/report.json",
+  run("physics", "report", "physics/report.json",
       "compare cloth.obj --against physics --pins top --repetitions 1 --grow 0 --relax 0,equilibrium "
       "--calibrated off --algorithms exact,original,fem -o physics");
-  run("calibrate", "calibrate", "calibrate.json",
+  run("calibrate", "report", "calibrate.json",
       "calibrate cloth.obj --pins top --drags 2 --evaluations 20 --name felt -o felt.json --json calibrate.json");
-  run("ramp", "ramp", "ramp.json", "ramp --largest 36 --budget 3600 --algorithms spiral,exact --json ramp.json");
+  run("ramp", "report", "ramp.json", "ramp --largest 36 --budget 3600 --algorithms spiral,exact --json ramp.json");
 }
 
 void SchemasTest::add_rare_outputs() {
@@ -239,12 +252,8 @@ void SchemasTest::add_rare_outputs() {
   deform.equilibrium.emplace().gap = 0.5;
   deform.inverted_cells = 2;
   write("a remark", "deform", deform);
-  write("rare figures of physics", "physics", rare_physics(), report::Origin());
-  report::Ramp ramp;
-  ramp.verdicts.resize(1);
-  ramp.verdicts[0].largest_width = 40;
-  ramp.verdicts[0].growth = report::Growth{1, 1000, 1600, 2};
-  write("growth of a ramp", "ramp", ramp, report::Machine());
+  write("rare figures", "report", rare_results());
+  write("growth of a ramp", "report", rare_ramp());
 }
 
 void SchemasTest::add_sessions() {
@@ -402,7 +411,7 @@ void SchemasTest::outputs_begin_with_their_kind_data() {
     const auto& [schema, path] = documents_[name].document;
     QTest::newRow(qPrintable(name)) << path
                                     << "{\n  \"kind\": \"chainmail " + schema.toUtf8() +
-                                           "\",\n  \"schema_version\": 1,\n  ";
+                                           "\",\n  \"schema_version\": " + (schema == "report" ? "2" : "1") + ",\n  ";
   }
 }
 
@@ -447,7 +456,7 @@ void SchemasTest::wrong_documents_are_refused() {
 }
 
 void SchemasTest::every_schema_has_a_document() {
-  std::set<QString> checked{"suite", "case", "answer"};  // test_suite and test_peers check them
+  std::set<QString> checked{"case", "answer"};  // test_peers checks them
   for (const auto& [name, one] : documents_) {
     checked.insert(one.document.schema);
   }
@@ -456,6 +465,23 @@ void SchemasTest::every_schema_has_a_document() {
     present.insert(name);
   }
   QVERIFY(present == checked);
+}
+
+/// A figure that reports show has its key in the schema, and no other member has the values of a figure.
+void SchemasTest::the_report_has_every_figure() {
+  const QJsonObject schema = schemas()["report"];
+  const QJsonObject members = schema["definitions"]["contestant"]["properties"].toObject();
+  QStringList listed, known;
+  for (const QString& key : members.keys()) {
+    if (members[key]["$ref"] == "#/definitions/figure") {
+      listed.append(key);
+    }
+  }
+  for (const report::Figure* figure : report::every_figure()) {
+    known.append(QString::fromUtf8(figure->key.data(), qsizetype(figure->key.size())));
+  }
+  known.sort();
+  QCOMPARE(listed, known);  // keys of an object are sorted
 }
 
 /// No schema accepts members that it does not name, except in the state of the window.
