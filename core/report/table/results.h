@@ -47,7 +47,7 @@ struct Row {
 
 /// A drag of an object.
 struct DragInfo {
-  std::string name, description = {};
+  std::string name = {}, description = {};
   std::uint64_t handle = 0;  // an element of the handle
   int moves = 0;
   bool has_cut = false;                       // a cut precedes the last move
@@ -58,7 +58,7 @@ struct DragInfo {
 
 /// An object of a report.
 struct ObjectInfo {
-  std::string name, description = {};
+  std::string name = {}, description = {};
   std::string series = {};  // objects that grow or are refined, or an experiment of the suite, have the same one
   std::uint64_t elements = 0, links = 0, pins = 0;
   std::string reference = {};  // what errors are measured against

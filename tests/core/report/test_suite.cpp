@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/suite_table.h"
 #include "report/run/beam.h"
 #include "report/run/contest.h"
 #include "report/run/drag_reference.h"
@@ -16,17 +16,15 @@
 #include "report/run/runner.h"
 #include "report/run/suite.h"
 #include "report/run/suite_experiments.h"
-#include "report/run/time_to_error.h"
+#include "report/table/format.h"
+#include "report/table/summary.h"
 
 namespace chainmail::test_suite {
 
 using namespace chainmail::report;
+using namespace chainmail::report::figures;
 
 namespace {
-
-const SuiteRow& row_of(const Suite& suite, std::string_view algorithm) {
-  return *std::ranges::find(suite.results.front().rows, algorithm, &SuiteRow::algorithm);
-}
 
 /// A bar whose end section is turned about its axis.
 Case twisted_bar(double degrees) {
@@ -39,11 +37,31 @@ Case twisted_bar(double degrees) {
   return object;
 }
 
-Suite part(std::vector<std::string> names) {
-  Suite suite;
-  suite.runs = {{{}, "1/1", names}};
+/// Drags of the right side of an object by some distances along its axis.
+std::vector<Command> pull_by(const Case& object, const std::vector<double>& distances) {
+  std::vector<Command> commands{commands::Grab{grabbed_by(object.drags.front())}};
+  for (const double x : distances) {
+    commands.emplace_back(commands::Drag{{x, 0, 0}, {}, true});
+  }
+  return commands;
+}
+
+/// Returns the rows of contestants in a drag, compared with finite elements on the same cells.
+std::vector<Row> rows_of_contest(const Case& object, const std::vector<Contestant>& contestants,
+                                 const RecordedMoves& drag, const ContestOptions& options) {
+  const auto reference = DragReferences(object, std::nullopt).at_end(drag);
+  PhysicsReferee referee(reference.solution);
+  return Contest(object, contestants, options).run(drag, &referee, {});
+}
+
+/// A part of a suite with a row for each experiment, whose error tells which it is.
+Results part(const std::vector<std::string>& names, double first_error = 0) {
+  Results suite{.kind = ReportKind::suite, .runs = {{{}, "1/1", names}}};
   for (const std::string& name : names) {
-    suite.results.push_back({name, "", "", {}, 0, 0, 0, 0, {}, {}, {}, {}});
+    Row row{.object = suite.objects.size(), .drag = 0, .contestant = {Algorithm::exact}};
+    row.set(relative, first_error + double(suite.objects.size()));
+    suite.rows.push_back(std::move(row));
+    suite.objects.push_back({.name = name, .drags = {{.name = "pull"}}});
   }
   return suite;
 }
@@ -72,9 +90,8 @@ class SuiteTest : public QObject {
   void a_fresh_move_is_timed_with_its_grab();
   void a_curve_has_the_error_of_each_drag();
   void parts_have_every_experiment_once();
+  void parts_are_joined_in_the_order_of_experiments();
   void an_experiment_twice_is_refused();
-  void means_leave_out_the_cut();
-  void the_front_has_whom_no_one_beats();
 };
 
 void SuiteTest::timoshenko_meets_both_ends() {
@@ -112,30 +129,29 @@ void SuiteTest::a_slender_beam_bends_as_euler_says() {
 void SuiteTest::linear_fem_has_its_theoretical_order() {
   SuiteOptions options;
   options.algorithms = {Algorithm::linear_fem, Algorithm::natural_queue};
-  const Suite suite = run_suite({"refinement"}, options);
-  const auto& orders = suite.results.front().orders;
-  const auto fem = std::ranges::find(orders, "fem", &SuiteOrder::algorithm);
-  QCOMPARE(fem->sizes.size(), std::size_t(4));
-  QVERIFY2(std::abs(fem->order.value() - 2) < 0.1, qPrintable(QString::number(*fem->order)));
-  QVERIFY(fem->sizes.back().relative < 1e-4);
-  const auto chainmail = std::ranges::find(orders, "natural-queue", &SuiteOrder::algorithm);
-  QVERIFY(std::abs(chainmail->order.value()) < 0.1);  // no figure of the mesh makes a pass come closer
+  const Results suite = run_suite({"refinement"}, options);
+  const auto fem = points_of(suite, "refinement", {Algorithm::linear_fem});
+  QCOMPARE(fem.size(), std::size_t(4));
+  const double observed = order_of(fem).value();
+  QVERIFY2(std::abs(observed - 2) < 0.1, qPrintable(QString::number(observed)));
+  QVERIFY(fem.back().figures.row[relative].value() < 1e-4);
+  // No figure of the mesh makes a pass of ChainMail come closer.
+  QVERIFY(std::abs(order_of(points_of(suite, "refinement", {Algorithm::natural_queue})).value()) < 0.1);
 }
 
 void SuiteTest::linear_fem_meets_the_beam() {
   SuiteOptions options;
   options.algorithms = {Algorithm::linear_fem, Algorithm::exact};
   options.repetitions = 1;
-  const Suite suite = run_suite({"cantilever"}, options);
-  QCOMPARE(suite.results.front().reference, std::string("closed form"));
-  const SuiteRow& nothing = row_of(suite, "nothing");
-  QVERIFY(std::abs(nothing.relative.value() - 1) < 1e-12 && std::abs(nothing.relative_turned.value() - 1) < 1e-12);
-  const SuiteRow& fem = row_of(suite, "fem");
-  QVERIFY2(fem.relative.value() < 0.01, qPrintable(QString::number(*fem.relative)));
-  QVERIFY(std::abs(*fem.relative - fem.relative_turned.value()) < 1e-5);
-  QVERIFY(fem.factorize_ms.value() > 0 && fem.grab_ms.value() > 0 && fem.later_ms.value() > 0 && !fem.after_cut_ms);
-  const SuiteRow& exact = row_of(suite, "exact");
-  QVERIFY(exact.violation.value() < 1e-4 && exact.factorize_ms.value() >= 0 && exact.grab_ms.value() >= 0);
+  const Results suite = run_suite({"cantilever"}, options);
+  QCOMPARE(suite.objects.front().reference, std::string("closed form"));
+  const auto row_of = [&](const Contestant& contestant) { return joined(suite, 0, contestant, Drags::all).row; };
+  const Row nothing = row_of({}), fem = row_of({Algorithm::linear_fem}), exact = row_of({Algorithm::exact});
+  QVERIFY(std::abs(nothing[relative].value() - 1) < 1e-12 && std::abs(nothing[relative_turned].value() - 1) < 1e-12);
+  QVERIFY2(fem[relative].value() < 0.01, qPrintable(QString::number(*fem[relative])));
+  QVERIFY(std::abs(*fem[relative] - fem[relative_turned].value()) < 1e-5);
+  QVERIFY(fem[factorize_ms].value() > 0 && fem[grab_ms].value() > 0 && fem[later_ms].value() > 0 && !fem[after_cut_ms]);
+  QVERIFY(exact[violation_max].value() < 1e-4 && exact[factorize_ms].value() >= 0 && exact[grab_ms].value() >= 0);
 }
 
 void SuiteTest::a_handle_that_turns_has_a_reference() {
@@ -168,34 +184,31 @@ void SuiteTest::a_handle_that_turns_has_a_reference() {
 void SuiteTest::limited_iterations_count_unlimited_ones_must_converge() {
   Case object = twisted_bar(20);
   object.elastic.iterations = 2;
-  PhysicsContestant free{Algorithm::xpbd}, limited{Algorithm::xpbd};
-  limited.limit = 2;
-  CompareOptions options;
-  Contest contest(object, {free, limited}, options, Measured::errors);
-  const auto reference = DragReferences(object, std::nullopt).at_end(object.drags.front());
-  const auto entries = contest.run(object.drags.front(), reference.solution, {});
-  QVERIFY(!entries[0].measurement && entries[0].refusal.find("did not converge") != std::string::npos);
-  QVERIFY(entries[1].measurement && entries[1].refusal.empty());
+  const Contestant free{Algorithm::xpbd}, limited{.algorithm = Algorithm::xpbd, .limit = 2};
+  ContestOptions options;
+  options.only_errors = true;
+  const auto rows = rows_of_contest(object, {free, limited}, object.drags.front(), options);
+  QVERIFY(!rows[0].has_figures() && rows[0].refusal.find("did not converge") != std::string::npos);
+  QVERIFY(rows[1].has_figures() && rows[1].refusal.empty());
   QCOMPARE(label(limited), std::string("XPBD, 2 iterations"));
 }
 
 void SuiteTest::iterations_end_at_the_own_limit_data() {
-  QTest::addColumn<PhysicsContestant>("contestant");
+  QTest::addColumn<Contestant>("contestant");
   for (const Algorithm algorithm : {Algorithm::xpbd, Algorithm::projective, Algorithm::corotational}) {
-    QTest::newRow(std::string(info(algorithm).name).c_str()) << PhysicsContestant{algorithm};
+    QTest::newRow(std::string(info(algorithm).name).c_str()) << Contestant{algorithm};
   }
-  QTest::newRow("material") << PhysicsContestant{
-      .algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
+  QTest::newRow("material") << Contestant{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
 }
 
 /// Each number of iterations per move runs alone here. The contest takes the least one whose answer is within the share
 /// of the converged one.
 void SuiteTest::iterations_end_at_the_own_limit() {
-  QFETCH(const PhysicsContestant, contestant);
+  QFETCH(const Contestant, contestant);
   Case object = twisted_bar(40);
   object.softness = softness_of(contestant, object.softness);
   const RecordedMoves& drag = object.drags.front();
-  CompareOptions options;
+  ContestOptions options;
   const auto ends_with = [&](int iterations) {
     Case limited = object;
     limited.elastic.iterations = std::uint32_t(iterations);
@@ -211,7 +224,8 @@ void SuiteTest::iterations_end_at_the_own_limit() {
     return ends;
   };
   const auto converged = ends_with(2000);
-  const auto relative = [&](const std::vector<Point>& ends) {
+  const auto apart_at = [&](int iterations) {
+    const auto ends = ends_with(iterations);
     double apart = 0, way = 0;
     const auto held = grabbed_by(drag);
     for (ElementId e = 0; e < ends.size(); ++e) {
@@ -224,14 +238,12 @@ void SuiteTest::iterations_end_at_the_own_limit() {
   };
   options.own_limit = 0.01;
   options.repetitions = 1;
-  Contest contest(object, {contestant}, options);
-  const auto reference = DragReferences(object, std::nullopt).at_end(drag);
-  const auto entries = contest.run(drag, reference.solution, {});
-  QVERIFY2(entries[0].measurement.has_value(), entries[0].refusal.c_str());
+  const Row row = rows_of_contest(object, {contestant}, drag, options).at(0);
+  QVERIFY2(row.has_figures(), row.refusal.c_str());
   const auto limits = limits_of(contestant);
-  const auto chosen = std::ranges::find(limits, entries[0].measurement->iterations.value());
-  QVERIFY2(relative(ends_with(*chosen)) <= 0.0101, qPrintable(QString::number(relative(ends_with(*chosen)))));
-  QVERIFY(chosen == limits.begin() || relative(ends_with(*(chosen - 1))) > 0.0099);
+  const auto chosen = std::ranges::find(limits, int(row[iterations].value()));
+  QVERIFY2(apart_at(*chosen) <= 0.0101, qPrintable(QString::number(apart_at(*chosen))));
+  QVERIFY(chosen == limits.begin() || apart_at(*(chosen - 1)) > 0.0099);
 }
 
 void SuiteTest::experiments_have_the_handles_that_they_say() {
@@ -256,25 +268,19 @@ void SuiteTest::the_coarse_organ_has_a_reference_of_three_levels() {
   options.algorithms = {Algorithm::neo_hookean, Algorithm::natural_queue};
   options.repetitions = 1;
   options.organs.coarse = generate({MeshKind::tetra, {5, 4, 4}});
-  const SuiteResult result = run_suite({"organ-coarse"}, options).results.front();
-  QVERIFY(result.references.size() >= 4 && !result.rows.empty());
-  for (const Convergence& reference : result.references) {
-    QCOMPARE(reference.levels.size(), std::size_t{3});
-    QVERIFY(reference.levels[2].change.value() < reference.levels[1].change.value());
-  }
-  std::size_t drag = 0;
-  std::string last;
-  for (const SuiteRow& row : result.rows) {
-    drag += !last.empty() && row.drag != last ? 1 : 0;
-    last = row.drag;
-    const auto& levels = result.references.at(drag).levels;
-    QVERIFY(!row.relative || row.reference_change == levels.back().change);
-    if (row.algorithm == "neo-hookean") {
-      QVERIFY2(*row.relative > *levels[2].change && *row.relative < 2 * (*levels[1].change + *levels[2].change),
-               row.drag.c_str());
+  const Results suite = run_suite({"organ-coarse"}, options);
+  QVERIFY(suite.objects[0].drags.size() >= 4 && !suite.rows.empty());
+  for (const Row& row : suite.rows) {
+    const DragInfo& drag = *suite.drag_of(row);
+    const auto& levels = drag.reference.value().levels;
+    QCOMPARE(levels.size(), std::size_t{3});
+    QVERIFY(levels[2].change.value() < levels[1].change.value());
+    QVERIFY(!row[relative] || row[reference_change] == levels.back().change);
+    if (row.contestant.algorithm == Algorithm::neo_hookean) {
+      QVERIFY2(row[relative] > *levels[2].change && row[relative] < 2 * (*levels[1].change + *levels[2].change),
+               drag.name.c_str());
     }
   }
-  QCOMPARE(drag + 1, result.references.size());
 }
 
 /// A cube of a block is six tetrahedra.
@@ -314,82 +320,86 @@ void SuiteTest::long_experiments_run_only_where_they_are_named() {
     QCOMPARE(std::ranges::count(missing, one.name) == 1, !one.only_named && one.name != "bar");
   }
   QVERIFY(usual.size() < all.size());
-  QCOMPARE(merged({part({"fronts-2k"}), part({"bar"})}).results.front().name, std::string("bar"));
 }
 
 void SuiteTest::times_grow_with_the_accuracy() {
   SuiteOptions options;
   options.algorithms = {Algorithm::exact, Algorithm::linear_fem, Algorithm::boundary_elements};
   options.repetitions = 1;
-  const Suite suite = run_suite({"time-sheet"}, options);
-  const auto& times = suite.results.front().times;
-  const auto named = [&](const char* name) { return *std::ranges::find(times, name, &SuiteTime::contestant); };
-  const SuiteTime fem = named("Linear FEM, on the same cells"), equilibrium = named("Exact + equilibrium");
-  QVERIFY(least_error(fem).value() < 0.1 && fem.factorize_ms.value() > 0);
-  QCOMPARE(fem.curve.size(), std::size_t(1));  // it has no iterations to choose
-  QVERIFY(fem.curve[0].fresh_ms.value() > fem.curve[0].later_ms.value() && !fem.curve[0].after_cut_ms);
-  for (const double error : suite_errors) {
-    QCOMPARE(shortest_ms(fem, suite_point_figures[0], error), fem.curve[0].later_ms);
-    QCOMPARE(shortest_ms(equilibrium, suite_point_figures[0], error).has_value(),
-             least_error(equilibrium).value() <= error);
+  const Results suite = run_suite({"time-sheet"}, options);
+  QVERIFY(has_curves(suite, 0));
+  const auto speeds = speeds_against_error();
+  const auto later = standings(suite, 0, speeds[0]), fresh = standings(suite, 0, speeds[1]);
+  const Contestant fem{Algorithm::linear_fem}, equilibrium{Algorithm::exact, 0, true};
+  const auto ms_of = [&](const std::vector<Standing>& all) {
+    return std::ranges::find(all, fem, &Standing::contestant)->ms.value().median;
+  };
+  QVERIFY(least_error(later, fem).value() < 0.1 && ms_of(fresh) > ms_of(later));
+  QVERIFY(joined(suite, 0, fem, Drags::all).row[factorize_ms].value() > 0);
+  QVERIFY(standings(suite, 0, speeds[2]).empty());  // no drag has a cut
+  for (const double error : errors_reached) {
+    QCOMPARE(shortest_ms(later, fem, error), std::optional(ms_of(later)));
+    QCOMPARE(shortest_ms(later, equilibrium, error).has_value(), least_error(later, equilibrium).value() <= error);
   }
-  std::vector<std::uint64_t> iterations;
-  std::ranges::transform(equilibrium.curve, std::back_inserter(iterations), &SuitePoint::iterations);
-  QCOMPARE(iterations, (std::vector<std::uint64_t>{1, 2, 5, 10, 20, 50, 100, 200}));
-  QVERIFY(!named("BEM, on its surface mesh").refusal.empty());
+  std::vector<int> limits, of_fem;
+  for (const Contestant& one : contestants_in(suite, std::size_t{0})) {
+    if (curve_of(one) == equilibrium) {
+      limits.push_back(one.limit);
+    } else if (curve_of(one) == fem) {
+      of_fem.push_back(one.limit);
+    }
+  }
+  QCOMPARE(limits, (std::vector<int>{1, 2, 5, 10, 20, 50, 100, 200}));
+  QCOMPARE(of_fem, std::vector<int>{0});  // it has no iterations to choose
+  const Joined bem = joined(suite, 0, {Algorithm::boundary_elements}, Drags::all);
+  QVERIFY(bem.of == 2 && bem.drags == 0 && !bem.row.refusal.empty());  // a sheet has no surface mesh
 }
 
 /// A user who takes hold of an object waits for both. On these clocks a grab takes 1000 seconds, and so does
 /// relaxation. A move takes what its pass takes, because the time of a pass comes from the machine.
 void SuiteTest::a_fresh_move_is_timed_with_its_grab() {
   Case object = twisted_bar(0);
-  const std::vector<ElementId> side = grabbed_by(object.drags.front());
-  const auto drag_by = [](double x) { return commands::Drag{{x, 0, 0}, {}, true}; };
-  const RecordedMoves one_move{"pull", "", {commands::Grab{side}, drag_by(0.1)}},
-      drag{"pull", "", {commands::Grab{side}, drag_by(0.05), drag_by(0.1)}};
+  const RecordedMoves one_move{"pull", "", pull_by(object, {0.1})}, drag{"pull", "", pull_by(object, {0.05, 0.1})};
   object.drags = {drag, one_move};
   double now = 0;
   const auto tick = [&now] { return now += 1000; };
-  CompareOptions options;
+  ContestOptions options;
   options.clocks = {tick, tick};
-  const auto reference = DragReferences(object, std::nullopt).at_end(drag);
-  const PhysicsContestant fem{Algorithm::linear_fem},
-      material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
-  const std::vector<TimedDrag> drags{{drag, reference.solution}, {one_move, reference.solution}};
-  const auto times = times_to_error(object, {fem, material}, drags, options, {});
+  const Contestant fem{Algorithm::linear_fem},
+      material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true, .limit = 1};
+  const auto later = rows_of_contest(object, {fem, material}, drag, options),
+             fresh = rows_of_contest(object, {fem, material}, one_move, options);
   constexpr double tick_ms = 1e6, longest_pass_ms = 1e5;
-  for (const auto& [time, relaxing] : {std::pair{times[0], 0.0}, std::pair{times[1], tick_ms}}) {
-    const double grab_and_move = tick_ms + relaxing;
-    const SuitePoint& point = time.curve.at(0);
-    QVERIFY(point.fresh_ms.value() > grab_and_move && *point.fresh_ms < grab_and_move + longest_pass_ms);
-    QVERIFY(point.later_ms.value() < relaxing + longest_pass_ms);
+  for (const std::size_t i : {0, 1}) {
+    const double relaxing = i == 0 ? 0 : tick_ms;
+    QVERIFY(std::abs(fresh[i][fresh_ms].value() - (tick_ms + relaxing)) < longest_pass_ms);
+    QVERIFY(std::abs(later[i][later_ms].value() - relaxing) < longest_pass_ms);
+    QVERIFY(!fresh[i][later_ms]);  // it has no later move
   }
 }
 
 /// A curve goes through the drag, the fresh grab and the cut; each has its own error and time.
 void SuiteTest::a_curve_has_the_error_of_each_drag() {
   Case object = twisted_bar(0);
-  const std::vector<ElementId> side = grabbed_by(object.drags.front());
-  const auto drag_by = [](double x) { return commands::Drag{{x, 0, 0}, {}, true}; };
-  const RecordedMoves drag{"pull", "", {commands::Grab{side}, drag_by(0.5), drag_by(1)}},
-      one_move{"pull", "", {commands::Grab{side}, drag_by(1)}},
-      with_cut{"cut", "", {commands::Grab{side}, drag_by(0.5), commands::Cut{{0, 1, 2}}, drag_by(1)}};
-  DragReferences references(object, std::nullopt);
-  const ReferenceSolution whole = references.at_end(drag).solution, cut = references.at_end(with_cut).solution;
-  const std::vector<TimedDrag> drags{{drag, whole}, {one_move, whole}, {with_cut, cut}};
-  const PhysicsContestant material{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
-  const auto curve = times_to_error(object, {material}, drags, {}, {}).at(0).curve;
-  QCOMPARE(curve.size(), limits_of(material).size());
-  const SuitePoint &first = curve.front(), &last = curve.back();
-  QVERIFY(first.iterations == 1 && last.iterations == 200);
-  for (const SuitePointFigures& figures : suite_point_figures) {
-    // The reference has the same energy on the same cells, so the error
-    // ends where relaxation does.
-    QVERIFY((last.*figures.error).value() < compared_residual && (first.*figures.error).value() > 0.02);
-    QVERIFY((last.*figures.ms).value() > 0);
+  RecordedMoves drag{"pull", "", pull_by(object, {0.5, 1})}, one_move{"pull", "", pull_by(object, {1})},
+      with_cut = drag;
+  with_cut.commands.insert(with_cut.commands.end() - 1, commands::Cut{{0, 1, 2}});
+  object.drags = {drag, one_move, with_cut};
+  const Contestant once{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true, .limit = 1};
+  Contestant often = once;
+  often.limit = 200;
+  ContestOptions options;
+  options.repetitions = 1;
+  std::vector<double> errors;
+  for (const auto& [moves, time] : {std::pair(&drag, &later_ms), {&one_move, &fresh_ms}, {&with_cut, &after_cut_ms}}) {
+    const auto rows = rows_of_contest(object, {once, often}, *moves, options);
+    // The reference has the same energy on the same cells, so the error ends where relaxation does.
+    QVERIFY(rows[1][relative].value() < compared_residual && rows[0][relative].value() > 0.02);
+    QVERIFY(rows[1][*time].value() > 0);
+    errors.push_back(*rows[0][relative]);
   }
-  QVERIFY(first.relative.value() < first.fresh_relative.value());  // it had one iteration for half of the way
-  QVERIFY(*first.cut_relative != *first.relative);
+  QVERIFY(errors[0] < errors[1]);  // it had one iteration for half of the way
+  QVERIFY(errors[2] != errors[0]);
 }
 
 void SuiteTest::parts_have_every_experiment_once() {
@@ -404,6 +414,22 @@ void SuiteTest::parts_have_every_experiment_once() {
   }
 }
 
+/// Rows go with their objects, and all sizes of a refinement are one experiment.
+void SuiteTest::parts_are_joined_in_the_order_of_experiments() {
+  Results sizes = part({"coarse", "fine"}, 20);
+  sizes.objects[0].series = sizes.objects[1].series = "refinement";
+  const Results all = merged({part({"fronts-2k"}, 10), sizes, part({"sheet", "bar"})});
+  QCOMPARE(all.runs.size(), std::size_t{3});
+  const std::vector<std::pair<std::string, double>> expected{
+      {"bar", 1}, {"sheet", 0}, {"coarse", 20}, {"fine", 21}, {"fronts-2k", 10}};
+  QCOMPARE(all.objects.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    QCOMPARE(all.objects[i].name, expected[i].first);
+    QVERIFY(all.rows[i].object == i && all.rows[i][relative] == expected[i].second);
+  }
+  QCOMPARE(std::ranges::count(missing_from(all), "refinement"), 0);
+}
+
 void SuiteTest::an_experiment_twice_is_refused() {
   try {
     merged({part({"sheet", "bar"}), part({"bar"})});
@@ -411,58 +437,6 @@ void SuiteTest::an_experiment_twice_is_refused() {
   } catch (const Error& error) {
     QCOMPARE(error.where(), std::string("bar"));
   }
-}
-
-void SuiteTest::means_leave_out_the_cut() {
-  SuiteResult result;
-  SuiteRow row{"pull", 1, false, "Exact ChainMail", "exact", ""};
-  row.relative = 0.2;
-  row.later_ms = 2;
-  result.rows.push_back(row);
-  row.relative = 0.4;
-  result.rows.push_back(row);
-  row.has_cut = true;
-  row.relative = 9;
-  row.after_cut_ms = 5;
-  result.rows.push_back(row);
-  result.rows.push_back({"pull", 1, false, "XPBD", "xpbd", "it did not converge"});
-  const auto means = means_of(result);
-  QCOMPARE(means.size(), std::size_t(2));
-  QCOMPARE(means[0].relative.value(), 0.3);
-  QCOMPARE(means[0].after_cut_ms.value(), 5.0);
-  QVERIFY(means[0].drags == 2 && means[0].of == 2);
-  QVERIFY(!means[1].relative && means[1].refusal == "it did not converge");
-}
-
-void SuiteTest::the_front_has_whom_no_one_beats() {
-  std::vector<SuiteMean> means;
-  const auto add = [&](const char* who, const char* algorithm, double ms, double error) {
-    SuiteMean& mean = means.emplace_back();
-    mean.contestant = who;
-    mean.algorithm = algorithm;
-    mean.drags = mean.of = 4;
-    mean.later_ms = ms;
-    mean.relative = error;
-  };
-  add("slow and close", "fem", 9, 0.1);
-  add("beaten in both", "fem", 9, 0.3);
-  add("as slow, less close", "fem", 2, 0.25);
-  add("middle", "arap", 2, 0.2);
-  add("fast", "xpbd", 0.5, 0.9);
-  add("slower and as close", "xpbd", 3, 0.2);
-  add("the same as the fast one", "bem", 0.5, 0.9);
-  add("Nothing moves", "nothing", 0, 1);
-  add("of the reference", "neo-hookean", 0.1, 0.01);
-  add("all but the hard drag", "fem", 0.1, 0.01);
-  means.back().drags = 3;
-  add("without a time", "fem", 0, 0.01);
-  means.back().later_ms.reset();
-  std::vector<std::string> names;
-  for (const SuiteMean* one : front(means, speeds_against_error[0])) {
-    names.push_back(one->contestant);
-  }
-  QCOMPARE(names, (std::vector<std::string>{"fast", "the same as the fast one", "middle", "slow and close"}));
-  QVERIFY(front(means, speeds_against_error[1]).empty());  // nobody has a time of a fresh grab
 }
 
 CHAINMAIL_TEST(SuiteTest)

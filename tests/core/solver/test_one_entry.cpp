@@ -5,11 +5,8 @@
 #include "chainmail/list_method.h"
 #include "command_line/common.h"
 #include "core/chainmail/recorded.h"
-#include "files/results/report_json.h"
-#include "report/page/compared_figures.h"
-#include "report/page/plot.h"
-#include "report/page/table.h"
-#include "report/run/ramp.h"
+#include "files/results/results_json.h"
+#include "report/page/report.h"
 #include "solver/algorithms.h"
 
 using namespace chainmail;
@@ -104,11 +101,12 @@ void OneEntryTest::an_algorithm_is_parsed() {
 
 void OneEntryTest::an_algorithm_is_written() {
   const ExtraAlgorithm extra(dummy_entry());
-  const report::Comparison comparison{
-      {}, {{"object", "", 9, 12, {{"drag", "", 1, {{{dummy, 0}, std::nullopt, "no"}}, ""}}}}, false};
+  report::Results results;
+  results.objects.push_back({.name = "object", .drags = {{.name = "drag", .moves = 1}}});
+  results.rows.push_back({.drag = 0, .contestant = {dummy}, .refusal = "no"});
   std::ostringstream json, csv;
-  write_json(json, comparison, {});
-  report::write_csv(csv, comparison);
+  write_json(json, results);
+  write_csv(csv, results);
   QVERIFY(contains(json.str(), "\"algorithm\": \"dummy\""));
   QVERIFY(contains(csv.str(), ",dummy,0,"));
 }
