@@ -147,7 +147,7 @@ Json figures_of(const Results& results) {
     all.push_back({{"key", figure->key},
                    {"heading", std::string(figure->group) + ", " + std::string(figure->heading)},
                    {"unit", figure->unit},
-                   {"definition", figure->definition}});
+                   {"definition", definition_of(*figure)}});
   }
   return all;
 }

@@ -267,8 +267,7 @@ void write_glossary(std::ostream& out, const Results& results) {
   out << "<dl>\n";
   for (const Figure* figure : figures_in(results)) {
     if (!figure->definition.empty()) {
-      write_item(out, std::string(figure->group) + ", " + std::string(figure->heading),
-                 std::string(figure->definition));
+      write_item(out, std::string(figure->group) + ", " + std::string(figure->heading), definition_of(*figure));
     }
   }
   out << "</dl>\n";

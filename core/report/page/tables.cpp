@@ -364,7 +364,7 @@ FigureTable growth_table(const Results& results, const std::string& series) {
                     .columns = {{"the largest object", "elements"},
                                 {"the largest object", "ms per later move"},
                                 {"the largest object", "prepare (ms)"},
-                                {"growth of time", "exponent"},
+                                {"growth of time, from " + figure(growth_from) + " elements on", "exponent"},
                                 {group_with_unit(relative), "first size"},
                                 {group_with_unit(relative), "last known"},
                                 {"why not larger", ""}}};

@@ -1,63 +1,63 @@
 #include "report/table/figure.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
+
+#include "report/table/format.h"
 
 namespace chainmail::report {
 
 std::span<const Figure* const> every_figure() {
   using namespace figures;
-  static constexpr std::array all{&ms_per_move,
-                                  &worst_move_ms,
-                                  &first_ms,
-                                  &later_ms,
-                                  &fresh_ms,
-                                  &after_cut_ms,
-                                  &factorize_ms,
-                                  &grab_ms,
-                                  &prepare_ms,
-                                  &iterations,
-                                  &checked,
-                                  &moved,
-                                  &bytes,
-                                  &relative,
-                                  &relative_turned,
-                                  &reference_change,
-                                  &error_rms,
-                                  &error_max,
-                                  &moving_rms,
-                                  &moving_max,
-                                  &moving_elements,
-                                  &order,
-                                  &exponent,
-                                  &violation_max,
-                                  &violation_rms,
-                                  &violation_fraction,
-                                  &exact_distance_max,
-                                  &exact_distance_rms,
-                                  &energy_over_exact,
-                                  &equilibrium_distance_max,
-                                  &equilibrium_distance_rms,
-                                  &float_double_max,
-                                  &float_double_rms,
-                                  &largest_over_handle,
-                                  &hausdorff,
-                                  &volume_change,
-                                  &inverted_cells,
-                                  &stretch,
-                                  &residual,
-                                  &binds,
-                                  &turned_45_max,
-                                  &turned_45_relative,
-                                  &turned_90_max,
-                                  &turned_90_relative,
-                                  &passes,
-                                  &median_ms,
-                                  &p99_ms,
-                                  &mean_moved,
-                                  &repeated,
-                                  &real_time};
+  static constexpr const Figure* all[]{&ms_per_move,
+                                       &worst_move_ms,
+                                       &first_ms,
+                                       &later_ms,
+                                       &fresh_ms,
+                                       &after_cut_ms,
+                                       &factorize_ms,
+                                       &grab_ms,
+                                       &prepare_ms,
+                                       &iterations,
+                                       &checked,
+                                       &moved,
+                                       &bytes,
+                                       &relative,
+                                       &relative_turned,
+                                       &reference_change,
+                                       &error_rms,
+                                       &error_max,
+                                       &moving_rms,
+                                       &moving_max,
+                                       &moving_elements,
+
+                                       &violation_max,
+                                       &violation_rms,
+                                       &violation_fraction,
+                                       &exact_distance_max,
+                                       &exact_distance_rms,
+                                       &energy_over_exact,
+                                       &equilibrium_distance_max,
+                                       &equilibrium_distance_rms,
+                                       &float_double_max,
+                                       &float_double_rms,
+                                       &largest_over_handle,
+                                       &hausdorff,
+                                       &volume_change,
+                                       &inverted_cells,
+                                       &stretch,
+                                       &residual,
+                                       &binds,
+                                       &turned_45_max,
+                                       &turned_45_relative,
+                                       &turned_90_max,
+                                       &turned_90_relative,
+                                       &passes,
+                                       &median_ms,
+                                       &p99_ms,
+                                       &mean_moved,
+                                       &repeated,
+                                       &real_time};
   return all;
 }
 
@@ -65,6 +65,14 @@ const Figure* find_figure(std::string_view key) {
   const auto all = every_figure();
   const auto found = std::ranges::find_if(all, [&](const Figure* one) { return one->key == key; });
   return found == all.end() ? nullptr : *found;
+}
+
+std::string definition_of(const Figure& of) {
+  std::string text(of.definition);
+  if (const auto place = text.find("{}"); place != std::string::npos) {
+    text.replace(place, 2, figure(of.quoted));
+  }
+  return text;
 }
 
 std::string group_with_unit(const Figure& figure) {

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "measure/physical_error.h"
+#include "measure/violation.h"
 
 namespace chainmail::report {
 
@@ -15,9 +19,10 @@ struct Figure {
   std::string_view key;             // in JSON and CSV
   std::string_view group, heading;  // in tables: the heading of a group, and its own
   std::string_view unit;            // empty: none
-  std::string_view definition;      // for readers; empty: the heading says it
+  std::string_view definition;      // for readers; empty: the heading says it. See definition_of
   FigureFormat format = FigureFormat::number;
   OverDrags over_drags = OverDrags::mean;
+  double quoted = 0;  // stands for {} in the definition
 };
 
 /// All figures, in the order of columns.
@@ -79,18 +84,16 @@ inline constexpr Figure moving_rms{"moving_rms",
                                    "error over the handle's displacement",
                                    "RMS, what moves",
                                    ratio,
-                                   "over the elements that the reference displaces by more than 1 % of the handle's "
+                                   "over the elements that the reference displaces by more than {} of the handle's "
                                    "displacement",
-                                   FigureFormat::percent};
+                                   FigureFormat::percent,
+                                   OverDrags::mean,
+                                   counts_as_moving};
 inline constexpr Figure moving_max{
     "moving_max", "error over the handle's displacement", "largest, what moves", ratio, "", FigureFormat::percent,
     worst};
 inline constexpr Figure moving_elements{
     "moving_elements", "error over the handle's displacement", "what moves", "elements", "", FigureFormat::count};
-inline constexpr Figure order{"order", "relative error", "observed order", "",
-                              "by the last two meshes, of which the finer one has half the mesh width"};
-inline constexpr Figure exponent{"exponent", "growth", "exponent", "",
-                                 "time per move ∝ elements to this power, from 1,000 elements on"};
 
 // Violations, and distances from other answers.
 inline constexpr Figure violation_max{
@@ -99,8 +102,8 @@ inline constexpr Figure violation_max{
 inline constexpr Figure violation_rms{"violation_rms",      "violation", "RMS", rest_lengths, "",
                                       FigureFormat::number, worst};
 inline constexpr Figure violation_fraction{
-    "violation_fraction",  "violation", "links", "share", "the share of links with a violation above 10⁻⁴",
-    FigureFormat::percent, worst};
+    "violation_fraction",  "violation", "links",           "share", "the share of links with a violation above {}",
+    FigureFormat::percent, worst,       counts_as_violated};
 inline constexpr Figure exact_distance_max{"exact_distance_max",
                                            "distance to Exact",
                                            "largest",
@@ -197,6 +200,8 @@ inline constexpr Figure real_time{"real_time", "passes", "in real time", "", "",
 std::span<const Figure* const> every_figure();
 /// Returns null if there is no figure with this key.
 const Figure* find_figure(std::string_view key);
+/// Returns the definition of a figure with the number that it quotes.
+std::string definition_of(const Figure& figure);
 /// Returns the heading of a figure's group with its unit: `time (ms)`.
 std::string group_with_unit(const Figure& figure);
 

@@ -23,6 +23,10 @@ struct Growth {
   int sizes = 0;
 };
 
+/// Smallest number of elements of the objects from which reports fit growth. In smaller ones, the fixed cost of a pass
+/// is too large a part of the time.
+inline constexpr double growth_from = 1000;
+
 /// Returns the growth over the sizes that have at least `from` elements and a time above 0; none if these are fewer
 /// than three.
 std::optional<Growth> growth_of(std::span<const SizedTime> times, double from);

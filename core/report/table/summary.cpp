@@ -10,9 +10,6 @@
 namespace chainmail::report {
 namespace {
 
-// The smallest grids and objects do not count: there the fixed cost of a pass is too large a part of the time.
-constexpr double asymptotic_from = 1000;  // elements
-
 void mix(double& mean, double other, double weight) { mean += weight * (other - mean); }
 
 void mix(TimeSpread& mean, const TimeSpread& other, double weight) {
@@ -268,7 +265,7 @@ std::optional<Growth> growth_of(const std::vector<SeriesPoint>& points, const Re
       times.push_back({double(results.objects[object].elements), *time});
     }
   }
-  return growth_of(times, asymptotic_from);
+  return growth_of(times, growth_from);
 }
 
 std::optional<double> order_of(const std::vector<SeriesPoint>& points) {

@@ -60,7 +60,7 @@ QString headOf(const report::Figure& figure) {
 }
 
 QString helpOf(const report::Figure& figure) {
-  const QString what = text(figure.definition.empty() ? figure.heading : figure.definition);
+  const QString what = text(figure.definition.empty() ? std::string(figure.heading) : report::definition_of(figure));
   return what + (figure.over_drags == report::OverDrags::worst ? QStringLiteral(".\nOver several drags: the worst")
                                                                : QStringLiteral(".\nOver several drags: the mean"));
 }
