@@ -10,7 +10,6 @@
 #include "mesh/error.h"
 #include "mesh/layers.h"
 #include "program.h"
-#include "report/page/tables.h"
 #include "report/run/drag_times.h"
 #include "report/run/physics.h"
 #include "report/run/physics_cases.h"
@@ -472,9 +471,6 @@ void PhysicsTest::objects_grow() {
     QCOMPARE(seen.size(), every_algorithm().size());
     const auto truth = points_of(everything(), series, {Algorithm::neo_hookean});
     QVERIFY(truth.at(0).figures.row[error_max].value() < converged);
-    for (const FigureTable::Row& row : growth_table(everything(), series).rows) {
-      QVERIFY(!row.refusal.empty() || !row.cells.back().empty());  // says why it ended
-    }
   }
   const Results without_time = compare_with_physics({pinned_sheet(9, {}, {})}, quick({Algorithm::exact}, {0}));
   QVERIFY(series_in(without_time).empty());
