@@ -85,7 +85,9 @@ Json json_of(const Row& row) {
   }
   add_text(json, "refusal", row.refusal);
   for (const auto& [figure, value] : row.figures) {
-    json[std::string(figure->key)] = json_of(value);
+    if (std::isfinite(value.number)) {  // JSON has no others
+      json[std::string(figure->key)] = json_of(value);
+    }
   }
   return json;
 }
@@ -197,7 +199,7 @@ void add_calibration(Json& json, const Results& results) {
   const std::string& fitted = results.objects.front().drags.front().name;
   json["residual"] = residual_of(joined(results, 0, *found, Drags::all, fitted).row);
   json["drags"] = Json::array();
-  for (const Row* row : rows_of(results, 0, [&](const Row& one) { return one.contestant == *found; })) {
+  for (const Row* row : rows_of(results, 0, [&](const Row& one) { return one.contestant == *found && one.drag; })) {
     const DragInfo& drag = *results.drag_of(*row);
     if (drag.name == fitted) {
       json["drags"].push_back({{"element", drag.handle}, {"residual", residual_of(*row)}});

@@ -430,6 +430,9 @@ std::vector<RampVerdict> ramp_verdicts(const Results& results) {
   std::vector<RampVerdict> verdicts;
   for (const std::string& series : series_in(results)) {
     for (const Contestant& contestant : contestants_in(results, series)) {
+      if (!contestant.algorithm) {
+        continue;  // a file that somebody edited
+      }
       RampVerdict& verdict = verdicts.emplace_back(RampVerdict{*contestant.algorithm});
       const auto points = points_of(results, series, contestant);
       for (const auto& [object, found] : points) {
@@ -457,7 +460,7 @@ FigureTable ramp_table(const Results& results) {
     FigureTable::Row& row =
         table.rows.emplace_back(FigureTable::Row{std::string(info(verdict.algorithm).label), {}, {}});
     if (!verdict.largest) {
-      row.refusal = verdict.lost ? "never in real time" : "not measured";
+      row.refusal = "never in real time";
       continue;
     }
     const ObjectInfo& grid = results.objects[*verdict.largest];
