@@ -15,19 +15,20 @@ namespace chainmail::command_line {
 namespace {
 
 // Seconds: for the repetitions of a drag, and for a contestant on one object.
-constexpr double quick_seconds = 0.3, longest_if_quick = 2, longest_on_meshes = 15;
+constexpr double quick_seconds = 0.3, longest_if_quick = 2, longest_on_meshes = 60, longest_against_physics = 15;
 
-constexpr const char* compare_footer =
+constexpr const char* about_objects =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
     "from rest: locally, as a whole, and back and forth. Writes report.html, report.json, report.csv and plots as SVG\n"
     "to FOLDER and prints the main table.\n\n"
     "--against physics: the reference is neo-Hookean FEM on the same cells. The methods of elasticity and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used, which takes about five minutes.\n"
     "Each object is nudged, pulled and bent, near and far, at each handle, and cut once between two moves.\n\n"
-    "With MESH, contestants that take longer than 15 s on an object are left out, unless --algorithms names them, and\n"
-    "physics has one handle and no growing objects. A MESH takes a few minutes, a large one more.\n"
+    "With MESH, physics has one handle and no growing objects. A MESH takes a few minutes, a large one more.\n"
     "--quick gives a first answer, mostly within a minute: one drag of each object (physics: one bend and one cut),\n"
-    "few repetitions, nothing calibrated, turned or growing, and at most 2 s for a contestant on an object.\n\n"
+    "few repetitions, nothing calibrated, turned or growing.\n";
+
+constexpr const char* about_moves =
     "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
     "  {\"version\": 1, \"commands\": [{\"do\": \"pin\", \"elements\": [0]}, {\"do\": \"grab\", \"element\": 5},\n"
     "    {\"do\": \"drag\", \"target\": [1, 2, 0]}, {\"do\": \"drag\", \"target\": [2, 3, 0]},\n"
@@ -39,6 +40,14 @@ constexpr const char* compare_footer =
     "  chainmail compare organ.msh --against physics --pins bottom --quick -o report\n"
     "  chainmail compare --suite -o suite\n"
     "  chainmail compare --merge part1/report.json part2/report.json -o suite";
+
+std::string about_limits() {
+  const auto seconds = [](double number) { return report::figure(number) + " s"; };
+  return "A contestant that takes longer on an object is left out, unless --algorithms names it: with --quick longer "
+         "than " +
+         seconds(longest_if_quick) + ",\nwith MESH longer than " + seconds(longest_on_meshes) + ", or " +
+         seconds(longest_against_physics) + " against physics.\n\n";
+}
 
 /// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
 void read_relax(const CLI::Option* option, report::CompareOptions& result) {
@@ -87,7 +96,10 @@ void complete(CompareArguments& arguments) {
   std::ranges::sort(how.sweeps);  // because a curve connects them
   how.seconds = is_quick ? quick_seconds : how.seconds;
   if (how.algorithms.empty()) {
-    how.longest = is_quick ? longest_if_quick : arguments.has_meshes() ? longest_on_meshes : 0;
+    how.longest = is_quick                    ? longest_if_quick
+                  : !arguments.has_meshes()   ? 0
+                  : arguments.against_physics ? longest_against_physics
+                                              : longest_on_meshes;
   }
   if (arguments.calibrated.value_or(!is_quick)) {
     how.calibrate = calibrator_for_reports(how.scheme);
@@ -357,7 +369,7 @@ Command add_compare(CLI::App& root, const std::string& command_line) {
   const auto arguments = std::make_shared<CompareArguments>(
       CompareArguments{.options = Options(*app), .command_line = command_line, .elastic_options = Options(*app)});
   add_arguments(arguments->options, *arguments);
-  app->footer(compare_footer);
+  app->footer(about_objects + about_limits() + about_moves);
   return {app, [arguments] { compare(*arguments); }};
 }
 

@@ -81,6 +81,12 @@ std::string cell_of(const Figure& figure, const Joined& found, Medium medium) {
 
 FigureTable::Column column_of(const Figure& figure) { return {group_with_unit(figure), std::string(figure.heading)}; }
 
+/// Returns the heading of a figure that has a column for each drag: `time per move (ms)`.
+std::string whole_heading(const Figure& figure) {
+  return &figure == &relative ? group_with_unit(figure)
+                              : std::string(figure.group) + ", " + std::string(figure.heading) + in_brackets(figure);
+}
+
 std::vector<std::string> names_of_drags(const ObjectInfo& object) {
   std::vector<std::string> names;
   for (const DragInfo& drag : object.drags) {
@@ -109,7 +115,7 @@ std::vector<Column> columns_of(const Results& results, std::size_t object, Mediu
     }
     if (each_drag) {
       for (const std::string& name : names_of_drags(results.objects[object])) {
-        columns.push_back({{group_with_unit(*figure), name}, figure, Drags::all, name});
+        columns.push_back({{whole_heading(*figure), name}, figure, Drags::all, name});
       }
       continue;
     }

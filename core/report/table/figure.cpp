@@ -75,8 +75,11 @@ std::string definition_of(const Figure& of) {
   return text;
 }
 
-std::string group_with_unit(const Figure& figure) {
-  return std::string(figure.group) + (figure.unit.empty() ? "" : " (" + std::string(figure.unit) + ")");
+std::string in_brackets(const Figure& figure) {
+  const bool in_percent = figure.format == FigureFormat::percent || figure.format == FigureFormat::signed_percent;
+  return figure.unit.empty() || in_percent ? "" : " (" + std::string(figure.unit) + ")";
 }
+
+std::string group_with_unit(const Figure& figure) { return std::string(figure.group) + in_brackets(figure); }
 
 }  // namespace chainmail::report

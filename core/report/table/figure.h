@@ -202,6 +202,8 @@ std::span<const Figure* const> every_figure();
 const Figure* find_figure(std::string_view key);
 /// Returns the definition of a figure with the number that it quotes.
 std::string definition_of(const Figure& figure);
+/// Returns the unit of a figure behind a heading: ` (ms)`; empty for what cells write with their unit.
+std::string in_brackets(const Figure& figure);
 /// Returns the heading of a figure's group with its unit: `time (ms)`.
 std::string group_with_unit(const Figure& figure);
 
