@@ -14,8 +14,9 @@
 namespace chainmail::command_line {
 namespace {
 
+constexpr int moves_if_quick = 6;
 // Seconds: for the repetitions of a drag, and for a contestant on one object.
-constexpr double quick_seconds = 0.3, longest_if_quick = 2, longest_on_meshes = 60, longest_against_physics = 15;
+constexpr double quick_seconds = 0.3, longest_if_quick = 3, longest_on_meshes = 60, longest_against_physics = 15;
 
 constexpr const char* about_objects =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
@@ -24,7 +25,8 @@ constexpr const char* about_objects =
     "--against physics: the reference is neo-Hookean FEM on the same cells. The methods of elasticity and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used, which takes about five minutes.\n"
     "Each object is nudged, pulled and bent, near and far, at each handle, and cut once between two moves.\n\n"
-    "With MESH, physics has one handle and no growing objects. A MESH takes a few minutes, a large one more.\n"
+    "With MESH, physics has one handle, and nothing is calibrated or grows. A MESH takes a few minutes, a large one "
+    "more.\n"
     "--quick gives a first answer, mostly within a minute: one drag of each object (physics: one bend and one cut),\n"
     "few repetitions, nothing calibrated, turned or growing.\n";
 
@@ -92,6 +94,9 @@ void complete(CompareArguments& arguments) {
     how.seconds = usual.seconds;
     how.sweeps = usual.sweeps;
   }
+  if (is_quick) {
+    how.sweeps = report::CompareOptions().sweeps;
+  }
   read_relax(arguments.options.app().get_option("--relax"), how);
   std::ranges::sort(how.sweeps);  // because a curve connects them
   how.seconds = is_quick ? quick_seconds : how.seconds;
@@ -101,7 +106,7 @@ void complete(CompareArguments& arguments) {
                   : arguments.against_physics ? longest_against_physics
                                               : longest_on_meshes;
   }
-  if (arguments.calibrated.value_or(!is_quick)) {
+  if (arguments.calibrated.value_or(!is_quick && !arguments.has_meshes())) {
     how.calibrate = calibrator_for_reports(how.scheme);
   }
   if (arguments.refined) {
@@ -188,7 +193,8 @@ std::vector<report::RecordedMoves> drags_of(const report::Case& object, const Co
     return {moves_of(*arguments.moves, object.mesh, progress)};
   }
   auto drags = arguments.against_physics
-                   ? report::physics_drags(object, true, arguments.refined ? report::patch_share : 0, arguments.handles)
+                   ? report::physics_drags(object, true, arguments.refined ? report::patch_share : 0, arguments.handles,
+                                           arguments.is_quick() ? moves_if_quick : report::moves_of_drag)
                : object.drags.empty() ? report::three_drags(object, progress)
                                       : object.drags;
   if (arguments.is_quick() && arguments.against_physics) {
@@ -300,7 +306,7 @@ void add_physics(Options& options, CompareArguments& arguments) {
               });
   options.add("--calibrated", on_or_off,
               "also calibrate Natural Queue and Exact on each object, with other drags and up to 10 "
-              "sweeps [on; with --suite or --quick: off]",
+              "sweeps [on; with MESH, --suite or --quick: off]",
               arguments.calibrated);
   group(options.app(), "Against physics", only_physics);
   group(options.app(), "Pins and methods of elasticity",

@@ -14,7 +14,7 @@ constexpr int drags_at_equilibrium = 6, evaluations_at_equilibrium = 150;
 
 report::Calibration run(const report::Case& object, const CalibrationOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, progress.quiet());
+  const CalibrationResult result = calibrate(object.mesh, Cuts(object.mesh), options, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {options.algorithm, !info(options.scheme).sweeps, result.softness, result.sweeps,
           options.drags,     result.evaluations,           seconds,         {}};

@@ -109,9 +109,11 @@ std::vector<Calibration> calibrations_of(const Case& object, const PhysicsOption
       if (!options.calibrate || !wanted || !takes_part || !fits(algorithm, *object.mesh) || progress.cancelled()) {
         continue;
       }
-      progress.show(0);
+      constexpr double most = 2 * calibrated_algorithms.size();
+      const double done = double(found.size());
       try {
-        found.push_back(options.calibrate(object, algorithm, equilibrium, handles, progress));
+        found.push_back(
+            options.calibrate(object, algorithm, equilibrium, handles, progress.part(done / most, (done + 1) / most)));
       } catch (const Error& error) {
         found.push_back({algorithm, equilibrium, {}, 0, 0, 0, 0, error.what()});
       } catch (const Cancelled&) {
@@ -138,31 +140,31 @@ Results compare_with_physics(const std::vector<Case>& cases, const PhysicsOption
   const PhysicsOptions options = checked(asked);
   Results results{.kind = ReportKind::physics,
                   .settings = settings_of(options, cases.empty() ? ElasticOptions() : cases.front().elastic)};
-  std::size_t drags = 0;
+  double steps = 0, done = 0;  // calibrating, turning, and each drag
   for (const Case& object : cases) {
     std::ranges::for_each(object.drags, [](const RecordedMoves& moves) { check(moves); });
-    drags += object.drags.size();
+    steps += double(object.drags.size()) + (options.calibrate ? 1 : 0) + (options.turned ? 1 : 0);
   }
   const bool grows = options.growth_seconds > 0;
   const Progress of_drags = progress.part(0, grows ? share_of_drags : 1);
-  double done = 0;
-  const auto part = [&](const std::string& text) { return part_of(of_drags, done, double(drags), text); };
+  const auto next = [&](const std::string& text) { return part_of(of_drags, done++, steps, text); };
   for (const Case& object : cases) {
     results.objects.push_back(info_of(object));
     results.objects.back().reference = label(object.law) + " FEM";
     DragReferences references(object, options.refine);
-    const auto calibrations = calibrations_of(object, options, part(object.name + ", calibrating"));
+    const auto calibrations = options.calibrate ? calibrations_of(object, options, next(object.name + ", calibrating"))
+                                                : std::vector<Calibration>();
     std::ranges::transform(calibrations, std::back_inserter(results.objects.back().notes),
                            [](const Calibration& one) { return in_words(one); });
     const auto contestants = options.contestants.empty()
                                  ? contestants_of(options.algorithms, options.sweeps, options.equilibrium, calibrations)
                                  : options.contestants;
     if (options.turned) {
-      add_turned(results, object, contestants, options, part(object.name + ", turned"));
+      add_turned(results, object, contestants, options, next(object.name + ", turned"));
     }
     Contest contest(object, contestants, options);
     for (const RecordedMoves& moves : object.drags) {
-      add_drag(results, contest, moves, references, part(object.name + ", " + moves.name));
+      add_drag(results, contest, moves, references, next(object.name + ", " + moves.name));
       if (progress.cancelled()) {
         results.stopped = true;
         return results;
@@ -170,7 +172,6 @@ Results compare_with_physics(const std::vector<Case>& cases, const PhysicsOption
       if (finished) {
         finished(results);
       }
-      ++done;
     }
   }
   if (grows && !cases.empty()) {

@@ -16,7 +16,6 @@
 namespace chainmail::report {
 namespace {
 
-constexpr int moves_of_drag = 24, moves_before_cut = 12;
 constexpr double nudge_share = 0.05, pull_share = 0.2, far_share = 0.5;  // shares of the object's largest extent
 constexpr std::uint64_t usual_elements = 256;
 
@@ -118,38 +117,41 @@ std::vector<LinkId> links_to_cut(const Case& object, ElementId handle) {
   return {};
 }
 
-RecordedMoves drag(const Mesh& mesh, ElementId element, const Point& way, const std::string& name,
-                   const std::string& description) {
-  RecordedMoves drag{name, "element " + std::to_string(element) + ", " + description, {commands::Grab{element}}};
-  for (int move = 1; move <= moves_of_drag; ++move) {
-    drag.commands.emplace_back(commands::Drag{mesh.rest_position(element) + way * move / moves_of_drag});
-  }
-  return drag;
-}
+/// What all drags of an object have in common.
+struct DragMaker {
+  const Case& object;
+  double radius;  // of the patch about an element, without pins; 0: the handle is the element
+  int moves;
 
-/// The handle is a patch about an element, without pins.
-RecordedMoves drag(const Case& object, ElementId element, double radius, const Point& way, const std::string& name,
-                   const std::string& description) {
-  if (radius == 0) {
-    return drag(*object.mesh, element, way, name, description);
+  RecordedMoves drag(ElementId element, const Point& way, const std::string& name,
+                     const std::string& description) const {
+    const Point from = radius == 0 ? object.mesh->rest_position(element) : Point(Point::Zero());
+    RecordedMoves drag{name, "element " + std::to_string(element) + ", " + description, {grab(element)}};
+    for (int move = 1; move <= moves; ++move) {
+      drag.commands.emplace_back(commands::Drag{from + way * move / moves, {}, radius > 0});
+    }
+    if (radius > 0) {
+      drag.centre = element;
+      drag.radius = radius;
+    }
+    return drag;
   }
-  std::vector<ElementId> pins = object.pins;
-  std::ranges::sort(pins);
-  const Patch patch{object.mesh->rest_position(element), radius};
-  RecordedMoves drag{name,
-                     "element " + std::to_string(element) + ", " + description,
-                     {commands::Grab{elements_in(*object.mesh, patch, pins)}},
-                     element,
-                     radius};
-  for (int move = 1; move <= moves_of_drag; ++move) {
-    drag.commands.emplace_back(commands::Drag{way * move / moves_of_drag, {}, true});
+
+ private:
+  commands::Grab grab(ElementId element) const {
+    if (radius == 0) {
+      return commands::Grab{element};
+    }
+    std::vector<ElementId> pins = object.pins;
+    std::ranges::sort(pins);
+    return commands::Grab{elements_in(*object.mesh, {object.mesh->rest_position(element), radius}, pins)};
   }
-  return drag;
-}
+};
 
 /// Returns half of a pull, then a cut into the object, then one more move; no commands if no cut is possible.
 RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   const ElementId handle = handle_of(pull);
+  const auto before_cut = std::ptrdiff_t(pull.commands.size() - 1) / 2;
   std::vector<LinkId> links = links_to_cut(object, handle);
   if (links.empty()) {
     return {};
@@ -157,11 +159,11 @@ RecordedMoves cut_then_move(const Case& object, const RecordedMoves& pull) {
   RecordedMoves cut{"cut, then move",
                     "element " + std::to_string(handle) + ", half of the pull, a cut through the object (" +
                         std::to_string(links.size()) + " links), and one more move",
-                    {pull.commands.begin(), pull.commands.begin() + 1 + moves_before_cut},
+                    {pull.commands.begin(), pull.commands.begin() + 1 + before_cut},
                     pull.centre,
                     pull.radius};
   cut.commands.emplace_back(commands::Cut{std::move(links)});
-  cut.commands.push_back(pull.commands[1 + moves_before_cut]);
+  cut.commands.push_back(pull.commands[std::size_t(1 + before_cut)]);
   return cut;
 }
 
@@ -215,21 +217,21 @@ std::vector<ElementId> physics_handles(const Case& object, std::size_t most) {
   return handles;
 }
 
-std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, double radius_share, std::size_t handles) {
+std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut, double radius_share, std::size_t handles,
+                                         int moves) {
   const Mesh& mesh = *object.mesh;
   const auto [low, high] = bounds(mesh);
-  const double size = (high - low).maxCoeff(), radius = radius_share * size;
+  const double size = (high - low).maxCoeff();
+  const DragMaker maker{object, radius_share * size, moves};
   std::vector<RecordedMoves> drags;
   for (const ElementId handle : physics_handles(object, handles)) {
     const Point outward = outward_of(object, handle), across = across_of(mesh, outward);
-    drags.push_back(drag(object, handle, radius, nudge_share * size * (outward + across).normalized(), "nudge",
-                         "5 % of the object’s size"));
-    drags.push_back(drag(object, handle, radius, pull_share * size * outward, "pull",
-                         "20 % of the object’s size away from the pins"));
     drags.push_back(
-        drag(object, handle, radius, pull_share * size * across, "bend", "20 % of the object’s size across"));
+        maker.drag(handle, nudge_share * size * (outward + across).normalized(), "nudge", "5 % of the object’s size"));
     drags.push_back(
-        drag(object, handle, radius, far_share * size * across, "far bend", "50 % of the object’s size across"));
+        maker.drag(handle, pull_share * size * outward, "pull", "20 % of the object’s size away from the pins"));
+    drags.push_back(maker.drag(handle, pull_share * size * across, "bend", "20 % of the object’s size across"));
+    drags.push_back(maker.drag(handle, far_share * size * across, "far bend", "50 % of the object’s size across"));
   }
   if (RecordedMoves cut = with_cut ? cut_then_move(object, drags[1]) : RecordedMoves(); !cut.commands.empty()) {
     drags.push_back(std::move(cut));

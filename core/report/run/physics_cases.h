@@ -4,8 +4,9 @@
 
 namespace chainmail::report {
 
-/// The most handles of an object.
+/// The most handles of an object, and the moves of a drag.
 inline constexpr std::size_t max_handles = 3;
+inline constexpr int moves_of_drag = 24;
 
 /// Returns a bar of tetrahedra with about this many elements. It is three times as long as wide and high, and pinned at
 /// its left layer.
@@ -31,7 +32,7 @@ std::vector<ElementId> physics_handles(const Case& object, std::size_t most = ma
 ///
 /// With a radius, as a share of the largest extent, a handle is the patch of all elements without a pin within it.
 std::vector<RecordedMoves> physics_drags(const Case& object, bool with_cut = true, double radius_share = 0,
-                                         std::size_t handles = max_handles);
+                                         std::size_t handles = max_handles, int moves = moves_of_drag);
 /// Returns each case with each law of the material of the reference solution. Names say the law, except neo-Hookean
 /// alone.
 std::vector<Case> with_laws(const std::vector<Case>& cases, const std::vector<StrainLaw>& laws);
