@@ -15,8 +15,14 @@ namespace chainmail::command_line {
 namespace {
 
 constexpr int moves_if_quick = 6;
-// Seconds: for the repetitions of a drag, and for a contestant on one object.
-constexpr double quick_seconds = 0.3, longest_if_quick = 3, longest_on_meshes = 60, longest_against_physics = 15;
+constexpr double quick_seconds = 0.3;
+/// The longest that a contestant may take on one object (s).
+struct Longest {
+  double against_exact, against_physics;
+
+  double of(bool physics) const { return physics ? against_physics : against_exact; }
+};
+constexpr Longest if_quick{2, 10}, on_meshes{60, 15};
 
 constexpr const char* about_objects =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
@@ -28,7 +34,8 @@ constexpr const char* about_objects =
     "With MESH, physics has one handle, and nothing is calibrated or grows. A MESH takes a few minutes, a large one "
     "more.\n"
     "--quick gives a first answer, mostly within a minute: one drag of each object (physics: one bend and one cut),\n"
-    "few repetitions, nothing calibrated, turned or growing.\n";
+    "few repetitions, nothing calibrated, turned or growing; of the methods of elasticity only linear FEM, FFD and\n"
+    "quasi-Newton FEM.\n";
 
 constexpr const char* about_moves =
     "Recorded moves are JSON. Other commands are release, pin, unpin, cut, uncut, softness, relax and reset:\n"
@@ -44,11 +51,12 @@ constexpr const char* about_moves =
     "  chainmail compare --merge part1/report.json part2/report.json -o suite";
 
 std::string about_limits() {
-  const auto seconds = [](double number) { return report::figure(number) + " s"; };
-  return "A contestant that takes longer on an object is left out, unless --algorithms names it: with --quick longer "
-         "than " +
-         seconds(longest_if_quick) + ",\nwith MESH longer than " + seconds(longest_on_meshes) + ", or " +
-         seconds(longest_against_physics) + " against physics.\n\n";
+  const auto words = [](const Longest& longest) {
+    return report::figure(longest.against_exact) + " s, against physics " + report::figure(longest.against_physics) +
+           " s";
+  };
+  return "A contestant is left out, unless --algorithms names it, if it takes longer on an object than\n" +
+         words(if_quick) + " (--quick) or " + words(on_meshes) + " (MESH).\n\n";
 }
 
 /// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
@@ -84,6 +92,14 @@ void set_defaults(CompareArguments& arguments) {
   }
 }
 
+/// Returns the ChainMail family and the methods of elasticity that answer an organ of 2,000 elements in seconds.
+std::vector<Algorithm> quick_algorithms() {
+  std::vector<Algorithm> quick;
+  std::ranges::transform(algorithms(), std::back_inserter(quick), &AlgorithmInfo::algorithm);
+  quick.insert(quick.end(), {Algorithm::linear_fem, Algorithm::free_form, Algorithm::quasi_newton});
+  return quick;
+}
+
 /// Sets what depends on the options that were read.
 void complete(CompareArguments& arguments) {
   report::PhysicsOptions& how = arguments.how;
@@ -101,10 +117,10 @@ void complete(CompareArguments& arguments) {
   std::ranges::sort(how.sweeps);  // because a curve connects them
   how.seconds = is_quick ? quick_seconds : how.seconds;
   if (how.algorithms.empty()) {
-    how.longest = is_quick                    ? longest_if_quick
-                  : !arguments.has_meshes()   ? 0
-                  : arguments.against_physics ? longest_against_physics
-                                              : longest_on_meshes;
+    how.algorithms = is_quick && arguments.against_physics ? quick_algorithms() : std::vector<Algorithm>();
+    how.longest = is_quick                 ? if_quick.of(arguments.against_physics)
+                  : arguments.has_meshes() ? on_meshes.of(arguments.against_physics)
+                                           : 0;
   }
   if (arguments.calibrated.value_or(!is_quick && !arguments.has_meshes())) {
     how.calibrate = calibrator_for_reports(how.scheme);
