@@ -22,7 +22,7 @@ struct Longest {
 
   double of(bool physics) const { return physics ? against_physics : against_exact; }
 };
-constexpr Longest if_quick{2, 10}, on_meshes{60, 15};
+constexpr Longest if_quick{2, 10}, on_meshes{60, 10};
 
 constexpr const char* about_objects =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"
@@ -31,8 +31,8 @@ constexpr const char* about_objects =
     "--against physics: the reference is neo-Hookean FEM on the same cells. The methods of elasticity and an\n"
     "object that does not move are added. Without MESH, a bar and a sheet are used, which takes about five minutes.\n"
     "Each object is nudged, pulled and bent, near and far, at each handle, and cut once between two moves.\n\n"
-    "With MESH, physics has one handle, and nothing is calibrated or grows. A MESH takes a few minutes, a large one "
-    "more.\n"
+    "With MESH, physics has one handle, fewer sweeps, and nothing is calibrated or grows. A MESH takes a few\n"
+    "minutes, a large one more.\n"
     "--quick gives a first answer, mostly within a minute: one drag of each object (physics: one bend and one cut),\n"
     "few repetitions, nothing calibrated, turned or growing; of the methods of elasticity only linear FEM, FFD and\n"
     "quasi-Newton FEM.\n";
@@ -110,8 +110,8 @@ void complete(CompareArguments& arguments) {
     how.seconds = usual.seconds;
     how.sweeps = usual.sweeps;
   }
-  if (is_quick) {
-    how.sweeps = report::CompareOptions().sweeps;
+  if (is_quick || arguments.has_meshes()) {
+    how.sweeps = report::CompareOptions().sweeps;  // many sweeps take most of the time, and are not close
   }
   read_relax(arguments.options.app().get_option("--relax"), how);
   std::ranges::sort(how.sweeps);  // because a curve connects them
@@ -290,7 +290,7 @@ void add_contest(Options& options, CompareArguments& arguments) {
                  every_algorithm, how.algorithms);
   add_value(options.app(), "--relax", "N,N,…",
             "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
-            "to the equilibrium [0,10,equilibrium; physics: 0,1,3,10,30,100,equilibrium]");
+            "to the equilibrium [0,10,equilibrium; physics without MESH: 0,1,3,10,30,100,equilibrium]");
   add_relaxation(options, true, how.scheme);
   options.add(parameters::relax_step, how.relax_step);
   add_precision(options, how.precision);
