@@ -21,7 +21,8 @@ namespace {
 constexpr int min_repetitions = 3, max_repetitions = 51;
 constexpr double longest_repeated_drag = 0.3;  // seconds; slower drags are not repeated, unless their number is given
 constexpr double own_limits_residual = 0.01;   // of the iterations to a contestant's own limit, over the wanted share
-constexpr double rounding_of_handle = 1e-4;    // mean rest lengths; positions are in float
+constexpr std::size_t moves_to_own_limit = 6;
+constexpr double rounding_of_handle = 1e-4;  // mean rest lengths; positions are in float
 
 /// Returns true if the handle is where the reference has it.
 bool handle_is_there(const Simulation& simulation, const std::vector<ElementId>& handle,
@@ -125,8 +126,18 @@ class Contest::Participant {
     if (mine.is_too_late()) {
       return refuse(left_out());
     }
-    try_out(moves, referee, preparations, mine);
-    if (options_.own_limit > 0 && referee != nullptr && referee->reference() != nullptr) {
+    limited_ = nullptr;  // of the drag before
+    const bool to_own_limit = options_.own_limit > 0 && referee != nullptr && referee->reference() != nullptr;
+    if (to_own_limit && has_one_answer()) {
+      RecordedMoves fewer = moves;
+      keep_moves(fewer.commands, moves_to_own_limit);
+      try_out(fewer, referee, preparations, mine);
+      limit_iterations(moves, *referee, mine);
+    }
+    if (limited_ == nullptr && !mine.is_too_late()) {
+      try_out(moves, referee, preparations, mine);
+    }
+    if (to_own_limit && !has_one_answer()) {
       limit_iterations(moves, *referee, mine);
     }
     if (is_measured_ && mine.is_too_late() && limited_ == nullptr) {
@@ -172,6 +183,13 @@ class Contest::Participant {
   }
 
  private:
+  /// True if the answer after as many iterations as it wants depends on the place of the handle, not on the way there.
+  /// Then fewer moves find the own limit, which takes most of the time of a contestant that iterates slowly.
+  bool has_one_answer() const {
+    return contestant_.limit == 0 && !limits_of(contestant_).empty() &&
+           (prepares(contestant_) || contestant_.open_regions);
+  }
+
   /// Runs a drag for the first time and measures the errors.
   void try_out(const RecordedMoves& moves, Referee* referee, Preparations* preparations, const Progress& progress) {
     row_ = {.contestant = contestant_, .refusal = refusal_};

@@ -17,6 +17,21 @@ RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves) {
   return moves;
 }
 
+void keep_moves(std::vector<Command>& commands, std::size_t count) {
+  const auto is_move = [](const Command& command) { return std::holds_alternative<commands::Drag>(command); };
+  const auto cut = std::ranges::find_if(
+      commands, [](const Command& command) { return std::holds_alternative<commands::Cut>(command); });
+  auto left = std::size_t(std::count_if(commands.begin(), cut, is_move));
+  const std::size_t every = std::max<std::size_t>(1, left / count);
+  std::vector<Command> kept;
+  for (auto one = commands.begin(); one != commands.end(); ++one) {
+    if (one >= cut || !is_move(*one) || --left % every == 0) {
+      kept.push_back(std::move(*one));
+    }
+  }
+  commands = std::move(kept);
+}
+
 DragTimes split(std::span<const double> ms, bool has_preparing_move, bool has_cut) {
   DragTimes times;
   const auto take_first = [&](double& time) {

@@ -14,6 +14,9 @@ namespace chainmail::report {
 /// preparation in that move, so that the times of the other moves contain none of it.
 RecordedMoves with_preparing_move(const Mesh& mesh, RecordedMoves moves);
 
+/// Keeps every n-th of the moves before a cut, the last one of them included, so that about `count` are left.
+void keep_moves(std::vector<Command>& commands, std::size_t count);
+
 /// The times of one drag (ms).
 struct DragTimes {
   double preparing = 0;         // time of the added first move

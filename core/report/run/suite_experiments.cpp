@@ -14,6 +14,7 @@
 #include "mesh/layers.h"
 #include "mesh/refine.h"
 #include "report/run/beam.h"
+#include "report/run/drag_times.h"
 #include "report/run/physics_cases.h"
 #include "report/run/preparing.h"
 #include "report/run/random.h"
@@ -185,22 +186,6 @@ Case organ_of(const MeshPointer& organ) {
   return pinned("organ", organ, "bottom");
 }
 
-/// Keeps every n-th of the moves before a cut, the last one of them included, so that about `count` are left.
-void fewer_moves(std::vector<Command>& commands, std::size_t count) {
-  const auto is_move = [](const Command& command) { return std::holds_alternative<commands::Drag>(command); };
-  const auto cut = std::ranges::find_if(
-      commands, [](const Command& command) { return std::holds_alternative<commands::Cut>(command); });
-  auto left = std::size_t(std::count_if(commands.begin(), cut, is_move));
-  const std::size_t every = std::max<std::size_t>(1, left / count);
-  std::vector<Command> kept;
-  for (auto one = commands.begin(); one != commands.end(); ++one) {
-    if (one >= cut || !is_move(*one) || --left % every == 0) {
-      kept.push_back(std::move(*one));
-    }
-  }
-  commands = std::move(kept);
-}
-
 const RecordedMoves& bend_of(const Case& object) {
   return *std::ranges::find(object.drags, "bend", &RecordedMoves::name);
 }
@@ -230,8 +215,8 @@ std::vector<Case> bar_for_fronts(const SampleOrgans& /*organs*/) {
   RecordedMoves bend = bend_of(object);
   RecordedMoves with_cut =
       *std::ranges::find_if(object.drags, [](const RecordedMoves& drag) { return !cuts_of(drag).empty(); });
-  fewer_moves(bend.commands, moves_kept);
-  fewer_moves(with_cut.commands, moves_kept);
+  keep_moves(bend.commands, moves_kept);
+  keep_moves(with_cut.commands, moves_kept);
   object.drags = {bend, in_one_move(bend), std::move(with_cut)};
   return {std::move(object)};
 }

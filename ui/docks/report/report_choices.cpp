@@ -19,11 +19,10 @@ namespace {
 
 constexpr int exactRow = 0, physicsRow = 1;  // rows of the list of references
 constexpr int sweepsPerMove = 10;
-constexpr int withEquilibrium = 3;        // row of the list of sweeps
-constexpr int listMarkSize = 13;          // logical pixels
-constexpr int listHeight = 48;            // the least, in logical pixels
-constexpr double longestContestant = 20;  // seconds per object: nobody waits for an exotic method
-constexpr int ofMaterial = -1;            // stands for relaxation to the material where others have their algorithm
+constexpr int withEquilibrium = 3;  // row of the list of sweeps
+constexpr int listMarkSize = 13;    // logical pixels
+constexpr int listHeight = 48;      // the least, in logical pixels
+constexpr int ofMaterial = -1;      // stands for relaxation to the material where others have their algorithm
 
 const report::Contestant toMaterial{.algorithm = Algorithm::natural_queue, .equilibrium = true, .open_regions = true};
 
@@ -273,7 +272,6 @@ ReportThread::Order ReportChoices::order() const {
   options.relax_step = document_.relaxation().step;
   options.precision = precision_->currentIndex() == 0 ? Precision::single_precision : Precision::double_precision;
   options.seconds = seconds_->value();
-  options.longest = longestContestant;
   addContestants(options);
   return order;
 }

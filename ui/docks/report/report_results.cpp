@@ -91,9 +91,9 @@ QString headingOf(const report::Results& shown) {
   const QString what =
       drag == nullptr ? QStringLiteral("means of %1").arg(counted(object.drags.size(), QStringLiteral("drag")))
                       : text(drag->description) + QStringLiteral("; ") + counted(drag->moves, QStringLiteral("move"));
-  return QStringLiteral("%1, %2; %3%4")
-      .arg(text(object.name), counted(object.elements, QStringLiteral("element")), what,
-           shown.stopped ? QStringLiteral("; stopped") : QString());
+  return QStringLiteral("%1, %2%3; %4")
+      .arg(text(object.name), counted(object.elements, QStringLiteral("element")),
+           shown.stopped ? QStringLiteral("; stopped") : QString(), what);
 }
 
 /// Returns the plots of some drags that show something, with their names.

@@ -45,9 +45,7 @@ std::string cellOf(const report::Figure& figure, const report::Row& row) {
 QString headOf(const report::Figure& figure) {
   QString words = text(figure.group) + QLatin1Char(' ') + text(figure.heading);
   words[0] = words[0].toUpper();
-  if (!isTime(figure) && !figure.unit.empty()) {
-    words += QStringLiteral(" (%1)").arg(text(figure.unit));
-  }
+  words += isTime(figure) ? QString() : text(report::in_brackets(figure));
   QStringList lines;
   for (const QString& word : words.split(QLatin1Char(' '))) {
     if (!lines.isEmpty() && lines.last().size() + 1 + word.size() <= headLetters) {
