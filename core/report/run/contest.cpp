@@ -184,10 +184,11 @@ class Contest::Participant {
 
  private:
   /// True if the answer after as many iterations as it wants depends on the place of the handle, not on the way there.
-  /// Then fewer moves find the own limit, which takes most of the time of a contestant that iterates slowly.
+  /// Then fewer moves find the own limit, which takes most of the time of a contestant that iterates slowly. Sheets may
+  /// wrinkle in several ways.
   bool has_one_answer() const {
     return contestant_.limit == 0 && !limits_of(contestant_).empty() &&
-           (prepares(contestant_) || contestant_.open_regions);
+           (prepares(contestant_) || contestant_.open_regions) && object_.mesh->object_dimension == 3;
   }
 
   /// Runs a drag for the first time and measures the errors.
