@@ -22,7 +22,7 @@ struct Longest {
 
   double of(bool physics) const { return physics ? against_physics : against_exact; }
 };
-constexpr Longest if_quick{2, 10}, on_meshes{60, 10};
+constexpr Longest if_quick{2, 10}, on_meshes{60, 15};
 
 constexpr const char* about_objects =
     "Without MESH, six built-in objects are used, which takes about two minutes. Each object is dragged three times\n"

@@ -210,6 +210,7 @@ Plot error_plot(const Results& results, std::size_t object, const std::vector<st
 
 Plot speed_plot(const Results& results, const std::vector<std::size_t>& objects, const SpeedAgainstError& speed) {
   std::vector<SpeedPanel> panels;
+  panels.reserve(objects.size());
   for (const std::size_t object : objects) {
     panels.push_back({results.objects[object].name, standings(results, object, speed)});
   }

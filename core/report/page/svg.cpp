@@ -408,6 +408,7 @@ class SvgDrawing {
   void draw_y_ticks(bool with_labels) {
     const std::vector<Tick>& ticks = layout_.axes.y.ticks();
     std::vector<Span> spans;
+    spans.reserve(ticks.size());
     for (const Tick& tick : ticks) {
       spans.push_back(
           {(1 - tick.position) * height() - label_height / 2, (1 - tick.position) * height() + label_height / 2});

@@ -106,8 +106,10 @@ std::vector<const Row*> rows_of(const Results& results, std::size_t object,
 
 std::vector<Contestant> contestants_in(const Results& results, std::size_t object) {
   std::vector<Contestant> all;
-  for (const Row* row : rows_of(results, object)) {
-    add_new(all, row->contestant);
+  for (const bool of_drags : {true, false}) {  // those of the whole object may be few
+    for (const Row* row : rows_of(results, object, [&](const Row& one) { return one.drag.has_value() == of_drags; })) {
+      add_new(all, row->contestant);
+    }
   }
   return all;
 }
