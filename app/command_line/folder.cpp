@@ -91,8 +91,8 @@ void OutputFolder::write_report(const report::Results& results, const std::vecto
   std::vector<OutputFile> files{{"report.html", [&](std::ostream& out) { write_html(out, results); }},
                                 {"report.json", [&](std::ostream& out) { write_json(out, results); }},
                                 {"report.csv", [&](std::ostream& out) { write_csv(out, results); }}};
-  for (const auto& [name, plot] : plots) {
-    files.push_back({name, [&](std::ostream& out) { write_svg(out, plot, report::file_ink); }});
+  for (const report::PlotFile& one : plots) {
+    files.push_back({one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); }});
   }
   files.push_back({standard_output, [&](std::ostream& out) { write_text(out, results); }});
   write(files, read);

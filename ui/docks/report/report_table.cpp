@@ -67,7 +67,7 @@ QString helpOf(const report::Figure& figure) {
 /// others.
 report::Joined joinedOf(const report::Results& results, const report::Contestant& contestant) {
   using namespace report;
-  const Joined cut = joined(results, 0, contestant, Drags::cut);
+  Joined cut = joined(results, 0, contestant, Drags::cut);
   Joined all = joined(results, 0, contestant, Drags::uncut);
   if (all.of == 0) {
     return cut;
