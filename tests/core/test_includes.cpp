@@ -36,10 +36,10 @@ struct Room {
 };
 
 /// The rooms of core that the programs of this project include.
-const QStringList interface_of_core{"core/mesh",          "core/body",          "core/solver",     "core/simulate",
-                                    "core/measure",       "core/calibrate",     "core/report/table", "core/report/run", "core/report/page",
-                                    "core/files/text",    "core/files/formats", "core/files/mesh", "core/files/repair",
-                                    "core/files/session", "core/files/results"};
+const QStringList interface_of_core{"core/mesh",         "core/body",          "core/solver",        "core/simulate",
+                                    "core/measure",      "core/calibrate",     "core/report/table",  "core/report/run",
+                                    "core/report/page",  "core/files/text",    "core/files/formats", "core/files/mesh",
+                                    "core/files/repair", "core/files/session", "core/files/results"};
 
 const QList<Room> rooms{
     {"core/mesh", {}},
