@@ -250,9 +250,22 @@ Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& pr
   return Builder(mesh, cuts, progress).build();
 }
 
+namespace {
+
+/// Spreads the bits of a number (Steele et al. 2014, SplitMix).
+std::uint64_t scattered(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
 void sort_simplices(std::vector<ElementId>& corners, std::size_t width) {
   struct Simplex {
     std::array<ElementId, 4> ascending{}, corners{};  // the first `width` of each
+    std::uint64_t key = 0;
   };
   std::vector<Simplex> simplices(corners.size() / width);
   for (std::size_t s = 0; s < simplices.size(); ++s) {
@@ -260,8 +273,11 @@ void sort_simplices(std::vector<ElementId>& corners, std::size_t width) {
     std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(s * width), width, simplex.corners.begin());
     simplex.ascending = simplex.corners;
     std::ranges::sort(std::span(simplex.ascending).first(width));
+    for (const ElementId id : simplex.ascending) {
+      simplex.key = scattered(simplex.key ^ id);
+    }
   }
-  std::ranges::sort(simplices, {}, &Simplex::ascending);
+  std::ranges::sort(simplices, {}, [](const Simplex& one) { return std::pair(one.key, one.ascending); });
   for (std::size_t s = 0; s < simplices.size(); ++s) {
     std::copy_n(simplices[s].corners.begin(), width, corners.begin() + static_cast<std::ptrdiff_t>(s * width));
   }

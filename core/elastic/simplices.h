@@ -37,14 +37,16 @@ struct Simplices {
 /// line. For a grid or a block without faces or cells, these are its squares or cubes. A hexahedron is split into six
 /// tetrahedra around its lowest corner, so that neighbours agree on the diagonals (Dompierre et al. 1999).
 ///
-/// They are sorted by the ids of their corners, so that no answer depends on the order of the cells in a file. XPBD
-/// meets them in turn, and would come to another answer in another order.
+/// Their order depends on the ids of their corners alone, so that no answer depends on the order of the cells in a
+/// file. XPBD meets them in turn, and would come to another answer in another order.
 ///
 /// Throws Error, with the corners, for a cell that is flat or oriented differently from the others, and if no cell is
 /// left. Throws Cancelled.
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress = {});
 
-/// Sorts simplices, `width` corners each, by the ascending ids of their corners. The corners of each keep their order.
+/// Puts simplices, `width` corners each, into a scattered order that depends on the ids of their corners alone. The
+/// corners of each keep their order. In ascending order, neighbours follow each other, and sweeps of XPBD over a large
+/// solid do not converge in 2,000 iterations where scattered ones do.
 void sort_simplices(std::vector<ElementId>& corners, std::size_t width);
 
 /// The simplices of all cells, cut or not, and the links that each cell needs: without one of these, the cell is gone.

@@ -231,14 +231,14 @@ void ReportTest::the_main_table_takes_the_worst() {
   const FigureTable table = object_table(comparison(), 0, Medium::terminal);
   QCOMPARE(table.rows.size(), std::size_t{4});
   QCOMPARE(table.rows[0].label, std::string("Natural Queue ChainMail"));
-  QCOMPARE(cell(table, 0, "time (ms)", "one"), QString("0.01"));
-  QCOMPARE(cell(table, 0, "time (ms)", nasty), QString("0.02"));
+  QCOMPARE(cell(table, 0, "time, per move (ms)", "one"), QString("0.01"));
+  QCOMPARE(cell(table, 0, "time, per move (ms)", nasty), QString("0.02"));
   QCOMPARE(cell(table, 0, "distance to Exact (mean rest lengths)", "largest"), QString("0.25"));  // of the first drag
   QCOMPARE(cell(table, 1, "violation (rest lengths)", "largest"), QString("0.5"));                // of the second
-  QCOMPARE(cell(table, 1, "violation (share)", "links"), QString("12.5%"));
+  QCOMPARE(cell(table, 1, "violation", "links"), QString("12.5%"));
   QCOMPARE(table.rows[2].refusal, std::string("it works, on grids, alone"));
   const FigureTable page = object_table(comparison(), 0, Medium::page);
-  QCOMPARE(cell(page, 0, "time (ms)", "one"), QString("0.01 (0.005–0.02, 5)"));  // quartiles and repetitions
+  QCOMPARE(cell(page, 0, "time, per move (ms)", "one"), QString("0.01 (0.005–0.02, 5)"));  // quartiles and repetitions
 }
 
 /// A contestant that one drag refuses keeps its figures of the others. Its mean is not in the plot, where it would
