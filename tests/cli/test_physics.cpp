@@ -38,8 +38,8 @@ class PhysicsCommandTest : public QObject {
 };
 
 void PhysicsCommandTest::the_report_is_written() {
-  const auto outcome =
-      program_->run("compare cloth.obj --pins top --young 7 --poisson 0.4 --handles 3" + QByteArray(short_run));
+  const auto outcome = program_->run(
+      "compare cloth.obj --pins top --young 7 --poisson 0.4 --handles 3 --calibrated on" + QByteArray(short_run));
   QVERIFY2(outcome.code == 0 && !outcome.error.contains("note: "), outcome.error);
   QCOMPARE(QDir(program_->path("out")).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot),
            (QStringList{"after-cut.svg", "fresh-grab.svg", "object-1.svg", "overview.svg", "report.csv", "report.html",
@@ -52,9 +52,10 @@ void PhysicsCommandTest::the_report_is_written() {
     QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
   }
   // Drags: four for each of three handles, and one with a cut. Contestants: the object that does not move, Exact
-  // without sweeps, with sweeps, at equilibrium, also in open regions, and the three methods of elasticity.
+  // without sweeps, with sweeps, at equilibrium, also in open regions, calibrated with sweeps and calibrated at
+  // equilibrium, and the three methods of elasticity.
   const auto rows = rows_of(program_->read("out/report.csv"));
-  QCOMPARE(std::ranges::count_if(rows, [](const QList<QByteArray>& row) { return !row[5].isEmpty(); }), 13 * 8);
+  QCOMPARE(std::ranges::count_if(rows, [](const QList<QByteArray>& row) { return !row[5].isEmpty(); }), 13 * 10);
   const auto object = report()["objects"][0];
   QCOMPARE(object["pins"].toInt(), 5);
   const auto contestants = object["drags"][0]["contestants"].toArray();
