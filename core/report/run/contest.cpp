@@ -136,9 +136,9 @@ class Contest::Participant {
     }
     if (limited_ == nullptr && !mine.is_too_late()) {
       try_out(moves, referee, preparations, mine);
-    }
-    if (to_own_limit && !has_one_answer()) {
-      limit_iterations(moves, *referee, mine);
+      if (to_own_limit) {
+        limit_iterations(moves, *referee, mine);
+      }
     }
     if (is_measured_ && mine.is_too_late() && limited_ == nullptr) {
       refuse(left_out());  // not all numbers of iterations were tried
@@ -185,7 +185,7 @@ class Contest::Participant {
  private:
   /// True if the answer after as many iterations as it wants depends on the place of the handle, not on the way there.
   /// Then fewer moves find the own limit, which takes most of the time of a contestant that iterates slowly. Sheets may
-  /// wrinkle in several ways.
+  /// wrinkle in several ways. Where a solid buckles in another way, no number comes to that limit, and all moves count.
   bool has_one_answer() const {
     return contestant_.limit == 0 && !limits_of(contestant_).empty() &&
            (prepares(contestant_) || contestant_.open_regions) && object_.mesh->object_dimension == 3;
