@@ -282,6 +282,15 @@ std::size_t handles_of(const std::string& where, const std::string& text) {
   return *count;
 }
 
+/// Returns the value of --relax that stands for the defaults of a comparison.
+std::string relax_in_words(const report::CompareOptions& options) {
+  std::string text;
+  for (const int sweeps : options.sweeps) {
+    text += std::to_string(sweeps) + ",";
+  }
+  return text + std::string(info(RelaxationScheme::equilibrium).name);
+}
+
 void add_contest(Options& options, CompareArguments& arguments) {
   report::PhysicsOptions& how = arguments.how;
   options.add("--against", Choices<bool>{{"exact", false}, {"physics", true}}, "reference for the errors [exact]",
@@ -290,7 +299,9 @@ void add_contest(Options& options, CompareArguments& arguments) {
                  every_algorithm, how.algorithms);
   add_value(options.app(), "--relax", "N,N,…",
             "numbers of relaxation sweeps after each move; equilibrium: Natural Queue and Exact also relax "
-            "to the equilibrium [0,10,equilibrium; physics without MESH: 0,1,3,10,30,100,equilibrium]");
+            "to the equilibrium [" +
+                relax_in_words(report::CompareOptions()) +
+                "; physics without MESH: " + relax_in_words(report::PhysicsOptions()) + "]");
   add_relaxation(options, true, how.scheme);
   options.add(parameters::relax_step, how.relax_step);
   add_precision(options, how.precision);

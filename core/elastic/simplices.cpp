@@ -11,6 +11,7 @@
 #include "mesh/error.h"
 #include "mesh/fixed_matrix.h"
 #include "mesh/layers.h"
+#include "mesh/scattered.h"
 
 namespace chainmail {
 namespace {
@@ -249,18 +250,6 @@ class Builder {
 Simplices build_simplices(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
   return Builder(mesh, cuts, progress).build();
 }
-
-namespace {
-
-/// Spreads the bits of a number (Steele et al. 2014, SplitMix).
-std::uint64_t scattered(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
-
-}  // namespace
 
 void sort_simplices(std::vector<ElementId>& corners, std::size_t width) {
   struct Simplex {

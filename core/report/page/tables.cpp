@@ -160,6 +160,46 @@ std::string about_drags(const ObjectInfo& object) {
   return text + (refined.empty() ? "" : "; " + convergence_in_words(refined));
 }
 
+/// Returns the shortest times of the curve of a row. `measured` has the standings for each speed.
+FigureTable::Row time_row(const Row& row, const std::vector<std::vector<Standing>>& measured) {
+  const Contestant curve = curve_of(row.contestant);
+  FigureTable::Row cells{label(curve), {}, {}};
+  const auto least = measured.empty() ? std::nullopt : least_error(measured.front(), curve);
+  if (!least) {
+    cells.refusal = row.refusal;
+    return cells;
+  }
+  const Standing& first =
+      *std::ranges::find(measured.front(), curve, [](const Standing& one) { return curve_of(one.contestant); });
+  cells.cells.push_back(error_figure(*least, first.change));
+  for (const auto& all : measured) {
+    for (const double error : errors_reached) {
+      const auto ms = shortest_ms(all, curve, error);
+      cells.cells.push_back(ms ? figure(*ms) : "-");
+    }
+  }
+  cells.cells.push_back(cell_of(factorize_ms, row));
+  return cells;
+}
+
+/// Returns the figures of a contestant at its largest size, the growth of its time, and its first and last error.
+std::vector<std::string> growth_cells(const Results& results, const std::vector<SeriesPoint>& points) {
+  std::vector<std::string> errors;
+  for (const SeriesPoint& point : points) {
+    if (point.figures.row[relative]) {
+      errors.push_back(cell_of(relative, point.figures.row));
+    }
+  }
+  const auto& [object, last] = points.back();
+  const auto growth = growth_of(points, results, later_ms);
+  return {thousands(results.objects[object].elements),
+          cell_of(later_ms, last.row),
+          cell_of(prepare_ms, last.row),
+          growth ? figure(growth->power) : "-",
+          errors.empty() ? "-" : errors.front(),
+          errors.empty() ? "-" : errors.back()};
+}
+
 }  // namespace
 
 std::string about(const Results& results, std::size_t object) {
@@ -310,27 +350,10 @@ FigureTable time_table(const Results& results, std::size_t object) {
   table.columns.push_back(column_of(factorize_ms));
   std::vector<Contestant> curves;
   for (const Row* row : rows_of(results, object)) {
-    const Contestant curve = curve_of(row->contestant);
-    if (std::ranges::find(curves, curve) != curves.end()) {
-      continue;
+    if (std::ranges::find(curves, curve_of(row->contestant)) == curves.end()) {
+      curves.push_back(curve_of(row->contestant));
+      table.rows.push_back(time_row(*row, measured));
     }
-    curves.push_back(curve);
-    FigureTable::Row& cells = table.rows.emplace_back(FigureTable::Row{label(curve), {}, {}});
-    const auto least = measured.empty() ? std::nullopt : least_error(measured.front(), curve);
-    if (!least) {
-      cells.refusal = row->refusal;
-      continue;
-    }
-    const Standing& first =
-        *std::ranges::find(measured.front(), curve, [](const Standing& one) { return curve_of(one.contestant); });
-    cells.cells.push_back(error_figure(*least, first.change));
-    for (const auto& all : measured) {
-      for (const double error : errors_reached) {
-        const auto ms = shortest_ms(all, curve, error);
-        cells.cells.push_back(ms ? figure(*ms) : "-");
-      }
-    }
-    cells.cells.push_back(cell_of(factorize_ms, *row));
   }
   return table;
 }
@@ -384,25 +407,12 @@ FigureTable growth_table(const Results& results, const std::string& series) {
     auto points = points_of(results, series, contestant);
     const std::string refusal = points.empty() ? "" : points.back().figures.row.refusal;
     std::erase_if(points, [](const SeriesPoint& one) { return !one.figures.row.has_figures(); });
-    FigureTable::Row row{label(contestant), {}, points.empty() ? refusal : ""};
+    FigureTable::Row row{label(contestant), {}, refusal};
     if (!points.empty()) {
-      std::vector<std::string> errors;
-      for (const SeriesPoint& point : points) {
-        if (point.figures.row[relative]) {
-          errors.push_back(cell_of(relative, point.figures.row));
-        }
-      }
-      const auto& [object, last] = points.back();
-      const auto growth = growth_of(points, results, later_ms);
-      row.cells = {thousands(results.objects[object].elements),
-                   cell_of(later_ms, last.row),
-                   cell_of(prepare_ms, last.row),
-                   growth ? figure(growth->power) : "-",
-                   errors.empty() ? "-" : errors.front(),
-                   errors.empty() ? "-" : errors.back(),
-                   object == last_of_all ? "this is the largest object"
-                   : refusal.empty()     ? "its time is used up"
-                                         : refusal};
+      row = {label(contestant), growth_cells(results, points), {}};
+      row.cells.push_back(points.back().object == last_of_all ? "this is the largest object"
+                          : refusal.empty()                   ? "its time is used up"
+                                                              : refusal);
     }
     if (!repeats(table, contestant, &contestant == &all.front() ? nullptr : &contestant - 1, row.refusal)) {
       table.rows.push_back(std::move(row));

@@ -7,6 +7,7 @@
 
 #include "mesh/error.h"
 #include "mesh/generate.h"
+#include "mesh/scattered.h"
 #include "report/run/scripted_drags.h"
 #include "report/table/growth.h"
 
@@ -202,12 +203,8 @@ Row ramp_row(Algorithm algorithm, const RampPasses& passes, double budget) {
   return row;
 }
 
-/// Spreads the bits of the seed (Steele et al. 2014, SplitMix).
 std::uint64_t ramp_seed(std::uint64_t seed, std::uint32_t width, int attempt) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15 * (2 * std::uint64_t{width} + static_cast<std::uint64_t>(attempt));
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
+  return scattered(seed + scatter_step * (2 * std::uint64_t{width} + static_cast<std::uint64_t>(attempt) - 1));
 }
 
 RampRace::RampRace(std::vector<std::uint32_t> widths, std::vector<Algorithm> algorithms, double budget)
