@@ -309,8 +309,7 @@ void add_contest(Options& options, CompareArguments& arguments) {
               "runs of each drag [as many as fit into 4 s, at least 3; physics: 1.5 s; --quick: 0.3 s]",
               how.repetitions, count_from(1));
   options.app().add_flag("--quick")->description(
-      "a first answer: one drag, few repetitions, and nobody who takes longer than 2 s, unless --algorithms names "
-      "them");
+      "a first answer: one drag, few repetitions, and nobody who takes long, unless --algorithms names them");
 }
 
 void add_physics(Options& options, CompareArguments& arguments) {
