@@ -43,6 +43,7 @@ set(public_headers
   measure/violation.h
   mesh/cells.h
   mesh/cuts.h
+  mesh/described.h
   mesh/element_blocks.h
   mesh/error.h
   mesh/fixed_matrix.h

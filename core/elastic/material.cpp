@@ -17,21 +17,11 @@ std::string in_short(double value) {
 }  // namespace
 
 void check(const ElasticOptions& options) {
-  check(parameters::young, options.material.young);
-  check(parameters::poisson, options.material.poisson);
-  for (const std::uint32_t count : options.lattice) {
-    check(parameters::lattice, count);
-  }
-  check(parameters::iterations, options.iterations);
-  check(parameters::gent_limit, options.law.gent_limit);
-  check(parameters::fung_exponent, options.law.fung_exponent);
-  check(parameters::thickness, options.thickness);
+  check_members(options);
   check(options.law, options.material);
 }
 
-std::string name(StrainLaw::Kind kind) {
-  return kind == StrainLaw::Kind::gent ? "gent" : kind == StrainLaw::Kind::fung ? "fung" : "neo-hookean";
-}
+std::string name(StrainLaw::Kind kind) { return std::string(strain_law_names[std::size_t(kind)]); }
 
 StrainLaw::Kind strain_law_of(std::string_view wanted) {
   const auto found = std::ranges::find(strain_laws, wanted, [](StrainLaw::Kind one) { return name(one); });

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/described.h"
 #include "mesh/parameters.h"
 
 namespace chainmail {
@@ -30,6 +31,7 @@ struct StrainLaw {
 };
 /// All laws, in the order of the constants.
 inline constexpr std::array strain_laws{StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung};
+inline constexpr std::array<std::string_view, strain_laws.size()> strain_law_names{"neo-hookean", "gent", "fung"};
 /// Returns `neo-hookean`, `gent` or `fung`.
 std::string name(StrainLaw::Kind kind);
 /// Returns the law of this name. Throws Error, with all names, if there is none.
@@ -56,6 +58,18 @@ struct ElasticOptions {
 
   bool operator==(const ElasticOptions&) const = default;
 };
+
+template <>
+inline constexpr std::array members_of<ElasticOptions>{
+    number<&ElasticOptions::material, &Material::young>("young", parameters::young),
+    number<&ElasticOptions::material, &Material::poisson>("poisson", parameters::poisson),
+    number<&ElasticOptions::lattice>("lattice", parameters::lattice),
+    may_be_absent(number<&ElasticOptions::iterations>("iterations", parameters::iterations)),
+    may_be_absent(choice<&ElasticOptions::law, &StrainLaw::kind>(
+        "law", strain_law_names, "how the material stiffens, in relaxation to the material and in neo-Hookean FEM")),
+    may_be_absent(number<&ElasticOptions::law, &StrainLaw::gent_limit>("gent_limit", parameters::gent_limit)),
+    may_be_absent(number<&ElasticOptions::law, &StrainLaw::fung_exponent>("fung_exponent", parameters::fung_exponent)),
+    may_be_absent(number<&ElasticOptions::thickness>("thickness", parameters::thickness))};
 
 /// Throws Error, with the name of the parameter, if one of the options is out of range or the law does not exist for
 /// the material.

@@ -31,6 +31,9 @@ static_assert(relaxation_schemes[0].scheme == RelaxationScheme(0) &&
                   relaxation_schemes[2].scheme == RelaxationScheme(2),
               "info() finds a row by its scheme");
 
+inline constexpr std::array<std::string_view, relaxation_schemes.size()> relaxation_scheme_names{
+    relaxation_schemes[0].name, relaxation_schemes[1].name, relaxation_schemes[2].name};
+
 /// Returns the row of a scheme.
 constexpr const RelaxationSchemeInfo& info(RelaxationScheme scheme) {
   return relaxation_schemes[static_cast<std::size_t>(scheme)];

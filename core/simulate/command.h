@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,9 @@
 
 #include "body/snapshot.h"
 #include "body/softness.h"
+#include "equilibrium/relaxation_scheme.h"
 #include "mesh/cuts.h"
+#include "mesh/described.h"
 #include "mesh/mesh.h"
 #include "mesh/split.h"
 #include "solver/deformer.h"
@@ -151,6 +154,12 @@ struct DropState {
 };
 
 }  // namespace commands
+
+template <>
+inline constexpr std::array members_of<commands::SetRelaxation>{
+    yes_or_no<&commands::SetRelaxation::on>("on", "true while the object relaxes in idle time"),
+    choice<&commands::SetRelaxation::scheme>("scheme", relaxation_scheme_names, "what relaxation does"),
+    number<&commands::SetRelaxation::step>("step", parameters::relax_step)};
 
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
                              commands::SetRelaxation, commands::Relax, commands::Relaxed, commands::SetAlgorithm,

@@ -9,6 +9,7 @@
 #include "files/session/session.h"
 #include "files/session/session_json.h"
 #include "files/session/session_mesh.h"
+#include "files/text/described_json.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -36,7 +37,8 @@ class SessionReader {
   void take_pins();
   void take_softness();
   void take_own(Softness& softness, const Json& object);
-  void take_relaxation();
+  template <class Struct>
+  Struct members(const char* key);
   void take_elastic();
   void take_panels();
   void take_moves(const Progress& progress);
@@ -154,51 +156,26 @@ void SessionReader::take_own(Softness& softness, const Json& object) {
   }
 }
 
-void SessionReader::take_relaxation() {
-  const Json& object = fields_.object(tree_, "relaxation");
-  fields_.say_at(file_ + ": relaxation");
-  fields_.check_keys(object, {"on", "scheme", "step"});
-  const RelaxationScheme scheme = fields_.relaxation_scheme(fields_.member(object, "scheme"));
-  const double step = fields_.number(fields_.member(object, "step"), parameters::relax_step);
-  result_.relaxation = {fields_.boolean(object, "on"), step, scheme};
+/// Reads a described struct from a member.
+template <class Struct>
+Struct SessionReader::members(const char* key) {
+  const Json& object = fields_.object(tree_, key);
+  fields_.say_at(file_ + ": " + key);
+  fields_.check_keys(object, keys_of<Struct>());
+  const Struct result = read_members<Struct>(fields_, object);
+  fields_.say_at(file_);
+  return result;
 }
 
 void SessionReader::take_elastic() {
-  if (!tree_.contains("elastic")) {
-    return;
+  if (tree_.contains("elastic")) {
+    result_.elastic = members<ElasticOptions>("elastic");
+    try {
+      check(result_.elastic);
+    } catch (const Error& error) {
+      throw error.at(file_ + ": elastic: " + error.where());
+    }
   }
-  const Json& object = fields_.object(tree_, "elastic");
-  fields_.say_at(file_ + ": elastic");
-  fields_.check_keys(object,
-                     {"young", "poisson", "lattice", "iterations", "law", "gent_limit", "fung_exponent", "thickness"});
-  ElasticOptions options;
-  options.material = {fields_.number(fields_.member(object, "young")),
-                      fields_.number(fields_.member(object, "poisson"))};
-  const Json& lattice = fields_.array(object, "lattice");
-  if (lattice.size() != options.lattice.size()) {
-    fields_.fail("'lattice' has " + std::to_string(lattice.size()) + " numbers", "give one for each of three axes");
-  }
-  for (std::size_t k = 0; k < lattice.size(); ++k) {
-    options.lattice[k] = lattice[k].is_number_unsigned() && lattice[k] < Json(9U) ? lattice[k].get<std::uint32_t>() : 0;
-  }
-  if (object.contains("iterations")) {
-    const Json& iterations = object["iterations"];
-    const bool counts = iterations.is_number_unsigned() && iterations <= Json(parameters::iterations.highest);
-    options.iterations = counts ? iterations.get<std::uint32_t>() : 0;
-  }
-  const auto number = [&](const char* key, double usual) {
-    return object.contains(key) ? fields_.number(object[key]) : usual;
-  };
-  options.law.gent_limit = number("gent_limit", options.law.gent_limit);
-  options.law.fung_exponent = number("fung_exponent", options.law.fung_exponent);
-  options.thickness = number("thickness", options.thickness);
-  try {
-    options.law.kind = object.contains("law") ? strain_law_of(fields_.text(object, "law")) : options.law.kind;
-    check(options);
-  } catch (const Error& error) {
-    throw error.at(fields_.where() + ": " + error.where());
-  }
-  result_.elastic = options;
 }
 
 Snapshot SessionReader::positions(const Json& object, Precision precision) const {
@@ -279,10 +256,9 @@ Session SessionReader::read(const Progress& progress) {
   take_pins();
   result_.ui = fields_.object(tree_, "ui").dump();
   take_softness();
-  take_relaxation();
   fields_.say_at(file_);
+  result_.relaxation = members<commands::SetRelaxation>("relaxation");
   take_elastic();
-  fields_.say_at(file_);
   progress.report(0.9);
   take_panels();
   take_lesson();

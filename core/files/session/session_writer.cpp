@@ -11,7 +11,7 @@
 #include "files/session/session.h"
 #include "files/session/session_json.h"
 #include "files/text/base64.h"
-#include "files/text/json_fields.h"
+#include "files/text/described_json.h"
 #include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
@@ -101,6 +101,8 @@ class SessionWriter {
   void write_texture(const Texture& texture, const Progress& progress);
   void write_state();
   void write_softness();
+  template <class Struct>
+  void write_members(const char* key, const Struct& all);
   void write_moves(const Progress& progress);
   void write_panel(const Session::Panel& panel, const Progress& progress);
   /// Writes a member and its numbers; `put(i)` writes number i.
@@ -227,24 +229,18 @@ void SessionWriter::write_state() {
               [&](std::size_t i) { out_ << mesh_.links[session_.cuts[i / 2]][i % 2]; });
   write_ids("pins", session_.pins);
   write_softness();
-  const OrderedJson relaxation{{"on", session_.relaxation.on},
-                               {"scheme", info(session_.relaxation.scheme).name},
-                               {"step", session_.relaxation.step}};
-  out_ << ",\n\"relaxation\": " << relaxation.dump();
+  write_members("relaxation", session_.relaxation);
   if (session_.elastic != ElasticOptions()) {
-    const auto& [material, lattice, iterations, law, thickness] = session_.elastic;
-    OrderedJson elastic{
-        {"young", material.young}, {"poisson", material.poisson}, {"lattice", lattice}, {"iterations", iterations}};
-    if (law != StrainLaw()) {
-      elastic["law"] = name(law.kind);
-      elastic["gent_limit"] = law.gent_limit;
-      elastic["fung_exponent"] = law.fung_exponent;
-    }
-    if (thickness != parameters::thickness.default_value) {
-      elastic["thickness"] = thickness;
-    }
-    out_ << ",\n\"elastic\": " << elastic.dump();
+    write_members("elastic", session_.elastic);
   }
+}
+
+/// Writes a described struct as an object.
+template <class Struct>
+void SessionWriter::write_members(const char* key, const Struct& all) {
+  OrderedJson object;
+  add_members(object, all);
+  out_ << ",\n\"" << std::string_view(key) << "\": " << object.dump();
 }
 
 void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {

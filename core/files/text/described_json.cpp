@@ -1,0 +1,114 @@
+#include "files/text/described_json.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "files/text/text.h"
+#include "mesh/error.h"
+
+namespace chainmail {
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+bool is_yes_or_no(const MemberInfo& member) { return member.number == nullptr && member.names.empty(); }
+
+OrderedJson json_of_item(const MemberInfo& member, double value) {
+  if (is_yes_or_no(member)) {
+    return value != 0;
+  }
+  if (!member.names.empty()) {
+    return member.names[std::size_t(value)];
+  }
+  return member.is_whole ? OrderedJson(std::uint64_t(value)) : OrderedJson(value);
+}
+
+double choice_of(const JsonFields& fields, const Json& json, const MemberInfo& member) {
+  const auto found = std::ranges::find(member.names, json.is_string() ? json.get<std::string>() : "");
+  if (found == member.names.end()) {
+    const std::vector<std::string> names(member.names.begin(), member.names.end() - 1);
+    fields.fail(in_quotes(std::string(member.key)) + " is not known",
+                "use " + joined_words(names, ", ") + " or " + std::string(member.names.back()));
+  }
+  return double(found - member.names.begin());
+}
+
+double item_of(const JsonFields& fields, const Json& json, const MemberInfo& member) {
+  if (is_yes_or_no(member)) {
+    if (!json.is_boolean()) {
+      fields.fail(in_quotes(std::string(member.key)) + " is neither true nor false", "write one of them");
+    }
+    return json.get<bool>() ? 1 : 0;
+  }
+  if (!member.names.empty()) {
+    return choice_of(fields, json, member);
+  }
+  if (member.is_whole && json.is_number() && !json.is_number_unsigned()) {
+    fields.fail(in_quotes(std::string(member.key)) + " is not a whole number", "use " + range_of(*member.number));
+  }
+  return fields.number(json, *member.number);
+}
+
+}  // namespace
+
+OrderedJson json_of(const MemberInfo& member, const std::function<double(std::size_t)>& value) {
+  if (member.count == 1) {
+    return json_of_item(member, value(0));
+  }
+  OrderedJson items = OrderedJson::array();
+  for (std::size_t i = 0; i < member.count; ++i) {
+    items.push_back(json_of_item(member, value(i)));
+  }
+  return items;
+}
+
+std::vector<double> values_of(const JsonFields& fields, const Json& json, const MemberInfo& member) {
+  if (member.count == 1) {
+    return {item_of(fields, json, member)};
+  }
+  if (!json.is_array() || json.size() != member.count) {
+    fields.fail(in_quotes(std::string(member.key)) + " is not an array of " + std::to_string(member.count) + " numbers",
+                "write " + std::to_string(member.count) + " in [ ]");
+  }
+  std::vector<double> values;
+  for (const Json& item : json) {
+    values.push_back(item_of(fields, item, member));
+  }
+  return values;
+}
+
+OrderedJson schema_of(const MemberInfo& member) {
+  OrderedJson item;
+  if (is_yes_or_no(member)) {
+    item = {{"type", "boolean"}};
+  } else if (!member.names.empty()) {
+    item = {{"enum", std::vector<std::string>(member.names.begin(), member.names.end())}};
+  } else {
+    item = schema_of(*member.number);
+    item["type"] = member.is_whole ? "integer" : "number";
+  }
+  item["description"] = member.help;
+  if (member.count == 1) {
+    return item;
+  }
+  return {{"type", "array"}, {"items", item}, {"minItems", member.count}, {"maxItems", member.count}};
+}
+
+OrderedJson schema_of(const Parameter& number) {
+  OrderedJson schema{{"type", "number"}};
+  if (number.lowest == parameters::above_zero) {
+    schema["exclusiveMinimum"] = 0;
+  } else {
+    schema["minimum"] = number.lowest;
+  }
+  if (number.highest == parameters::below_half) {
+    schema["exclusiveMaximum"] = 0.5;
+  } else if (number.highest != parameters::no_highest) {
+    schema["maximum"] = number.highest;
+  }
+  schema["description"] = number.help;
+  return schema;
+}
+
+}  // namespace chainmail
