@@ -230,7 +230,7 @@ std::vector<report::Case> cases_of(const CompareArguments& arguments) {
   if (arguments.against_physics || arguments.has_meshes()) {
     arguments.elastic_options.read();
   }
-  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic.material);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic);
   std::vector<report::Case> cases = objects_of(arguments);
   for (report::Case& object : cases) {
     object.drags = watched("finding drags of " + object.name, {},
@@ -272,6 +272,7 @@ void group(CLI::App& app, const std::string& title, const std::vector<std::strin
   }
 }
 
+constexpr const char* elastic_title = "Pins and methods of elasticity";
 const std::vector<std::string> only_physics{"--handles",  "--grow",       "--calibrated",   "--reference",
                                             "--material", "--gent-limit", "--fung-exponent"};
 
@@ -314,8 +315,11 @@ void add_contest(Options& options, CompareArguments& arguments) {
 
 void add_physics(Options& options, CompareArguments& arguments) {
   add_pins(options, arguments.pins);
-  add_elastic(arguments.elastic_options, arguments.elastic);
-  add_strain_laws(options, arguments.laws);
+  for (CLI::Option* option :
+       arguments.elastic_options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"})) {
+    option->group(elastic_title);
+  }
+  add_strain_laws(options, arguments.elastic, arguments.laws);
   options.add("--reference", Choices<bool>{{"same-cells", false}, {"refined", true}},
               "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
               "answer changes by less than 2 % [same-cells]",
@@ -335,8 +339,7 @@ void add_physics(Options& options, CompareArguments& arguments) {
               "sweeps [on; with MESH, --suite or --quick: off]",
               arguments.calibrated);
   group(options.app(), "Against physics", only_physics);
-  group(options.app(), "Pins and methods of elasticity",
-        {"--pins", "--young", "--poisson", "--lattice", "--iterations"});
+  group(options.app(), elastic_title, {"--pins"});
 }
 
 void add_suite(Options& options, CompareArguments& arguments) {

@@ -36,7 +36,7 @@ const Words& words<EnergyKind>() {
 
 template <>
 const Words& words<StrainLaw::Kind>() {
-  static const Words all{"law", {"neo-hookean", "gent", "fung"}};
+  static const Words all{"law", {strain_law_names.begin(), strain_law_names.end()}};
   return all;
 }
 
