@@ -141,17 +141,15 @@ class Options {
   }
   /// Adds an option for a number, or the numbers along the axes, of a described struct.
   template <class Struct>
-  CLI::Option* add(const Member<Struct>& member, Struct& all) {
-    CLI::Option* option = add_value(*app_, option_of(*member.number), member.count == 1 ? "NUMBER" : "N|NxN[xN]",
-                                    help_of(*member.number));
+  void add(const Member<Struct>& member, Struct& all) {
+    const CLI::Option* option = add_value(*app_, option_of(*member.number), member.count == 1 ? "NUMBER" : "N|NxN[xN]",
+                                          help_of(*member.number));
     readers_.push_back([=, &member, &all] {
       const auto text = value_of(option);
-      const auto numbers = text ? numbers_of(member, option->get_name(), *text) : std::vector<double>();
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        member.set(all, i, numbers[i]);
+      for (std::size_t i = 0; text && i < member.count; ++i) {
+        member.set(all, i, numbers_of(member, option->get_name(), *text)[i]);
       }
     });
-    return option;
   }
   /// Adds an option whose value is one of these words.
   template <class Choice, class Value>
@@ -165,16 +163,14 @@ class Options {
     return add(name, type, help, value, [](const std::string&, const std::string& text) { return text; });
   }
 
-  /// Adds an option for each number of a described struct, or for those with these keys, and returns the options.
+  /// Adds an option for each number of a described struct, or for those with these keys.
   template <class Struct>
-  std::vector<CLI::Option*> add_numbers(Struct& all, const std::vector<std::string_view>& keys = {}) {
-    std::vector<CLI::Option*> added;
+  void add_numbers(Struct& all, const std::vector<std::string_view>& keys = {}) {
     for (const Member<Struct>& member : members_of<Struct>) {
       if (member.number != nullptr && (keys.empty() || std::ranges::count(keys, member.key) > 0)) {
-        added.push_back(add(member, all));
+        add(member, all);
       }
     }
-    return added;
   }
 
   CLI::App& app() const { return *app_; }

@@ -272,7 +272,6 @@ void group(CLI::App& app, const std::string& title, const std::vector<std::strin
   }
 }
 
-constexpr const char* elastic_title = "Pins and methods of elasticity";
 const std::vector<std::string> only_physics{"--handles",  "--grow",       "--calibrated",   "--reference",
                                             "--material", "--gent-limit", "--fung-exponent"};
 
@@ -315,10 +314,7 @@ void add_contest(Options& options, CompareArguments& arguments) {
 
 void add_physics(Options& options, CompareArguments& arguments) {
   add_pins(options, arguments.pins);
-  for (CLI::Option* option :
-       arguments.elastic_options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"})) {
-    option->group(elastic_title);
-  }
+  arguments.elastic_options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"});
   add_strain_laws(options, arguments.elastic, arguments.laws);
   options.add("--reference", Choices<bool>{{"same-cells", false}, {"refined", true}},
               "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
@@ -339,7 +335,8 @@ void add_physics(Options& options, CompareArguments& arguments) {
               "sweeps [on; with MESH, --suite or --quick: off]",
               arguments.calibrated);
   group(options.app(), "Against physics", only_physics);
-  group(options.app(), elastic_title, {"--pins"});
+  group(options.app(), "Pins and methods of elasticity",
+        {"--pins", "--young", "--poisson", "--lattice", "--iterations"});
 }
 
 void add_suite(Options& options, CompareArguments& arguments) {

@@ -80,8 +80,7 @@ inline constexpr std::array members_of<ElasticOptions>{
 
 /// Returns true for the numbers of single laws, and for those that only surfaces in space have.
 constexpr bool is_of_law(const MemberInfo& member) {
-  return member.number != nullptr &&
-         (member.number == number_of(StrainLaw::Kind::gent) || member.number == number_of(StrainLaw::Kind::fung));
+  return member.number == &parameters::gent_limit || member.number == &parameters::fung_exponent;
 }
 constexpr bool is_of_surfaces(const MemberInfo& member) { return member.number == &parameters::thickness; }
 

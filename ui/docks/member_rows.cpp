@@ -14,21 +14,8 @@ namespace {
 
 using Changed = std::function<void(std::size_t i, double value, int gesture)>;
 
-/// Returns a layout of the row with the name of a member, followed by its fields.
-QHBoxLayout* makeFields(const MemberInfo& member, QWidget& row, const std::vector<QWidget*>& fields) {
-  QString help = text(member.help);
-  help[0] = help[0].toUpper();
-  auto* label = new QLabel(text(member.label));
-  label->setBuddy(fields.front());
-  label->setToolTip(help);
-  auto* layout = new QHBoxLayout(&row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(label);
-  for (QWidget* field : fields) {
-    field->setToolTip(help);
-    layout->addWidget(field);
-  }
-  return layout;
+QWidget* withFields(const MemberInfo& member, const std::vector<QWidget*>& fields) {
+  return namedRow(text(member.label), sentence(text(member.help)), fields);
 }
 
 MemberRow makeNumber(const MemberInfo& member, const Changed& changed) {
@@ -44,14 +31,11 @@ MemberRow makeChoice(const MemberInfo& member, const Changed& changed) {
   for (const std::string_view label : member.labels) {
     list->addItem(text(label), list->count());
   }
-  auto* row = new QWidget;
-  makeFields(member, *row, {list})->setStretch(1, 1);
-  QObject::connect(list, &QComboBox::activated, row, [=](int index) { changed(0, index, 0); });
-  return {row, {}, [list](std::size_t, double value) { list->setCurrentIndex(int(value)); }};
+  QObject::connect(list, &QComboBox::activated, list, [=](int index) { changed(0, index, 0); });
+  return {withFields(member, {list}), {}, [list](std::size_t, double value) { list->setCurrentIndex(int(value)); }};
 }
 
 MemberRow makeArray(const MemberInfo& member, const Changed& changed) {
-  auto* row = new QWidget;
   std::vector<QSpinBox*> counts;
   for (std::size_t i = 0; i < member.count; ++i) {
     auto* count = counts.emplace_back(new QSpinBox);
@@ -59,18 +43,32 @@ MemberRow makeArray(const MemberInfo& member, const Changed& changed) {
     count->setAccessibleName(QStringLiteral("%1 along %2").arg(text(member.label)).arg(QLatin1Char("xyz"[i])));
     count->setRange(int(member.number->lowest), int(member.number->highest));
     count->setKeyboardTracking(false);
-    QObject::connect(count, &QSpinBox::valueChanged, row, [=](int value) { changed(i, value, 0); });
+    QObject::connect(count, &QSpinBox::valueChanged, count, [=](int value) { changed(i, value, 0); });
     QObject::connect(count, &QSpinBox::editingFinished, count, &QWidget::clearFocus);  // shortcuts work again
   }
   const std::vector<QWidget*> fields(counts.begin(), counts.end());
-  makeFields(member, *row, fields)->setStretch(0, 1);
-  return {row, fields, [counts](std::size_t i, double value) {
+  return {withFields(member, fields), fields, [counts](std::size_t i, double value) {
             const QSignalBlocker block(counts[i]);
             counts[i]->setValue(int(value));
           }};
 }
 
 }  // namespace
+
+QWidget* namedRow(const QString& name, const QString& help, const std::vector<QWidget*>& fields) {
+  auto* row = new QWidget;
+  auto* label = new QLabel(name);
+  label->setBuddy(fields.front());
+  label->setToolTip(help);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(label, fields.size() == 1 ? 0 : 1);
+  for (QWidget* field : fields) {
+    field->setToolTip(help);
+    layout->addWidget(field, fields.size() == 1 ? 1 : 0);
+  }
+  return row;
+}
 
 MemberRow makeRow(const MemberInfo& member, const Changed& changed) {
   return !member.names.empty() ? makeChoice(member, changed)

@@ -10,6 +10,9 @@
 
 namespace chainmail {
 
+/// Makes a row of fields after their name, which all have the same tooltip.
+QWidget* namedRow(const QString& name, const QString& help, const std::vector<QWidget*>& fields);
+
 /// The row of a member of a described struct: a slider and a field for a number, a list for a choice, and a field for
 /// each number of an array.
 struct MemberRow {
