@@ -76,6 +76,7 @@ inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
     {&parameters::stiffness, &LinkSoftness::stiffness},
     {&parameters::exponent, &LinkSoftness::exponent},
 }};
+/// The same as members of a described struct.
 template <std::size_t... I>
 constexpr auto described_softness(std::index_sequence<I...> /*numbers*/) {
   return std::array{
@@ -84,7 +85,7 @@ constexpr auto described_softness(std::index_sequence<I...> /*numbers*/) {
 template <>
 inline constexpr auto members_of<LinkSoftness> =
     described_softness(std::make_index_sequence<softness_numbers.size()>());
-/// Those that decide on the valid region come first. The others decide on the energy.
+/// Numbers that decide on the valid region come first. The others decide on the energy.
 inline constexpr std::size_t region_numbers = 3;
 /// Returns the names of the numbers from index `first` to before `end`, separated by `between`.
 std::string softness_names(std::string_view between, std::size_t first = 0, std::size_t end = softness_numbers.size());
