@@ -10,11 +10,11 @@
 
 namespace chainmail::python {
 
-/// A part of a value object of Python: its name, where it is in the C++ struct, and its docstring.
+/// A part of a value object of Python: its name, its member of the C++ struct, and its docstring.
 template <class At>
 struct Part {
   const char* name;
-  At at;  // a pointer to a member, or a function that returns a reference
+  At at;  // a pointer to the member
   std::string help;
 };
 template <class At>
