@@ -68,7 +68,7 @@ Command add_calibrate(CLI::App& root) {
   Options& options = arguments->mesh->options;
   CalibrationOptions& how = arguments->how;
   add_space(*arguments->mesh);
-  add_material(options, how.elastic.material);
+  options.add_numbers(how.elastic, {"young", "poisson"});
   add_pins(options, arguments->pins);
   options.add(
       "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]", how.algorithm,

@@ -1,5 +1,6 @@
 #include "command_line/common.h"
 
+#include <cctype>
 #include <iostream>
 
 #include "version/version.h"
@@ -64,9 +65,29 @@ std::function<double(const std::string& where, const std::string& text)> number_
   };
 }
 
+std::vector<double> numbers_of(const MemberInfo& member, const std::string& where, const std::string& text) {
+  const bool is_list = member.count > 1;
+  std::string name(member.label);
+  name.front() = char(std::tolower(static_cast<unsigned char>(name.front())));
+  std::vector<double> numbers;
+  for (const std::string_view word : is_list ? split(text, 'x') : std::vector<std::string_view>{text}) {
+    const auto count = member.is_whole ? parse_count(word) : std::nullopt;
+    require((count || !member.is_whole) && numbers.size() < member.count, where,
+            in_quotes(text) + " is not a number of " + name,
+            is_list ? "write one number for all axes, or one for each, as 4x4x4" : "use " + range_of(*member.number));
+    numbers.push_back(count ? *count : parse_number_of(where, word));
+  }
+  numbers.resize(member.count, numbers.back());  // a plane has no third axis
+  for (const double number : numbers) {
+    check_option(*member.number, number);
+  }
+  return numbers;
+}
+
+std::string option_of(const Parameter& parameter) { return "--" + std::string(parameter.name); }
+
 void check_option(const Parameter& parameter, double value) {
-  const std::string name(parameter.name);
-  in_options({{name, "--" + name}}, [&] { check(parameter, value); });
+  error_at(option_of(parameter), [&] { check(parameter, value); });
 }
 
 std::string help_of(const Parameter& parameter) {

@@ -19,6 +19,7 @@
 #include "files/mesh/input_file.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
+#include "mesh/described.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
 #include "report/table/machine.h"
@@ -99,6 +100,11 @@ double parse_number_of(const std::string& where, std::string_view text);
 std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest);
 /// Returns a function that parses a number in the range of a parameter.
 std::function<double(const std::string& where, const std::string& text)> number_in(const Parameter& parameter);
+/// Returns the numbers that a text gives for a member of a described struct; those of an array are separated by x, or
+/// one stands for all. Throws Error, with the option, if they are not such numbers.
+std::vector<double> numbers_of(const MemberInfo& member, const std::string& where, const std::string& text);
+/// Returns the option of a parameter.
+std::string option_of(const Parameter& parameter);
 /// Throws Error, with the option of the parameter, if the value is out of range.
 void check_option(const Parameter& parameter, double value);
 /// Returns the help of a parameter, with its default.
@@ -131,7 +137,19 @@ class Options {
   /// Adds an option for a number of the parameter table, with its default in the help.
   template <class Value>
   CLI::Option* add(const Parameter& parameter, Value& value) {
-    return add("--" + std::string(parameter.name), "NUMBER", help_of(parameter), value, number_in(parameter));
+    return add(option_of(parameter), "NUMBER", help_of(parameter), value, number_in(parameter));
+  }
+  /// Adds an option for a number, or the numbers along the axes, of a described struct.
+  template <class Struct>
+  void add(const Member<Struct>& member, Struct& all) {
+    const CLI::Option* option = add_value(*app_, option_of(*member.number), member.count == 1 ? "NUMBER" : "N|NxN[xN]",
+                                          help_of(*member.number));
+    readers_.push_back([=, &member, &all] {
+      const auto text = value_of(option);
+      for (std::size_t i = 0; text && i < member.count; ++i) {
+        member.set(all, i, numbers_of(member, option->get_name(), *text)[i]);
+      }
+    });
   }
   /// Adds an option whose value is one of these words.
   template <class Choice, class Value>
@@ -143,6 +161,16 @@ class Options {
   CLI::Option* add(const std::string& name, const std::string& type, const std::string& help,
                    std::optional<std::string>& value) {
     return add(name, type, help, value, [](const std::string&, const std::string& text) { return text; });
+  }
+
+  /// Adds an option for each number of a described struct, or for those with these keys.
+  template <class Struct>
+  void add_numbers(Struct& all, const std::vector<std::string_view>& keys = {}) {
+    for (const Member<Struct>& member : members_of<Struct>) {
+      if (member.number != nullptr && (keys.empty() || std::ranges::count(keys, member.key) > 0)) {
+        add(member, all);
+      }
+    }
   }
 
   CLI::App& app() const { return *app_; }

@@ -230,7 +230,7 @@ std::vector<report::Case> cases_of(const CompareArguments& arguments) {
   if (arguments.against_physics || arguments.has_meshes()) {
     arguments.elastic_options.read();
   }
-  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic.material);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic);
   std::vector<report::Case> cases = objects_of(arguments);
   for (report::Case& object : cases) {
     object.drags = watched("finding drags of " + object.name, {},
@@ -314,8 +314,8 @@ void add_contest(Options& options, CompareArguments& arguments) {
 
 void add_physics(Options& options, CompareArguments& arguments) {
   add_pins(options, arguments.pins);
-  add_elastic(arguments.elastic_options, arguments.elastic);
-  add_strain_laws(options, arguments.laws);
+  arguments.elastic_options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"});
+  add_strain_laws(options, arguments.elastic, arguments.laws);
   options.add("--reference", Choices<bool>{{"same-cells", false}, {"refined", true}},
               "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
               "answer changes by less than 2 % [same-cells]",

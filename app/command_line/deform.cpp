@@ -91,7 +91,7 @@ void complete(DeformArguments& arguments) {
   if (arguments.script && !arguments.global.energy) {
     arguments.global.energy = link_energy;
   }
-  const std::vector<StrainLaw> laws = strain_laws_of(arguments.law, arguments.elastic.material);
+  const std::vector<StrainLaw> laws = strain_laws_of(arguments.law, arguments.elastic);
   require(laws.size() == 1, "--material", "it names several materials", "name one");
   arguments.elastic.law = laws.front();
   if (arguments.positions) {
@@ -181,12 +181,10 @@ void add_model(Options& options, DeformArguments& arguments) {
                   std::to_string(equilibrium_iterations) + "]",
               schedule.relax, count_from(0));
   add_relaxation(options, false, schedule.how.scheme);
-  options.add(parameters::relax_step, schedule.how.step);
+  options.add_numbers(schedule.how);
   options.add(parameters::relax_until, schedule.until);
   add_precision(options, arguments.precision);
-  add_elastic(options, arguments.elastic);
-  add_strain_law(options, arguments.law);
-  options.add(parameters::thickness, arguments.elastic.thickness);
+  add_elastic(options, arguments.elastic, arguments.law);
   add_space(*arguments.mesh);
 }
 

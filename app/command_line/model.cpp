@@ -18,29 +18,6 @@ EnergyKind usual_energy(const SoftnessArguments& arguments, const LinkSoftness& 
   return standard_energy;
 }
 
-std::array<std::uint32_t, 3> lattice_of(const std::string& where, const std::string& text) {
-  std::vector<std::uint32_t> counts;
-  for (const std::string_view word : split(text, 'x')) {
-    const auto count = parse_count(word);
-    require(count && counts.size() < 3, where, in_quotes(text) + " is not a number of control points",
-            "write one number for all axes, or one for each, as 4x4x4");
-    counts.push_back(*count);
-  }
-  counts.resize(3, counts.back());  // a plane has no third axis
-  for (const std::uint32_t count : counts) {
-    check_option(parameters::lattice, count);
-  }
-  return {counts[0], counts[1], counts[2]};
-}
-
-std::uint32_t iterations_of(const std::string& where, const std::string& text) {
-  const auto count = parse_count(text);
-  require(count.has_value(), where, in_quotes(text) + " is not a number of iterations",
-          "use " + range_of(parameters::iterations));
-  check_option(parameters::iterations, *count);
-  return *count;
-}
-
 Choices<StrainLaw::Kind> laws_by_name() {
   Choices<StrainLaw::Kind> all;
   for (const StrainLaw::Kind kind : strain_laws) {
@@ -49,11 +26,9 @@ Choices<StrainLaw::Kind> laws_by_name() {
   return all;
 }
 
-void add_laws(Options& options, const std::string& type, const std::string& help, StrainLawArguments& arguments) {
+void add_law(Options& options, const std::string& type, const std::string& help, StrainLawArguments& arguments) {
   arguments.app = &options.app();
   options.add("--material", type, help + " [neo-hookean]", arguments.materials);
-  options.add(parameters::gent_limit, arguments.parameters.gent_limit);
-  options.add(parameters::fung_exponent, arguments.parameters.fung_exponent);
 }
 
 }  // namespace
@@ -138,43 +113,45 @@ std::vector<double> parse_coordinates(const std::string& where, std::string_view
 
 // Elasticity
 
-void add_material(Options& options, Material& material) {
-  options.add(parameters::young, material.young);
-  options.add(parameters::poisson, material.poisson);
+void add_strain_laws(Options& options, ElasticOptions& elastic, StrainLawArguments& arguments) {
+  add_law(options, "M,M,…",
+          "materials of the reference solution: neo-hookean, or gent and fung, which stiffen as they are stretched",
+          arguments);
+  for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
+    if (is_of_law(member)) {
+      options.add(member, elastic);
+    }
+  }
 }
 
-void add_elastic(Options& options, ElasticOptions& elastic) {
-  add_material(options, elastic.material);
-  options.add("--lattice", "N|NxN[xN]", help_of(parameters::lattice), elastic.lattice, lattice_of);
-  options.add("--iterations", "NUMBER", help_of(parameters::iterations), elastic.iterations, iterations_of);
+void add_elastic(Options& options, ElasticOptions& elastic, StrainLawArguments& arguments) {
+  for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
+    if (member.number != nullptr) {
+      options.add(member, elastic);
+    } else {
+      add_law(options, joined_words(names_of(laws_by_name()), "|"),
+              "law of the material, for relaxation to it and for the algorithm neo-hookean; gent and fung stiffen "
+              "as they are stretched",
+              arguments);
+    }
+  }
 }
 
-void add_strain_laws(Options& options, StrainLawArguments& arguments) {
-  add_laws(options, "M,M,…",
-           "materials of the reference solution: neo-hookean, or gent and fung, which stiffen as they are stretched",
-           arguments);
-}
-
-void add_strain_law(Options& options, StrainLawArguments& arguments) {
-  add_laws(options, joined_words(names_of(laws_by_name()), "|"),
-           "law of the material, for relaxation to it and for the algorithm neo-hookean; gent and fung stiffen "
-           "as they are stretched",
-           arguments);
-}
-
-std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material) {
+std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const ElasticOptions& elastic) {
   std::vector<StrainLaw> laws;
   for (const std::string& word :
        words_of("--material", arguments.materials.value_or(name(StrainLaw::Kind::neo_hookean)))) {
-    laws.push_back(arguments.parameters);
+    laws.push_back(elastic.law);
     laws.back().kind = chosen("--material", word, laws_by_name());
-    in_options({{"gent-limit", "--gent-limit"}, {"fung-exponent", "--fung-exponent"}},
-               [&] { check(laws.back(), material); });
+    const Parameter* number = number_of(laws.back().kind);
+    error_at(number == nullptr ? "--material" : option_of(*number), [&] { check(laws.back(), elastic.material); });
   }
-  for (const auto& [option, kind] :
-       {std::pair("--gent-limit", StrainLaw::Kind::gent), std::pair("--fung-exponent", StrainLaw::Kind::fung)}) {
-    require(arguments.app->count(option) == 0 || std::ranges::count(laws, kind, &StrainLaw::kind) > 0, option,
-            "the material '" + name(kind) + "' does not take part", "add --material " + name(kind));
+  for (const StrainLaw::Kind kind : strain_laws) {
+    const Parameter* number = number_of(kind);
+    if (number != nullptr && arguments.app->count(option_of(*number)) > 0) {
+      require(std::ranges::count(laws, kind, &StrainLaw::kind) > 0, option_of(*number),
+              "the material '" + name(kind) + "' does not take part", "add --material " + name(kind));
+    }
   }
   return laws;
 }

@@ -29,23 +29,17 @@ RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh);
 /// Reads `x|y|z:DEGREES` or `X,Y,Z:DEGREES`. Throws Error at `where`.
 Rotation parse_rotation(const std::string& where, std::string_view text);
 
-/// Adds the options of the material.
-void add_material(Options& options, Material& material);
-/// Adds those, and the others of methods of elasticity and of free-form deformation.
-void add_elastic(Options& options, ElasticOptions& elastic);
-
-/// The laws of materials: their names, and the parameters of those that have one.
+/// The laws of materials, by their names.
 struct StrainLawArguments {
   const CLI::App* app = nullptr;
   std::optional<std::string> materials;
-  StrainLaw parameters;
 };
-/// Adds the options for the law of the object's own material.
-void add_strain_law(Options& options, StrainLawArguments& arguments);
-/// Adds the options for the materials of the reference solution.
-void add_strain_laws(Options& options, StrainLawArguments& arguments);
+/// Adds the options of elasticity, with the law of the object's own material.
+void add_elastic(Options& options, ElasticOptions& elastic, StrainLawArguments& arguments);
+/// Adds the options for the materials of the reference solution, and for the numbers of their laws.
+void add_strain_laws(Options& options, ElasticOptions& elastic, StrainLawArguments& arguments);
 /// Returns the laws, of which there may be one or several. Throws Error, with the option.
-std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const Material& material);
+std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const ElasticOptions& elastic);
 
 void add_pins(Options& options, std::optional<std::string>& pins);
 /// Returns the elements of `--pins`, a layer or ids separated by commas, in ascending order. Throws Error if the option

@@ -72,9 +72,9 @@ Command add_ramp(CLI::App& root, const std::string& command_line) {
   options.add("--largest", "ELEMENTS", "largest number of elements in a grid [4000000, or as many as fit into memory]",
               how.largest, count_from(1));
   add_precision(options, how.precision);
-  options.add(parameters::compression, how.softness.compression);
-  options.add(parameters::stretch, how.softness.stretch);
-  options.add(parameters::shear, how.softness.shear);
+  for (const Member<LinkSoftness>& member : std::span(members_of<LinkSoftness>).first(region_numbers)) {
+    options.add(member, how.softness);
+  }
   options.add("--json", "FILE", "write all results as JSON", arguments->json);
   options.add("--csv", "FILE", "write one row per algorithm and size as CSV", arguments->csv);
   options.add("--svg", "FILE", "write a plot of the times against the number of elements as SVG", arguments->svg);

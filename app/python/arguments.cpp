@@ -34,12 +34,6 @@ const Words& words<EnergyKind>() {
   return all;
 }
 
-template <>
-const Words& words<StrainLaw::Kind>() {
-  static const Words all{"law", {"neo-hookean", "gent", "fung"}};
-  return all;
-}
-
 std::size_t index_of(const Words& words, std::string_view word) {
   const auto& all = words.all;
   const auto found = std::ranges::find(all, word);

@@ -54,8 +54,6 @@ template <>
 const Words& words<RelaxationScheme>();
 template <>
 const Words& words<EnergyKind>();
-template <>
-const Words& words<StrainLaw::Kind>();
 /// Returns the index of a word. Throws Error, with all words, if it is not in the list.
 std::size_t index_of(const Words& words, std::string_view word);
 

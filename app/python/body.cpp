@@ -342,11 +342,13 @@ void add_softness(BodyClass& body) {
            "Sets the softness of all links that have none of their own, or gives these links their own.\n\n"
            "Nothing moves; the next move answers. Raises Error if a value is out of its range.")
       .def("set_link_softness", &set_link_softness, py::arg("links") = py::none(),
-           "Gives links their own softness from arrays: compression, stretch, shear, lateral, stiffness, exponent.\n\n"
-           "`links` are ids; default: all links in the order of their ids. Each other argument is one number, or an\n"
-           "array with one number per link: shape (links,). Numbers that are left out stay as they are. Raises\n"
-           "Error for another shape, a value out of its range, and a link that is given twice. Nothing has changed\n"
-           "then.")
+           ("Gives links their own softness from arrays: " + softness_names(", ") +
+            ".\n\n"
+            "`links` are ids; default: all links in the order of their ids. Each other argument is one number, or an\n"
+            "array with one number per link: shape (links,). Numbers that are left out stay as they are. Raises\n"
+            "Error for another shape, a value out of its range, and a link that is given twice. Nothing has changed\n"
+            "then.")
+               .c_str())
       .def("clear_softness", &clear_softness, py::arg("links") = py::none(),
            "Takes their own softness away from these links, or from all: the common one applies to them.")
       .def(

@@ -10,26 +10,21 @@
 
 namespace chainmail::python {
 
-/// A part of a value object of Python: its name, where it is in the C++ struct, and its docstring.
+/// A part of a value object of Python: its name, its member of the C++ struct, and its docstring.
 template <class At>
 struct Part {
   const char* name;
-  At at;  // a pointer to a member, or a function that returns a reference
+  At at;  // a pointer to the member
   std::string help;
 };
 template <class At>
 Part(const char*, At, std::string) -> Part<At>;
 
-template <class Value, class At>
-using PartType = std::remove_cvref_t<std::invoke_result_t<const At&, Value&>>;
-
-/// Returns a part as Python has it: a vector and numbers along the axes are tuples.
+/// Returns a part as Python has it: a vector is a tuple.
 template <class Type>
 py::object to_python(const Type& part) {
   if constexpr (std::is_same_v<Type, Point>) {
     return tuple_of(part);
-  } else if constexpr (std::is_same_v<Type, std::array<std::uint32_t, 3>>) {
-    return py::tuple(py::cast(part));
   } else {
     return py::cast(part);
   }
@@ -63,27 +58,18 @@ void add_parts(py::class_<Value>& type, const Part<At>&... parts) {
       });
 }
 
-/// Adds the constructor, which takes the parts by their names. The defaults are those of the struct.
-template <class Value, class... At>
-void add_keywords(py::class_<Value>& type, const Part<At>&... parts) {
-  Value defaults;
-  type.def(py::init([parts...](const PartType<Value, At>&... given) {
-             Value one;
-             ((std::invoke(parts.at, one) = given), ...);
-             return one;
-           }),
-           py::kw_only(), (py::arg(parts.name) = to_python(std::invoke(parts.at, defaults)))...);
-}
-
 /// Returns `Rotation(axis=(0.0, 0.0, 1.0), degrees=30.0)`.
+template <class Value>
+std::string words_of(const py::dict& parts) {
+  std::string text;
+  for (const auto& [name, part] : parts) {
+    text += (text.empty() ? "" : ", ") + std::string(py::str(name)) + "=" + std::string(py::repr(part));
+  }
+  return std::string(py::str(py::type::of<Value>().attr("__name__"))) + "(" + text + ")";
+}
 template <class Value, class... At>
 std::string words_of(Value& one, const Part<At>&... parts) {
-  std::string text;
-  [[maybe_unused]] const auto add = [&](const char* name, const py::object& part) {
-    text += (text.empty() ? "" : ", ") + std::string(name) + "=" + std::string(py::repr(part));
-  };
-  (add(parts.name, to_python(std::invoke(parts.at, one))), ...);
-  return std::string(py::str(py::type::of<Value>().attr("__name__"))) + "(" + text + ")";
+  return words_of<Value>(py::dict((py::arg(parts.name) = to_python(std::invoke(parts.at, one)))...));
 }
 
 }  // namespace chainmail::python

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <cctype>
-#include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "python/module.h"
 #include "python/value.h"
@@ -44,65 +45,107 @@ void add_pose(py::module_& module) {
   add_parts(pose, pivot, turn);
 }
 
-/// Returns a docstring: `Shortest length … From 0 to 1.`
-std::string help_of(const Parameter& number) {
-  const auto text = [](double limit) { return std::string(py::repr(py::float_(limit))); };
-  std::string help(number.help);
+// Settings that core describes
+
+/// The lattice of control points has a name of its own, because a mesh may have a lattice, too.
+const char* name_of(const MemberInfo& member) { return member.key == "lattice" ? "control_points" : member.key.data(); }
+
+/// Returns a docstring: `Shortest length … Range: 0 to 1 (of rest length).`
+std::string help_of(const MemberInfo& member) {
+  std::string help = std::string(member.help) + ". ";
   help.front() = char(std::toupper(static_cast<unsigned char>(help.front())));
-  const bool has_limit = number.highest < std::numeric_limits<double>::max();
-  return help + ". From " + text(number.lowest) + (has_limit ? " to " + text(number.highest) : "") + ".";
+  if (member.number != nullptr) {
+    return help + "Range: " + range_of(*member.number) + " (" + std::string(member.number->unit) + ").";
+  }
+  for (const std::string_view name : member.names) {
+    help += (name == member.names.front() ? "One of `" : ", `") + std::string(name) + "`";
+  }
+  return help + ".";
 }
 
-Part<double LinkSoftness::*> part_of(const SoftnessNumber& number) {
-  return {number.parameter->name.data(), number.value, help_of(*number.parameter)};
+/// Returns a member as Python has it: a choice is a word, and an array is a tuple.
+template <class Struct>
+py::object value_of(const Member<Struct>& member, const Struct& all) {
+  py::list items;
+  for (std::size_t i = 0; i < member.count; ++i) {
+    const double value = member.get(all, i);
+    if (!member.names.empty()) {
+      items.append(member.names[std::size_t(value)]);
+    } else {
+      items.append(member.is_whole ? py::object(py::int_(std::uint64_t(value))) : py::float_(value));
+    }
+  }
+  return member.count == 1 ? py::object(items[0]) : py::tuple(items);
 }
 
-/// Adds the class with the numbers of core's table.
-template <std::size_t... I>
-void add_link_softness(py::module_& module, std::index_sequence<I...> /*numbers*/) {
-  py::class_<LinkSoftness> softness(
+template <class Struct>
+py::dict values_of(const Struct& all) {
+  py::dict values;
+  for (const Member<Struct>& member : members_of<Struct>) {
+    values[name_of(member)] = value_of(member, all);
+  }
+  return values;
+}
+
+/// What Python gives for a member.
+template <class Struct, std::size_t I, const auto& All = members_of<Struct>,
+          class Number = std::conditional_t<All[I].is_whole, std::uint32_t, double>,
+          class Numbers = std::conditional_t<All[I].count == 1, Number, std::array<Number, All[I].count>>>
+using Keyword = std::conditional_t<All[I].names.empty(), Numbers, std::string>;
+
+template <class Struct, class Value>
+void set(const Member<Struct>& member, Struct& all, const Value& given) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    member.set(all, 0, double(index_of({name_of(member), {member.names.begin(), member.names.end()}}, given)));
+  } else if constexpr (std::is_arithmetic_v<Value>) {
+    member.set(all, 0, given);
+  } else {
+    for (std::size_t i = 0; i < member.count; ++i) {
+      member.set(all, i, given[i]);
+    }
+  }
+}
+
+/// Adds the constructor, which takes the members by their names, and makes the objects known to pickle. The defaults
+/// are those of the struct.
+template <class Struct, std::size_t... I>
+void add_constructor(py::class_<Struct>& type, std::index_sequence<I...> /*members*/) {
+  constexpr const auto& members = members_of<Struct>;
+  const auto made = [](const Keyword<Struct, I>&... given) {
+    Struct all;
+    (set(members[I], all, given), ...);
+    return all;
+  };
+  type.def(py::init(made), py::kw_only(), (py::arg(name_of(members[I])) = value_of(members[I], Struct()))...);
+  add_pickling(
+      type, [](const Struct& one) { return py::tuple(values_of(one).attr("values")()); },
+      [=](const py::tuple& state) { return made(state[I].template cast<Keyword<Struct, I>>()...); });
+}
+
+/// Adds a class with the members of a described struct.
+template <class Struct>
+py::class_<Struct> add_described(py::module_& module, const char* name, const char* help) {
+  py::class_<Struct> type(module, name, help);
+  add_constructor(type, std::make_index_sequence<members_of<Struct>.size()>());
+  for (const Member<Struct>& member : members_of<Struct>) {
+    type.def_property_readonly(
+        name_of(member), [&member](const Struct& one) { return value_of(member, one); }, help_of(member).c_str());
+  }
+  type.def(py::self == py::self).def("__repr__", [](const Struct& one) { return words_of<Struct>(values_of(one)); });
+  return type;
+}
+
+void add_described_values(py::module_& module) {
+  add_described<LinkSoftness>(
       module, "LinkSoftness",
       "How far a link may shorten, lengthen and lean, relative to its rest vector, and how strongly relaxation\n"
-      "returns it to its rest vector. A value object: it does not change.");
-  const auto numbers = [](const LinkSoftness& one) {
-    return py::dict(py::arg(softness_numbers[I].parameter->name.data()) = one.*softness_numbers[I].value...);
-  };
-  add_keywords(softness, part_of(softness_numbers[I])...);
-  softness.def("as_dict", numbers, "Returns the six numbers by name.")
-      .def(py::self == py::self)
-      .def("__hash__", [=](const LinkSoftness& one) { return py::hash(py::tuple(numbers(one).attr("values")())); })
-      .def("__repr__", [](LinkSoftness& one) { return words_of(one, part_of(softness_numbers[I])...); });
-  add_parts(softness, part_of(softness_numbers[I])...);
-}
-
-void add_elasticity(py::module_& module) {
-  using One = ElasticOptions;
-  py::class_<One> elasticity(module, "Elasticity",
-                             "Settings of the methods of elasticity, of free-form deformation and of relaxation to\n"
-                             "the material. A value object: it does not change.");
-  const auto add = [&](const auto&... parts) {
-    add_keywords(elasticity, parts...);
-    add_parts(elasticity, parts...);
-    elasticity.def(py::self == py::self)
-        .def("__repr__", [parts...](One& one) { return words_of(one, parts...); })
-        .attr("__hash__") = py::none();
-  };
-  add(Part{"young", [](One& one) -> double& { return one.material.young; },
-           "Young's modulus (force per square of a mesh unit), above 0. It does not change the shape."},
-      Part{"poisson", [](One& one) -> double& { return one.material.poisson; }, "Poisson's ratio: 0 to below 0.5."},
-      Part{"control_points", &One::lattice,
-           "Number of control points of free-form deformation along x, y and z, 2 to 8."},
-      Part{"iterations", &One::iterations, "Most iterations of a method that iterates, for one move, 1 to 100000."},
-      Part{"law", [](One& one) -> StrainLaw::Kind& { return one.law.kind; },
-           "Law of relaxation to the material and of neo-Hookean FEM: `neo-hookean`, or `gent` or\n"
-           "`fung`, which stiffen as they are stretched."},
-      Part{"gent_limit", [](One& one) -> double& { return one.law.gent_limit; },
-           "With `gent`: bound of I1 - 3, the sum of the squared principal stretches less 3."},
-      Part{"fung_exponent", [](One& one) -> double& { return one.law.fung_exponent; },
-           "With `fung`: factor of I1 - 3 in the exponent."},
-      Part{"thickness", &One::thickness,
-           "Thickness of a surface in space in relaxation to the material, as a share of the longest side of its\n"
-           "bounds: 0.0001 to 1."});
+      "returns it to its rest vector. A value object: it does not change.")
+      .def("as_dict", &values_of<LinkSoftness>, "Returns the numbers by name.")
+      .def("__hash__", [](const LinkSoftness& one) { return py::hash(py::tuple(values_of(one).attr("values")())); });
+  add_described<ElasticOptions>(module, "Elasticity",
+                                "Settings of the methods of elasticity, of free-form deformation and of relaxation to\n"
+                                "the material. A value object: it does not change.")
+      .attr("__hash__") = py::none();
 }
 
 void add_job(py::module_& module) {
@@ -127,8 +170,7 @@ void add_job(py::module_& module) {
 void add_values(py::module_& module) {
   add_rotation(module);
   add_pose(module);
-  add_link_softness(module, std::make_index_sequence<softness_numbers.size()>());
-  add_elasticity(module);
+  add_described_values(module);
   add_job(module);
 }
 

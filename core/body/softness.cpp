@@ -74,11 +74,7 @@ std::string softness_names(std::string_view between, std::size_t first, std::siz
   return names;
 }
 
-void check(const LinkSoftness& softness) {
-  for (const auto& [parameter, value] : softness_numbers) {
-    check(*parameter, softness.*value);
-  }
-}
+void check(const LinkSoftness& softness) { check_members(softness); }
 
 void check(const Softness& softness, const Mesh& mesh) {
   check(softness.global);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "body/region_axes.h"
+#include "mesh/described.h"
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
 
@@ -75,7 +76,16 @@ inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
     {&parameters::stiffness, &LinkSoftness::stiffness},
     {&parameters::exponent, &LinkSoftness::exponent},
 }};
-/// Those that decide on the valid region come first. The others decide on the energy.
+/// The same as members of a described struct.
+template <std::size_t... I>
+constexpr auto described_softness(std::index_sequence<I...> /*numbers*/) {
+  return std::array{
+      number<softness_numbers[I].value>(softness_numbers[I].parameter->name, *softness_numbers[I].parameter)...};
+}
+template <>
+inline constexpr auto members_of<LinkSoftness> =
+    described_softness(std::make_index_sequence<softness_numbers.size()>());
+/// Numbers that decide on the valid region come first. The others decide on the energy.
 inline constexpr std::size_t region_numbers = 3;
 /// Returns the names of the numbers from index `first` to before `end`, separated by `between`.
 std::string softness_names(std::string_view between, std::size_t first = 0, std::size_t end = softness_numbers.size());

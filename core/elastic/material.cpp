@@ -1,6 +1,5 @@
 #include "elastic/material.h"
 
-#include <algorithm>
 #include <cstdio>
 
 #include "mesh/error.h"
@@ -23,14 +22,6 @@ void check(const ElasticOptions& options) {
 
 std::string name(StrainLaw::Kind kind) { return std::string(strain_law_names[std::size_t(kind)]); }
 
-StrainLaw::Kind strain_law_of(std::string_view wanted) {
-  const auto found = std::ranges::find(strain_laws, wanted, [](StrainLaw::Kind one) { return name(one); });
-  if (found == strain_laws.end()) {
-    throw Error("law", "there is no such material", "use neo-hookean, gent or fung");
-  }
-  return *found;
-}
-
 std::string label(const StrainLaw& law) {
   switch (law.kind) {
     case StrainLaw::Kind::gent:
@@ -44,21 +35,21 @@ std::string label(const StrainLaw& law) {
 
 /// Beyond its bound, the energy of a material that is compressed to nothing would fall without limit.
 void check(const StrainLaw& law, const Material& material) {
-  if (law.kind == StrainLaw::Kind::neo_hookean) {
+  const Parameter* number = number_of(law.kind);
+  if (number == nullptr) {
     return;
   }
   const bool is_gent = law.kind == StrainLaw::Kind::gent;
-  const Parameter& parameter = is_gent ? parameters::gent_limit : parameters::fung_exponent;
   const double value = is_gent ? law.gent_limit : law.fung_exponent;
-  check(parameter, value);
+  check(*number, value);
   const auto [mu, lambda] = lame(material);
   if (lambda == 0) {
-    throw Error(std::string(parameter.name),
+    throw Error(std::string(number->name),
                 "the material '" + name(law.kind) + "' does not exist for a Poisson's ratio of 0",
                 "use a higher Poisson's ratio, or the material 'neo-hookean'");
   }
   if (is_gent ? lambda * value < 2 * mu : lambda < 2 * mu * value) {
-    throw Error(std::string(parameter.name),
+    throw Error(std::string(number->name),
                 in_short(value) + " is too " + (is_gent ? "low" : "high") + " for a Poisson's ratio of " +
                     in_short(material.poisson) + ", for which it is at " + (is_gent ? "least " : "most ") +
                     in_short(is_gent ? 2 * mu / lambda : lambda / (2 * mu)),

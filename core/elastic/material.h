@@ -32,10 +32,15 @@ struct StrainLaw {
 /// All laws, in the order of the constants.
 inline constexpr std::array strain_laws{StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung};
 inline constexpr std::array<std::string_view, strain_laws.size()> strain_law_names{"neo-hookean", "gent", "fung"};
+inline constexpr std::array<std::string_view, strain_laws.size()> strain_law_labels{"Neo-Hookean", "Gent", "Fung"};
 /// Returns `neo-hookean`, `gent` or `fung`.
 std::string name(StrainLaw::Kind kind);
-/// Returns the law of this name. Throws Error, with all names, if there is none.
-StrainLaw::Kind strain_law_of(std::string_view name);
+/// Returns the number that only this law has; null if it has none.
+constexpr const Parameter* number_of(StrainLaw::Kind kind) {
+  return kind == StrainLaw::Kind::gent   ? &parameters::gent_limit
+         : kind == StrainLaw::Kind::fung ? &parameters::fung_exponent
+                                         : nullptr;
+}
 /// Returns a description for readers, with the parameter: `Gent (limit 2)`.
 std::string label(const StrainLaw& law);
 /// Throws Error, with the name of the parameter, if the law does not exist for this material.
@@ -65,11 +70,19 @@ inline constexpr std::array members_of<ElasticOptions>{
     number<&ElasticOptions::material, &Material::poisson>("poisson", parameters::poisson),
     number<&ElasticOptions::lattice>("lattice", parameters::lattice),
     may_be_absent(number<&ElasticOptions::iterations>("iterations", parameters::iterations)),
-    may_be_absent(choice<&ElasticOptions::law, &StrainLaw::kind>(
-        "law", strain_law_names, "how the material stiffens, in relaxation to the material and in neo-Hookean FEM")),
+    may_be_absent(shown_as("Law", strain_law_labels,
+                           choice<&ElasticOptions::law, &StrainLaw::kind>(
+                               "law", strain_law_names,
+                               "how the material stiffens, in relaxation to the material and in neo-Hookean FEM"))),
     may_be_absent(number<&ElasticOptions::law, &StrainLaw::gent_limit>("gent_limit", parameters::gent_limit)),
     may_be_absent(number<&ElasticOptions::law, &StrainLaw::fung_exponent>("fung_exponent", parameters::fung_exponent)),
     may_be_absent(number<&ElasticOptions::thickness>("thickness", parameters::thickness))};
+
+/// Returns true for the numbers of single laws, and for those that only surfaces in space have.
+constexpr bool is_of_law(const MemberInfo& member) {
+  return member.number == &parameters::gent_limit || member.number == &parameters::fung_exponent;
+}
+constexpr bool is_of_surfaces(const MemberInfo& member) { return member.number == &parameters::thickness; }
 
 /// Throws Error, with the name of the parameter, if one of the options is out of range or the law does not exist for
 /// the material.

@@ -19,6 +19,8 @@ struct MemberInfo {
   std::size_t count = 1;                         // of the numbers, if the member is an array
   bool is_whole = false;                         // a whole number
   bool may_be_absent = false;                    // from files, which are older than the member; it has its default then
+  std::string_view label = {};                   // in the window
+  std::span<const std::string_view> labels = {};  // of a choice: its names in the window
 };
 
 /// A member that is read and written as numbers: a choice by its index, yes as 1, and item `i` of an array.
@@ -78,7 +80,8 @@ constexpr auto member(MemberInfo info) {
 /// Describe a member, given by its path in the struct.
 template <auto... Path>
 constexpr auto number(std::string_view key, const Parameter& parameter) {
-  return described::member<Path...>({.key = key, .help = parameter.help, .number = &parameter});
+  return described::member<Path...>(
+      {.key = key, .help = parameter.help, .number = &parameter, .label = parameter.label});
 }
 template <auto... Path>
 constexpr auto choice(std::string_view key, std::span<const std::string_view> names, std::string_view help) {
@@ -92,6 +95,15 @@ constexpr auto yes_or_no(std::string_view key, std::string_view help) {
 template <class Struct>
 constexpr Member<Struct> may_be_absent(Member<Struct> member) {
   member.may_be_absent = true;
+  return member;
+}
+
+/// The same, for a choice that the window shows.
+template <class Struct>
+constexpr Member<Struct> shown_as(std::string_view label, std::span<const std::string_view> labels,
+                                  Member<Struct> member) {
+  member.label = label;
+  member.labels = labels;
   return member;
 }
 

@@ -19,8 +19,8 @@ struct Parameter {
   std::string_view help;
 };
 
-/// The table. To add a parameter, add an entry here; use it as the default of the value, in the function that checks
-/// the value, in add_parameter of app/command_line and in a ParameterRow of the window.
+/// The table. To add a parameter, add an entry here; use it as the default of the value, and in the description of the
+/// value's struct (described.h). A value without one has it in its check, its option and its ParameterRow.
 namespace parameters {
 
 /// No upper limit: any finite number from the lowest on.

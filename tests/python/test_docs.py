@@ -24,8 +24,10 @@ def test_every_public_name_has_a_docstring():
     assert [name for name in names if not text_of(name, getattr(chainmail, name))] == []
 
 
-def test_softness_says_its_limits():
+def test_settings_say_their_limits():
     """The errors of numbers beyond the limits name these, too."""
-    assert chainmail.LinkSoftness.compression.__doc__.endswith(". From 0.0 to 1.0.")
-    assert chainmail.LinkSoftness.exponent.__doc__.endswith(". From -4.0 to 4.0.")
-    assert chainmail.LinkSoftness.stretch.__doc__.endswith(". From 1.0.")  # it has no upper limit
+    assert chainmail.LinkSoftness.compression.__doc__.endswith(". Range: 0 to 1 (of rest length).")
+    assert ". Range: -4 to 4 (" in chainmail.LinkSoftness.exponent.__doc__
+    assert ". Range: 1 or more (" in chainmail.LinkSoftness.stretch.__doc__
+    assert ". Range: 0 to below 0.5 (" in chainmail.Elasticity.poisson.__doc__
+    assert chainmail.Elasticity.law.__doc__.endswith(". One of `neo-hookean`, `gent`, `fung`.")

@@ -12,6 +12,9 @@ namespace chainmail {
 /// Converts a text of core for the interface.
 inline QString text(std::string_view view) { return QString::fromUtf8(view.data(), qsizetype(view.size())); }
 
+/// Returns words with a capital at their beginning.
+inline QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
+
 /// Returns '1 link', '2 links'.
 inline QString counted(std::size_t count, const QString& noun) {
   return QStringLiteral("%L1 %2").arg(count).arg(count == 1 ? noun : noun + QLatin1Char('s'));

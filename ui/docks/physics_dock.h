@@ -1,13 +1,9 @@
 #pragma once
 
-#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
-#include <QSpinBox>
-#include <QVBoxLayout>
-#include <array>
 
-#include "common/number_field.h"
+#include "docks/member_rows.h"
 #include "document/document.h"
 #include "tools/pin_tool.h"
 
@@ -21,29 +17,13 @@ class PhysicsDock : public QDockWidget {
   PhysicsDock(Document& document, PinLayers& layers);
 
  private:
-  void addRow(ParameterRow* row, double Material::*member);
-  void addLaw();
-  void addThickness();
-  void addIterations();
-  void addCalibration();
-  QLayout* makeLattice();
   QLayout* makePins(PinLayers& layers);
-  void setLattice();
   void showElastic();
   void showPins();
-  void adaptToMesh();
 
   Document& document_;
-  QVBoxLayout* column_;
-  ParameterRow* young_;
-  ParameterRow* poisson_;
-  QComboBox* law_;
-  ParameterRow* gentLimit_;
-  ParameterRow* fungExponent_;
-  ParameterRow* thickness_;
-  ParameterRow* iterations_;
-  std::array<QSpinBox*, 3> lattice_{};
   QLabel* pins_;
+  MemberRows<ElasticOptions> rows_;
 };
 
 }  // namespace chainmail

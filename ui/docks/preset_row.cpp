@@ -19,6 +19,7 @@
 #include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "mesh/error.h"
+#include "report/table/format.h"
 
 namespace chainmail {
 namespace {
@@ -176,12 +177,7 @@ void PresetRow::fill() {
   qobject_cast<QStandardItemModel*>(field_->model())->item(0)->setEnabled(false);
   const auto list = [this](const SoftnessPreset& preset, const QString& help) {
     field_->addItem(QString::fromStdString(preset.name), int(all_.size()));
-    field_->setItemData(field_->count() - 1,
-                        QStringLiteral("Compression %1, stretch %2, shear %3%4")
-                            .arg(preset.softness.compression)
-                            .arg(preset.softness.stretch)
-                            .arg(preset.softness.shear)
-                            .arg(help),
+    field_->setItemData(field_->count() - 1, sentence(text(report::region_in_words(preset.softness))) + help,
                         Qt::ToolTipRole);
     all_.push_back(preset);
   };

@@ -4,6 +4,7 @@
 
 #include "common/dock_scroll.h"
 #include "common/text.h"
+#include "docks/member_rows.h"
 #include "document/edits.h"
 #include "equilibrium/link_energy.h"
 
@@ -175,14 +176,7 @@ void StiffnessDock::addFrame() {
   const QString help = QStringLiteral(
       "Axes along which valid regions lie.\nWorld's axes: x, y and z\nObject's axes: the principal axes of the object "
       "at rest, so that a turned object deforms as it does unturned");
-  frame_->setToolTip(help);
-  auto* label = new QLabel(QStringLiteral("Regions along"));
-  label->setBuddy(frame_);
-  label->setToolTip(help);
-  auto* row = new QHBoxLayout;
-  row->addWidget(label);
-  row->addWidget(frame_, 1);
-  column_->addLayout(row);
+  column_->addWidget(namedRow(QStringLiteral("Regions along"), help, {frame_}));
   frameNote_->setObjectName(QStringLiteral("frameNote"));
   frameNote_->setWordWrap(true);
   frameNote_->setText(
@@ -223,14 +217,7 @@ void StiffnessDock::addEnergy() {
     energy_->setItemData(energy_->count() - 1, text(one.help), Qt::ToolTipRole);
     help += QStringLiteral("\n%1: %2").arg(text(one.label), text(one.help));
   }
-  energy_->setToolTip(help);
-  auto* label = new QLabel(QStringLiteral("Energy"));
-  label->setBuddy(energy_);
-  label->setToolTip(help);
-  auto* row = new QHBoxLayout;
-  row->addWidget(label);
-  row->addWidget(energy_, 1);
-  column_->addLayout(row);
+  column_->addWidget(namedRow(QStringLiteral("Energy"), help, {energy_}));
   connect(energy_, &QComboBox::activated, this,
           [this] { edits::setEnergy(document_, EnergyKind(energy_->currentData().toInt())); });
 }

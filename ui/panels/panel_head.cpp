@@ -90,8 +90,6 @@ constexpr int listMargin = 30;        // pixels, for the scroll bar and the fram
 
 QString joined(const QStringList& states) { return states.join(QStringLiteral(" · ")); }
 
-QString sentence(const QString& words) { return words.left(1).toUpper() + words.mid(1); }
-
 }  // namespace
 
 GhostButton::GhostButton(Document& document, View& view, int panel)

@@ -13,11 +13,11 @@ namespace {
 constexpr int refreshMilliseconds = 100;
 
 QString softnessInWords(const SoftnessRange& softness) {
-  return softness.links == 0 ? QString()
-                             : QStringLiteral(": compression %1, stretch %2, shear %3")
-                                   .arg(range(softness.least.compression, softness.most.compression),
-                                        range(softness.least.stretch, softness.most.stretch),
-                                        range(softness.least.shear, softness.most.shear));
+  QStringList numbers;
+  for (const auto& [parameter, value] : std::span(softness_numbers).first(region_numbers)) {
+    numbers << text(parameter->name) + QLatin1Char(' ') + range(softness.least.*value, softness.most.*value);
+  }
+  return softness.links == 0 ? QString() : QStringLiteral(": ") + numbers.join(QStringLiteral(", "));
 }
 
 }  // namespace

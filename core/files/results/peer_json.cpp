@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "files/results/json_kind.h"
+#include "files/text/described_json.h"
 #include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/cells.h"
@@ -23,6 +24,11 @@ Json points_json(const std::vector<Point>& points) {
 }
 
 Json cells_json(const Mesh& mesh) { return mesh.tetrahedra.empty() ? Json(mesh.triangles) : Json(mesh.tetrahedra); }
+
+/// Returns true for what a case says of the material: what changes the shape of its reference.
+bool is_in_cases(const MemberInfo& member) {
+  return member.number == &parameters::poisson || member.key == "law" || is_of_law(member);
+}
 
 /// Reads cases and answers. Every member is checked: they come from other programs.
 class PeerReader {
@@ -48,10 +54,12 @@ class PeerReader {
     object.reference = points(fields_.array(json, "reference"));
     check(object.reference.size() == count, "'reference' does not have a position for each element");
     const Read& material = fields_.object(json, "material");
-    object.material.poisson = fields_.number(fields_.member(material, "poisson"), parameters::poisson);
-    object.law.kind = strain_law_of(fields_.text(material, "law"));
-    object.law.gent_limit = fields_.number(fields_.member(material, "gent_limit"), parameters::gent_limit);
-    object.law.fung_exponent = fields_.number(fields_.member(material, "fung_exponent"), parameters::fung_exponent);
+    for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
+      if (is_in_cases(member)) {
+        const Read& given = fields_.member(material, std::string(member.key));
+        member.set(object.elastic, 0, values_of(fields_, given, member).front());
+      }
+    }
     object.reference_change = number_if_any(json, "reference_change");
     return object;
   }
@@ -156,13 +164,15 @@ Result read_peer(const std::filesystem::path& path, const std::string& content,
 void write_json(std::ostream& out, const report::PeerCase& object) {
   Json json{{"name", object.name},
             {"description", object.description},
-            {"material",
-             {{"poisson", object.material.poisson},
-              {"law", name(object.law.kind)},
-              {"gent_limit", object.law.gent_limit},
-              {"fung_exponent", object.law.fung_exponent}}},
+            {"material", Json::object()},
             {"pins", object.pins},
             {"handle", object.handle}};
+  for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
+    if (is_in_cases(member)) {
+      json["material"][std::string(member.key)] =
+          json_of(member, [&](std::size_t i) { return member.get(object.elastic, i); });
+    }
+  }
   if (object.reference_change) {
     json["reference_change"] = *object.reference_change;
   }

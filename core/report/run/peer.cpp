@@ -111,10 +111,9 @@ PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragRefe
                {},
                {},
                {},
-               {},
                std::nullopt};
-  one.material = object.elastic.material;
-  one.law = object.law;
+  one.elastic = object.elastic;
+  one.elastic.law = object.law;
   std::ranges::sort(one.pins);
   const Point middle = middle_of(mesh, one.handle);
   for (std::size_t i = 0; i < drag.commands.size(); ++i) {

@@ -16,8 +16,7 @@ struct PeerCase {
   MeshPointer mesh;  // of tetrahedra, or of triangles in a plane
   std::vector<ElementId> pins, handle;
   std::vector<std::vector<Point>> moves;  // where each move puts the handle's elements, in their order
-  Material material;
-  StrainLaw law;
+  ElasticOptions elastic;
   std::vector<Point> reference;            // positions of all elements after the last move
   std::optional<double> reference_change;  // of the reference, by its last refinement (ratio)
 };

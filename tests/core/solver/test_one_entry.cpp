@@ -6,6 +6,7 @@
 #include "command_line/common.h"
 #include "core/chainmail/recorded.h"
 #include "files/results/results_json.h"
+#include "files/text/described_json.h"
 #include "report/page/report.h"
 #include "solver/algorithms.h"
 
@@ -29,6 +30,8 @@ class OneEntryTest : public QObject {
   void names_are_unique();
   void a_parameter_is_an_option();
   void a_parameter_is_checked();
+  void a_member_is_an_option();
+  void a_member_is_written_and_read();
   void defaults_and_limits_are_those_of_the_table();
 };
 
@@ -61,6 +64,24 @@ constexpr Parameter dummy_parameter{.name = "dummy",
                                     .step = 0.5,
                                     .decimals = 1,
                                     .help = "a number without a meaning"};
+
+struct DummySettings {
+  double value = dummy_parameter.default_value;
+  std::array<std::uint32_t, 3> counts{2, 2, 2};
+  bool on = false;
+
+  bool operator==(const DummySettings&) const = default;
+};
+
+}  // namespace
+
+template <>
+inline constexpr std::array chainmail::members_of<DummySettings>{
+    number<&DummySettings::value>("value", dummy_parameter),
+    may_be_absent(number<&DummySettings::counts>("counts", parameters::lattice)),
+    yes_or_no<&DummySettings::on>("on", "true or false")};
+
+namespace {
 
 std::string message(const std::function<void()>& run) {
   try {
@@ -191,6 +212,47 @@ void OneEntryTest::a_parameter_is_checked() {
   QCOMPARE(range_of(open), std::string("a number above 0"));
   QVERIFY(!message([=] { check(open, 0); }).empty());
   QVERIFY(!message([=] { check(open, std::numeric_limits<double>::infinity()); }).empty());
+}
+
+void OneEntryTest::a_member_is_an_option() {
+  CLI::App app;
+  command_line::Options options(app);
+  DummySettings settings;
+  options.add_numbers(settings);
+  QVERIFY(contains(app.help(), "a number without a meaning [2.5]"));
+  app.parse(std::vector<std::string>{"3x4", "--lattice", "3.5", "--dummy"});
+  options.read();
+  QVERIFY((settings == DummySettings{3.5, {3, 4, 4}}));
+  const auto refused = [&](const std::string& option, const std::string& value) {
+    app.parse(std::vector<std::string>{value, option});
+    return message([&] { options.read(); });
+  };
+  QCOMPARE(refused("--dummy", "5"), std::string("--dummy: Dummy 5 is out of range; use 1 to 4"));
+  QCOMPARE(refused("--lattice", "3x9"), std::string("--lattice: Control points 9 is out of range; use 2 to 8"));
+  QVERIFY(contains(refused("--lattice", "3x3x3x3"), "'3x3x3x3' is not a number of control points; write one number"));
+  CLI::App other;
+  command_line::Options some(other);
+  some.add_numbers(settings, {"value"});
+  QVERIFY(contains(other.help(), "--dummy") && !contains(other.help(), "--lattice"));
+}
+
+void OneEntryTest::a_member_is_written_and_read() {
+  const DummySettings settings{3.5, {3, 4, 5}, true};
+  const JsonFields fields("file");
+  const auto read = [&](const std::string& text) {
+    return read_members<DummySettings>(fields, nlohmann::json::parse(text));
+  };
+  nlohmann::ordered_json json;
+  add_members(json, settings);
+  QCOMPARE(json.dump(), std::string(R"({"value":3.5,"counts":[3,4,5],"on":true})"));
+  QVERIFY(read(json.dump()) == settings);
+  QVERIFY((read(R"({"value":3.5,"on":true})") == DummySettings{3.5, {2, 2, 2}, true}));
+  for (const char* wrong :
+       {R"({"value":3.5})", R"({"value":5,"on":true})", R"({"value":3.5,"on":1})",
+        R"({"value":3.5,"counts":[3,4],"on":true})", R"({"value":3.5,"counts":[3,4,9],"on":true})"}) {
+    QVERIFY2(message([&] { read(wrong); }).starts_with("file: "), wrong);
+  }
+  QCOMPARE(message([] { check_members(DummySettings{5}); }), std::string("dummy: Dummy 5 is out of range; use 1 to 4"));
 }
 
 void OneEntryTest::defaults_and_limits_are_those_of_the_table() {
