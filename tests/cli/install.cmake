@@ -38,6 +38,11 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 
+# The schemas are made by the build.
+if(NOT EXISTS ${prefix}/share/chainmail/schemas/report.schema.json)
+  message(FATAL_ERROR "the JSON schemas are not installed")
+endif()
+
 # The package leads to nothing in the source or the build, and leaves options of floating point to users.
 file(GLOB_RECURSE package ${prefix}/*.cmake)
 foreach(file IN LISTS package)

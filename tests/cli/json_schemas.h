@@ -10,7 +10,7 @@
 
 namespace chainmail::test {
 
-/// A document, and the name of its schema in resources/schemas.
+/// A document, and the name of its schema in the build.
 struct SchemaDocument {
   QString schema;
   QString path;
@@ -23,7 +23,7 @@ struct SchemaCheck {
 };
 
 inline QString schema_path(const QString& name) {
-  return sourceFile("resources/schemas") + QLatin1Char('/') + name + QStringLiteral(".schema.json");
+  return builtFile("share/chainmail/schemas") + QLatin1Char('/') + name + QStringLiteral(".schema.json");
 }
 
 /// Checks documents with an independent reader of JSON Schema, all in one process.

@@ -21,7 +21,7 @@ namespace chainmail::test_schemas {
 
 using namespace chainmail::test;
 
-/// Tests that all JSON of the programs follows resources/schemas, and that the schemas refuse anything else.
+/// Tests that all JSON of the programs follows its schema, and that the schemas refuse anything else.
 class SchemasTest : public QObject {
   Q_OBJECT
 
@@ -34,9 +34,7 @@ class SchemasTest : public QObject {
   void wrong_documents_are_refused_data();
   void wrong_documents_are_refused();
   void every_schema_has_a_document();
-  void the_report_has_every_figure();
   void every_object_is_closed();
-  void parts_with_the_same_name_are_the_same();
 
  private:
   struct Checked {
@@ -467,23 +465,6 @@ void SchemasTest::every_schema_has_a_document() {
   QVERIFY(present == checked);
 }
 
-/// A figure that reports show has its key in the schema, and no other member has the values of a figure.
-void SchemasTest::the_report_has_every_figure() {
-  const QJsonObject schema = schemas()["report"];
-  const QJsonObject members = schema["definitions"]["contestant"]["properties"].toObject();
-  QStringList listed, known;
-  for (const QString& key : members.keys()) {
-    if (members[key]["$ref"] == "#/definitions/figure") {
-      listed.append(key);
-    }
-  }
-  for (const report::Figure* figure : report::every_figure()) {
-    known.append(QString::fromUtf8(figure->key.data(), qsizetype(figure->key.size())));
-  }
-  known.sort();
-  QCOMPARE(listed, known);  // keys of an object are sorted
-}
-
 /// No schema accepts members that it does not name, except in the state of the window.
 void SchemasTest::every_object_is_closed() {
   for (const auto& [name, schema] : schemas()) {
@@ -493,21 +474,6 @@ void SchemasTest::every_object_is_closed() {
       }
     });
   }
-}
-
-/// Each schema is complete without the others, so some definitions are in several of them.
-void SchemasTest::parts_with_the_same_name_are_the_same() {
-  std::map<QString, std::pair<QString, QJsonValue>> known;  // file and part, by name
-  int shared = 0;
-  for (const auto& [file, schema] : schemas()) {
-    const QJsonObject parts = schema["definitions"].toObject();
-    for (const QString& part : parts.keys()) {
-      const auto [at, is_new] = known.try_emplace(part, file, parts[part]);
-      QVERIFY2(at->second.second == parts[part], qPrintable(part + " in " + file + " and " + at->second.first));
-      shared += is_new ? 0 : 1;
-    }
-  }
-  QVERIFY(shared > 20);  // of moves alone, in sessions
 }
 
 CHAINMAIL_TEST(SchemasTest)

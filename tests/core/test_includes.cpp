@@ -66,6 +66,7 @@ const QList<Room> rooms{
     {"core/files/repair", {"core/files/mesh"}},
     {"core/files/session", {"core/files/mesh", "core/simulate"}},
     {"core/files/results", {"core/files/repair", "core/calibrate", "core/report/page"}},
+    {"core/files/schema", {"core/files/session", "core/files/results"}},
     {"core/chainmail.h", {"core/files/mesh", "core/simulate"}},
     {"core/examples", {"core/chainmail.h", "core/files/results"}},
     {"ui/common", {"core/files/session", "core/files/results"}},

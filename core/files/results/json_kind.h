@@ -6,7 +6,7 @@
 
 namespace chainmail {
 
-/// A kind of JSON output. resources/schemas/NAME.schema.json describes its members. The version rises when a member
+/// A kind of JSON output. `files/schema` describes its members. The version rises when a member
 /// changes its meaning or goes.
 struct JsonKind {
   std::string_view name;

@@ -52,6 +52,8 @@ void Results::add(Results other) {
   stopped = stopped || other.stopped;
 }
 
+std::span<const ReportInfo> report_kinds() { return kinds; }
+
 const ReportInfo& report_info(ReportKind kind) { return *std::ranges::find(kinds, kind, &ReportInfo::kind); }
 
 std::optional<ReportKind> find_report_kind(std::string_view name) {

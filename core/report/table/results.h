@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -99,6 +100,8 @@ struct ReportInfo {
   std::string_view name;   // in files
   std::string_view title;  // of its page
 };
+/// All kinds, in the order of the constants.
+std::span<const ReportInfo> report_kinds();
 const ReportInfo& report_info(ReportKind kind);
 /// Returns none if no kind has this name.
 std::optional<ReportKind> find_report_kind(std::string_view name);
