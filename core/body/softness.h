@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "body/region_axes.h"
+#include "mesh/described.h"
 #include "mesh/mesh.h"
 #include "mesh/parameters.h"
 
@@ -77,6 +78,16 @@ inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
 }};
 /// Those that decide on the valid region come first. The others decide on the energy.
 inline constexpr std::size_t region_numbers = 3;
+/// Files before version 2 of sessions have those of the region only.
+template <>
+inline constexpr auto members_of<LinkSoftness> = []<std::size_t... I>(std::index_sequence<I...> /*all*/) {
+  const auto member = [](Member<LinkSoftness> one, std::size_t i) {
+    return i < region_numbers ? one : may_be_absent(one);
+  };
+  return std::array{member(
+      number<softness_numbers[I].value>(softness_numbers[I].parameter->name, *softness_numbers[I].parameter), I)...};
+}
+(std::make_index_sequence<softness_numbers.size()>());
 /// Returns the names of the numbers from index `first` to before `end`, separated by `between`.
 std::string softness_names(std::string_view between, std::size_t first = 0, std::size_t end = softness_numbers.size());
 

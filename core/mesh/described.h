@@ -19,6 +19,7 @@ struct MemberInfo {
   std::size_t count = 1;                         // of the numbers, if the member is an array
   bool is_whole = false;                         // a whole number
   bool may_be_absent = false;                    // from files, which are older than the member; it has its default then
+  bool is_left_out = false;                      // from files, while it has its default
 };
 
 /// A member that is read and written as numbers: a choice by its index, yes as 1, and item `i` of an array.
@@ -92,6 +93,13 @@ constexpr auto yes_or_no(std::string_view key, std::string_view help) {
 template <class Struct>
 constexpr Member<Struct> may_be_absent(Member<Struct> member) {
   member.may_be_absent = true;
+  return member;
+}
+
+/// The same, for a number that is not written while it has its default.
+template <class Struct>
+constexpr Member<Struct> left_out_by_default(Member<Struct> member) {
+  member.may_be_absent = member.is_left_out = true;
   return member;
 }
 

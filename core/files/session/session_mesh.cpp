@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::array<Point, 2> read_texture_box(const SessionFields& fields, const nlohmann::json& texture) {
+std::array<Point, 2> read_texture_box(const ObjectFields& fields, const nlohmann::json& texture) {
   const auto& numbers = fields.array(texture, "box");
   if (numbers.size() != 6) {
     fields.fail("'box' contains " + std::to_string(numbers.size()) + " numbers",
@@ -36,7 +36,7 @@ std::array<Point, 2> read_texture_box(const SessionFields& fields, const nlohman
 }
 
 /// Reads the texture of a mesh, if it has one.
-std::shared_ptr<const Texture> read_texture(const SessionFields& fields, const Json& mesh, const Progress& progress) {
+std::shared_ptr<const Texture> read_texture(const ObjectFields& fields, const Json& mesh, const Progress& progress) {
   if (!mesh.contains("texture")) {
     return nullptr;
   }
@@ -45,7 +45,7 @@ std::shared_ptr<const Texture> read_texture(const SessionFields& fields, const J
   fields.check_keys(json, {"size", "channels", "box", "texels"});
   const auto& size = fields.array(json, "size");
   Texture texture;
-  double bytes = double(fields.count(json, "channels", 4));
+  double bytes = double(fields.whole(json, "channels", 1, 4));
   texture.channels = static_cast<int>(bytes);
   for (std::size_t k = 0; k < 3; ++k) {
     const bool whole = size.size() == 3 && size[k].is_number_unsigned() && size[k].get<std::uint64_t>() <= UINT32_MAX;
@@ -67,8 +67,8 @@ std::shared_ptr<const Texture> read_texture(const SessionFields& fields, const J
 
 class SessionMeshReader {
  public:
-  SessionMeshReader(const SessionFields& fields, const Json& object)
-      : fields_(fields), object_(object), count_(fields.count(object, "elements", element_limit)) {}
+  SessionMeshReader(const ObjectFields& fields, const Json& object)
+      : fields_(fields), object_(object), count_(fields.whole(object, "elements", 1, element_limit)) {}
 
   MeshPointer read(const Progress& progress);
 
@@ -82,14 +82,14 @@ class SessionMeshReader {
   template <std::size_t Size>
   std::vector<std::array<ElementId, Size>> groups(const char* key, const Progress& progress) const;
 
-  const SessionFields& fields_;
+  const ObjectFields& fields_;
   const Json& object_;
   std::uint64_t count_;  // of elements
   MeshParts parts_;
 };
 
 void SessionMeshReader::take_rest(const Progress& progress) {
-  const auto& rest = fields_.reals(object_, "rest");
+  const auto& rest = fields_.packed(object_, "rest").reals;
   if (rest.size() != 3 * count_) {
     fields_.fail("'rest' contains " + std::to_string(rest.size()) + " numbers, but " + std::to_string(count_) +
                      " elements have " + std::to_string(3 * count_),
@@ -136,7 +136,7 @@ void SessionMeshReader::take_lattice() {
 
 template <std::size_t Size>
 std::vector<std::array<ElementId, Size>> SessionMeshReader::groups(const char* key, const Progress& progress) const {
-  const auto& ids = fields_.elements(object_, key, count_);
+  const auto& ids = fields_.elements(object_, key, count_).ids;
   fields_.check_groups(ids.size(), Size, key);
   std::vector<std::array<ElementId, Size>> result(ids.size() / Size);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -156,8 +156,8 @@ void SessionMeshReader::take_links(const Progress& progress) {
 }
 
 void SessionMeshReader::take_neighbours(const Progress& progress) {
-  const auto& counts = fields_.ids(object_, "counts");
-  parts_.neighbours = fields_.elements(object_, "neighbours", count_);
+  const auto& counts = fields_.packed(object_, "counts").ids;
+  parts_.neighbours = fields_.elements(object_, "neighbours", count_).ids;
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (counts.size() != count_ || sum != parts_.neighbours.size()) {
     fields_.fail("'counts' and 'neighbours' do not match",
@@ -178,10 +178,7 @@ void SessionMeshReader::check_polygons() const {
                    "write each polygon as its count, 3 or more, and as many ids");
     }
     for (std::size_t j = i + 1; j <= i + all[i]; ++j) {
-      if (all[j] >= count_) {
-        fields_.fail("'polygons' names element " + std::to_string(all[j]) + ", which does not exist",
-                     "ids run from 0 to " + std::to_string(count_ - 1));
-      }
+      fields_.check_element(all[j], count_, "polygons");
     }
   }
 }
@@ -192,27 +189,22 @@ void SessionMeshReader::take_faces(const Progress& progress) {
   if (object_.contains("hexahedra")) {  // older programs do not write them
     parts_.hexahedra = groups<8>("hexahedra", progress);
   }
-  parts_.polygons = fields_.ids(object_, "polygons");
+  parts_.polygons = fields_.packed(object_, "polygons").ids;
   check_polygons();
 }
 
 MeshPointer SessionMeshReader::read(const Progress& progress) {
   fields_.check_keys(object_, {"elements", "space", "lattice", "rest", "links", "counts", "neighbours", "triangles",
                                "polygons", "tetrahedra", "hexahedra", "texture"});
-  parts_.space_dimension = static_cast<int>(fields_.count(object_, "space", 3));
+  parts_.space_dimension = static_cast<int>(fields_.whole(object_, "space", 1, 3));
   take_rest(progress.part(0, 0.1));
   take_lattice();
   const bool ordered = !object_.contains("links");
-  const std::size_t links = ordered ? 0 : fields_.ids(object_, "links").size() / 2;
+  const std::size_t links = ordered ? 0 : fields_.packed(object_, "links").ids.size() / 2;
   ordered ? take_neighbours(progress.part(0.1, 0.2)) : take_links(progress.part(0.1, 0.2));
   take_faces(progress.part(0.2, 0.3));
   parts_.texture = read_texture(fields_, object_, progress.part(0.3, 0.4));
-  MeshPointer mesh;
-  try {
-    mesh = build_mesh(std::move(parts_), progress.part(0.4, 1));
-  } catch (const Error& error) {
-    throw error.at(fields_.where() + ": " + error.where());
-  }
+  MeshPointer mesh = fields_.here([&] { return build_mesh(std::move(parts_), progress.part(0.4, 1)); });
   if (!ordered && mesh->link_count() != links) {
     fields_.fail("'links' contains a link twice", "give each link once");
   }
@@ -221,7 +213,7 @@ MeshPointer SessionMeshReader::read(const Progress& progress) {
 
 }  // namespace
 
-MeshPointer read_session_mesh(const SessionFields& fields, const nlohmann::json& object, const Progress& progress) {
+MeshPointer read_session_mesh(const ObjectFields& fields, const nlohmann::json& object, const Progress& progress) {
   return SessionMeshReader(fields, object).read(progress);
 }
 

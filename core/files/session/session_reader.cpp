@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -6,8 +7,8 @@
 
 #include "files/session/lesson_json.h"
 #include "files/session/moves.h"
+#include "files/session/object_json.h"
 #include "files/session/session.h"
-#include "files/session/session_json.h"
 #include "files/session/session_mesh.h"
 #include "files/text/described_json.h"
 #include "files/text/limits.h"
@@ -20,10 +21,21 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr std::array packed_keys{PackedKey{"links", 1},     PackedKey{"counts", 1},   PackedKey{"neighbours", 1},
+                                 PackedKey{"triangles", 1}, PackedKey{"polygons", 1}, PackedKey{"tetrahedra", 1},
+                                 PackedKey{"hexahedra", 1}, PackedKey{"cuts", 1},     PackedKey{"pins", 1},
+                                 PackedKey{"runs", 1},      PackedKey{"rest", 0},     PackedKey{"own", 0},
+                                 PackedKey{"held", 0}};
+
 class SessionReader {
  public:
-  SessionReader(const SessionJson& json, const std::filesystem::path& path, const MeshOpener& open)
-      : path_(path), file_(shown(path)), fields_(file_, json), tree_(json.tree), moves_(json.moves), open_(open) {}
+  SessionReader(const PackedJson& json, const std::filesystem::path& path, const MeshOpener& open)
+      : path_(path),
+        file_(shown(path)),
+        fields_(file_, &json.arrays),
+        tree_(json.tree),
+        moves_(json.text),
+        open_(open) {}
 
   Session read(const Progress& progress);
 
@@ -48,7 +60,7 @@ class SessionReader {
 
   const std::filesystem::path& path_;
   std::string file_;
-  SessionFields fields_;  // of the file, then of each member
+  ObjectFields fields_;  // of the file, then of each member
   const Json& tree_;
   std::string_view moves_;
   const MeshOpener& open_;
@@ -62,7 +74,7 @@ void SessionReader::check_kind() {
   if (!is_session) {
     fields_.fail("it is not a session", "use a file that the workbench saved");
   }
-  version_ = fields_.count(tree_, "version", session_version);
+  version_ = fields_.version(tree_, session_version);
   absent_energy_ = has_energy() ? link_energy : EnergyKind::isotropic;
   fields_.check_keys(tree_, {"format", "version", "name", "mesh", "cuts", "pins", "softness", "relaxation", "elastic",
                              "panels", "moves", "moves_done", "lesson", "ui"});
@@ -75,7 +87,7 @@ MeshPointer SessionReader::named_mesh(const Json& object, const Progress& progre
   if (name.empty() || name.find_first_of("/\\") != std::string::npos || name[0] == '.') {
     fields_.fail("'file' is not the plain name of a file", "put the mesh next to the session and write its name only");
   }
-  const auto across = object.contains("across") ? fields_.count(object, "across", element_limit) : 0;
+  const auto across = object.contains("across") ? fields_.whole(object, "across", 1, element_limit) : 0;
   if (!open_) {
     fields_.fail("it is in another file, '" + name + "'", "open the session in the workbench and save it there");
   }
@@ -90,7 +102,7 @@ void SessionReader::take_mesh(const Progress& progress) {
 }
 
 void SessionReader::take_cuts() {
-  const auto& ends = fields_.elements(tree_, "cuts", result_.mesh->element_count());
+  const auto& ends = fields_.elements(tree_, "cuts", result_.mesh->element_count()).ids;
   fields_.check_groups(ends.size(), 2, "cuts");
   for (std::size_t i = 0; i < ends.size(); i += 2) {
     result_.cuts.push_back(fields_.link(*result_.mesh, ends[i], ends[i + 1]));
@@ -102,7 +114,7 @@ void SessionReader::take_cuts() {
 }
 
 void SessionReader::take_pins() {
-  result_.pins = fields_.elements(tree_, "pins", result_.mesh->element_count());
+  result_.pins = fields_.elements(tree_, "pins", result_.mesh->element_count()).ids;
   std::sort(result_.pins.begin(), result_.pins.end());
   if (std::adjacent_find(result_.pins.begin(), result_.pins.end()) != result_.pins.end()) {
     fields_.fail("'pins' contains an element twice", "give each element once");
@@ -112,48 +124,30 @@ void SessionReader::take_pins() {
 void SessionReader::take_softness() {
   const Json& object = fields_.object(tree_, "softness");
   fields_.say_at(file_ + ": softness");
-  auto keys = softness_keys();
-  keys.insert(keys.end(), {"energy", "frame", "own"});
-  fields_.check_keys(object, keys);
+  fields_.check_keys(object, softness_keys({"own"}));
   std::optional<RegionAxes> principal;
-  Softness softness{fields_.softness(object),
-                    {},
-                    fields_.energy(object, absent_energy_),
-                    fields_.axes(object, *result_.mesh, principal)};
+  Softness softness = fields_.softness(object, *result_.mesh, absent_energy_, principal);
   take_own(softness, object);
-  try {
-    for (const auto& [link, own] : softness.links) {
-      check(own);
-    }
-  } catch (const Error& error) {
-    throw error.at(file_ + ": softness: " + error.where());
-  }
   result_.softness = std::make_shared<const Softness>(std::move(softness));
 }
 
 void SessionReader::take_own(Softness& softness, const Json& object) {
-  const auto& own = fields_.reals(object, "own");
+  const auto& own = fields_.packed(object, "own").reals;
   const std::size_t in_row = 2 + (has_energy() ? softness_numbers.size() : region_numbers);
   fields_.check_groups(own.size(), in_row, "own");
-  const double count = result_.mesh->element_count();
-  for (std::size_t i = 0; i < own.size(); i += in_row) {
-    for (const double end : {own[i], own[i + 1]}) {
-      if (!(end >= 0 && end < count && end == std::floor(end))) {
-        fields_.fail("'own' names an element that does not exist in its link " + std::to_string(i / in_row),
-                     "ids are whole numbers from 0");
-      }
+  std::vector<ElementId> ends;
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (i % in_row >= 2) {
+      numbers.push_back(own[i]);
+    } else if (own[i] >= 0 && own[i] < result_.mesh->element_count() && own[i] == std::floor(own[i])) {
+      ends.push_back(static_cast<ElementId>(own[i]));
+    } else {
+      fields_.fail("'own' names an element that does not exist in its link " + std::to_string(i / in_row),
+                   "ids are whole numbers from 0");
     }
-    const auto a = static_cast<ElementId>(own[i]), b = static_cast<ElementId>(own[i + 1]);
-    const LinkId link = fields_.link(*result_.mesh, a, b);
-    if (softness.links.contains(link)) {
-      fields_.fail("the link " + std::to_string(a) + "-" + std::to_string(b) + " is given twice", "remove one of them");
-    }
-    LinkSoftness one;
-    for (std::size_t k = 2; k < in_row; ++k) {
-      one.*softness_numbers[k - 2].value = own[i + k];
-    }
-    softness.links.set(link, one);
   }
+  fields_.add_own(softness.links, *result_.mesh, ends, numbers);
 }
 
 /// Reads a described struct from a member.
@@ -170,21 +164,19 @@ Struct SessionReader::members(const char* key) {
 void SessionReader::take_elastic() {
   if (tree_.contains("elastic")) {
     result_.elastic = members<ElasticOptions>("elastic");
-    try {
-      check(result_.elastic);
-    } catch (const Error& error) {
-      throw error.at(file_ + ": elastic: " + error.where());
-    }
+    fields_.say_at(file_ + ": elastic");
+    fields_.here([&] { check(result_.elastic); });
+    fields_.say_at(file_);
   }
 }
 
 Snapshot SessionReader::positions(const Json& object, Precision precision) const {
   const RegionAxes axes =
-      object.contains("frame") ? RegionAxes(AxesKind::given, fields_.rotation_vector(object, "frame")) : RegionAxes();
+      object.contains("frame") ? RegionAxes(AxesKind::given, fields_.point(object, "frame")) : RegionAxes();
   check(axes, *result_.mesh);
-  return snapshot_of(
-      {fields_.boolean(object, "from_rest"), fields_.ids(object, "runs"), fields_.reals(object, "held"), axes},
-      *result_.mesh, precision);
+  return snapshot_of({fields_.boolean(object, "from_rest"), fields_.packed(object, "runs").ids,
+                      fields_.packed(object, "held").reals, axes},
+                     *result_.mesh, precision);
 }
 
 Session::Panel SessionReader::panel(const Json& object) {
@@ -192,22 +184,13 @@ Session::Panel SessionReader::panel(const Json& object) {
     fields_.fail("it is not an object", "write it in { }");
   }
   fields_.check_keys(object, {"algorithm", "precision", "from_rest", "frame", "runs", "held"});
-  const auto algorithm = find_algorithm(fields_.text(object, "algorithm"));
-  if (!algorithm) {
-    fields_.fail("'algorithm' is not known", "use one that 'chainmail deform --help' lists");
-  }
-  const std::string precision = fields_.text(object, "precision");
-  if (precision != "float" && precision != "double") {
-    fields_.fail("'precision' is not known", "use float or double");
-  }
-  const auto chosen = precision == "float" ? Precision::single_precision : Precision::double_precision;
-  try {
-    check(*algorithm, *result_.mesh);
-    return {*algorithm, chosen, positions(object, chosen)};
-  } catch (const Error& error) {
-    const bool ours = error.where() == fields_.where();
-    throw ours ? error : error.at(fields_.where() + ": " + error.where());
-  }
+  const Algorithm algorithm = fields_.algorithm(fields_.member(object, "algorithm"));
+  constexpr std::array<std::string_view, 2> precisions{"float", "double"};
+  const auto precision = Precision(fields_.choice(fields_.member(object, "precision"), "precision", precisions));
+  return fields_.here([&]() -> Session::Panel {
+    check(algorithm, *result_.mesh);
+    return {algorithm, precision, positions(object, precision)};
+  });
 }
 
 void SessionReader::take_panels() {
@@ -228,11 +211,7 @@ void SessionReader::take_moves(const Progress& progress) {
   }
   const std::string_view text = moves_.empty() ? "null" : moves_;  // a number or a text is not a list of moves
   result_.moves = read_moves(text, path_, file_ + ": moves", result_.mesh, progress, absent_energy_);
-  const Json& done = fields_.member(tree_, "moves_done");
-  if (!done.is_number_unsigned() || done.get<std::uint64_t>() > result_.moves.size()) {
-    fields_.fail("'moves_done' is not a whole number up to the number of moves", "write how many moves are done");
-  }
-  result_.moves_done = done.get<std::size_t>();
+  result_.moves_done = fields_.whole(tree_, "moves_done", 0, result_.moves.size());
   if (!has_energy() && !result_.moves.empty()) {  // its moves began with isotropic energy
     result_.moves.insert(result_.moves.begin(), commands::SetSoftness{Softness{{}, {}, EnergyKind::isotropic}});
     result_.moves_done += result_.moves_done > 0 ? 1 : 0;
@@ -269,7 +248,11 @@ Session SessionReader::read(const Progress& progress) {
 
 Session parse_session(std::string_view text, const std::filesystem::path& path, const Progress& progress,
                       const MeshOpener& open) {
-  const SessionJson json = parse_session_json(text, path, progress.part(0, 0.6));
+  PackedJson json;
+  // Recorded moves stay text, because they are read after the mesh.
+  const JsonForm form{
+      .content = "a session that the workbench saved", .packed = packed_keys, .unpacked = "ui", .text = "moves"};
+  scan_json(text, path, shown(path), form, json, progress.part(0, 0.6));
   return SessionReader(json, path, open).read(progress.part(0.6, 1));
 }
 

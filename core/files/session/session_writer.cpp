@@ -8,8 +8,8 @@
 
 #include "files/session/lesson_json.h"
 #include "files/session/moves.h"
+#include "files/session/object_json.h"
 #include "files/session/session.h"
-#include "files/session/session_json.h"
 #include "files/text/base64.h"
 #include "files/text/described_json.h"
 #include "files/text/limits.h"
