@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "files/results/json_kind.h"
-#include "files/text/json_fields.h"
+#include "files/text/described_json.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "report/page/tables.h"
@@ -61,10 +61,8 @@ Json json_of(const Value& value) {
 }
 
 Json json_of(const LinkSoftness& softness) {
-  Json json = Json::object();
-  for (const auto& [parameter, value] : softness_numbers) {
-    json[std::string(parameter->name)] = softness.*value;
-  }
+  Json json;
+  add_members(json, softness);
   return json;
 }
 
@@ -325,11 +323,7 @@ class ResultsReader {
     one.open_regions = is_true(json, "open_regions");
     one.limit = json.contains("limit") ? count(json, "limit") : 0;
     if (json.contains("calibrated")) {
-      const Read& softness = fields_.object(json, "calibrated");
-      one.calibrated.emplace();
-      for (const auto& [parameter, value] : softness_numbers) {
-        *one.calibrated.*value = fields_.number(fields_.member(softness, std::string(parameter->name)), *parameter);
-      }
+      one.calibrated = read_members<LinkSoftness>(fields_, fields_.object(json, "calibrated"));
     }
     return one;
   }

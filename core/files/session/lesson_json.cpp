@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "files/session/object_json.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
 
@@ -61,9 +60,6 @@ std::size_t read_until(const JsonFields& fields, const Json& step, std::size_t b
 
 LessonStep read_step(const ObjectFields& fields, const Json& json, const Mesh& mesh, std::size_t before,
                      std::size_t moves) {
-  if (!json.is_object()) {
-    fields.fail("it is not an object", "write it in { }");
-  }
   fields.check_keys(json, {"title", "text", "until", "algorithms", "candidate", "colour", "show", "dock", "tool"});
   LessonStep step;
   step.title = caption(fields, json, "title");
@@ -104,11 +100,7 @@ std::string dumped(const OrderedJson& json) { return json.dump(-1, ' ', false, O
 
 }  // namespace
 
-Lesson read_lesson(const nlohmann::json& object, const std::string& where, const Mesh& mesh, std::size_t moves) {
-  ObjectFields fields(where + ": lesson");
-  if (!object.is_object()) {
-    fields.fail("it is not an object", "write it in { }");
-  }
+Lesson read_lesson(const ObjectFields& fields, const nlohmann::json& object, const Mesh& mesh, std::size_t moves) {
   fields.check_keys(object, {"title", "steps"});
   Lesson lesson;
   lesson.title = caption(fields, object, "title");
@@ -118,9 +110,9 @@ Lesson read_lesson(const nlohmann::json& object, const std::string& where, const
                 "give 1 to " + std::to_string(limits::lesson_steps));
   }
   for (const Json& step : steps) {
-    fields.say_at(where + ": lesson: step " + std::to_string(lesson.steps.size() + 1));
     const std::size_t before = lesson.steps.empty() ? 0 : lesson.steps.back().until;
-    lesson.steps.push_back(read_step(fields, step, mesh, before, moves));
+    const ObjectFields of_step = fields.at("step " + std::to_string(lesson.steps.size() + 1));
+    lesson.steps.push_back(read_step(of_step, step, mesh, before, moves));
   }
   return lesson;
 }

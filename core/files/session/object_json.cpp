@@ -7,6 +7,12 @@
 
 namespace chainmail {
 
+ObjectFields ObjectFields::at(const std::string& part) const {
+  ObjectFields fields = *this;
+  fields.say_at(where() + ": " + part);
+  return fields;
+}
+
 void ObjectFields::check_element(std::uint64_t id, std::uint64_t count, const std::string& key) const {
   if (id >= count) {
     fail("'" + key + "' names element " + std::to_string(id) + ", which does not exist",

@@ -37,9 +37,6 @@ constexpr std::array all_built_in_presets{
         "Brain-soft", {0.7, 1.2, 0.3}, "shortens by three tenths, lengthens by a fifth, hardly resists shear"}};
 
 SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
-  if (!json.is_object()) {
-    fields.fail("it is not an object", "write {\"name\": …}");
-  }
   auto keys = keys_of<LinkSoftness>();
   keys.emplace_back("name");
   fields.check_keys(json, keys);

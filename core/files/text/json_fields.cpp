@@ -17,6 +17,9 @@ void JsonFields::fail(const std::string& problem, const std::string& remedy) con
 }
 
 void JsonFields::check_keys(const Json& object, const std::vector<std::string>& known) const {
+  if (!object.is_object()) {
+    fail("it is not an object", "write it in { }");
+  }
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       fail(in_quotes(key) + " is not a known key", "remove it");

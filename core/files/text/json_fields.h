@@ -39,7 +39,7 @@ class JsonFields {
       throw error.where().starts_with(where_) ? error : error.at(where_ + ": " + error.where());
     }
   }
-  /// Throws Error if there is an unknown key, because it may be a misspelt one.
+  /// Throws Error if it is not an object, or if there is an unknown key, because it may be a misspelt one.
   void check_keys(const Json& object, const std::vector<std::string>& known) const;
   const Json& member(const Json& object, const std::string& key) const;
   const Json& array(const Json& object, const std::string& key) const;

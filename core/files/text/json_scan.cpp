@@ -27,24 +27,22 @@ class TextBuffer : public std::streambuf {
   std::size_t position() const { return done_ - static_cast<std::size_t>(egptr() - gptr()); }
 
  private:
-  int_type underflow() override;
+  int_type underflow() override {
+    if (done_ == text_.size()) {
+      return traits_type::eof();
+    }
+    progress_.report(double(done_) / double(text_.size()));
+    const std::size_t size = std::min(piece, text_.size() - done_);
+    char* first = const_cast<char*>(text_.data()) + done_;  // the stream only reads it
+    setg(first, first, first + size);
+    done_ += size;
+    return traits_type::to_int_type(*first);
+  }
 
   std::string_view text_;
   const Progress& progress_;
   std::size_t done_ = 0;
 };
-
-TextBuffer::int_type TextBuffer::underflow() {
-  if (done_ == text_.size()) {
-    return traits_type::eof();
-  }
-  progress_.report(double(done_) / double(text_.size()));
-  const std::size_t size = std::min(piece, text_.size() - done_);
-  char* first = const_cast<char*>(text_.data()) + done_;  // the stream only reads it
-  setg(first, first, first + size);
-  done_ += size;
-  return traits_type::to_int_type(*first);
-}
 
 /// Receives the values of a file from nlohmann's parser, in the order of the text. (The parser's own filter takes
 /// quadratic time, because it searches the parent of each object that ends.)
@@ -72,7 +70,21 @@ class JsonScanner {
   bool start_array(std::size_t /*size*/) { return open(Json::array()); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
-  bool key(std::string& key);
+  bool key(std::string& key) {
+    if (skipped_ > 0) {
+      return true;
+    }
+    if (open_.back()->contains(key)) {
+      const bool in_item = items_ != nullptr && open_.size() > 2 && open_[1] == items_;
+      const std::string item = in_item ? form_.item + std::to_string(items_taken_) : "";
+      throw Error(where_ + item, in_quotes(key) + " appears twice", "remove one of them");
+    }
+    key_ = std::move(key);
+    if (open_.size() == 1) {
+      top_ = key_;
+    }
+    return true;
+  }
   bool parse_error(std::size_t position, const std::string& last, const Json::exception& error);
 
  private:
@@ -80,24 +92,153 @@ class JsonScanner {
     throw Error(where, problem, "use a file with " + form_.content);
   }
   template <class Number>
-  bool number(Number value, bool is_id);
-  bool put(Json value);
-  bool open(Json container);
-  bool close();
-  Json& add(Json value);
-  void take_item();
+  bool number(Number value, bool is_id) {
+    if (packed_ == nullptr || skipped_ > 0) {
+      return put(value);
+    }
+    pack(double(value), is_id);
+    return true;
+  }
+  bool put(Json value) {
+    if (skipped_ > 0) {
+      return true;
+    }
+    if (packed_ != nullptr) {
+      refuse("is not a number");
+      return true;
+    }
+    add(std::move(value));
+    take_item();
+    return true;
+  }
+  bool open(Json container) {
+    if (depth_++ == deepest) {
+      fail(where_, "it is nested too deeply");
+    }
+    const bool is_array = container.is_array();
+    if (skipped_ > 0) {
+      ++skipped_;
+    } else if (packed_ != nullptr) {
+      open_packed(is_array);
+    } else if (is(form_.text)) {
+      add(nullptr);
+      text_begin_ = buffer_.position() - 1;  // with its bracket
+      skipped_ = 1;
+    } else if (const PackedKey* key = is_array ? packed_key() : nullptr) {
+      ids_ = key->ids;
+      add(result_.add({}));
+      packed_ = &result_.arrays.back();
+    } else {
+      const bool has_items = is_array && is(form_.items);
+      open_.push_back(&add(std::move(container)));
+      if (has_items) {
+        items_ = open_.back();
+        values_outside_ = values_;
+        arrays_outside_ = result_.arrays.size();
+      }
+    }
+    return true;
+  }
+  bool close() {
+    --depth_;
+    if (skipped_ > 0) {
+      if (--skipped_ == 0 && packed_ == nullptr) {
+        result_.text = text_.substr(text_begin_, buffer_.position() - text_begin_);
+      }
+    } else if (in_row_) {
+      end_row();
+    } else if (packed_ != nullptr) {
+      packed_ = nullptr;
+    } else {
+      open_.pop_back();
+      take_item();
+    }
+    return true;
+  }
+  /// Adds a value to the tree.
+  Json& add(Json value) {
+    values_ += value.is_structured() || value.is_binary() ? limits::values_of_container : 1;
+    values_ += is_member() ? limits::values_of_key : 0;
+    if (values_ > limits::json_values) {
+      fail(where_, "it contains too many values");
+    }
+    if (open_.empty()) {
+      return result_.tree = std::move(value);
+    }
+    if (open_.back()->is_array()) {
+      open_.back()->push_back(std::move(value));
+      return open_.back()->back();
+    }
+    return (*open_.back())[key_] = std::move(value);
+  }
+  /// Takes and drops the value that is complete, if it is an item.
+  void take_item() {
+    if (items_ == nullptr || open_.empty() || open_.back() != items_) {
+      return;
+    }
+    form_.take(items_->back());
+    items_->clear();
+    ++items_taken_;
+    result_.arrays.resize(arrays_outside_);
+    values_ = values_outside_;
+  }
 
-  void pack(double number, bool is_id);
-  void open_packed(bool is_array);
-  void end_row();
-  void refuse(const std::string& problem);
+  void pack(double number, bool is_id) {
+    if (!packed_->fault.empty()) {
+      return;
+    }
+    if (column_ < ids_) {
+      if (!is_id) {
+        refuse("is not a whole number");
+        return;
+      }
+      packed_->ids.push_back(static_cast<std::uint32_t>(number));
+    } else {
+      packed_->reals.push_back(number);
+    }
+    if (in_row_) {
+      ++column_;
+    } else if (packed_->width == 0) {
+      ++packed_->size;
+    } else {
+      refuse("is not a row");
+    }
+  }
+  void open_packed(bool is_array) {
+    if (is_array && !in_row_ && (packed_->size == 0 || packed_->width > 0)) {
+      in_row_ = true;
+    } else {
+      refuse("is not a number");
+      skipped_ = 1;
+    }
+  }
+  void end_row() {
+    if (column_ == 0 || (packed_->size > 0 && column_ != packed_->width)) {
+      refuse("is a row of " + std::to_string(column_) + " numbers");
+    }
+    packed_->width = column_;
+    ++packed_->size;
+    in_row_ = false;
+    column_ = 0;
+  }
+  void refuse(const std::string& problem) {
+    if (packed_->fault.empty()) {
+      packed_->fault = "number " + std::to_string(packed_->size) + " of '" + key_ + "' " + problem;
+    }
+  }
 
   bool is_member() const { return !open_.empty() && open_.back()->is_object(); }
   /// True if the value that follows is this member of the file.
   bool is(std::string_view member) const {
     return !member.empty() && open_.size() == 1 && is_member() && key_ == member;
   }
-  const PackedKey* packed_key() const;
+  const PackedKey* packed_key() const {
+    if (!is_member() || (!form_.unpacked.empty() && top_ == form_.unpacked)) {
+      return nullptr;
+    }
+    const auto found = std::ranges::find(form_.packed, key_, &PackedKey::key);
+    return found == form_.packed.end() ? nullptr : &*found;
+  }
 
   std::string_view text_;
   const std::filesystem::path& path_;
@@ -119,119 +260,6 @@ class JsonScanner {
   bool in_row_ = false;
 };
 
-template <class Number>
-bool JsonScanner::number(Number value, bool is_id) {
-  if (packed_ == nullptr || skipped_ > 0) {
-    return put(value);
-  }
-  pack(double(value), is_id);
-  return true;
-}
-
-bool JsonScanner::put(Json value) {
-  if (skipped_ > 0) {
-    return true;
-  }
-  if (packed_ != nullptr) {
-    refuse("is not a number");
-    return true;
-  }
-  add(std::move(value));
-  take_item();
-  return true;
-}
-
-/// Adds a value to the tree.
-Json& JsonScanner::add(Json value) {
-  values_ += value.is_structured() || value.is_binary() ? limits::values_of_container : 1;
-  values_ += is_member() ? limits::values_of_key : 0;
-  if (values_ > limits::json_values) {
-    fail(where_, "it contains too many values");
-  }
-  if (open_.empty()) {
-    return result_.tree = std::move(value);
-  }
-  if (open_.back()->is_array()) {
-    open_.back()->push_back(std::move(value));
-    return open_.back()->back();
-  }
-  return (*open_.back())[key_] = std::move(value);
-}
-
-bool JsonScanner::open(Json container) {
-  if (depth_++ == deepest) {
-    fail(where_, "it is nested too deeply");
-  }
-  const bool is_array = container.is_array();
-  if (skipped_ > 0) {
-    ++skipped_;
-  } else if (packed_ != nullptr) {
-    open_packed(is_array);
-  } else if (is(form_.text)) {
-    add(nullptr);
-    text_begin_ = buffer_.position() - 1;  // with its bracket
-    skipped_ = 1;
-  } else if (const PackedKey* key = is_array ? packed_key() : nullptr) {
-    ids_ = key->ids;
-    add(result_.add({}));
-    packed_ = &result_.arrays.back();
-  } else {
-    const bool has_items = is_array && is(form_.items);
-    open_.push_back(&add(std::move(container)));
-    if (has_items) {
-      items_ = open_.back();
-      values_outside_ = values_;
-      arrays_outside_ = result_.arrays.size();
-    }
-  }
-  return true;
-}
-
-bool JsonScanner::close() {
-  --depth_;
-  if (skipped_ > 0) {
-    if (--skipped_ == 0 && packed_ == nullptr) {
-      result_.text = text_.substr(text_begin_, buffer_.position() - text_begin_);
-    }
-  } else if (in_row_) {
-    end_row();
-  } else if (packed_ != nullptr) {
-    packed_ = nullptr;
-  } else {
-    open_.pop_back();
-    take_item();
-  }
-  return true;
-}
-
-/// Takes and drops the value that is complete, if it is an item.
-void JsonScanner::take_item() {
-  if (items_ == nullptr || open_.empty() || open_.back() != items_) {
-    return;
-  }
-  form_.take(items_->back());
-  items_->clear();
-  ++items_taken_;
-  result_.arrays.resize(arrays_outside_);
-  values_ = values_outside_;
-}
-
-bool JsonScanner::key(std::string& key) {
-  if (skipped_ > 0) {
-    return true;
-  }
-  if (open_.back()->contains(key)) {
-    const bool in_item = items_ != nullptr && open_.size() > 2 && open_[1] == items_;
-    const std::string item = in_item ? form_.item + std::to_string(items_taken_) : "";
-    throw Error(where_ + item, in_quotes(key) + " appears twice", "remove one of them");
-  }
-  key_ = std::move(key);
-  if (open_.size() == 1) {
-    top_ = key_;
-  }
-  return true;
-}
-
 bool JsonScanner::parse_error(std::size_t position, const std::string& /*last*/, const Json::exception& error) {
   if (dynamic_cast<const Json::parse_error*>(&error) == nullptr) {
     fail(where_, "it contains a number that is too large for a double");
@@ -239,61 +267,6 @@ bool JsonScanner::parse_error(std::size_t position, const std::string& /*last*/,
   const auto lines = std::ranges::count(text_.substr(0, std::min(position, text_.size())), '\n');
   fail(shown(path_, static_cast<std::size_t>(1 + lines)),
        position > text_.size() ? "it ends too early" : "it is not JSON");
-}
-
-const PackedKey* JsonScanner::packed_key() const {
-  if (!is_member() || (!form_.unpacked.empty() && top_ == form_.unpacked)) {
-    return nullptr;
-  }
-  const auto found = std::ranges::find(form_.packed, key_, &PackedKey::key);
-  return found == form_.packed.end() ? nullptr : &*found;
-}
-
-void JsonScanner::pack(double number, bool is_id) {
-  if (!packed_->fault.empty()) {
-    return;
-  }
-  if (column_ < ids_) {
-    if (!is_id) {
-      refuse("is not a whole number");
-      return;
-    }
-    packed_->ids.push_back(static_cast<std::uint32_t>(number));
-  } else {
-    packed_->reals.push_back(number);
-  }
-  if (in_row_) {
-    ++column_;
-  } else if (packed_->width == 0) {
-    ++packed_->size;
-  } else {
-    refuse("is not a row");
-  }
-}
-
-void JsonScanner::open_packed(bool is_array) {
-  if (is_array && !in_row_ && (packed_->size == 0 || packed_->width > 0)) {
-    in_row_ = true;
-  } else {
-    refuse("is not a number");
-    skipped_ = 1;
-  }
-}
-
-void JsonScanner::end_row() {
-  if (column_ == 0 || (packed_->size > 0 && column_ != packed_->width)) {
-    refuse("is a row of " + std::to_string(column_) + " numbers");
-  }
-  packed_->width = column_;
-  ++packed_->size;
-  in_row_ = false;
-  column_ = 0;
-}
-
-void JsonScanner::refuse(const std::string& problem) {
-  if (packed_->fault.empty()) {
-    packed_->fault = "number " + std::to_string(packed_->size) + " of '" + key_ + "' " + problem;
-  }
 }
 
 }  // namespace
