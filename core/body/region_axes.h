@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "mesh/mesh.h"
 
@@ -17,7 +18,7 @@ enum class AxesKind {
 };
 
 /// The kinds in the order of AxesKind, as files and the command line name them.
-inline constexpr std::array<const char*, 3> axes_kinds{"axes", "object", "given"};
+inline constexpr std::array<std::string_view, 3> axes_kinds{"axes", "object", "given"};
 
 /// The axes along which valid regions lie: those of the world, turned. A body with turned axes keeps its positions in
 /// their coordinates, so that every algorithm works in it without knowing it.

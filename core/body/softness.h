@@ -76,17 +76,20 @@ inline constexpr std::array<SoftnessNumber, 6> softness_numbers{{
     {&parameters::stiffness, &LinkSoftness::stiffness},
     {&parameters::exponent, &LinkSoftness::exponent},
 }};
-/// The same as members of a described struct.
+/// Numbers that decide on the valid region come first. The others decide on the energy.
+inline constexpr std::size_t region_numbers = 3;
+/// The same as members of a described struct. Files before version 2 of sessions have those of the region only.
 template <std::size_t... I>
-constexpr auto described_softness(std::index_sequence<I...> /*numbers*/) {
-  return std::array{
-      number<softness_numbers[I].value>(softness_numbers[I].parameter->name, *softness_numbers[I].parameter)...};
+constexpr auto described_softness(std::index_sequence<I...> /*all*/) {
+  const auto member = [](Member<LinkSoftness> one, std::size_t i) {
+    return i < region_numbers ? one : may_be_absent(one);
+  };
+  return std::array{member(
+      number<softness_numbers[I].value>(softness_numbers[I].parameter->name, *softness_numbers[I].parameter), I)...};
 }
 template <>
 inline constexpr auto members_of<LinkSoftness> =
     described_softness(std::make_index_sequence<softness_numbers.size()>());
-/// Numbers that decide on the valid region come first. The others decide on the energy.
-inline constexpr std::size_t region_numbers = 3;
 /// Returns the names of the numbers from index `first` to before `end`, separated by `between`.
 std::string softness_names(std::string_view between, std::size_t first = 0, std::size_t end = softness_numbers.size());
 

@@ -19,6 +19,7 @@ struct MemberInfo {
   std::size_t count = 1;                         // of the numbers, if the member is an array
   bool is_whole = false;                         // a whole number
   bool may_be_absent = false;                    // from files, which are older than the member; it has its default then
+  bool is_left_out = false;                      // from files, while it has its default
   std::string_view label = {};                   // in the window
   std::span<const std::string_view> labels = {};  // of a choice: its names in the window
 };
@@ -104,6 +105,12 @@ constexpr Member<Struct> shown_as(std::string_view label, std::span<const std::s
                                   Member<Struct> member) {
   member.label = label;
   member.labels = labels;
+  return member;
+}
+/// The same, for a number that is not written while it has its default.
+template <class Struct>
+constexpr Member<Struct> left_out_by_default(Member<Struct> member) {
+  member.may_be_absent = member.is_left_out = true;
   return member;
 }
 

@@ -115,6 +115,16 @@ inline constexpr Parameter relax_until{
     .step = 1e-3,
     .decimals = 4,
     .help = "residual at which relaxation to the equilibrium ends: 0 runs all iterations"};
+inline constexpr Parameter relax_sweeps{.name = "sweeps",
+                                        .label = "Sweeps",
+                                        .unit = "at most",
+                                        .default_value = 1,
+                                        .lowest = 0,
+                                        .highest = 1e6,
+                                        .slider_highest = 100,
+                                        .step = 1,
+                                        .decimals = 0,
+                                        .help = "sweeps of relaxation, or iterations to the equilibrium"};
 inline constexpr Parameter spacing{.name = "spacing",
                                    .label = "Spacing",
                                    .unit = "mesh units",

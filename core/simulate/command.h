@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -21,11 +22,12 @@
 namespace chainmail {
 
 /// Commands: every change of a simulation is one. Commands are values: they can be recorded, sent to several
-/// simulations and replayed.
+/// simulations and replayed. Those with a name can be in files: see files/session/moves.h.
 namespace commands {
 
 /// Grabs an element, or many that move as one rigid body; nothing moves yet.
 struct Grab {
+  static constexpr std::string_view name = "grab";
   Grab(ElementId element = 0) : elements{element} {}
   explicit Grab(std::vector<ElementId> grabbed) : elements(std::move(grabbed)) {}
 
@@ -33,6 +35,7 @@ struct Grab {
 };
 /// Moves the handle: one pass.
 struct Drag {
+  static constexpr std::string_view name = "drag";
   /// Of its pivot, which is the mean of the grabbed positions (mesh units): a position, or, if `relative`, a
   /// displacement from where it was grabbed.
   Point target = Point::Zero();
@@ -40,9 +43,12 @@ struct Drag {
   bool relative = false;
 };
 /// Releases the handle.
-struct Release {};
+struct Release {
+  static constexpr std::string_view name = "release";
+};
 /// Sets the softness. It is shared, so that the command does not copy the softness of single links.
 struct SetSoftness {
+  static constexpr std::string_view name = "softness";
   SetSoftness(std::shared_ptr<const Softness> set = std::make_shared<const Softness>()) : softness(std::move(set)) {}
   explicit SetSoftness(Softness set) : SetSoftness(std::make_shared<const Softness>(std::move(set))) {}
 
@@ -61,6 +67,7 @@ struct SetRelaxation {
 /// Runs up to this many sweeps of relaxation at once, even if relaxation is off. The scheme `equilibrium` runs
 /// iterations, and ends earlier if it reaches a residual.
 struct Relax {
+  static constexpr std::string_view name = "relax";
   std::uint32_t sweeps = 1;
   double step = 1;
   RelaxationScheme scheme = RelaxationScheme::mean;
@@ -91,7 +98,9 @@ class SliceCounts {
 /// What relaxation did in idle time since the command before. It is recorded, and repeats that when it is carried out:
 /// to the bit, if everything before it is repeated, too.
 struct Relaxed {
+  static constexpr std::string_view name = "relaxed";
   enum class Start { goes_on, awake, asleep };
+  static constexpr std::array<std::string_view, 3> starts{"goes on", "awake", "asleep"};
 
   RelaxationScheme scheme = RelaxationScheme::mean;
   double step = 1;
@@ -108,20 +117,26 @@ struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
 };
 struct Cut {
+  static constexpr std::string_view name = "cut";
   std::vector<LinkId> links;
 };
 struct Uncut {
+  static constexpr std::string_view name = "uncut";
   std::vector<LinkId> links;
 };
 /// Pins elements at their current positions. Grabbed elements cannot be pinned.
 struct Pin {
+  static constexpr std::string_view name = "pin";
   std::vector<ElementId> elements;
 };
 struct Unpin {
+  static constexpr std::string_view name = "unpin";
   std::vector<ElementId> elements;
 };
 /// Moves all elements to rest. Cuts, pins and softness stay.
-struct Reset {};
+struct Reset {
+  static constexpr std::string_view name = "reset";
+};
 /// Replaces the object by another one at rest, without cuts and pins. If the algorithm does not support the new mesh,
 /// Natural Queue replaces it. The softness of single links is dropped; the global softness stays.
 struct ReplaceMesh {
@@ -130,6 +145,7 @@ struct ReplaceMesh {
 /// Splits faces of the object along a stroke. Its positions, cuts, pins and softness go over to the new elements and
 /// links. The object must have the mesh before the split.
 struct Split {
+  static constexpr std::string_view name = "split";
   SplitPointer split;
 };
 
@@ -160,6 +176,17 @@ inline constexpr std::array members_of<commands::SetRelaxation>{
     yes_or_no<&commands::SetRelaxation::on>("on", "true while the object relaxes in idle time"),
     choice<&commands::SetRelaxation::scheme>("scheme", relaxation_scheme_names, "what relaxation does"),
     number<&commands::SetRelaxation::step>("step", parameters::relax_step)};
+template <>
+inline constexpr std::array members_of<commands::Relax>{
+    number<&commands::Relax::sweeps>("sweeps", parameters::relax_sweeps),
+    may_be_absent(number<&commands::Relax::step>("step", parameters::relax_step)),
+    may_be_absent(choice<&commands::Relax::scheme>("scheme", relaxation_scheme_names, "what relaxation does")),
+    left_out_by_default(number<&commands::Relax::until>("until", parameters::relax_until))};
+template <>
+inline constexpr std::array members_of<commands::Relaxed>{
+    choice<&commands::Relaxed::scheme>("scheme", relaxation_scheme_names, "what relaxation did"),
+    number<&commands::Relaxed::step>("step", parameters::relax_step),
+    choice<&commands::Relaxed::start>("start", commands::Relaxed::starts, "what happened before")};
 
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
                              commands::SetRelaxation, commands::Relax, commands::Relaxed, commands::SetAlgorithm,

@@ -107,8 +107,8 @@ void LessonTest::damaged_steps_are_refused_data() {
   row("empty text", "\"text\":\"b\"", "\"text\":\"\"", ": step 2: 'text' is empty; write what the reader shall see");
   row("unknown key", "\"dock\"", "\"duck\"", ": step 2: 'duck' is not a known key");
   row("unknown algorithm", "[\"spiral\"", "[\"spirol\"",
-      ": step 2: 'algorithms' contains \"spirol\", which is not known; use names that 'chainmail deform --help' lists");
-  row("algorithm that is no text", "[\"spiral\"", "[3", ": step 2: 'algorithms' contains 3, which is not known");
+      ": step 2: the algorithm \"spirol\" is not known; use one that 'chainmail deform --help' lists");
+  row("algorithm that is no text", "[\"spiral\"", "[3", ": step 2: the algorithm 3 is not known");
   row("unfit algorithm", "[\"spiral\"", "[\"bem\"", ": step 2: BEM: it works only on closed surfaces");
   row("too few panels", "[\"spiral\",\"exact\",\"fem\"]", "[\"spiral\"]",
       ": step 2: 'algorithms' has 1 names; give one for each of 2 to 4 panels");
@@ -165,7 +165,7 @@ void LessonTest::long_texts_are_refused() {
   std::string long_name = session_text(lesson_session());
   long_name.insert(long_name.rfind("\"spiral\"") + 1, std::string(1'000'000, 'z'));
   const QString said = error_of([&] { parse_session(long_name, "a.chainmail"); });
-  QVERIFY(said.contains("'algorithms' contains \"zzz") && said.size() < 1000);
+  QVERIFY(said.contains("the algorithm \"zzz") && said.size() < 1000);
 }
 
 void LessonTest::a_lesson_has_steps() {

@@ -112,17 +112,18 @@ void PresetsTest::other_files_are_refused_data() {
   const auto row = [](const std::string& text, const char* said) {
     QTest::newRow(said) << QString::fromStdString(text) << QString(said);
   };
-  row("{", "p.json:1: it is not JSON; use a file with presets of softness");
+  row("{", "p.json:1: it ends too early; use a file with presets of softness");
   row("[]", "p.json: it contains no presets; ");
   row("{}", "p.json: 'version' is missing; ");
-  row(R"({"version": 2, "presets": []})", "p.json: its version is not 1; ");
+  row(R"({"version": 2, "presets": []})", "p.json: its version is 2, but this program knows only version 1; ");
   row(R"({"version": 1})", "p.json: 'presets' is missing; ");
   row(R"({"version": 1, "presets": {}})", "p.json: 'presets' is not an array; ");
   row(R"({"version": 1, "presets": [], "x": 1})", "p.json: 'x' is not a known key; ");
   row(with("3"), "p.json: preset 0: it is not an object; ");
-  row(with(felt + R"(, {"name": 5})"), "p.json: preset 1: '5' is not a name; ");
+  row(with(felt + R"(, {"name": 5})"), "p.json: preset 1: 'name' is not a text; ");
   row(with(R"({"name": " "})"), "p.json: preset 0: ' ' is not a valid name; ");
   row(with(R"({"name": "a"})"), "p.json: preset 0: 'compression' is missing; ");
+  row(with(R"({"name": "a", "name": "b"})"), "p.json: 'name' appears twice; ");
   row(with(R"({"name": "a", "colour": 1})"), "p.json: preset 0: 'colour' is not a known key; ");
   row(with(R"({"name": "a", "compression": "1", "stretch": 1, "shear": 0})"),
       "p.json: preset 0: '\"1\"' is not a number; ");

@@ -203,7 +203,7 @@ void RelaxedMovesTest::files_that_are_wrong_are_refused_data() {
   row(R"("scheme": "mean", "step": 1, "start": "now", "panels": ["exact"], "slices": [1])", "'start' is not known");
   row(R"("scheme": "mean", "step": 1, "start": "awake", "panels": ["exact"], "slices": [])", "one item for each panel");
   row(R"("scheme": "mean", "step": 1, "start": "awake", "panels": ["none"], "slices": [1])", "is not known");
-  row(R"("scheme": "mean", "step": 1, "start": "awake", "panels": ["exact"], "slices": [-1])", "'slices' contains");
+  row(R"("scheme": "mean", "step": 1, "start": "awake", "panels": ["exact"], "slices": [-1])", "of 'slices' is not");
   row(R"("scheme": "mean", "step": 9, "start": "awake", "panels": ["exact"], "slices": [1])", "step");
   row(R"("scheme": "mean", "step": 1, "start": "awake", "panels": 3, "slices": [1])", "panels");
 }

@@ -99,7 +99,7 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
       "moves: command 0: ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "name": )", "'moves_done' is missing; ");
   row("\"name\": ", R"("moves": {"version": 1, "commands": []}, "moves_done": 1, "name": )",
-      "'moves_done' is not a whole number up to ");
+      "'moves_done' is not a whole number from 0 to 0; ");
   row("\"elements\": 9", "\"elements\": 8", "mesh: 'rest' contains 27 numbers, but 8 elements have 24; ");
   row("\"elements\": 9", "\"elements\": 0", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
   row("\"elements\": 9", "\"elements\": -9", "mesh: 'elements' is not a whole number from 1 to 20000000; ");
@@ -112,22 +112,22 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
   row("\"spacing\": 1.5", "\"spacing\": null", "mesh: 'null' is not a number; ");
   row("\"spacing\": 1.5", "\"spacing\": -1.5", "mesh: spacing: ");
   row("3,3,0],", "3,3,1e101],", "mesh: 'rest' puts element 8 beyond 1e100; ");
-  row("3,3,0],", "3,3,\"0\"],", "number 26 of 'rest' is not a number; ");
-  row("3,3,0],", "3,3,[0]],", "number 26 of 'rest' is not a number; ");
-  row("3,3,0],", "3,3,{}],", "number 26 of 'rest' is not a number; ");
+  row("3,3,0],", "3,3,\"0\"],", "mesh: number 26 of 'rest' is not a number; ");
+  row("3,3,0],", "3,3,[0]],", "mesh: number 26 of 'rest' is not a number; ");
+  row("3,3,0],", "3,3,{}],", "mesh: number 26 of 'rest' is not a number; ");
   row("3,3,0],", "3,3],", "mesh: 'rest' contains 26 numbers, but 9 elements have 27; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,9", "mesh: 'links' names element 9, which does not exist; ids run from 0 to 8");
   row("0,1,0,3,0,4", "0,1,0,3,0", "mesh: 'links' ends within a group of 2; ");
   row("0,1,0,3,0,4", "0,1,0,3,1,0", "mesh: 'links' contains a link twice; ");
   row("0,1,0,3,0,4", "0,1,0,3,0,0", "mesh: element 0 is linked to itself; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,-4", "number 5 of 'links' is not a whole number; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "number 5 of 'links' is not a whole number; ");
-  row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "number 5 of 'links' is not a whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,-4", "mesh: number 5 of 'links' is not a whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4.0", "mesh: number 5 of 'links' is not a whole number; ");
+  row("0,1,0,3,0,4", "0,1,0,3,0,4294967300", "mesh: number 5 of 'links' is not a whole number; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,", "mesh: 'triangles' ends within a group of 3; ");
   row("\"triangles\": [0,1,4,", "\"triangles\": [0,1,40,", "mesh: 'triangles' names element 40, which ");
   row("\"triangles\": ", "\"triangle\": ", "mesh: 'triangle' is not a known key; ");
   row("\"polygons\": []", "\"polygons\": {}", "mesh: 'polygons' is not an array; ");
-  row("\"polygons\": []", "\"polygons\": 0", "'polygons' is not an array; ");
+  row("\"polygons\": []", "\"polygons\": 0", "mesh: 'polygons' is not an array; ");
   row("\"polygons\": []", "\"polygons\": [4,0,1,2]", "mesh: 'polygons' has a count of 4 at number 0; ");
   row("\"polygons\": []", "\"polygons\": [3,0,1,2,4294967295]",
       "mesh: 'polygons' has a count of 4294967295 at number 4; ");
@@ -175,18 +175,18 @@ void SessionErrorsTest::wrong_members_are_refused_data() {
     row("\"step\":0.5}", (std::string("\"step\":0.5}, \"elastic\": {") + members + "}").c_str(), said);
   };
   elastic("elastic: 'lattice' is missing; ", R"("young":1,"poisson":0.3)");
-  elastic("elastic: 'lattice' has 2 numbers; ", R"("young":1,"poisson":0.3,"lattice":[4,4])");
+  elastic("elastic: 'lattice' is not an array of 3 numbers; ", R"("young":1,"poisson":0.3,"lattice":[4,4])");
   elastic("elastic: lattice: ", R"("young":1,"poisson":0.3,"lattice":[4,4,9])");
-  elastic("elastic: lattice: ", R"("young":1,"poisson":0.3,"lattice":[4,4,-4])");
+  elastic("elastic: 'lattice' is not a whole number; ", R"("young":1,"poisson":0.3,"lattice":[4,4,-4])");
   elastic("elastic: poisson: ", R"("young":1,"poisson":0.5,"lattice":[4,4,4])");
   elastic("elastic: young: ", R"("young":0,"poisson":0.3,"lattice":[4,4,4])");
-  elastic("elastic: law: ", R"("young":1,"poisson":0.3,"lattice":[4,4,4],"law":"hooke")");
+  elastic("elastic: 'law' is not known; ", R"("young":1,"poisson":0.3,"lattice":[4,4,4],"law":"hooke")");
   elastic("elastic: gent-limit: ", R"("young":1,"poisson":0.3,"lattice":[4,4,4],"law":"gent","gent_limit":0)");
   elastic("elastic: gent-limit: ", R"("young":1,"poisson":0.1,"lattice":[4,4,4],"law":"gent")");
   elastic("elastic: thickness: Thickness 0 is out of range; use 0.0001 to 1",
           R"("young":1,"poisson":0.3,"lattice":[4,4,4],"thickness":0)");
   row("\"algorithm\": \"exact\"", "\"algorithm\": \"original\"", "panel 0: 3D ChainMail: ");
-  row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: 'algorithm' is not known; ");
+  row("\"algorithm\": \"exact\"", "\"algorithm\": \"best\"", "panel 0: the algorithm \"best\" is not known; ");
   row("\"precision\": \"float\", \"from_rest\": false", "\"precision\": \"half\", \"from_rest\": false",
       "panel 1: 'precision' is not known; ");
   row("\"from_rest\": true", "\"from_rest\": 1", "panel 0: 'from_rest' is neither true nor false; ");

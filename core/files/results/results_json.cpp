@@ -5,7 +5,6 @@
 
 #include "files/results/json_kind.h"
 #include "files/text/described_json.h"
-#include "files/text/json_fields.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
 #include "report/page/tables.h"
@@ -62,7 +61,7 @@ Json json_of(const Value& value) {
 }
 
 Json json_of(const LinkSoftness& softness) {
-  Json json = Json::object();
+  Json json;
   add_members(json, softness);
   return json;
 }

@@ -2,7 +2,7 @@
 #include "elastic/material.h"
 #include "files/schema/schemas.h"
 #include "files/session/lesson.h"
-#include "files/session/session_json.h"
+#include "files/session/session.h"
 #include "files/text/limits.h"
 #include "simulate/command.h"
 
@@ -44,19 +44,16 @@ Json handle_commands() {
 
 Json relaxation_commands() {
   const Member step{"step", schema_of(parameters::relax_step)};
-  const Member sweeps{"sweeps", whole(0, 1'000'000, "number of sweeps, or most iterations to the equilibrium")};
-  const Member scheme_to_equilibrium{"scheme", {{"const", info(RelaxationScheme::equilibrium).name}}};
-  const Member until{"until", schema_of(parameters::relax_until)};
-  const Members relaxed{
-      {"scheme", scheme()},
-      step,
-      {"start", one_of({"goes on", "awake", "asleep"}, "awake, asleep: all elements, or none, before it ran")},
+  const Members sweeps = needed_members<commands::Relax>();
+  const Members to_equilibrium{{"scheme", {{"const", info(RelaxationScheme::equilibrium).name}}},
+                               {"until", schema_of(parameters::relax_until)}};
+  const Members panels{
       {"panels", array_of(text(), "algorithm of each panel", 1, limits::session_panels)},
       {"slices", array_of(id(), "iterations, or sweeps of up to 20,000 elements", 1, limits::session_panels)}};
   return any_of(
-      {command("relax", "relaxes the object", {sweeps}, {step, {"scheme", scheme()}}),
-       command("relax", "relaxes the object to the equilibrium", {sweeps, scheme_to_equilibrium, until}, {step}),
-       command("relaxed", "what relaxation did in idle time", relaxed)});
+      {command("relax", "relaxes the object", sweeps, {step, {"scheme", scheme()}}),
+       command("relax", "relaxes the object to the equilibrium", joined({sweeps, to_equilibrium}), {step}),
+       command("relaxed", "what relaxation did in idle time", joined({needed_members<commands::Relaxed>(), panels}))});
 }
 
 Json object_commands() {

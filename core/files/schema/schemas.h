@@ -108,6 +108,17 @@ inline Json energy() { return one_of(names_of(energy_kinds()), "kind of elastic 
 inline Member rotate(std::string_view help) {
   return {"rotate", object({{"axis", point("direction of the axis")}, {"degrees", number()}}, {}, help)};
 }
+/// The members of a described struct that must be there.
+template <class Struct>
+Members needed_members() {
+  Members members;
+  for (const MemberInfo& member : members_of<Struct>) {
+    if (!member.may_be_absent) {
+      members.emplace_back(member.key, schema_of(member));
+    }
+  }
+  return members;
+}
 /// The numbers of a softness from index `first` to before `end`; the first decide on valid regions.
 inline Members softness(std::size_t first = 0, std::size_t end = softness_numbers.size()) {
   Members members;

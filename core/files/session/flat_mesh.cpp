@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "files/session/session_json.h"
+#include "files/session/object_json.h"
 #include "files/session/session_mesh.h"
 #include "mesh/error.h"
 
@@ -33,14 +33,13 @@ std::vector<std::uint32_t> lengths_of_rows(const std::vector<EntryId>& first_ent
 }
 
 /// Returns the mesh as the parser of sessions would.
-SessionJson session_json_of(FlatMesh flat) {
-  SessionJson json;
-  json.tree = {{"elements", flat.rest.size() / 3}, {"rest", 0U}};
-  json.reals.push_back(std::move(flat.rest));
+PackedJson session_json_of(FlatMesh flat) {
+  PackedJson json;
+  json.tree["elements"] = flat.rest.size() / 3;
+  json.tree["rest"] = json.add({.reals = std::move(flat.rest)});
   json.tree["space"] = std::uint64_t(std::max<std::int64_t>(0, flat.space_dimension));
   const auto add = [&](const char* key, std::vector<std::uint32_t> ids) {
-    json.tree[key] = json.ids.size();
-    json.ids.push_back(std::move(ids));
+    json.tree[key] = json.add({.ids = std::move(ids)});
   };
   add("counts", lengths_of_rows(flat.first_entry));
   add("neighbours", std::move(flat.neighbours));
@@ -85,8 +84,8 @@ FlatMesh flat_mesh_of(const Mesh& mesh) {
 
 MeshPointer checked_mesh(FlatMesh flat, const std::string& where, const Progress& progress) {
   check_finite(flat, where);
-  const SessionJson json = session_json_of(std::move(flat));
-  return read_session_mesh(SessionFields(where, json), json.tree, progress);
+  const PackedJson json = session_json_of(std::move(flat));
+  return read_session_mesh(ObjectFields(where, &json.arrays), json.tree, progress);
 }
 
 }  // namespace chainmail

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "files/text/json_fields.h"
 #include "files/text/limits.h"
 #include "files/text/text.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -34,20 +32,11 @@ std::string caption(const JsonFields& fields, const Json& object, const char* ke
   return text;
 }
 
-std::vector<Algorithm> read_algorithms(const JsonFields& fields, const Json& step, const Mesh& mesh) {
+std::vector<Algorithm> read_algorithms(const ObjectFields& fields, const Json& step, const Mesh& mesh) {
   std::vector<Algorithm> result;
   for (const Json& name : fields.array(step, "algorithms")) {
-    const auto algorithm = name.is_string() ? find_algorithm(name.get<std::string>()) : std::nullopt;
-    if (!algorithm) {
-      fields.fail("'algorithms' contains " + text_of(name) + ", which is not known",
-                  "use names that 'chainmail deform --help' lists");
-    }
-    try {
-      check(*algorithm, mesh);
-    } catch (const Error& error) {
-      throw error.at(fields.where() + ": " + error.where());
-    }
-    result.push_back(*algorithm);
+    result.push_back(fields.algorithm(name));
+    fields.here([&] { check(result.back(), mesh); });
   }
   if (result.size() < lesson_panels_least || result.size() > lesson_panels_most) {
     fields.fail("'algorithms' has " + std::to_string(result.size()) + " names", "give one for each of 2 to 4 panels");
@@ -69,11 +58,8 @@ std::size_t read_until(const JsonFields& fields, const Json& step, std::size_t b
   return position;
 }
 
-LessonStep read_step(const JsonFields& fields, const Json& json, const Mesh& mesh, std::size_t before,
+LessonStep read_step(const ObjectFields& fields, const Json& json, const Mesh& mesh, std::size_t before,
                      std::size_t moves) {
-  if (!json.is_object()) {
-    fields.fail("it is not an object", "write it in { }");
-  }
   fields.check_keys(json, {"title", "text", "until", "algorithms", "candidate", "colour", "show", "dock", "tool"});
   LessonStep step;
   step.title = caption(fields, json, "title");
@@ -83,11 +69,8 @@ LessonStep read_step(const JsonFields& fields, const Json& json, const Mesh& mes
     step.algorithms = read_algorithms(fields, json, mesh);
   }
   if (json.contains("candidate")) {
-    const Json& candidate = json["candidate"];
-    if (!candidate.is_number_unsigned() || candidate.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
-      fields.fail("'candidate' is not a whole number", "write how many candidates of the last pass are carried out");
-    }
-    step.candidate = candidate.get<std::uint32_t>();
+    const std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    step.candidate = static_cast<std::uint32_t>(fields.whole(json, "candidate", 0, most));
   }
   for (const auto& [key, name] : window_names) {
     if (json.contains(key)) {
@@ -117,11 +100,7 @@ std::string dumped(const OrderedJson& json) { return json.dump(-1, ' ', false, O
 
 }  // namespace
 
-Lesson read_lesson(const nlohmann::json& object, const std::string& where, const Mesh& mesh, std::size_t moves) {
-  JsonFields fields(where + ": lesson");
-  if (!object.is_object()) {
-    fields.fail("it is not an object", "write it in { }");
-  }
+Lesson read_lesson(const ObjectFields& fields, const nlohmann::json& object, const Mesh& mesh, std::size_t moves) {
   fields.check_keys(object, {"title", "steps"});
   Lesson lesson;
   lesson.title = caption(fields, object, "title");
@@ -131,9 +110,9 @@ Lesson read_lesson(const nlohmann::json& object, const std::string& where, const
                 "give 1 to " + std::to_string(limits::lesson_steps));
   }
   for (const Json& step : steps) {
-    fields.say_at(where + ": lesson: step " + std::to_string(lesson.steps.size() + 1));
     const std::size_t before = lesson.steps.empty() ? 0 : lesson.steps.back().until;
-    lesson.steps.push_back(read_step(fields, step, mesh, before, moves));
+    const ObjectFields of_step = fields.at("step " + std::to_string(lesson.steps.size() + 1));
+    lesson.steps.push_back(read_step(of_step, step, mesh, before, moves));
   }
   return lesson;
 }

@@ -19,6 +19,9 @@
 
 namespace chainmail {
 
+/// The newest version of the format.
+inline constexpr unsigned session_version = 2;
+
 /// The content of a window, to be saved and restored: an object, its moves, and the positions of its elements in each
 /// panel.
 struct Session : ObjectState {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "files/session/session_json.h"
+#include "files/session/object_json.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
 
 /// Reads the mesh of a session from its member `mesh`. Throws Error, and Cancelled.
-MeshPointer read_session_mesh(const SessionFields& fields, const nlohmann::json& object, const Progress& progress);
+MeshPointer read_session_mesh(const ObjectFields& fields, const nlohmann::json& object, const Progress& progress);
 
 }  // namespace chainmail

@@ -8,8 +8,8 @@
 
 #include "files/session/lesson_json.h"
 #include "files/session/moves.h"
+#include "files/session/object_json.h"
 #include "files/session/session.h"
-#include "files/session/session_json.h"
 #include "files/text/base64.h"
 #include "files/text/described_json.h"
 #include "files/text/limits.h"
@@ -91,26 +91,177 @@ class SessionWriter {
   SessionWriter(std::ostream& out, const Session& session)
       : out_(out), session_(session), mesh_(*session.mesh), has_moves_(moves_fit(session.moves)) {}
 
-  void write(const Progress& progress);
+  void write(const Progress& progress) {
+    const std::string name = OrderedJson(shortened(session_.name, limits::name_bytes))
+                                 .dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
+         << ", \"name\": " << name << ",\n";
+    if (session_.mesh_file.empty()) {
+      write_mesh(*written_mesh(session_), progress.part(0, 0.5));
+    } else {
+      out_ << "\"mesh\": " << OrderedJson{{"file", session_.mesh_file}}.dump();
+    }
+    write_state();
+    out_ << ",\n\"panels\": [";
+    const auto share = 0.45 / double(session_.panels.size());
+    for (std::size_t i = 0; i < session_.panels.size(); ++i) {
+      if (i > 0) {
+        out_ << ',';
+      }
+      write_panel(session_.panels[i], progress.part(0.5 + share * double(i), 0.5 + share * double(i + 1)));
+    }
+    out_ << "]";
+    write_moves(progress.part(0.95, 1));
+    out_ << ",\n\"ui\": " << session_.ui << "}\n";
+    out_.flush();
+  }
 
  private:
   static constexpr std::size_t in_line = 24;  // numbers in one line
 
-  void write_mesh(const Mesh& mesh, const Progress& progress);
-  void write_links(const Mesh& mesh, const Progress& progress);
-  void write_texture(const Texture& texture, const Progress& progress);
-  void write_state();
-  void write_softness();
+  void write_mesh(const Mesh& mesh, const Progress& progress) {
+    out_ << "\"mesh\": {\"elements\": " << mesh.element_count()
+         << ", \"space\": " << static_cast<std::uint32_t>(mesh.space_dimension);
+    if (mesh.lattice) {
+      const OrderedJson lattice{{"size", mesh.lattice->size}, {"spacing", mesh.lattice->spacing}};
+      out_ << ", \"lattice\": " << lattice.dump();
+    }
+    Point point;
+    write_array("rest", std::size_t{3} * mesh.element_count(), progress.part(0, 0.3), [&](std::size_t i) {
+      if (i % 3 == 0) {
+        point = mesh.rest_position(static_cast<ElementId>(i / 3));
+      }
+      out_ << digits_(point[static_cast<Eigen::Index>(i % 3)], Precision::double_precision);
+    });
+    write_links(mesh, progress.part(0.3, 0.8));
+    write_groups<3>("triangles", std::span(mesh.triangles).first(mesh.own_triangles), progress.part(0.8, 0.9));
+    write_ids("polygons", mesh.polygons);
+    write_groups<4>("tetrahedra", mesh.tetrahedra, progress.part(0.9, 1));
+    if (!mesh.hexahedra.empty()) {
+      write_groups<8>("hexahedra", mesh.hexahedra, progress);
+    }
+    if (mesh.texture) {
+      out_ << ",\n\"texture\": ";
+      write_texture(*mesh.texture, progress.part(0.9, 1));
+    }
+    out_ << "}";
+  }
+  /// Writes links as pairs, or row by row if the neighbours are not in ascending order.
+  void write_links(const Mesh& mesh, const Progress& progress) {
+    bool ascending = true;
+    for (ElementId e = 0; e < mesh.element_count() && ascending; ++e) {
+      progress.part(0, 0.1).report(e, mesh.element_count());
+      ascending = std::ranges::is_sorted(mesh.neighbours_of(e));
+    }
+    if (ascending) {
+      write_groups<2>("links", mesh.links, progress.part(0.1, 1));
+      return;
+    }
+    write_array("counts", mesh.element_count(), progress.part(0.1, 0.3), [&](std::size_t e) {
+      out_ << static_cast<std::uint32_t>(mesh.neighbours_of(static_cast<ElementId>(e)).size());
+    });
+    write_ids("neighbours", mesh.neighbours, progress.part(0.3, 1));
+  }
+  /// Writes a texture as an object whose texels are bytes in base 64.
+  void write_texture(const Texture& texture, const Progress& progress) {
+    const auto& [low, high] = texture.box;
+    const OrderedJson json{{"size", texture.size},
+                           {"channels", texture.channels},
+                           {"box", {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}}};
+    const std::string text = json.dump();
+    out_ << std::string_view(text).substr(0, text.size() - 1) << ", \"texels\": \"";
+    Base64Writer texels(out_);
+    for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+      progress.report(i, texture.texels.size());
+      texels.add(texture.texels[i]);
+    }
+    texels.finish();
+    out_ << "\"}";
+  }
+  void write_state() {
+    write_array("cuts", 2 * session_.cuts.size(), {},
+                [&](std::size_t i) { out_ << mesh_.links[session_.cuts[i / 2]][i % 2]; });
+    write_ids("pins", session_.pins);
+    write_softness();
+    write_members("relaxation", session_.relaxation);
+    if (session_.elastic != ElasticOptions()) {
+      write_members("elastic", session_.elastic);
+    }
+  }
+  void write_softness() {
+    OrderedJson json;
+    add_softness(json, *session_.softness);
+    const std::string text = json.dump();
+    out_ << ",\n\"softness\": " << std::string_view(text).substr(0, text.size() - 1);
+    constexpr std::size_t in_row = 2 + softness_numbers.size();
+    auto own = session_.softness->links.begin();
+    write_array("own", in_row * session_.softness->links.size(), {}, [&](std::size_t i) {
+      const auto& [link, softness] = *own;
+      const std::size_t column = i % in_row;
+      const double value =
+          column < 2 ? double(mesh_.links[link][column]) : softness.*softness_numbers[column - 2].value;
+      out_ << digits_(value, Precision::double_precision);
+      own = column + 1 == in_row ? std::next(own) : own;
+    });
+    out_ << "}";
+  }
+  /// Writes a described struct as an object.
   template <class Struct>
-  void write_members(const char* key, const Struct& all);
-  void write_moves(const Progress& progress);
-  void write_panel(const Session::Panel& panel, const Progress& progress);
+  void write_members(const char* key, const Struct& all) {
+    OrderedJson object;
+    add_members(object, all);
+    out_ << ",\n\"" << std::string_view(key) << "\": " << object.dump();
+  }
+  void write_moves(const Progress& progress) {
+    if (has_moves_) {
+      std::ostringstream moves;
+      chainmail::write_moves(moves, session_.moves, mesh_, progress);
+      out_ << ",\n\"moves\": " << std::string_view(moves.str())
+           << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
+    }
+    const bool moves_left_out = !session_.moves.empty() && !has_moves_;
+    if (!session_.lesson.steps.empty() && !moves_left_out) {
+      out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
+    }
+  }
+  void write_panel(const Session::Panel& panel, const Progress& progress) {
+    const PositionRuns runs = runs_of(panel.positions, mesh_);
+    const bool single = panel.precision == Precision::single_precision;
+    out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
+         << std::string_view(single ? "float" : "double")
+         << "\", \"from_rest\": " << std::string_view(runs.from_rest ? "true" : "false");
+    if (runs.axes.is_turned()) {
+      const Point& turn = runs.axes.rotation();
+      out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
+      out_ << ", " << digits_(turn.y(), Precision::double_precision);
+      out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";
+    }
+    write_ids("runs", runs.runs);
+    write_array("held", runs.held.size(), progress,
+                [&](std::size_t i) { out_ << digits_(runs.held[i], panel.precision); });
+    out_ << "}";
+  }
   /// Writes a member and its numbers; `put(i)` writes number i.
   template <class Put>
-  void write_array(const char* key, std::size_t size, const Progress& progress, Put put);
+  void write_array(const char* key, std::size_t size, const Progress& progress, Put put) {
+    out_ << ",\n\"" << std::string_view(key) << "\": [";
+    for (std::size_t i = 0; i < size; ++i) {
+      progress.report(i, size);
+      if (i > 0) {
+        out_ << ',';
+      }
+      if (i % in_line == 0 && size > in_line) {
+        out_ << '\n';
+      }
+      put(i);
+    }
+    out_ << ']';
+  }
   void write_ids(const char* key, std::span<const std::uint32_t> ids, const Progress& progress = {});
   template <std::size_t Size>
-  void write_groups(const char* key, std::span<const std::array<ElementId, Size>> groups, const Progress& progress);
+  void write_groups(const char* key, std::span<const std::array<ElementId, Size>> groups, const Progress& progress) {
+    write_array(key, Size * groups.size(), progress, [&](std::size_t i) { out_ << groups[i / Size][i % Size]; });
+  }
 
   TextBlocks out_;
   const Session& session_;
@@ -119,184 +270,8 @@ class SessionWriter {
   Digits digits_;
 };
 
-template <class Put>
-void SessionWriter::write_array(const char* key, std::size_t size, const Progress& progress, Put put) {
-  out_ << ",\n\"" << std::string_view(key) << "\": [";
-  for (std::size_t i = 0; i < size; ++i) {
-    progress.report(i, size);
-    if (i > 0) {
-      out_ << ',';
-    }
-    if (i % in_line == 0 && size > in_line) {
-      out_ << '\n';
-    }
-    put(i);
-  }
-  out_ << ']';
-}
-
 void SessionWriter::write_ids(const char* key, std::span<const std::uint32_t> ids, const Progress& progress) {
   write_array(key, ids.size(), progress, [&](std::size_t i) { out_ << ids[i]; });
-}
-
-template <std::size_t Size>
-void SessionWriter::write_groups(const char* key, std::span<const std::array<ElementId, Size>> groups,
-                                 const Progress& progress) {
-  write_array(key, Size * groups.size(), progress, [&](std::size_t i) { out_ << groups[i / Size][i % Size]; });
-}
-
-/// Writes links as pairs, or row by row if the neighbours are not in ascending order.
-void SessionWriter::write_links(const Mesh& mesh, const Progress& progress) {
-  bool ascending = true;
-  for (ElementId e = 0; e < mesh.element_count() && ascending; ++e) {
-    progress.part(0, 0.1).report(e, mesh.element_count());
-    ascending = std::ranges::is_sorted(mesh.neighbours_of(e));
-  }
-  if (ascending) {
-    write_groups<2>("links", mesh.links, progress.part(0.1, 1));
-    return;
-  }
-  write_array("counts", mesh.element_count(), progress.part(0.1, 0.3), [&](std::size_t e) {
-    out_ << static_cast<std::uint32_t>(mesh.neighbours_of(static_cast<ElementId>(e)).size());
-  });
-  write_ids("neighbours", mesh.neighbours, progress.part(0.3, 1));
-}
-
-void SessionWriter::write_mesh(const Mesh& mesh, const Progress& progress) {
-  out_ << "\"mesh\": {\"elements\": " << mesh.element_count()
-       << ", \"space\": " << static_cast<std::uint32_t>(mesh.space_dimension);
-  if (mesh.lattice) {
-    const OrderedJson lattice{{"size", mesh.lattice->size}, {"spacing", mesh.lattice->spacing}};
-    out_ << ", \"lattice\": " << lattice.dump();
-  }
-  Point point;
-  write_array("rest", std::size_t{3} * mesh.element_count(), progress.part(0, 0.3), [&](std::size_t i) {
-    if (i % 3 == 0) {
-      point = mesh.rest_position(static_cast<ElementId>(i / 3));
-    }
-    out_ << digits_(point[static_cast<Eigen::Index>(i % 3)], Precision::double_precision);
-  });
-  write_links(mesh, progress.part(0.3, 0.8));
-  write_groups<3>("triangles", std::span(mesh.triangles).first(mesh.own_triangles), progress.part(0.8, 0.9));
-  write_ids("polygons", mesh.polygons);
-  write_groups<4>("tetrahedra", mesh.tetrahedra, progress.part(0.9, 1));
-  if (!mesh.hexahedra.empty()) {
-    write_groups<8>("hexahedra", mesh.hexahedra, progress);
-  }
-  if (mesh.texture) {
-    out_ << ",\n\"texture\": ";
-    write_texture(*mesh.texture, progress.part(0.9, 1));
-  }
-  out_ << "}";
-}
-
-/// Writes a texture as an object whose texels are bytes in base 64.
-void SessionWriter::write_texture(const Texture& texture, const Progress& progress) {
-  const auto& [low, high] = texture.box;
-  const OrderedJson json{{"size", texture.size},
-                         {"channels", texture.channels},
-                         {"box", {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}}};
-  const std::string text = json.dump();
-  out_ << std::string_view(text).substr(0, text.size() - 1) << ", \"texels\": \"";
-  Base64Writer texels(out_);
-  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
-    progress.report(i, texture.texels.size());
-    texels.add(texture.texels[i]);
-  }
-  texels.finish();
-  out_ << "\"}";
-}
-
-void SessionWriter::write_softness() {
-  OrderedJson json;
-  add_softness(json, *session_.softness);
-  const std::string text = json.dump();
-  out_ << ",\n\"softness\": " << std::string_view(text).substr(0, text.size() - 1);
-  constexpr std::size_t in_row = 2 + softness_numbers.size();
-  auto own = session_.softness->links.begin();
-  write_array("own", in_row * session_.softness->links.size(), {}, [&](std::size_t i) {
-    const auto& [link, softness] = *own;
-    const std::size_t column = i % in_row;
-    const double value = column < 2 ? double(mesh_.links[link][column]) : softness.*softness_numbers[column - 2].value;
-    out_ << digits_(value, Precision::double_precision);
-    own = column + 1 == in_row ? std::next(own) : own;
-  });
-  out_ << "}";
-}
-
-void SessionWriter::write_state() {
-  write_array("cuts", 2 * session_.cuts.size(), {},
-              [&](std::size_t i) { out_ << mesh_.links[session_.cuts[i / 2]][i % 2]; });
-  write_ids("pins", session_.pins);
-  write_softness();
-  write_members("relaxation", session_.relaxation);
-  if (session_.elastic != ElasticOptions()) {
-    write_members("elastic", session_.elastic);
-  }
-}
-
-/// Writes a described struct as an object.
-template <class Struct>
-void SessionWriter::write_members(const char* key, const Struct& all) {
-  OrderedJson object;
-  add_members(object, all);
-  out_ << ",\n\"" << std::string_view(key) << "\": " << object.dump();
-}
-
-void SessionWriter::write_panel(const Session::Panel& panel, const Progress& progress) {
-  const PositionRuns runs = runs_of(panel.positions, mesh_);
-  const bool single = panel.precision == Precision::single_precision;
-  out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
-       << std::string_view(single ? "float" : "double")
-       << "\", \"from_rest\": " << std::string_view(runs.from_rest ? "true" : "false");
-  if (runs.axes.is_turned()) {
-    const Point& turn = runs.axes.rotation();
-    out_ << ", \"frame\": [" << digits_(turn.x(), Precision::double_precision);
-    out_ << ", " << digits_(turn.y(), Precision::double_precision);
-    out_ << ", " << digits_(turn.z(), Precision::double_precision) << "]";
-  }
-  write_ids("runs", runs.runs);
-  write_array("held", runs.held.size(), progress,
-              [&](std::size_t i) { out_ << digits_(runs.held[i], panel.precision); });
-  out_ << "}";
-}
-
-void SessionWriter::write_moves(const Progress& progress) {
-  if (has_moves_) {
-    std::ostringstream moves;
-    chainmail::write_moves(moves, session_.moves, mesh_, progress);
-    out_ << ",\n\"moves\": " << std::string_view(moves.str())
-         << ",\"moves_done\": " << static_cast<std::uint32_t>(session_.moves_done);
-  }
-  const bool moves_left_out = !session_.moves.empty() && !has_moves_;
-  if (!session_.lesson.steps.empty() && !moves_left_out) {
-    out_ << ",\n\"lesson\": " << std::string_view(lesson_json(session_.lesson));
-  }
-}
-
-void SessionWriter::write(const Progress& progress) {
-  const std::string name = OrderedJson(shortened(session_.name, limits::name_bytes))
-                               .dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  out_ << "{\"format\": \"chainmail session\", \"version\": " << std::uint32_t{session_version}
-       << ", \"name\": " << name << ",\n";
-  if (session_.mesh_file.empty()) {
-    write_mesh(*written_mesh(session_), progress.part(0, 0.5));
-  } else {
-    out_ << "\"mesh\": " << OrderedJson{{"file", session_.mesh_file}}.dump();
-  }
-  write_state();
-  out_ << ",\n\"panels\": [";
-  const auto share = 0.45 / double(session_.panels.size());
-  for (std::size_t i = 0; i < session_.panels.size(); ++i) {
-    if (i > 0) {
-      out_ << ',';
-    }
-    write_panel(session_.panels[i], progress.part(0.5 + share * double(i), 0.5 + share * double(i + 1)));
-  }
-  out_ << "]";
-  write_moves(progress.part(0.95, 1));
-  out_ << ",\n\"ui\": " << session_.ui << "}\n";
-  out_.flush();
 }
 
 }  // namespace

@@ -39,16 +39,76 @@ class SoftnessReader {
  public:
   SoftnessReader(const std::filesystem::path& path, const Mesh& mesh) : path_(path), mesh_(mesh) {}
 
-  OwnSoftness read(std::string_view text);
+  OwnSoftness read(std::string_view text) {
+    Lines lines(text);
+    bool is_first = true;
+    while (lines.next()) {
+      line_ = lines.number();
+      const std::string_view row = trimmed(lines.line().substr(0, lines.line().find('#')));
+      if (row.empty()) {
+        continue;
+      }
+      const auto fields = fields_of(row);
+      if (!is_first || !is_header(fields)) {
+        read_row(fields);
+      }
+      is_first = false;
+    }
+    return std::move(result_);
+  }
 
  private:
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
     throw Error(shown(path_, line_), problem, remedy);
   }
-  void read_row(const std::vector<std::string_view>& fields);
-  LinkId read_link(std::string_view first, std::string_view second) const;
-  ElementId read_id(std::string_view field) const;
-  double read_number(std::string_view field) const;
+  void read_row(const std::vector<std::string_view>& fields) {
+    if (fields.size() != short_columns && fields.size() != all_columns) {
+      fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
+               ", not five or eight",
+           "write '" + row_form(short_columns) + "' or '" + row_form(all_columns) + "'");
+    }
+    const LinkId link = read_link(fields[0], fields[1]);
+    LinkSoftness softness;
+    for (std::size_t i = 2; i < fields.size(); ++i) {
+      softness.*softness_numbers[i - 2].value = read_number(fields[i]);
+    }
+    try {
+      check(softness);
+    } catch (const Error& error) {
+      throw error.at(shown(path_, line_) + ": " + error.where());
+    }
+    if (const auto [known, is_new] = line_of_.emplace(link, line_); !is_new) {
+      fail("this link is given twice, first in line " + std::to_string(known->second), "remove one of the rows");
+    }
+    result_.set(link, softness);
+  }
+  LinkId read_link(std::string_view first, std::string_view second) const {
+    const ElementId a = read_id(first), b = read_id(second);
+    const auto link = find_link(mesh_, a, b);
+    if (!link) {
+      fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
+           "give the two ends of a link");
+    }
+    return *link;
+  }
+  ElementId read_id(std::string_view field) const {
+    const auto id = parse_count(field);
+    if (!id) {
+      fail(in_quotes(field) + " is not an element's id", "ids are whole numbers from 0");
+    }
+    if (*id >= mesh_.element_count()) {
+      fail("there is no element " + std::to_string(*id),
+           "ids run from 0 to " + std::to_string(mesh_.element_count() - 1));
+    }
+    return *id;
+  }
+  double read_number(std::string_view field) const {
+    const auto number = parse_number(field);
+    if (!number) {
+      fail(in_quotes(field) + " is not a finite number", "write a decimal number like 0.5");
+    }
+    return *number;
+  }
 
   const std::filesystem::path& path_;
   const Mesh& mesh_;
@@ -56,76 +116,6 @@ class SoftnessReader {
   OwnSoftness result_;
   std::map<LinkId, std::size_t> line_of_;
 };
-
-ElementId SoftnessReader::read_id(std::string_view field) const {
-  const auto id = parse_count(field);
-  if (!id) {
-    fail(in_quotes(field) + " is not an element's id", "ids are whole numbers from 0");
-  }
-  if (*id >= mesh_.element_count()) {
-    fail("there is no element " + std::to_string(*id),
-         "ids run from 0 to " + std::to_string(mesh_.element_count() - 1));
-  }
-  return *id;
-}
-
-double SoftnessReader::read_number(std::string_view field) const {
-  const auto number = parse_number(field);
-  if (!number) {
-    fail(in_quotes(field) + " is not a finite number", "write a decimal number like 0.5");
-  }
-  return *number;
-}
-
-LinkId SoftnessReader::read_link(std::string_view first, std::string_view second) const {
-  const ElementId a = read_id(first), b = read_id(second);
-  const auto link = find_link(mesh_, a, b);
-  if (!link) {
-    fail("the elements " + std::to_string(a) + " and " + std::to_string(b) + " are not linked",
-         "give the two ends of a link");
-  }
-  return *link;
-}
-
-void SoftnessReader::read_row(const std::vector<std::string_view>& fields) {
-  if (fields.size() != short_columns && fields.size() != all_columns) {
-    fail("the row has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
-             ", not five or eight",
-         "write '" + row_form(short_columns) + "' or '" + row_form(all_columns) + "'");
-  }
-  const LinkId link = read_link(fields[0], fields[1]);
-  LinkSoftness softness;
-  for (std::size_t i = 2; i < fields.size(); ++i) {
-    softness.*softness_numbers[i - 2].value = read_number(fields[i]);
-  }
-  try {
-    check(softness);
-  } catch (const Error& error) {
-    throw error.at(shown(path_, line_) + ": " + error.where());
-  }
-  if (const auto [known, is_new] = line_of_.emplace(link, line_); !is_new) {
-    fail("this link is given twice, first in line " + std::to_string(known->second), "remove one of the rows");
-  }
-  result_.set(link, softness);
-}
-
-OwnSoftness SoftnessReader::read(std::string_view text) {
-  Lines lines(text);
-  bool is_first = true;
-  while (lines.next()) {
-    line_ = lines.number();
-    const std::string_view row = trimmed(lines.line().substr(0, lines.line().find('#')));
-    if (row.empty()) {
-      continue;
-    }
-    const auto fields = fields_of(row);
-    if (!is_first || !is_header(fields)) {
-      read_row(fields);
-    }
-    is_first = false;
-  }
-  return std::move(result_);
-}
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <unordered_set>
 
-#include "files/session/session_json.h"
+#include "files/text/described_json.h"
 #include "files/text/limits.h"
 #include "files/text/outputs.h"
 #include "files/text/text.h"
@@ -36,23 +36,15 @@ constexpr std::array all_built_in_presets{
     BuiltInPreset{
         "Brain-soft", {0.7, 1.2, 0.3}, "shortens by three tenths, lengthens by a fifth, hardly resists shear"}};
 
-SoftnessPreset preset_of(const ObjectFields& fields, const nlohmann::json& json) {
-  if (!json.is_object()) {
-    fields.fail("it is not an object", "write {\"name\": …}");
-  }
-  auto keys = softness_keys();
+SoftnessPreset preset_of(const JsonFields& fields, const nlohmann::json& json) {
+  auto keys = keys_of<LinkSoftness>();
   keys.emplace_back("name");
   fields.check_keys(json, keys);
-  const auto& name = fields.member(json, "name");
-  if (!name.is_string()) {
-    fields.fail(in_quotes(text_of(name)) + " is not a name", "write it in quotes");
+  const std::string name = fields.text(json, "name");
+  if (const std::string fault = fault_of_name(name); !fault.empty()) {
+    fields.fail(in_quotes(name) + " is not a valid name", fault);
   }
-  SoftnessPreset preset{name.get<std::string>(), {}};
-  if (const std::string fault = fault_of_name(preset.name); !fault.empty()) {
-    fields.fail(in_quotes(preset.name) + " is not a valid name", fault);
-  }
-  preset.softness = fields.softness(json);
-  return preset;
+  return {name, read_members<LinkSoftness>(fields, json)};
 }
 
 }  // namespace
@@ -71,14 +63,11 @@ std::string fault_of_name(std::string_view name) {
 
 std::vector<SoftnessPreset> read_presets(std::string_view text, const std::filesystem::path& path) {
   const auto json = parse_json(text, path, "presets of softness");
-  ObjectFields fields(shown(path));
+  JsonFields fields(shown(path));
   if (!json.is_object()) {
     fields.fail("it contains no presets", "use a file of softness presets");
   }
-  const auto& version = fields.member(json, "version");
-  if (!version.is_number_unsigned() || version.get<std::uint64_t>() != presets_version) {
-    fields.fail("its version is not " + std::to_string(presets_version), "export the presets again with this program");
-  }
+  fields.version(json, presets_version);
   fields.check_keys(json, {"version", "presets"});
   const auto& list = fields.array(json, "presets");
   if (list.size() > limits::presets) {
@@ -106,9 +95,7 @@ void write_presets(std::ostream& out, std::span<const SoftnessPreset> presets) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& [name, softness] : presets) {
     nlohmann::ordered_json one{{"name", name}};
-    for (const auto& [parameter, value] : softness_numbers) {
-      one[std::string(parameter->name)] = softness.*value;
-    }
+    add_members(one, softness);
     list.push_back(std::move(one));
   }
   const nlohmann::ordered_json json{{"version", presets_version}, {"presets", list}};

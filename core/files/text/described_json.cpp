@@ -1,10 +1,8 @@
 #include "files/text/described_json.h"
 
-#include <algorithm>
 #include <cstdint>
 
 #include "files/text/text.h"
-#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -24,16 +22,6 @@ OrderedJson json_of_item(const MemberInfo& member, double value) {
   return member.is_whole ? OrderedJson(std::uint64_t(value)) : OrderedJson(value);
 }
 
-double choice_of(const JsonFields& fields, const Json& json, const MemberInfo& member) {
-  const auto found = std::ranges::find(member.names, json.is_string() ? json.get<std::string>() : "");
-  if (found == member.names.end()) {
-    const std::vector<std::string> names(member.names.begin(), member.names.end() - 1);
-    fields.fail(in_quotes(std::string(member.key)) + " is not known",
-                "use " + joined_words(names, ", ") + " or " + std::string(member.names.back()));
-  }
-  return double(found - member.names.begin());
-}
-
 double item_of(const JsonFields& fields, const Json& json, const MemberInfo& member) {
   if (is_yes_or_no(member)) {
     if (!json.is_boolean()) {
@@ -42,7 +30,7 @@ double item_of(const JsonFields& fields, const Json& json, const MemberInfo& mem
     return json.get<bool>() ? 1 : 0;
   }
   if (!member.names.empty()) {
-    return choice_of(fields, json, member);
+    return double(fields.choice(json, std::string(member.key), member.names));
   }
   if (member.is_whole && json.is_number() && !json.is_number_unsigned()) {
     fields.fail(in_quotes(std::string(member.key)) + " is not a whole number", "use " + range_of(*member.number));

@@ -32,7 +32,9 @@ std::vector<std::string> keys_of() {
 template <class Struct>
 void add_members(nlohmann::ordered_json& object, const Struct& all) {
   for (const Member<Struct>& member : members_of<Struct>) {
-    object[std::string(member.key)] = json_of(member, [&](std::size_t i) { return member.get(all, i); });
+    if (!member.is_left_out || member.get(all, 0) != member.get(Struct(), 0)) {
+      object[std::string(member.key)] = json_of(member, [&](std::size_t i) { return member.get(all, i); });
+    }
   }
 }
 

@@ -3,45 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/text/json_scan.h"
 #include "files/text/text.h"
-#include "mesh/error.h"
-#include "mesh/mesh.h"
 
 namespace chainmail {
-namespace {
-
 using Json = nlohmann::json;
-
-/// Checks that a text is JSON that we can read, without building a tree. Throws Error if it is not.
-class JsonCheck : public JsonScan {
- public:
-  JsonCheck(std::string_view text, const std::filesystem::path& path, const std::string& content)
-      : JsonScan(text, path, content),
-        too_many_(shown(path), "it contains too many values", "use a file with " + content) {}
-
- private:
-  void take_value(Json /*value*/) override { count(1); }
-  void open(Json /*empty*/) override { count(limits::values_of_container); }
-  void close() override {}
-  void take_key(const std::string& /*key*/) override { count(limits::values_of_key); }
-
-  void count(std::size_t values) {
-    if ((values_ += values) > limits::json_values) {
-      throw Error(too_many_);
-    }
-  }
-
-  Error too_many_;
-  std::size_t values_ = 0;
-};
-
-}  // namespace
-
-Json parse_json(std::string_view text, const std::filesystem::path& path, const std::string& content) {
-  JsonCheck(text, path, content).scan();
-  return Json::parse(text);
-}
 
 std::string text_of(const Json& json) {
   return shortened(json.dump(-1, ' ', true, Json::error_handler_t::replace), limits::name_bytes);
@@ -52,6 +17,9 @@ void JsonFields::fail(const std::string& problem, const std::string& remedy) con
 }
 
 void JsonFields::check_keys(const Json& object, const std::vector<std::string>& known) const {
+  if (!object.is_object()) {
+    fail("it is not an object", "write it in { }");
+  }
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       fail(in_quotes(key) + " is not a known key", "remove it");
@@ -102,6 +70,73 @@ bool JsonFields::boolean(const Json& object, const std::string& key) const {
   return json.get<bool>();
 }
 
+std::uint64_t JsonFields::whole(const Json& object, const std::string& key, std::uint64_t lowest,
+                                std::uint64_t highest) const {
+  const Json& json = member(object, key);
+  const bool is_whole = json.is_number_unsigned();
+  if (!is_whole || json.get<std::uint64_t>() < lowest || json.get<std::uint64_t>() > highest) {
+    fail("'" + key + "' is not a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest),
+         "write such a number");
+  }
+  return json.get<std::uint64_t>();
+}
+
+std::uint64_t JsonFields::version(const Json& file, std::uint64_t newest) const {
+  const Json& version = member(file, "version");
+  if (version.is_number_unsigned() && version.get<std::uint64_t>() > newest) {
+    fail("its version is " + version.dump() + ", but this program knows only version " + std::to_string(newest) +
+             (newest > 1 ? " and older" : ""),
+         "open it with a newer program");
+  }
+  return whole(file, "version", 1, newest);
+}
+
+std::size_t JsonFields::choice(const Json& value, const std::string& key,
+                               std::span<const std::string_view> names) const {
+  const auto found = std::ranges::find(names, value.is_string() ? value.get<std::string>() : "");
+  if (found == names.end()) {
+    const std::vector<std::string> others(names.begin(), names.end() - 1);
+    fail(in_quotes(key) + " is not known", "use " + joined_words(others, ", ") + " or " + std::string(names.back()));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Point JsonFields::point(const Json& object, const std::string& key) const {
+  const Json& values = array(object, key);
+  if (values.size() != 3) {
+    fail(in_quotes(key) + " does not have three coordinates", "write [x, y, z]");
+  }
+  return {number(values[0]), number(values[1]), number(values[2])};
+}
+
+const PackedArray& JsonFields::packed(const Json& object, const std::string& key,
+                                      std::initializer_list<std::size_t> widths) const {
+  const Json& marker = member(object, key);
+  if (!marker.is_binary()) {
+    fail("'" + key + "' is not an array", "write it in [ ]");
+  }
+  const PackedArray& array = (*arrays_)[marker.get_binary().subtype()];
+  if (!array.fault.empty()) {
+    fail(array.fault, "use decimal numbers, and whole numbers from 0 to 4294967295 for ids");
+  }
+  if (array.size > 0 && std::ranges::find(widths, array.width) == widths.end()) {
+    std::vector<std::string> words;
+    for (const std::size_t width : widths) {
+      words.push_back(std::to_string(width));
+    }
+    fail("'" + key + "' does not contain " +
+             (words.front() == "0" ? "numbers only" : "arrays of " + joined_words(words, " or ") + " numbers"),
+         "write such an array");
+  }
+  return array;
+}
+
+void JsonFields::check_groups(std::size_t size, std::size_t of_each, const std::string& key) const {
+  if (size % of_each != 0) {
+    fail("'" + key + "' ends within a group of " + std::to_string(of_each), "write complete groups");
+  }
+}
+
 double JsonFields::number(const Json& json) const {
   if (!json.is_number()) {
     fail(in_quotes(text_of(json)) + " is not a number", "write a decimal number");
@@ -115,11 +150,7 @@ double JsonFields::number(const Json& json) const {
 
 double JsonFields::number(const Json& json, const Parameter& parameter) const {
   const double value = number(json);
-  try {
-    check(parameter, value);
-  } catch (const Error& error) {
-    throw error.at(where_ + ": " + error.where());
-  }
+  here([&] { check(parameter, value); });
   return value;
 }
 
