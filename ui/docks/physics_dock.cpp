@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/actions.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "common/text.h"
@@ -13,7 +14,7 @@
 #include "elastic/surface_cells.h"
 
 namespace chainmail {
-PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
+PhysicsDock::PhysicsDock(Document& document, const Actions& actions)
     : document_(document),
       column_(new QVBoxLayout),
       young_(new ParameterRow(parameters::young)),
@@ -30,7 +31,7 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
   addThickness();
   column_->addLayout(makeLattice());
   addIterations();
-  column_->addLayout(makePins(layers));
+  column_->addLayout(makePins(actions));
   addCalibration();
   setColumn(*this, *column_);
   connect(&document, &Document::elasticChanged, this, &PhysicsDock::showElastic);
@@ -138,7 +139,7 @@ QLayout* PhysicsDock::makeLattice() {
   return row;
 }
 
-QLayout* PhysicsDock::makePins(PinLayers& layers) {
+QLayout* PhysicsDock::makePins(const Actions& actions) {
   pins_->setTextFormat(Qt::RichText);
   pins_->setObjectName(QStringLiteral("physicsPins"));
   pins_->setWordWrap(true);
@@ -148,7 +149,7 @@ QLayout* PhysicsDock::makePins(PinLayers& layers) {
   pin->setIcon(icon("pin"));
   pin->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   pin->setToolTip(QStringLiteral("Pins a layer of the object or its boundary. The Pin tool (P) pins single elements"));
-  pin->setMenu(&layers.menu());
+  pin->setMenu(&actions.menu("pinLayers"));
   pin->setPopupMode(QToolButton::InstantPopup);
   auto* row = new QHBoxLayout;
   row->addWidget(pins_, 1);

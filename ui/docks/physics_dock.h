@@ -9,16 +9,17 @@
 
 #include "common/number_field.h"
 #include "document/document.h"
-#include "tools/pin_tool.h"
 
 namespace chainmail {
+
+class Actions;
 
 /// Parameters of elastic methods and free-form deformation: material, lattice of control points, and pins.
 class PhysicsDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  PhysicsDock(Document& document, PinLayers& layers);
+  PhysicsDock(Document& document, const Actions& actions);
 
  private:
   void addRow(ParameterRow* row, double Material::*member);
@@ -27,7 +28,7 @@ class PhysicsDock : public QDockWidget {
   void addIterations();
   void addCalibration();
   QLayout* makeLattice();
-  QLayout* makePins(PinLayers& layers);
+  QLayout* makePins(const Actions& actions);
   void setLattice();
   void showElastic();
   void showPins();

@@ -2,13 +2,12 @@
 
 #include <QAction>
 #include <QMainWindow>
-#include <QMenu>
 #include <QUndoView>
 #include <algorithm>
 #include <array>
 #include <memory>
 
-#include "common/icons.h"
+#include "common/actions.h"
 #include "docks/element_dock.h"
 #include "docks/frame_rate_dock.h"
 #include "docks/mesh_dock.h"
@@ -39,9 +38,7 @@ Dock* connectFiles(Dock* dock, const DockParts& parts) {
 }
 
 QDockWidget* makeTools(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new ToolsDock(parts.tools, parts.document, parts.cut, parts.select);
-  dock->fill(parts.editMenu);
-  return dock;
+  return new ToolsDock(parts.tools, parts.document, parts.cut, parts.select, parts.actions);
 }
 
 QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
@@ -53,15 +50,14 @@ QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
 }
 
 QDockWidget* makeStiffness(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new StiffnessDock(parts.document);
-  parts.objectMenu.addMenu(&dock->presets().menu());
+  auto* dock = new StiffnessDock(parts.document, parts.actions);
   QObject::connect(&dock->presets(), &PresetRow::failed, &parts.messages, &MessageBar::say);
   QObject::connect(&dock->presets(), &PresetRow::noted, &parts.window, parts.showStatus);
   return dock;
 }
 
 QDockWidget* makePhysics(const DockParts& parts, const Docks& /*made*/) {
-  return new PhysicsDock(parts.document, parts.pinLayers);
+  return new PhysicsDock(parts.document, parts.actions);
 }
 
 QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
@@ -69,9 +65,7 @@ QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
 }
 
 QDockWidget* makeFrameRate(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new FrameRateDock(parts.document, parts.area.panels()), parts);
-  parts.viewMenu.addMenu(&dock->menu());
-  return dock;
+  return connectFiles(new FrameRateDock(parts.document, parts.area.panels(), parts.actions), parts);
 }
 
 QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
@@ -79,21 +73,17 @@ QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
 }
 
 QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay);
+  auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay, parts.actions);
   QObject::connect(dock, &PropagationDock::changed, &parts.area, &PanelArea::refresh);
-  dock->fill(parts.viewMenu);
   return dock;
 }
 
 QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs), parts);
-  parts.objectMenu.addMenu(&dock->menu());
-  return dock;
+  return connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs, parts.actions), parts);
 }
 
 QDockWidget* makeSection(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new SectionDock(parts.document);
-  dock->fill(parts.showMenu);
+  auto* dock = new SectionDock(parts.document, parts.actions);
   QObject::connect(dock, &SectionDock::changed, &parts.area,
                    [&area = parts.area, dock] { area.setSection(dock->plane()); });
   return dock;
@@ -220,18 +210,6 @@ const std::array entries{
               .make = makeHistory},
 };
 
-void describe(const DockEntry& entry, QDockWidget& dock) {
-  dock.setObjectName(QLatin1String(entry.id));
-  dock.setWindowTitle(QLatin1String(entry.title));
-  dock.setToolTip(QLatin1String(entry.tooltip));
-  QAction* show = dock.toggleViewAction();
-  show->setObjectName(QLatin1String(entry.action));
-  show->setText(QLatin1String(entry.title));
-  show->setStatusTip(QLatin1String(entry.tooltip));
-  show->setIcon(icon(entry.icon));
-  show->setShortcut(entry.key);
-}
-
 /// Brings a dock to the front of its tabs when it is shown. If it is behind another tab, its action does not hide it
 /// but brings it to the front, too.
 void raiseWhenShown(QDockWidget& dock) {
@@ -263,18 +241,16 @@ Docks::Docks(const DockParts& parts) : window_(parts.window) {
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
   QDockWidget* dock = entry.make(parts, *this);
-  describe(entry, *dock);
+  dock->setObjectName(QLatin1String(entry.id));
+  dock->setWindowTitle(QLatin1String(entry.title));
+  dock->setToolTip(QLatin1String(entry.tooltip));
+  parts.actions.add("Docks", {entry.action, entry.title, entry.icon, entry.key, entry.tooltip},
+                    dock->toggleViewAction());
   window_.addDockWidget(entry.area, dock);
   if (entry.tabbedWith != nullptr) {
     raiseWhenShown(*dock);
   }
   docks_.push_back(dock);
-}
-
-void Docks::fill(QMenu& menu) const {
-  for (QDockWidget* dock : docks_) {
-    menu.addAction(dock->toggleViewAction());
-  }
 }
 
 Layout Docks::first() const {

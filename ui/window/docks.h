@@ -8,12 +8,11 @@
 
 #include "window/layout.h"
 
-class QActionGroup;
 class QMainWindow;
-class QMenu;
 
 namespace chainmail {
 
+class Actions;
 class CutTool;
 class Docks;
 class Document;
@@ -21,7 +20,6 @@ class FileActions;
 class Jobs;
 class MessageBar;
 class PanelArea;
-class PinLayers;
 class Propagation;
 class PropagationOverlay;
 class SelectTool;
@@ -34,16 +32,12 @@ struct DockParts {
   FileActions& files;
   MessageBar& messages;
   PanelArea& area;
-  PinLayers& pinLayers;
   Propagation& propagation;
   PropagationOverlay& propagationOverlay;
-  const QActionGroup& tools;
+  Actions& actions;
+  QList<QAction*> tools;
   CutTool& cut;
   SelectTool& select;
-  QMenu& editMenu;
-  QMenu& objectMenu;
-  QMenu& viewMenu;
-  QMenu& showMenu;  // a submenu of the View menu
   std::function<void(const QString&)> showStatus;
 };
 
@@ -85,8 +79,6 @@ class Docks {
     qFatal("docks: no entry makes %s", Dock::staticMetaObject.className());
     std::abort();
   }
-  /// Adds the actions that show the docks.
-  void fill(QMenu& menu) const;
   /// Returns where the window and its docks are.
   Layout layout() const;
   /// Places the docks as in the JSON of a layout. A dock that it does not name stays as it is.
