@@ -1,5 +1,6 @@
 #include "docks/tools_dock.h"
 
+#include <QActionGroup>
 #include <QButtonGroup>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -33,14 +34,13 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QList<QAction*>& tools, Document& document, CutTool& cut, SelectTool& select,
-                     Actions& actions)
+ToolsDock::ToolsDock(const Document& document, CutTool& cut, SelectTool& select, Actions& actions)
     : options_(new QStackedWidget), without_(new QWidget) {
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   auto* strip = new QHBoxLayout;
   strip->setSpacing(2);
-  for (QAction* action : tools) {
+  for (QAction* action : actions["tool" + cut.name()].actionGroup()->actions()) {
     auto* button = wideButton();
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonIconOnly);

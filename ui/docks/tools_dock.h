@@ -17,8 +17,7 @@ class ToolsDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  /// `tools` are the actions that choose them.
-  ToolsDock(const QList<QAction*>& tools, Document& document, CutTool& cut, SelectTool& select, Actions& actions);
+  ToolsDock(const Document& document, CutTool& cut, SelectTool& select, Actions& actions);
 
  private:
   QWidget* makeSelectOptions(SelectTool& select);

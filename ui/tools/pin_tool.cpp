@@ -58,7 +58,7 @@ ActionRow PinLayers::rowOf(const ObjectSide* side) {
           "",
           "",
           QStringLiteral("Pins the elements of the %1 at their present positions, as one undo step").arg(layer),
-          [this, side] { pin(elements(side)); },
+          [this, side] { pin(side); },
           When([this, side, layer] {
             return counts_.contains(side) && counts_[side] == 0
                        ? QStringLiteral("All elements of the %1 are pinned already").arg(layer)
@@ -79,8 +79,7 @@ const ObjectSide& PinLayers::foot() const {
   return carries(*document_.mesh(), bottom) ? bottom : *find_side("left");
 }
 
-void PinLayers::pin(const ObjectSide& side) { pin(elements(&side)); }
-void PinLayers::pinBoundary() { pin(elements(nullptr)); }
+void PinLayers::pin(const ObjectSide* side) { edits::setPinned(document_, elements(side), true); }
 
 /// Returns the unpinned elements of a side, or of the boundary if `side` is null.
 std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
@@ -89,8 +88,6 @@ std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
   std::ranges::set_difference(all, document_.pins(), std::back_inserter(free));
   return free;
 }
-
-void PinLayers::pin(const std::vector<ElementId>& elements) { edits::setPinned(document_, elements, true); }
 
 /// Counts the elements that each row would pin.
 void PinLayers::count() {
@@ -112,7 +109,7 @@ PinBar::PinBar(Document& document, PinLayers& layers)
       document_(document),
       layers_(layers) {
   addChoices();
-  connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
+  connect(this, &AskBar::agreed, this, [this] { layers_.pin(&layers_.foot()); });
   connect(&document, &Document::unpinned, this, &PinBar::await);
   // The end of a drag adds an undo step.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
@@ -135,7 +132,7 @@ void PinBar::addChoices() {
           QStringLiteral("Pins all elements on the boundary at their present positions, as one undo step"));
   auto* byHand = add("pinsByHand", QStringLiteral("Pin &single elements"),
                      QStringLiteral("Switches to the pin tool: click the elements to pin"));
-  connect(boundary, &QPushButton::clicked, this, [this] { layers_.pinBoundary(); });
+  connect(boundary, &QPushButton::clicked, this, [this] { layers_.pin(nullptr); });
   connect(byHand, &QPushButton::clicked, this, [this] {
     hide();
     emit byHandChosen();

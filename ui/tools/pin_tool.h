@@ -24,14 +24,13 @@ class PinLayers : public QObject {
   void fill(Actions& actions);
   /// Returns the bottom side, or the left side if the scene has no y axis.
   const ObjectSide& foot() const;
-  void pin(const ObjectSide& side);
-  void pinBoundary();
+  /// Pins a side, or the boundary if `side` is null.
+  void pin(const ObjectSide* side);
 
  private:
   ActionRow rowOf(const ObjectSide* side);
   bool exists(const ObjectSide* side) const;
   std::vector<ElementId> elements(const ObjectSide* side) const;
-  void pin(const std::vector<ElementId>& elements);
   void count();
 
   Document& document_;

@@ -37,11 +37,7 @@ Dock* connectFiles(Dock* dock, const DockParts& parts) {
   return dock;
 }
 
-QDockWidget* makeTools(const DockParts& parts, const Docks& /*made*/) {
-  return new ToolsDock(parts.tools, parts.document, parts.cut, parts.select, parts.actions);
-}
-
-QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeMesh(const DockParts& parts) {
   auto* dock = new MeshDock(parts.document, parts.jobs);
   QObject::connect(dock, &MeshDock::openRequested, &parts.files, &FileActions::open);
   QObject::connect(dock, &MeshDock::saveRequested, &parts.files, &FileActions::save);
@@ -49,50 +45,28 @@ QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
   return dock;
 }
 
-QDockWidget* makeStiffness(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeStiffness(const DockParts& parts) {
   auto* dock = new StiffnessDock(parts.document, parts.actions);
   QObject::connect(&dock->presets(), &PresetRow::failed, &parts.messages, &MessageBar::say);
   QObject::connect(&dock->presets(), &PresetRow::noted, &parts.window, parts.showStatus);
   return dock;
 }
 
-QDockWidget* makePhysics(const DockParts& parts, const Docks& /*made*/) {
-  return new PhysicsDock(parts.document, parts.actions);
-}
-
-QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
-  return new RelaxationDock(parts.document);
-}
-
-QDockWidget* makeFrameRate(const DockParts& parts, const Docks& /*made*/) {
-  return connectFiles(new FrameRateDock(parts.document, parts.area.panels(), parts.actions), parts);
-}
-
-QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
-  return connectFiles(new ReportDock(parts.document), parts);
-}
-
-QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makePropagation(const DockParts& parts) {
   auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay, parts.actions);
   QObject::connect(dock, &PropagationDock::changed, &parts.area, &PanelArea::refresh);
   return dock;
 }
 
-QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
-  return connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs, parts.actions), parts);
-}
-
-QDockWidget* makeSection(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeSection(const DockParts& parts) {
   auto* dock = new SectionDock(parts.document, parts.actions);
   QObject::connect(dock, &SectionDock::changed, &parts.area,
                    [&area = parts.area, dock] { area.setSection(dock->plane()); });
   return dock;
 }
 
-QDockWidget* makeElement(const DockParts& parts, const Docks& /*made*/) { return new ElementDock(parts.document); }
-
 /// The undo list: the name of every step. A click on a step goes back to it.
-QDockWidget* makeHistory(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeHistory(const DockParts& parts) {
   auto* dock = new QDockWidget;
   auto* list = new QUndoView(&parts.document.undoStack());
   list->setObjectName(QStringLiteral("undoList"));
@@ -110,7 +84,9 @@ const std::array entries{
               .tooltip = "Tools of the left mouse button, and their options",
               .icon = "tools",
               .area = Qt::LeftDockWidgetArea,
-              .make = makeTools},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return new ToolsDock(parts.document, parts.cut, parts.select, parts.actions);
+              }},
     DockEntry{.id = "meshDock",
               .action = "showMeshDock",
               .title = "Mesh",
@@ -127,23 +103,24 @@ const std::array entries{
               .area = Qt::RightDockWidgetArea,
               .height = 400,
               .make = makeStiffness},
-    DockEntry{.id = "physicsDock",
-              .action = "showPhysics",
-              .title = "Physics",
-              .tooltip = "Material, pins and control points of the methods that ChainMail is compared with",
-              .icon = "physics",
-              .key = Qt::Key_J,
-              .area = Qt::RightDockWidgetArea,
-              .tabbedWith = "stiffnessDock",
-              .visible = false,
-              .make = makePhysics},
+    DockEntry{
+        .id = "physicsDock",
+        .action = "showPhysics",
+        .title = "Physics",
+        .tooltip = "Material, pins and control points of the methods that ChainMail is compared with",
+        .icon = "physics",
+        .key = Qt::Key_J,
+        .area = Qt::RightDockWidgetArea,
+        .tabbedWith = "stiffnessDock",
+        .visible = false,
+        .make = [](const DockParts& parts) -> QDockWidget* { return new PhysicsDock(parts.document, parts.actions); }},
     DockEntry{.id = "relaxationDock",
               .action = "showRelaxationDock",
               .title = "Relaxation",
               .tooltip = "How elements move toward their rest shape in idle time",
               .icon = "relaxation",
               .area = Qt::RightDockWidgetArea,
-              .make = makeRelaxation},
+              .make = [](const DockParts& parts) -> QDockWidget* { return new RelaxationDock(parts.document); }},
     DockEntry{.id = "frameRateDock",
               .action = "showFrameRateDock",
               .title = "Frame rate",
@@ -151,7 +128,9 @@ const std::array entries{
               .icon = "frameRate",
               .area = Qt::RightDockWidgetArea,
               .height = 270,
-              .make = makeFrameRate},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new FrameRateDock(parts.document, parts.area.panels(), parts.actions), parts);
+              }},
     DockEntry{.id = "reportDock",
               .action = "showReport",
               .title = "Report",
@@ -161,7 +140,9 @@ const std::array entries{
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
               .floating = true,
-              .make = makeReport},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new ReportDock(parts.document), parts);
+              }},
     DockEntry{.id = "propagationDock",
               .action = "showPropagation",
               .title = "Propagation",
@@ -180,7 +161,9 @@ const std::array entries{
               .key = Qt::CTRL | Qt::Key_R,
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
-              .make = makeReplay},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs, parts.actions), parts);
+              }},
     DockEntry{.id = "sectionDock",
               .action = "showSectionDock",
               .title = "Section",
@@ -198,7 +181,7 @@ const std::array entries{
               .area = Qt::LeftDockWidgetArea,
               .tabbedWith = "meshDock",
               .visible = false,
-              .make = makeElement},
+              .make = [](const DockParts& parts) -> QDockWidget* { return new ElementDock(parts.document); }},
     DockEntry{.id = "historyDock",
               .action = "showHistoryDock",
               .title = "Undo list",
@@ -240,7 +223,7 @@ Docks::Docks(const DockParts& parts) : window_(parts.window) {
 }
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
-  QDockWidget* dock = entry.make(parts, *this);
+  QDockWidget* dock = entry.make(parts);
   dock->setObjectName(QLatin1String(entry.id));
   dock->setWindowTitle(QLatin1String(entry.title));
   dock->setToolTip(QLatin1String(entry.tooltip));

@@ -14,7 +14,6 @@ namespace chainmail {
 
 class Actions;
 class CutTool;
-class Docks;
 class Document;
 class FileActions;
 class Jobs;
@@ -35,7 +34,6 @@ struct DockParts {
   Propagation& propagation;
   PropagationOverlay& propagationOverlay;
   Actions& actions;
-  QList<QAction*> tools;
   CutTool& cut;
   SelectTool& select;
   std::function<void(const QString&)> showStatus;
@@ -54,8 +52,8 @@ struct DockEntry {
   bool visible = true;               // visible at the first start
   bool floating = false;             // a window of its own until the user docks it
   int width = 0, height = 0;         // at the first start (pixels); 0: as Qt divides the room
-  /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
-  QDockWidget* (*make)(const DockParts& parts, const Docks& made);
+  /// Makes the dock, connects it and adds its own actions to the menus.
+  QDockWidget* (*make)(const DockParts& parts);
 };
 
 /// Returns the entries of all docks, in the order in which they are made and listed.

@@ -160,7 +160,7 @@ void MainWindow::listen() {
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::overlayTitleChanged, this, [this] { colourBy_->showOverlay(area_->overlayTitle()); });
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
-  connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(pinLayers_->foot()); });
+  connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(&pinLayers_->foot()); });
   connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setDrawOptions(showMenu_->drawOptions()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
@@ -290,7 +290,6 @@ void MainWindow::addTools() {
     rows.emplace_back(
         "tool" + tool->name(), tool->name(), icon, key, tool->hint(), [this, one = tool] { activate(*one); },
         IsOn([this, one = tool] { return tool_ == one; }));
-    tools_ << rows.back().id;
   }
   actions_->add("Edit", rows);
   connect(pinBar_, &PinBar::byHandChosen, &(*actions_)["toolPin"], &QAction::trigger);
@@ -355,19 +354,13 @@ void MainWindow::addView() {
 
 /// Evaluates the actions again after what decides on them has changed.
 void MainWindow::listenForActions() {
-  const auto refresh = [this] { actions_->refresh(); };
   for (const auto signal : {&Document::meshChanged, &Document::panelsChanged, &Document::pinsChanged}) {
-    connect(&document_, signal, actions_, refresh);
+    connect(&document_, signal, actions_, &Actions::refresh);
   }
-  for (const auto signal : {&QUndoStack::canUndoChanged, &QUndoStack::canRedoChanged}) {
-    connect(&document_.undoStack(), signal, actions_, refresh);
-  }
-  for (const auto signal : {&QUndoStack::undoTextChanged, &QUndoStack::redoTextChanged}) {
-    connect(&document_.undoStack(), signal, actions_, refresh);
-  }
-  connect(area_, &PanelArea::arranged, actions_, refresh);
-  connect(area_, &PanelArea::ghostsChanged, actions_, refresh);
-  connect(&colouring_, &Colouring::modeChanged, actions_, refresh);
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::arranged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::ghostsChanged, actions_, &Actions::refresh);
+  connect(&colouring_, &Colouring::modeChanged, actions_, &Actions::refresh);
 }
 
 /// Shows names beside the icons of the tool bar if there is room for all of them.
@@ -414,8 +407,8 @@ void MainWindow::makeToolBar() {
 
 void MainWindow::makeDocks() {
   docks_ = std::make_unique<Docks>(DockParts{*this, document_, jobs_, *files_, *messages_, *area_, propagation_,
-                                             propagationOverlay_, *actions_, actions_->all(tools_), cutTool_,
-                                             selectTool_, [this](const QString& sentence) { showStatus(sentence); }});
+                                             propagationOverlay_, *actions_, cutTool_, selectTool_,
+                                             [this](const QString& sentence) { showStatus(sentence); }});
 }
 
 Layout MainWindow::arrangement() const { return lecture_->isOn() ? lecture_->before() : docks_->layout(); }

@@ -126,7 +126,6 @@ class MainWindow : public QMainWindow {
   ShowMenu* showMenu_;
   LectureMode* lecture_;
   Lessons* lessons_;
-  QStringList tools_;  // their actions
   ColourSelector* colourBy_;
   ColourRangeMenu* colourRange_;
   QToolBar* bar_ = nullptr;
