@@ -50,7 +50,7 @@ class WindowDocks : public QObject {
       QCOMPARE(show->objectName(), QLatin1String(entry.action));
       QCOMPARE(show->statusTip(), QLatin1String(entry.tooltip));
       QVERIFY(!show->icon().isNull());
-      QCOMPARE(show->shortcut(), entry.key);
+      QCOMPARE(show->shortcut(), QKeySequence(QLatin1String(entry.key)));
     }
 
     const QList<QAction*> actions = bench.window.actions();

@@ -57,8 +57,6 @@ void addMnemonicsTo(const QList<QAction*>& actions) {
 
 Keys::Keys(const QString& names) : QList(QKeySequence::listFromString(names)) { removeAll(QKeySequence()); }
 
-Keys::Keys(const QKeySequence& key) : QList({key}) { removeAll(QKeySequence()); }
-
 Actions::Actions(QMainWindow& window, const std::vector<ActionRow>& menus) : QObject(&window), window_(window) {
   add({}, menus);
   for (const auto& [id, menu] : menus_) {

@@ -17,7 +17,6 @@ struct Keys : QList<QKeySequence> {
   Keys(const char* names = "") : Keys(QString::fromLatin1(names)) {}
   Keys(const QString& names);
   Keys(QKeySequence::StandardKey key) : QList({QKeySequence(key)}) {}
-  Keys(const QKeySequence& key);
 };
 
 /// What an action does. A row with IsOn is a switch if the function takes its new state, and a choice otherwise.

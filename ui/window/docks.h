@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QDockWidget>
-#include <QKeySequence>
 #include <functional>
 #include <span>
 #include <vector>
@@ -46,7 +45,7 @@ struct DockEntry {
   const char* title;
   const char* tooltip;  // what the dock shows or does
   const char* icon;
-  QKeySequence key = {};
+  const char* key = "";
   Qt::DockWidgetArea area;
   const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
   bool visible = true;               // visible at the first start
