@@ -19,7 +19,6 @@
 #include "document/edits.h"
 #include "window.h"
 #include "window/docks.h"
-#include "window/keys_page.h"
 
 namespace chainmail::window_docks {
 
@@ -51,10 +50,10 @@ class WindowDocks : public QObject {
       QCOMPARE(show->objectName(), QLatin1String(entry.action));
       QCOMPARE(show->statusTip(), QLatin1String(entry.tooltip));
       QVERIFY(!show->icon().isNull());
-      QCOMPARE(show->shortcut(), entry.key);
+      QCOMPARE(show->shortcut(), QKeySequence(QLatin1String(entry.key)));
     }
 
-    const QList<QAction*> actions = actionsOf(bench.window);
+    const QList<QAction*> actions = bench.window.actions();
     for (const DockEntry& entry : dockEntries()) {
       QAction* show = bench.find<QDockWidget>(entry.id)->toggleViewAction();
       QCOMPARE(menu(bench, "Docks").count(show), 1);

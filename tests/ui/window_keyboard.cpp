@@ -15,7 +15,6 @@
 #include <QToolBar>
 
 #include "window.h"
-#include "window/keys_page.h"
 
 namespace chainmail::window_keyboard {
 
@@ -119,7 +118,7 @@ class WindowKeyboard : public QObject {
       }
     }
     QMap<QKeySequence, QString> keys;
-    for (const QAction* action : actionsOf(bench.window)) {
+    for (const QAction* action : bench.window.actions()) {
       for (const QKeySequence& one : action->shortcuts()) {
         QVERIFY2(!keys.contains(one), qPrintable(action->text() + QStringLiteral(" and ") + keys[one]));
         keys[one] = action->text();
@@ -214,7 +213,7 @@ class WindowKeyboard : public QObject {
     auto* text = page->findChild<QTextBrowser*>();
     QStringList rows = text->toPlainText().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
     int listed = 0;
-    for (const QAction* action : actionsOf(bench.window)) {
+    for (const QAction* action : bench.window.actions()) {
       const QString name = QString(action->text()).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
       const QString keys = action->shortcut().toString(QKeySequence::NativeText);
       bool isListed = keys.isEmpty();

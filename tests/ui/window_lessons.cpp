@@ -1,5 +1,6 @@
 // Tests lessons in a real window: every bundled lesson runs to its end and back, to the bit, and replaces no work.
 
+#include <QDockWidget>
 #include <QFile>
 #include <QFileInfo>
 #include <QLabel>

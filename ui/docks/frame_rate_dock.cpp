@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/actions.h"
 #include "common/as_path.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
@@ -142,7 +143,7 @@ void RateFigures::show(int panel, const RateSample& sample) {
   row.worst->setText(shownTime(sample.worstMs));
 }
 
-FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels)
+FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& panels, Actions& actions)
     : document_(document),
       panels_(panels),
       histories_(Document::maxPanels),
@@ -152,19 +153,18 @@ FrameRateDock::FrameRateDock(Document& document, const std::vector<Panel*>& pane
       plot_(new PlotWidget(QStringLiteral("Drag the object to see its rates"))),
       quantity_(new QComboBox),
       span_(new QComboBox),
-      menu_(new QMenu(QStringLiteral("&Rates over time"), this)),
       timer_(this) {
   plot_->setObjectName(QStringLiteral("ratePlot"));
   plot_->setAccessibleName(QStringLiteral("Rates of the panels over time"));
   plot_->setToolTip(QStringLiteral(
       "One line for each panel, in its colour. A line ends where nothing happened. Point at a line to see its values"));
-  addActions();
+  addActions(actions);
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(5, 4, 5, 4);
   column->setSpacing(4);
   column->addWidget(figures_);
-  column->addWidget(makeControls());
+  column->addWidget(makeControls(actions));
   column->addWidget(plot_, 1);
   setWidget(new DockScroll(content));
   clock_.start();
@@ -212,17 +212,17 @@ void FrameRateDock::fillChoices() {
   connect(span_, &QComboBox::activated, this, &FrameRateDock::choose);
 }
 
-QWidget* FrameRateDock::makeControls() {
+QWidget* FrameRateDock::makeControls(const Actions& actions) {
   fillChoices();
   auto* pause = new QToolButton;
-  pause->setDefaultAction(pause_);
-  auto* save = new QToolButton;  // with the actions of the menu, except the first
+  pause->setDefaultAction(&actions["pauseRates"]);
+  auto* save = new QToolButton;
   save->setObjectName(QStringLiteral("rateSave"));
   save->setIcon(icon("save"));
   save->setAccessibleName(QStringLiteral("Save the rates as a table or a picture"));
   save->setToolTip(save->accessibleName());
   save->setPopupMode(QToolButton::InstantPopup);
-  save->addActions(menu_->actions().mid(1));
+  save->addActions(actions.all({"saveRateTable", "saveRatePicture"}));
   auto* controls = new QWidget;
   auto* column = new QVBoxLayout(controls);
   column->setContentsMargins(0, 2, 0, 0);
@@ -236,23 +236,17 @@ QWidget* FrameRateDock::makeControls() {
   return controls;
 }
 
-void FrameRateDock::addActions() {
-  pause_ = menu_->addAction(QStringLiteral("&Pause the plot"));
-  pause_->setObjectName(QStringLiteral("pauseRates"));
-  pause_->setIcon(icon("pause"));
-  pause_->setIconText(QStringLiteral("Pause"));
-  pause_->setCheckable(true);
-  pause_->setShortcut(Qt::Key_Pause);
-  pause_->setStatusTip(QStringLiteral("Stops the plot of the frame rate; nothing is recorded until you continue"));
-  auto* table = menu_->addAction(QStringLiteral("Save rates as &table…"), this, &FrameRateDock::saveTable);
-  table->setIcon(icon("save"));
-  table->setObjectName(QStringLiteral("saveRateTable"));
-  table->setStatusTip(
-      QStringLiteral("Saves all quantities of the last 10 minutes as CSV, with all digits and time in seconds"));
-  auto* picture = menu_->addAction(QStringLiteral("Save rates as p&icture…"), this, &FrameRateDock::savePicture);
-  picture->setIcon(icon("picture"));
-  picture->setObjectName(QStringLiteral("saveRatePicture"));
-  picture->setStatusTip(QStringLiteral("Saves the present plot with its legend as PNG, or as SVG or PDF for print"));
+void FrameRateDock::addActions(Actions& actions) {
+  actions.add("View", {{"rates", "&Rates over time", "frameRate"}});
+  actions.add("rates", {{"pauseRates", "&Pause the plot|Pause", "pause", "Pause",
+                         "Stops the plot of the frame rate; nothing is recorded until you continue",
+                         [this](bool on) { pauses_ = on; }, IsOn([this] { return pauses_; })},
+                        {"saveRateTable", "Save rates as &table…", "save", "",
+                         "Saves all quantities of the last 10 minutes as CSV, with all digits and time in seconds",
+                         [this] { saveTable(); }},
+                        {"saveRatePicture", "Save rates as p&icture…", "picture", "",
+                         "Saves the present plot with its legend as PNG, or as SVG or PDF for print",
+                         [this] { savePicture(); }}});
 }
 
 void FrameRateDock::receive(int panel) {
@@ -260,7 +254,7 @@ void FrameRateDock::receive(int panel) {
     return;
   }
   const Frame* frame = document_.solvers().frame(panel);
-  if (frame != nullptr && !pause_->isChecked()) {
+  if (frame != nullptr && !pauses_) {
     RateSample sample = read(panel);
     const Statistics& statistics = frame->statistics;
     Seen& seen = seen_[std::size_t(panel)];
@@ -305,7 +299,7 @@ void FrameRateDock::refresh() {
     const RateSample sample = read(panel);
     figures_->show(panel, sample);
     busy = busy || sample.painted > 0;
-    if (!pause_->isChecked()) {
+    if (!pauses_) {
       RateSample painted;
       painted.time = sample.time;
       painted.painted = sample.painted;
@@ -313,7 +307,7 @@ void FrameRateDock::refresh() {
       histories_[std::size_t(panel)].add(painted);
     }
   }
-  if (!pause_->isChecked()) {
+  if (!pauses_) {
     shownTo_ = now();
     showPlot();
   }

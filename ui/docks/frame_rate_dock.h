@@ -1,11 +1,9 @@
 #pragma once
 
-#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLabel>
-#include <QMenu>
 #include <QTimer>
 #include <QWidget>
 #include <vector>
@@ -19,6 +17,7 @@ class QGridLayout;
 
 namespace chainmail {
 
+class Actions;
 class Panel;
 
 /// Shows the newest figures of each panel, with its colour and algorithm: painted rate and times of the solver.
@@ -56,10 +55,8 @@ class FrameRateDock : public QDockWidget {
   static constexpr std::size_t drawnPoints = 2000;
 
   /// `panels` are the current panels of the document.
-  FrameRateDock(Document& document, const std::vector<Panel*>& panels);
+  FrameRateDock(Document& document, const std::vector<Panel*>& panels, Actions& actions);
 
-  /// Returns the actions of the dock, for a menu of the window.
-  QMenu& menu() { return *menu_; }
   /// Writes all samples as CSV.
   void saveTablePath(const QString& path);
   /// Writes the plot as SVG, PDF or PNG.
@@ -77,8 +74,8 @@ class FrameRateDock : public QDockWidget {
   };
 
   void fillChoices();
-  QWidget* makeControls();
-  void addActions();
+  QWidget* makeControls(const Actions& actions);
+  void addActions(Actions& actions);
   void receive(int panel);
   void forget(int panel);
   double now() const { return 1e-9 * double(clock_.nsecsElapsed()); }
@@ -100,8 +97,7 @@ class FrameRateDock : public QDockWidget {
   PlotWidget* plot_;
   QComboBox* quantity_;
   QComboBox* span_;
-  QMenu* menu_;
-  QAction* pause_ = nullptr;
+  bool pauses_ = false;
   QElapsedTimer clock_;
   double shownTo_ = 0;  // end of the plot (s since the window was opened); stays while nothing happens
   QTimer timer_;

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/actions.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
 #include "document/edits.h"
@@ -27,7 +28,7 @@ QWidget* makeCalibration() {
 
 }  // namespace
 
-PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
+PhysicsDock::PhysicsDock(Document& document, const Actions& actions)
     : document_(document),
       pins_(new QLabel),
       rows_([&document]() -> const ElasticOptions& { return document.elastic(); },
@@ -36,7 +37,7 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
             }) {
   auto* column = new QVBoxLayout;
   rows_.addTo(*column);
-  column->addLayout(makePins(layers));
+  column->addLayout(makePins(actions));
   column->addWidget(makeCalibration());
   setColumn(*this, *column);
   connect(&document, &Document::elasticChanged, this, &PhysicsDock::showElastic);
@@ -47,7 +48,7 @@ PhysicsDock::PhysicsDock(Document& document, PinLayers& layers)
   }
 }
 
-QLayout* PhysicsDock::makePins(PinLayers& layers) {
+QLayout* PhysicsDock::makePins(const Actions& actions) {
   pins_->setTextFormat(Qt::RichText);
   pins_->setObjectName(QStringLiteral("physicsPins"));
   pins_->setWordWrap(true);
@@ -57,7 +58,7 @@ QLayout* PhysicsDock::makePins(PinLayers& layers) {
   pin->setIcon(icon("pin"));
   pin->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   pin->setToolTip(QStringLiteral("Pins a layer of the object or its boundary. The Pin tool (P) pins single elements"));
-  pin->setMenu(&layers.menu());
+  pin->setMenu(&actions.menu("pinLayers"));
   pin->setPopupMode(QToolButton::InstantPopup);
   auto* row = new QHBoxLayout;
   row->addWidget(pins_, 1);

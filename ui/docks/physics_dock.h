@@ -5,19 +5,20 @@
 
 #include "docks/member_rows.h"
 #include "document/document.h"
-#include "tools/pin_tool.h"
 
 namespace chainmail {
+
+class Actions;
 
 /// Parameters of elastic methods and free-form deformation: material, lattice of control points, and pins.
 class PhysicsDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  PhysicsDock(Document& document, PinLayers& layers);
+  PhysicsDock(Document& document, const Actions& actions);
 
  private:
-  QLayout* makePins(PinLayers& layers);
+  QLayout* makePins(const Actions& actions);
   void showElastic();
   void showPins();
 

@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/actions.h"
 #include "common/as_path.h"
-#include "common/icons.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "files/text/limits.h"
@@ -95,16 +95,15 @@ void PresetStore::write(std::vector<SoftnessPreset> presets) {
   own_ = std::move(presets);
 }
 
-PresetRow::PresetRow(Document& document)
+PresetRow::PresetRow(Document& document, Actions& actions)
     : document_(document),
       fields_(new QStackedLayout),
       field_(new QComboBox),
       name_(new QLineEdit),
       more_(new PlainMenuButton),
-      menu_(new QMenu(QStringLiteral("Softness &presets"), this)) {
-  menu_->setIcon(icon("preset"));
-  arrange();
+      actions_(actions) {
   addActions();
+  arrange();
   connect(field_, &QComboBox::activated, this, &PresetRow::choose);
   connect(name_, &QLineEdit::returnPressed, this, &PresetRow::takeName);
   connect(&document, &Document::softnessChanged, this, &PresetRow::showChosen);
@@ -135,9 +134,8 @@ void PresetRow::arrange() {
   more_->setAccessibleName(QStringLiteral("Save or delete presets"));
   more_->setToolTip(more_->accessibleName());
   more_->setPopupMode(QToolButton::InstantPopup);
-  more_->setMenu(menu_);
+  more_->setMenu(&actions_.menu("presets"));
   more_->setFocusPolicy(Qt::TabFocus);
-  menu_->setToolTipsVisible(true);
   for (QObject* one : std::initializer_list<QObject*>{field_, name_}) {
     one->installEventFilter(this);
   }
@@ -154,18 +152,23 @@ void PresetRow::arrange() {
   row->addWidget(more_);
 }
 
-QAction* PresetRow::add(const char* name, const QString& text, const QString& help, void (PresetRow::*act)()) {
-  auto* action = menu_->addAction(text, this, act);
-  action->setObjectName(QLatin1String(name));
-  action->setStatusTip(help);
-  return action;
-}
-
 void PresetRow::addActions() {
-  save_ = add("savePreset", QStringLiteral("&Save as preset…"),
-              QStringLiteral("Saves the softness of all links under a name"), &PresetRow::saveAs);
-  remove_ = add("deletePreset", QStringLiteral("&Delete preset"),
-                QStringLiteral("Deletes the selected preset; the object keeps its softness"), &PresetRow::remove);
+  actions_.add("Object", {{"presets", "Softness &presets", "preset"}});
+  actions_.add(
+      "presets",
+      {{"savePreset", "&Save as preset…", "save", "", "Saves the softness of all links under a name",
+        [this] { saveAs(); }, When([this] {
+          const SoftnessPreset* one = chosen();
+          return one == nullptr
+                     ? QString()
+                     : QStringLiteral("These values are already saved as '%1'").arg(QString::fromStdString(one->name));
+        })},
+       {"deletePreset", "&Delete preset", "close", "", "Deletes the selected preset; the object keeps its softness",
+        [this] { remove(); }, When([this] {
+          return chosenOwn() != nullptr ? QString()
+                 : chosen() == nullptr  ? "The values match no preset: select one of your presets"
+                                        : "This preset is built in: select one of your presets";
+        })}});
 }
 
 /// Lists 'Custom', which cannot be chosen, the built-in presets and the user's presets.
@@ -201,27 +204,11 @@ void PresetRow::showChosen() {
   }
   const int preset = found == all_.end() ? -1 : int(found - all_.begin());
   field_->setCurrentIndex(field_->findData(preset));
-  adaptActions();
-}
-
-/// Enables and disables the actions. The tool tip of a disabled action explains why.
-void PresetRow::adaptActions() {
-  const SoftnessPreset* one = chosen();
-  const auto allow = [](QAction* action, bool allowed, const QString& why) {
-    action->setEnabled(allowed);
-    action->setToolTip(allowed ? action->statusTip() : why);
-  };
-  allow(save_, one == nullptr,
-        one == nullptr
-            ? QString()
-            : QStringLiteral("These values are already saved as '%1'").arg(QString::fromStdString(one->name)));
-  const QString notOwn = one == nullptr ? QStringLiteral("The values match no preset: select one of your presets")
-                                        : QStringLiteral("This preset is built in: select one of your presets");
-  allow(remove_, chosenOwn() != nullptr, notOwn);
+  actions_.refresh();
 }
 
 const SoftnessPreset* PresetRow::chosen() const {
-  const int preset = field_->currentData().toInt();
+  const int preset = field_->count() == 0 ? -1 : field_->currentData().toInt();
   return preset < 0 ? nullptr : &all_[std::size_t(preset)];
 }
 

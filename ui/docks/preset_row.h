@@ -1,9 +1,7 @@
 #pragma once
 
-#include <QAction>
 #include <QComboBox>
 #include <QLineEdit>
-#include <QMenu>
 #include <QStackedLayout>
 #include <QString>
 #include <QToolButton>
@@ -14,6 +12,8 @@
 #include "files/session/softness_presets.h"
 
 namespace chainmail {
+
+class Actions;
 
 /// The user's softness presets, in a file beside the settings. Names are unique and differ from those of built-in
 /// presets. Functions throw Error if they fail; then nothing has changed.
@@ -42,10 +42,7 @@ class PresetRow : public QWidget {
   Q_OBJECT
 
  public:
-  explicit PresetRow(Document& document);
-
-  /// Returns the actions on presets, for a menu of the window.
-  QMenu& menu() { return *menu_; }
+  PresetRow(Document& document, Actions& actions);
 
  signals:
   /// Emitted when something fails; `sentence` says why and what to do.
@@ -59,10 +56,8 @@ class PresetRow : public QWidget {
  private:
   void arrange();
   void addActions();
-  QAction* add(const char* name, const QString& text, const QString& help, void (PresetRow::*act)());
   void fill();
   void showChosen();
-  void adaptActions();
   const SoftnessPreset* chosen() const;
   const SoftnessPreset* chosenOwn() const;
   void choose(int index);
@@ -82,8 +77,7 @@ class PresetRow : public QWidget {
   QComboBox* field_;
   QLineEdit* name_;
   QToolButton* more_;
-  QMenu* menu_;
-  QAction *save_ = nullptr, *remove_ = nullptr;
+  Actions& actions_;
 };
 
 }  // namespace chainmail

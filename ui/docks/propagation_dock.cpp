@@ -1,17 +1,15 @@
 #include "docks/propagation_dock.h"
 
-#include <QAction>
 #include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <array>
 
+#include "common/actions.h"
 #include "common/dock_scroll.h"
-#include "common/icons.h"
 
 namespace chainmail {
 namespace {
@@ -23,18 +21,19 @@ constexpr int smallWindow = 1760;
 
 }  // namespace
 
-PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay)
+PropagationDock::PropagationDock(Document& document, Propagation& propagation, PropagationOverlay& overlay,
+                                 Actions& actions)
     : propagation_(propagation),
       overlay_(overlay),
       lists_(new QGridLayout),
       speed_(new QComboBox),
       together_(new QCheckBox(QStringLiteral("&Together"))),
       arrows_(new QCheckBox(QStringLiteral("&Arrows"))) {
-  makeActions();
+  addActions(actions);
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
-  column->addWidget(makeButtons());
-  column->addWidget(makeChoices());
+  column->addWidget(makeButtons(actions));
+  column->addWidget(makeChoices(actions));
   for (int panel = 0; panel < Document::maxPanels; ++panel) {
     columns_.push_back(new PropagationColumn(document, propagation, panel));
   }
@@ -92,49 +91,40 @@ void PropagationDock::followDock() {
   }
 }
 
-QAction* PropagationDock::add(const QString& name, const QString& text, const QKeySequence& key, const QString& tip) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(name);
-  action->setShortcut(key);
-  action->setStatusTip(tip);
-  return action;
+void PropagationDock::addActions(Actions& actions) {
+  const When ready([this] {
+    return !propagation_.isShown()   ? QStringLiteral("Not available: open the Propagation dock first (O)")
+           : !propagation_.hasPass() ? QStringLiteral("Not available: there is no pass yet; drag an element")
+                                     : QString();
+  });
+  actions.add("View", {{"steps", "Steps of the p&ass", "stepForward"}});
+  actions.add(
+      "steps",
+      {{"passFirst", "&First step", "toStart", "Ctrl+,",
+        "Goes to the start of the pass: the handle is at its target, all other elements have not moved yet",
+        [this] { propagation_.goTo(0); }, ready},
+       {"passBack", "Step &back", "stepBack", ",", "Goes back by one candidate of the pass",
+        [this] { propagation_.stepBy(-1); }, ready},
+       {"passPlay", "&Slow motion", "play", "Ctrl+Space", "Plays the pass at the selected speed, or pauses",
+        [this](bool on) { propagation_.setPlays(on); }, ready, IsOn([this] { return propagation_.plays(); }),
+        Looks([this] { return Look{.icon = propagation_.plays() ? "pause" : "play"}; })},
+       {"passForward", "Step f&orward", "stepForward", ".", "Goes forward by one candidate of the pass",
+        [this] { propagation_.stepBy(1); }, ready},
+       {"passLast", "&Last step", "toEnd", "Ctrl+.", "Goes to the end of the pass",
+        [this] { propagation_.goTo(propagation_.stepCount()); }, ready},
+       {},
+       {"passFollow", "Follow &drag", "", "Shift+O", "On: always shows the last pass. Off: keeps the present pass",
+        [this](bool on) { propagation_.setShowsNewest(on); }, ready,
+        IsOn([this] { return propagation_.showsNewest(); })}});
+  connect(this, &PropagationDock::changed, &actions, &Actions::refresh);
 }
 
-void PropagationDock::makeActions() {
-  first_ =
-      add(QStringLiteral("passFirst"), QStringLiteral("&First step"), Qt::CTRL | Qt::Key_Comma,
-          QStringLiteral(
-              "Goes to the start of the pass: the handle is at its target, all other elements have not moved yet"));
-  back_ = add(QStringLiteral("passBack"), QStringLiteral("Step &back"), Qt::Key_Comma,
-              QStringLiteral("Goes back by one candidate of the pass"));
-  play_ = add(QStringLiteral("passPlay"), QStringLiteral("&Slow motion"), Qt::CTRL | Qt::Key_Space,
-              QStringLiteral("Plays the pass at the selected speed, or pauses"));
-  forward_ = add(QStringLiteral("passForward"), QStringLiteral("Step f&orward"), Qt::Key_Period,
-                 QStringLiteral("Goes forward by one candidate of the pass"));
-  last_ = add(QStringLiteral("passLast"), QStringLiteral("&Last step"), Qt::CTRL | Qt::Key_Period,
-              QStringLiteral("Goes to the end of the pass"));
-  follow_ = add(QStringLiteral("passFollow"), QStringLiteral("Follow &drag"), Qt::SHIFT | Qt::Key_O,
-                QStringLiteral("On: always shows the last pass. Off: keeps the present pass"));
-  play_->setCheckable(true);
-  follow_->setCheckable(true);
-  connect(first_, &QAction::triggered, this, [this] { propagation_.goTo(0); });
-  connect(back_, &QAction::triggered, this, [this] { propagation_.stepBy(-1); });
-  connect(play_, &QAction::triggered, &propagation_, &Propagation::setPlays);
-  connect(forward_, &QAction::triggered, this, [this] { propagation_.stepBy(1); });
-  connect(last_, &QAction::triggered, this, [this] { propagation_.goTo(propagation_.stepCount()); });
-  connect(follow_, &QAction::triggered, &propagation_, &Propagation::setShowsNewest);
-  first_->setIcon(icon("toStart"));
-  back_->setIcon(icon("stepBack"));
-  forward_->setIcon(icon("stepForward"));
-  last_->setIcon(icon("toEnd"));
-}
-
-QWidget* PropagationDock::makeButtons() {
+QWidget* PropagationDock::makeButtons(Actions& actions) {
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
-  for (QAction* action : {first_, back_, play_, forward_, last_}) {
+  for (QAction* action : actions.all({"passFirst", "passBack", "passPlay", "passForward", "passLast"})) {
     auto* button = new QToolButton;
     button->setDefaultAction(action);
     button->setFocusPolicy(Qt::StrongFocus);
@@ -159,12 +149,12 @@ void PropagationDock::makeSpeeds() {
   speed_->setCurrentIndex(speed_->findData(usualSpeed));
 }
 
-QWidget* PropagationDock::makeChoices() {
+QWidget* PropagationDock::makeChoices(Actions& actions) {
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
   auto* follow = new QToolButton;
-  follow->setDefaultAction(follow_);
+  follow->setDefaultAction(&actions["passFollow"]);
   follow->setFocusPolicy(Qt::StrongFocus);
   layout->addWidget(follow);
   together_->setObjectName(QStringLiteral("passTogether"));
@@ -184,35 +174,11 @@ QWidget* PropagationDock::makeChoices() {
   return row;
 }
 
-void PropagationDock::fill(QMenu& menu) {
-  auto* steps = menu.addMenu(QStringLiteral("Steps of the p&ass"));
-  steps->addActions({first_, back_, play_, forward_, last_});
-  steps->addSeparator();
-  steps->addAction(follow_);
-}
-
 void PropagationDock::refresh() {
-  refreshActions();
   for (PropagationColumn* column : columns_) {
     column->refresh();
   }
   emit changed();
-}
-
-/// Enables and disables the actions. The tool tip of a disabled action explains why.
-void PropagationDock::refreshActions() {
-  const bool ready = propagation_.isShown() && propagation_.hasPass();
-  const QString why = propagation_.isShown() ? QStringLiteral("no pass yet: drag an element")
-                                             : QStringLiteral("open the Propagation dock first (O)");
-  for (QAction* action : {first_, back_, play_, forward_, last_, follow_}) {
-    const QString name = QString(action->text()).remove(QLatin1Char('&'));
-    action->setEnabled(ready);
-    action->setToolTip(ready ? QStringLiteral("%1 (%2)").arg(name, action->shortcut().toString())
-                             : QStringLiteral("%1: %2").arg(name, why));
-  }
-  play_->setChecked(propagation_.plays());
-  play_->setIcon(icon(propagation_.plays() ? "pause" : "play"));
-  follow_->setChecked(propagation_.showsNewest());
 }
 
 }  // namespace chainmail

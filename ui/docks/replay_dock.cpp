@@ -1,6 +1,5 @@
 #include "docks/replay_dock.h"
 
-#include <QAction>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -9,9 +8,9 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "common/actions.h"
 #include "common/as_path.h"
 #include "common/dock_scroll.h"
-#include "common/icons.h"
 #include "files/session/moves.h"
 #include "files/text/outputs.h"
 #include "io/questions.h"
@@ -28,16 +27,16 @@ bool isMove(const Command& command) { return std::holds_alternative<commands::Dr
 
 }  // namespace
 
-ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
+ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs, Actions& actions)
     : document_(document),
       jobs_(jobs),
       film_(document, scene, jobs),
-      menu_(new QMenu(QStringLiteral("&Record and replay"), this)),
+      actions_(actions),
       slider_(new QSlider(Qt::Horizontal)),
       position_(new QLabel),
       speed_(new QComboBox),
       refresh_(this) {
-  makeActions();
+  addActions();
   arrange();
   playing_.setTimerType(Qt::PreciseTimer);
   connect(&playing_, &QTimer::timeout, this, &ReplayDock::playOn);
@@ -58,55 +57,45 @@ ReplayDock::ReplayDock(Document& document, QWidget& scene, Jobs& jobs)
 
 // Actions.
 
-QAction* ReplayDock::add(const char* name, const QString& text, const char* drawing, const QKeySequence& key,
-                         const QString& help, std::function<void()> act) {
-  QAction* action = menu_->addAction(text);
-  action->setObjectName(QLatin1String(name));
-  action->setIcon(icon(drawing));
-  action->setShortcut(key);
-  action->setStatusTip(help);
-  action->setToolTip(key.isEmpty() ? help : QStringLiteral("%1 (%2)").arg(help, key.toString()));
-  connect(action, &QAction::triggered, this, [this, act = std::move(act)] {
-    if (!film_.running()) {
-      act();
-    }
-  });
-  return action;
-}
-
-void ReplayDock::makeActions() {
-  const auto stopAndGo = [this](std::size_t position) {
-    setPlaying(false);
-    goTo(position);
+void ReplayDock::addActions() {
+  const auto goes = [this](auto position) {
+    return [this, position] {
+      setPlaying(false);
+      goTo(position(document_.moves().history()));
+    };
   };
-  first_ = add("replayFirst", QStringLiteral("Go to &beginning"), "toStart",
-               QKeySequence(QStringLiteral("Ctrl+Alt+Home")), QStringLiteral("Shows the object before the first move"),
-               [=, this] { stopAndGo(document_.moves().history().start()); });
-  back_ = add("replayBack", QStringLiteral("Move b&ack"), "stepBack", QKeySequence(QStringLiteral("Ctrl+Alt+Left")),
-              QStringLiteral("Goes back by one pass"), [=, this] { stopAndGo(previousMove()); });
-  play_ = add("replayPlay", QStringLiteral("&Play"), "play", QKeySequence(QStringLiteral("Ctrl+Alt+Space")),
-              QStringLiteral("Plays the moves by the algorithms of the panels"),
-              [this] { setPlaying(!playing_.isActive()); });
-  forward_ = add("replayForward", QStringLiteral("Move &forward"), "stepForward",
-                 QKeySequence(QStringLiteral("Ctrl+Alt+Right")), QStringLiteral("Goes forward by one pass"),
-                 [=, this] { stopAndGo(nextMove()); });
-  last_ = add("replayLast", QStringLiteral("Go to &end"), "toEnd", QKeySequence(QStringLiteral("Ctrl+Alt+End")),
-              QStringLiteral("Shows the object after the last move"),
-              [=, this] { stopAndGo(document_.moves().history().length()); });
-  menu_->addSeparator();
-  add("openMoves", QStringLiteral("Open &moves…"), "open", {},
-      QStringLiteral("Opens recorded moves of this mesh; the object returns to rest, ready to play them"),
-      [this] { askForMoves(); });
-  save_ = add("saveMoves", QStringLiteral("&Save moves…"), "save", {},
-              QStringLiteral("Saves the moves as JSON for chainmail deform --script and chainmail compare --moves"),
-              [this] { askWhereMoves(); });
-  exportFilm_ =
-      add("exportFilm", QStringLiteral("Export &film…"), "movie", {},
-          Film::canMakeVideos()
-              ? QStringLiteral("Saves a video of all moves: one picture of the panels per move, 60 per second")
-              : QStringLiteral("Not available: install ffmpeg to save videos"),
-          [this] { askWhereFilm(); });
-  menu_->removeAction(exportFilm_);  // it is in the File menu
+  const When someBehind([this] { return behind() && !film_.running(); });
+  const When someAhead([this] { return ahead() && !film_.running(); });
+  const When some([this] { return hasMoves() && !film_.running(); });
+  actions_.add("Object", {{"replay", "&Record and replay", "record"}});
+  actions_.add(
+      "replay",
+      {{"replayFirst", "Go to &beginning", "toStart", "Ctrl+Alt+Home", "Shows the object before the first move",
+        goes([](const MoveHistory& history) { return history.start(); }), someBehind},
+       {"replayBack", "Move b&ack", "stepBack", "Ctrl+Alt+Left", "Goes back by one pass",
+        goes([this](const MoveHistory&) { return previousMove(); }), someBehind},
+       {"replayPlay", "&Play", "play", "Ctrl+Alt+Space", "Plays the moves by the algorithms of the panels",
+        [this] { setPlaying(!playing_.isActive()); }, some, Looks([this] {
+          return playing_.isActive() ? Look{.text = "&Pause", .icon = "pause"} : Look{.text = "&Play", .icon = "play"};
+        })},
+       {"replayForward", "Move &forward", "stepForward", "Ctrl+Alt+Right", "Goes forward by one pass",
+        goes([this](const MoveHistory&) { return nextMove(); }), someAhead},
+       {"replayLast", "Go to &end", "toEnd", "Ctrl+Alt+End", "Shows the object after the last move",
+        goes([](const MoveHistory& history) { return history.length(); }), someAhead},
+       {},
+       {"openMoves", "Open &moves…", "open", "",
+        "Opens recorded moves of this mesh; the object returns to rest, ready to play them", [this] { askForMoves(); },
+        When([this] { return !film_.running(); })},
+       {"saveMoves", "&Save moves…", "save", "",
+        "Saves the moves as JSON for chainmail deform --script and chainmail compare --moves",
+        [this] { askWhereMoves(); }, some}});
+  actions_.add("File", {{"exportFilm", "Export &film…", "movie", "",
+                         "Saves a video of all moves: one picture of the panels per move, 60 per second",
+                         [this] { askWhereFilm(); }, When([this, some]() -> Available {
+                           return Film::canMakeVideos()
+                                      ? some.now()
+                                      : Available(QStringLiteral("Not available: install ffmpeg to save videos"));
+                         })}});
 }
 
 // The slider and the state.
@@ -119,7 +108,7 @@ void ReplayDock::scheduleShow() {
 
 QString ReplayDock::describe() const {
   const MoveHistory& history = document_.moves().history();
-  if (history.length() == history.start()) {
+  if (!hasMoves()) {
     return QStringLiteral("No moves yet: everything you do to the object is recorded here");
   }
   return QStringLiteral("move %L1 of %L2")
@@ -136,19 +125,20 @@ void ReplayDock::showMoves() {
   slider_->setRange(int(history.start()), int(history.length()));
   slider_->setValue(int(wanted_.value_or(history.position())));
   position_->setText(describe());
-  const bool some = history.length() > history.start(), filming = film_.running();
-  const bool behind = history.position() > history.start(), ahead = history.position() < history.length();
-  for (QAction* action : {first_, back_}) {
-    action->setEnabled(behind && !filming);
-  }
-  for (QAction* action : {forward_, last_}) {
-    action->setEnabled(ahead && !filming);
-  }
-  for (QAction* action : {play_, save_}) {
-    action->setEnabled(some && !filming);
-  }
-  exportFilm_->setEnabled(some && !filming && Film::canMakeVideos());
-  slider_->setEnabled(some && !filming);
+  slider_->setEnabled(hasMoves() && !film_.running());
+  actions_.refresh();
+}
+
+bool ReplayDock::hasMoves() const { return ahead() || behind(); }
+
+bool ReplayDock::behind() const {
+  const MoveHistory& history = document_.moves().history();
+  return history.position() > history.start();
+}
+
+bool ReplayDock::ahead() const {
+  const MoveHistory& history = document_.moves().history();
+  return history.position() < history.length();
 }
 
 std::size_t ReplayDock::nextMove() const {
@@ -183,23 +173,22 @@ void ReplayDock::goTo(std::size_t position) {
 }
 
 void ReplayDock::setPlaying(bool on) {
-  play_->setText(on ? QStringLiteral("&Pause") : QStringLiteral("&Play"));
-  play_->setIcon(icon(on ? "pause" : "play"));
   if (!on) {
     playing_.stop();
-    return;
+  } else {
+    if (!ahead()) {
+      goTo(document_.moves().history().start());
+    }
+    playing_.start(1000 / speed_->currentData().toInt());
   }
-  if (document_.moves().history().position() == document_.moves().history().length()) {
-    goTo(document_.moves().history().start());
-  }
-  playing_.start(1000 / speed_->currentData().toInt());
+  actions_.refresh();
 }
 
 void ReplayDock::playOn() {
   if (!document_.solvers().idle()) {
     return;
   }
-  if (document_.moves().history().position() == document_.moves().history().length()) {
+  if (!ahead()) {
     setPlaying(false);
   } else {
     document_.moves().goTo(nextMove());
@@ -212,7 +201,7 @@ QWidget* ReplayDock::makeTransport() {
   auto* row = new QWidget;
   auto* line = new QHBoxLayout(row);
   line->setContentsMargins(0, 0, 0, 0);
-  for (QAction* action : {first_, back_, play_, forward_, last_}) {
+  for (QAction* action : actions_.all({"replayFirst", "replayBack", "replayPlay", "replayForward", "replayLast"})) {
     auto* button = new QToolButton;
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonIconOnly);
@@ -257,7 +246,7 @@ void ReplayDock::arrange() {
   more->setObjectName(QStringLiteral("replayMore"));
   more->setText(QStringLiteral("Moves"));
   more->setToolTip(QStringLiteral("Opens and saves moves"));
-  more->setMenu(menu_);
+  more->setMenu(&actions_.menu("replay"));
   more->setPopupMode(QToolButton::InstantPopup);
   line->addWidget(more);
   column->addLayout(line);

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
-#include <QMenu>
 #include <QSlider>
 #include <QTimer>
 
@@ -11,10 +10,9 @@
 #include "document/document.h"
 #include "io/film.h"
 
-class QAction;
-class QToolButton;
-
 namespace chainmail {
+
+class Actions;
 
 /// Shows all commands since the object was opened on a slider. Steps back and forth, plays them move by move, and saves
 /// them as JSON or video.
@@ -23,11 +21,7 @@ class ReplayDock : public QDockWidget {
 
  public:
   /// Films show `scene`; `jobs` reads and writes recorded moves.
-  ReplayDock(Document& document, QWidget& scene, Jobs& jobs);
-
-  /// Returns the actions of the dock, for the menu bar.
-  QMenu& menu() { return *menu_; }
-  QAction& exportFilm() { return *exportFilm_; }
+  ReplayDock(Document& document, QWidget& scene, Jobs& jobs, Actions& actions);
 
   /// Open and save recorded moves in the background.
   void openMoves(const QString& path);
@@ -40,14 +34,16 @@ class ReplayDock : public QDockWidget {
   void saved(const QString& path);
 
  private:
-  void makeActions();
-  QAction* add(const char* name, const QString& text, const char* icon, const QKeySequence& key, const QString& help,
-               std::function<void()> act);
+  void addActions();
   void arrange();
   QWidget* makeTransport();
   void scheduleShow();
   void showMoves();
   QString describe() const;
+  bool hasMoves() const;
+  /// True if there are recorded commands before, or after, the position.
+  bool behind() const;
+  bool ahead() const;
   /// Return the position in the recorded commands after the next move, and before the last one. A move ends with its
   /// pass.
   std::size_t nextMove() const;
@@ -62,8 +58,7 @@ class ReplayDock : public QDockWidget {
   Document& document_;
   Jobs& jobs_;
   Film film_;
-  QMenu* menu_;
-  QAction *first_, *back_, *play_, *forward_, *last_, *save_, *exportFilm_;
+  Actions& actions_;
   QSlider* slider_;
   QLabel* position_;
   QComboBox* speed_;

@@ -1,14 +1,14 @@
 #include "docks/section_dock.h"
 
-#include <QAction>
 #include <QCloseEvent>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <cmath>
+#include <utility>
 
+#include "common/actions.h"
 #include "common/dock_scroll.h"
-#include "common/icons.h"
 #include "common/number_field.h"
 
 namespace chainmail {
@@ -26,37 +26,42 @@ int decimalsFor(double extent) {
 
 }  // namespace
 
-SectionDock::SectionDock(const Document& document)
+SectionDock::SectionDock(const Document& document, Actions& actions)
     : document_(document),
-      on_(new QAction(icon("section"), QStringLiteral("Section &plane"), this)),
-      flip_(new QAction(QStringLiteral("&Other side of section"), this)),
+      actions_(actions),
       axis_(new QComboBox),
       slider_(new QSlider(Qt::Horizontal)),
       spin_(new NumberField(QStringLiteral("Position"))),
       flipBox_(new QCheckBox(QStringLiteral("Other s&ide"))) {
-  makeActions();
+  addActions();
   arrange();
   connect(&document, &Document::meshChanged, this, &SectionDock::adaptToMesh);
   adaptToMesh();
 }
 
-void SectionDock::makeActions() {
-  on_->setObjectName(QStringLiteral("section"));
-  on_->setCheckable(true);
-  on_->setShortcut(Qt::SHIFT | Qt::Key_S);
-  on_->setStatusTip(QStringLiteral("Hides the part of the object in front of a plane and shows its inside"));
-  connect(on_, &QAction::toggled, this, &SectionDock::setOn);
-  flip_->setObjectName(QStringLiteral("flipSection"));
-  flip_->setCheckable(true);
-  flip_->setStatusTip(QStringLiteral("Hides the lower side of the plane instead of the upper"));
-  connect(flip_, &QAction::toggled, flipBox_, &QCheckBox::setChecked);
-  connect(flipBox_, &QCheckBox::toggled, flip_, &QAction::setChecked);
-  connect(flip_, &QAction::toggled, this, &SectionDock::changed);
+void SectionDock::addActions() {
+  actions_.add(
+      "show", {{},
+               {"section", "Section &plane", "section", "Shift+S",
+                "Hides the part of the object in front of a plane and shows its inside", [this](bool on) { setOn(on); },
+                IsOn([this] { return on_; }), When([this] { return isSpatial() ? QString() : noDepth(); })},
+               {"flipSection", "&Other side of section", "", "",
+                "Hides the lower side of the plane instead of the upper", [this](bool on) { flipBox_->setChecked(on); },
+                IsOn([this] { return flipBox_->isChecked(); }), When([this] { return whyOff(); })}});
+  connect(this, &SectionDock::changed, &actions_, &Actions::refresh);
+  connect(flipBox_, &QCheckBox::toggled, this, &SectionDock::changed);
+}
+
+bool SectionDock::isSpatial() const { return document_.mesh()->space_dimension == 3; }
+
+/// Returns why the fields are not available; empty if they are.
+QString SectionDock::whyOff() const {
+  return !isSpatial() ? noDepth() : on_ ? QString() : QStringLiteral("Not available: the section is off");
 }
 
 void SectionDock::arrange() {
   auto* onButton = new QToolButton;
-  onButton->setDefaultAction(on_);
+  onButton->setDefaultAction(&actions_["section"]);
   onButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   axis_->addItems({QStringLiteral("across x"), QStringLiteral("across y"), QStringLiteral("across z")});
   axis_->setObjectName(QStringLiteral("sectionAxis"));
@@ -78,8 +83,8 @@ void SectionDock::arrange() {
   row->addWidget(flipBox_);
   setWidget(new DockScroll(content));
   connect(toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
-    if (shown && on_->isEnabled()) {
-      on_->setChecked(true);
+    if (shown && isSpatial()) {
+      setOn(true);
     }
   });
   connect(axis_, &QComboBox::currentIndexChanged, this, &SectionDock::adaptToAxis);
@@ -96,13 +101,10 @@ void SectionDock::arrange() {
   connect(spin_, &QDoubleSpinBox::editingFinished, spin_, &QWidget::clearFocus);  // shortcuts work again
 }
 
-void SectionDock::fill(QMenu& menu) {
-  menu.addSeparator();
-  menu.addAction(on_);
-  menu.addAction(flip_);
-}
-
 void SectionDock::setOn(bool on) {
+  if (std::exchange(on_, on) == on) {
+    return;
+  }
   setVisible(on);
   if (on) {
     raise();
@@ -111,26 +113,20 @@ void SectionDock::setOn(bool on) {
 }
 
 void SectionDock::closeEvent(QCloseEvent* event) {
-  on_->setChecked(false);
+  setOn(false);
   QDockWidget::closeEvent(event);
 }
 
 void SectionDock::adaptToMesh() {
-  const bool spatial = document_.mesh()->space_dimension == 3;
-  on_->setEnabled(spatial);
-  on_->setToolTip(spatial ? on_->statusTip() : noDepth());
-  flip_->setEnabled(spatial && on_->isChecked());
+  const QString why = whyOff();
   const auto adapt = [&](QWidget* field, const QString& tip) {
-    field->setEnabled(flip_->isEnabled());
-    field->setToolTip(field->isEnabled() ? tip
-                      : spatial          ? QStringLiteral("Not available: the section is off")
-                                         : noDepth());
+    field->setEnabled(why.isEmpty());
+    field->setToolTip(why.isEmpty() ? tip : why);
   };
   adapt(axis_, axis_->accessibleName());
   adapt(slider_, QStringLiteral("Position of the plane, from one end of the object at rest to the other"));
   adapt(spin_, QStringLiteral("Position of the plane in the object at rest (mesh units)"));
-  adapt(flipBox_, flip_->statusTip());
-  flip_->setToolTip(flipBox_->toolTip());
+  adapt(flipBox_, QStringLiteral("Hides the lower side of the plane instead of the upper"));
   adaptToAxis();
 }
 
@@ -158,24 +154,24 @@ double SectionDock::at() const {
 }
 
 std::optional<SectionPlane> SectionDock::plane() const {
-  if (!on_->isChecked() || !on_->isEnabled()) {
+  if (!on_ || !isSpatial()) {
     return std::nullopt;
   }
-  return SectionPlane{axis_->currentIndex(), at(), flip_->isChecked()};
+  return SectionPlane{axis_->currentIndex(), at(), flipBox_->isChecked()};
 }
 
 QJsonObject SectionDock::toJson() const {
-  return {{QStringLiteral("on"), on_->isChecked()},
+  return {{QStringLiteral("on"), on_},
           {QStringLiteral("axis"), axis_->currentIndex()},
           {QStringLiteral("share"), share_},
-          {QStringLiteral("flipped"), flip_->isChecked()}};
+          {QStringLiteral("flipped"), flipBox_->isChecked()}};
 }
 
 void SectionDock::take(const QJsonObject& json) {
   axis_->setCurrentIndex(std::clamp(json[QStringLiteral("axis")].toInt(axis_->currentIndex()), 0, 2));
   share_ = std::clamp(json[QStringLiteral("share")].toDouble(share_), 0.0, 1.0);
-  flip_->setChecked(json[QStringLiteral("flipped")].toBool(flip_->isChecked()));
-  on_->setChecked(json[QStringLiteral("on")].toBool(on_->isChecked()));
+  flipBox_->setChecked(json[QStringLiteral("flipped")].toBool(flipBox_->isChecked()));
+  setOn(json[QStringLiteral("on")].toBool(on_));
   adaptToAxis();
 }
 

@@ -5,7 +5,6 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QJsonObject>
-#include <QMenu>
 #include <QSlider>
 #include <optional>
 
@@ -14,6 +13,8 @@
 
 namespace chainmail {
 
+class Actions;
+
 /// The section plane: its axis, position and hidden side. The plane is defined in the object at rest and moves with the
 /// material, in all panels. The dock is open while
 /// the section is on; closing it turns the section off.
@@ -21,8 +22,7 @@ class SectionDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  explicit SectionDock(const Document& document);
-  void fill(QMenu& menu);
+  SectionDock(const Document& document, Actions& actions);
 
   /// Returns the plane; empty if the section is off or the object is in 2D.
   std::optional<SectionPlane> plane() const;
@@ -37,17 +37,19 @@ class SectionDock : public QDockWidget {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  void makeActions();
+  void addActions();
   void arrange();
   void adaptToMesh();
   void adaptToAxis();
   void setOn(bool on);
   void showPosition();
   double at() const;
+  bool isSpatial() const;
+  QString whyOff() const;
 
   const Document& document_;
-  QAction* on_;
-  QAction* flip_;
+  Actions& actions_;
+  bool on_ = false;
   QComboBox* axis_;
   QSlider* slider_;
   QDoubleSpinBox* spin_;

@@ -132,10 +132,10 @@ QString SelectedLinks::describe(const Common& all) const {
   return description;
 }
 
-StiffnessDock::StiffnessDock(Document& document)
+StiffnessDock::StiffnessDock(Document& document, Actions& actions)
     : document_(document),
       column_(new QVBoxLayout),
-      presets_(new PresetRow(document)),
+      presets_(new PresetRow(document, actions)),
       frame_(new QComboBox),
       frameNote_(new QLabel),
       energy_(new QComboBox) {

@@ -51,7 +51,7 @@ class StiffnessDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  explicit StiffnessDock(Document& document);
+  StiffnessDock(Document& document, Actions& actions);
   PresetRow& presets() { return *presets_; }
 
  private:

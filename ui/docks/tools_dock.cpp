@@ -5,15 +5,16 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMenu>
 #include <QSettings>
 #include <QSpinBox>
 #include <QStackedWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "common/actions.h"
 #include "common/dock_scroll.h"
 #include "common/icons.h"
+#include "document/document.h"
 #include "tools/cut_tool.h"
 #include "tools/select_tool.h"
 
@@ -33,13 +34,13 @@ QToolButton* wideButton() {
 
 }  // namespace
 
-ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select)
+ToolsDock::ToolsDock(const Document& document, CutTool& cut, SelectTool& select, Actions& actions)
     : options_(new QStackedWidget), without_(new QWidget) {
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   auto* strip = new QHBoxLayout;
   strip->setSpacing(2);
-  for (QAction* action : tools.actions()) {
+  for (QAction* action : actions["tool" + cut.name()].actionGroup()->actions()) {
     auto* button = wideButton();
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonIconOnly);
@@ -53,13 +54,9 @@ ToolsDock::ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut
   // A tall column of docks gives its height to other docks.
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setWidget(new DockScroll(content));
-  for (QAction* action : tools.actions()) {
-    if (action->text() == cut.name()) {
-      showFor(*action, makeCutOptions(document, cut));
-    } else if (action->text() == select.name()) {
-      showFor(*action, makeSelectOptions(select));
-    }
-  }
+  addActions(actions, document, cut);
+  showFor(actions["tool" + cut.name()], makeCutOptions(actions));
+  showFor(actions["tool" + select.name()], makeSelectOptions(select));
 }
 
 /// Shows options while their tool is the current one. Their room is kept for them, so that nothing below it moves.
@@ -74,70 +71,42 @@ void ToolsDock::showFor(QAction& tool, QWidget* options) {
   adapt(tool.isChecked());
 }
 
-/// Inserts the action between the tools and Cancel.
-void ToolsDock::fill(QMenu& menu) { menu.insertActions(menu.actions().constLast(), {frontOnly_, splits_}); }
+/// Adds the options of the Cut tool, of which splitting is remembered.
+void ToolsDock::addActions(Actions& actions, const Document& document, CutTool& cut) {
+  cut.setSplits(QSettings().value(splitsKey(), true).toBool());
+  actions.add("Edit",
+              {{"cutFrontOnly", "Cut the &front layer only|Front layer only", "", "Shift+K",
+                "On: a stroke cuts only visible links. Off: a stroke cuts through the whole object",
+                [&cut](bool on) { cut.setFrontOnly(on); }, IsOn([&cut] { return cut.frontOnly(); }), When([&document] {
+                  return document.mesh()->space_dimension == 3
+                             ? QString()
+                             : "Not available in 2D: a stroke cuts all links that it crosses";
+                })},
+               {"cutSplits", "Split triangles when cutting|Split triangles", "", "",
+                "On: a stroke splits the triangles that it crosses, except where only links are drawn. Off: it cuts "
+                "the links that it crosses",
+                [&cut](bool on) {
+                  cut.setSplits(on);
+                  QSettings().setValue(splitsKey(), on);
+                },
+                IsOn([&cut] { return cut.splits(); }), When([&document] {
+                  return can_split(*document.mesh()) ? QString()
+                                                     : "Not available: a stroke cuts the links of volumes, of "
+                                                       "generated lattices and of objects without faces";
+                })}});
+}
 
-QWidget* ToolsDock::makeCutOptions(Document& document, CutTool& cut) {
+QWidget* ToolsDock::makeCutOptions(const Actions& actions) {
   auto* options = new QWidget;
   auto* rows = new QVBoxLayout(options);
   rows->setContentsMargins(0, 0, 0, 0);
-  rows->addWidget(makeFrontOnly(document, cut));
-  rows->addWidget(makeSplits(document, cut));
+  for (QAction* action : actions.all({"cutFrontOnly", "cutSplits"})) {
+    auto* button = wideButton();
+    button->setDefaultAction(action);
+    button->setObjectName(action->objectName() + "Button");
+    rows->addWidget(button);
+  }
   return options;
-}
-
-/// Makes the switch between splitting faces and cutting links, which is remembered.
-QWidget* ToolsDock::makeSplits(Document& document, CutTool& cut) {
-  splits_ = new QAction(QStringLiteral("Split triangles when cutting"), this);
-  splits_->setObjectName(QStringLiteral("cutSplits"));
-  splits_->setIconText(QStringLiteral("Split triangles"));
-  splits_->setCheckable(true);
-  splits_->setChecked(QSettings().value(splitsKey(), true).toBool());
-  cut.setSplits(splits_->isChecked());
-  connect(splits_, &QAction::toggled, this, [&cut](bool on) {
-    cut.setSplits(on);
-    QSettings().setValue(splitsKey(), on);
-  });
-  const auto adapt = [this, &document] {
-    const Mesh& mesh = *document.mesh();
-    splits_->setEnabled(can_split(mesh));
-    splits_->setStatusTip(
-        can_split(mesh) ? QStringLiteral("On: a stroke splits the triangles that it crosses, except where only links "
-                                         "are drawn. Off: it cuts the links that it crosses")
-                        : QStringLiteral("Not available: a stroke cuts the links of volumes, of generated lattices and "
-                                         "of objects without faces"));
-    splits_->setToolTip(splits_->statusTip());
-  };
-  connect(&document, &Document::meshChanged, this, adapt);
-  adapt();
-  auto* button = wideButton();
-  button->setDefaultAction(splits_);
-  button->setObjectName(QStringLiteral("cutSplitsButton"));
-  return button;
-}
-
-/// Makes the switch between cutting the front layer and the whole object; disabled in 2D.
-QWidget* ToolsDock::makeFrontOnly(Document& document, CutTool& cut) {
-  frontOnly_ = new QAction(QStringLiteral("Cut the &front layer only"), this);
-  frontOnly_->setObjectName(QStringLiteral("cutFrontOnly"));
-  frontOnly_->setIconText(QStringLiteral("Front layer only"));
-  frontOnly_->setCheckable(true);
-  frontOnly_->setShortcut(Qt::SHIFT | Qt::Key_K);
-  connect(frontOnly_, &QAction::toggled, this, [&cut](bool on) { cut.setFrontOnly(on); });
-  const auto adapt = [this, &document] {
-    const bool spatial = document.mesh()->space_dimension == 3;
-    frontOnly_->setEnabled(spatial);
-    frontOnly_->setStatusTip(
-        spatial ? QStringLiteral("On: a stroke cuts only visible links. Off: a stroke cuts through the whole object")
-                : QStringLiteral("Not available in 2D: a stroke cuts all links that it crosses"));
-    frontOnly_->setToolTip(frontOnly_->statusTip() + QStringLiteral(" (Shift+K)"));
-  };
-  connect(&document, &Document::meshChanged, this, adapt);
-  adapt();
-  auto* button = wideButton();
-  button->setDefaultAction(frontOnly_);
-  button->setObjectName(QStringLiteral("cutFrontOnlyButton"));
-  return button;
 }
 
 /// Makes the choice of rectangle or brush, and the radius of the brush.

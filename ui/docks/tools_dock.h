@@ -3,12 +3,11 @@
 #include <QDockWidget>
 
 class QAction;
-class QActionGroup;
-class QMenu;
 class QStackedWidget;
 
 namespace chainmail {
 
+class Actions;
 class CutTool;
 class Document;
 class SelectTool;
@@ -18,22 +17,16 @@ class ToolsDock : public QDockWidget {
   Q_OBJECT
 
  public:
-  ToolsDock(const QActionGroup& tools, Document& document, CutTool& cut, SelectTool& select);
-
-  /// Adds the options that are actions to the Edit menu.
-  void fill(QMenu& menu);
+  ToolsDock(const Document& document, CutTool& cut, SelectTool& select, Actions& actions);
 
  private:
   QWidget* makeSelectOptions(SelectTool& select);
-  QWidget* makeCutOptions(Document& document, CutTool& cut);
-  QWidget* makeFrontOnly(Document& document, CutTool& cut);
-  QWidget* makeSplits(Document& document, CutTool& cut);
+  static void addActions(Actions& actions, const Document& document, CutTool& cut);
+  static QWidget* makeCutOptions(const Actions& actions);
   void showFor(QAction& tool, QWidget* options);
 
   QStackedWidget* options_;
   QWidget* without_;  // the page of a tool without options
-  QAction* frontOnly_ = nullptr;
-  QAction* splits_ = nullptr;
 };
 
 }  // namespace chainmail

@@ -5,9 +5,9 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <QSettings>
-#include <QToolBar>
 #include <utility>
 
+#include "common/actions.h"
 #include "common/as_path.h"
 #include "common/text.h"
 #include "drawing/camera.h"
@@ -113,42 +113,41 @@ FileActions::FileActions(QWidget& window, Document& document, Jobs& jobs, Sessio
   });
 }
 
-void FileActions::fill(QMenu& menu) {
-  open_ = menu.addAction(QStringLiteral("&Open…"), QKeySequence::Open, this, &FileActions::open);
-  open_->setObjectName(QStringLiteral("openFile"));
-  open_->setIconText(QStringLiteral("Open"));
-  open_->setStatusTip(
-      QStringLiteral("Replaces the object with a session (.chainmail), a mesh or volume (%1) or a picture "
-                     "(.png .jpg)")
-          .arg(endings(FormatUse::read)));
-  recent_ = menu.addMenu(QStringLiteral("Open &recent"));
-  menu.addSeparator();
-  addSaveActions(menu);
-  addShapeActions(menu);
-  menu.addAction(&sessions_.recoveryBar().takeBack());
-  fillRecent();
-}
-
-void FileActions::fill(QToolBar& bar) const { bar.addActions({open_, save_}); }
-
-void FileActions::addSaveActions(QMenu& menu) {
-  const auto add = [&menu, this](const char* name, const QString& text, const QKeySequence& key, auto act,
-                                 const QString& help) {
-    auto* action = menu.addAction(text, key, this, act);
-    action->setObjectName(QLatin1String(name));
-    action->setStatusTip(help);
-    return action;
-  };
+void FileActions::fill(Actions& actions) {
   const QString all =
       QStringLiteral("mesh, cuts, pins, softness, positions of all panels, recorded moves, cameras and layout");
-  save_ = add("saveSession", QStringLiteral("&Save session"), QKeySequence::Save, &FileActions::saveSession,
-              QStringLiteral("Saves everything in one file: ") + all);
-  save_->setIconText(QStringLiteral("Save"));
-  add("saveSessionAs", QStringLiteral("Save session &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S,
-      &FileActions::saveSessionAs, QStringLiteral("Saves everything in another file: ") + all);
-  menu.addSeparator();
-  add("saveFile", QStringLiteral("Save &mesh at rest…"), Qt::CTRL | Qt::Key_M, &FileActions::save,
-      QStringLiteral("Saves only the object at rest, without cut links, as %1").arg(endings(FormatUse::write)));
+  actions.add(
+      "File",
+      {{"openFile", "&Open…|Open", "open", QKeySequence::Open,
+        QStringLiteral(
+            "Replaces the object with a session (.chainmail), a mesh or volume (%1) or a picture (.png .jpg)")
+            .arg(endings(FormatUse::read)),
+        [this] { open(); }},
+       {"recent", "Open &recent", "history"},
+       {},
+       {"saveSession", "&Save session|Save", "save", QKeySequence::Save, "Saves everything in one file: " + all,
+        [this] { saveSession(); }},
+       {"saveSessionAs", "Save session &as…", "save", "Ctrl+Shift+S", "Saves everything in another file: " + all,
+        [this] { saveSessionAs(); }},
+       {},
+       {"saveFile", "Save &mesh at rest…", "mesh", "Ctrl+M",
+        QStringLiteral("Saves only the object at rest, without cut links, as %1").arg(endings(FormatUse::write)),
+        [this] { save(); }},
+       {"saveShape", "Save &deformed mesh", "shape"},
+       {"takeBackWork", "&Take back discarded work", "", "",
+        "Offers unsaved work again that was discarded since this window opened",
+        [this] { sessions_.recoveryBar().takeBack(); },
+        When([this] { return sessions_.recoveryBar().hasDiscarded(); })}});
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
+    actions.add("saveShape",
+                {{"saveShape" + panelName(panel), QStringLiteral("Panel &%1…").arg(panelName(panel)), "shape", "",
+                  "Saves the positions of this panel in mesh units as " + endings(FormatUse::write_positions),
+                  [this, panel] { saveShape(panel); },
+                  Looks([this, panel] { return Look{.visible = panel < document_.panels()}; })}});
+  }
+  connect(&sessions_.recoveryBar(), &RecoveryBar::changed, &actions, &Actions::refresh);
+  recent_ = &actions.menu("recent");
+  fillRecent();
 }
 
 void FileActions::saveSession() {
@@ -174,24 +173,11 @@ bool FileActions::saveSessionAs() {
   return !path.isEmpty();
 }
 
-void FileActions::addShapeActions(QMenu& menu) {
-  auto* shapes = menu.addMenu(QStringLiteral("Save &deformed mesh"));
-  for (int panel = 0; panel < Document::maxPanels; ++panel) {
-    auto* action = shapes->addAction(QStringLiteral("Panel &%1…").arg(panelName(panel)));
-    connect(action, &QAction::triggered, this, [this, panel] {
-      const QString path =
-          askWhere(window_, QStringLiteral("Save deformed mesh"), saveFilters(FormatUse::write_positions),
-                   QStringLiteral("%1-deformed-%2").arg(asFileName(document_.name()), panelName(panel)));
-      if (!path.isEmpty()) {
-        saveShapePath(panel, path);
-      }
-    });
-    action->setObjectName(QStringLiteral("saveShape%1").arg(panelName(panel)));
-    action->setStatusTip(QStringLiteral("Saves the positions of this panel in mesh units as %1")
-                             .arg(endings(FormatUse::write_positions)));
-    const auto adapt = [this, action, panel] { action->setVisible(panel < document_.panels()); };
-    connect(&document_, &Document::panelsChanged, action, adapt);
-    adapt();
+void FileActions::saveShape(int panel) {
+  const QString path = askWhere(window_, QStringLiteral("Save deformed mesh"), saveFilters(FormatUse::write_positions),
+                                QStringLiteral("%1-deformed-%2").arg(asFileName(document_.name()), panelName(panel)));
+  if (!path.isEmpty()) {
+    saveShapePath(panel, path);
   }
 }
 

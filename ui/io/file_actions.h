@@ -8,10 +8,9 @@
 #include "document/edits.h"
 #include "files/mesh/input_file.h"
 
-class QToolBar;
-
 namespace chainmail {
 
+class Actions;
 class MeshRepair;
 class Sessions;
 class Volumes;
@@ -24,9 +23,7 @@ class FileActions : public QObject {
  public:
   FileActions(QWidget& window, Document& document, Jobs& jobs, Sessions& sessions);
 
-  void fill(QMenu& menu);
-  /// Adds Open and Save; call it after the menu is filled.
-  void fill(QToolBar& bar) const;
+  void fill(Actions& actions);
   Volumes& volumes() { return *volumes_; }
   MeshRepair& repair() { return *repair_; }
   void open();
@@ -55,8 +52,7 @@ class FileActions : public QObject {
   void saved(const QString& path);
 
  private:
-  void addSaveActions(QMenu& menu);
-  void addShapeActions(QMenu& menu);
+  void saveShape(int panel);
   Jobs::Finish readPicture(RegularFile file, const QString& path, edits::Opening opening, const Progress& progress);
   Jobs::Finish readMesh(InputFile input, const QString& path, edits::Opening opening, const Progress& progress);
   void write(const QString& path, const std::shared_ptr<const Frame>& shape);
@@ -70,8 +66,6 @@ class FileActions : public QObject {
   Sessions& sessions_;
   Volumes* volumes_;
   MeshRepair* repair_;
-  QAction* open_ = nullptr;
-  QAction* save_ = nullptr;
   QMenu* recent_ = nullptr;
 };
 

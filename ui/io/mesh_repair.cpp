@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <span>
 
+#include "common/actions.h"
 #include "common/colours.h"
 #include "common/icons.h"
 #include "common/text.h"
@@ -203,12 +204,11 @@ MeshRepair::MeshRepair(Document& document, Jobs& jobs, QObject* parent)
   connect(bar_, &RepairBar::dismissed, this, &MeshRepair::dismiss);
 }
 
-void MeshRepair::fill(QMenu& menu) {
-  auto* action = menu.addAction(QStringLiteral("&Repair…"), this, &MeshRepair::check);
-  action->setObjectName(QStringLiteral("repairMesh"));
-  action->setStatusTip(QStringLiteral(
-      "Looks for duplicate vertices, loose points, holes, non-manifold edges and cells that are inside out, and offers "
-      "to repair them"));
+void MeshRepair::fill(Actions& actions) {
+  actions.add("Object", {{"repairMesh", "&Repair…", "", "",
+                          "Looks for duplicate vertices, loose points, holes, non-manifold edges and cells that are "
+                          "inside out, and offers to repair them",
+                          [this] { check(); }}});
 }
 
 void MeshRepair::remember(const MeshPointer& mesh, Defects defects) {

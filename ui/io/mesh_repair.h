@@ -2,7 +2,6 @@
 
 #include <QFrame>
 #include <QLabel>
-#include <QMenu>
 #include <QObject>
 #include <functional>
 #include <memory>
@@ -18,6 +17,7 @@ class QPushButton;
 
 namespace chainmail {
 
+class Actions;
 struct Defects;
 
 /// A bar above the panels that names the defects of the object, with a button for each repair that applies.
@@ -63,7 +63,7 @@ class MeshRepair : public QObject {
 
   /// Returns the bar, which is visible while the object has known defects.
   RepairBar& bar() { return *bar_; }
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
   /// Remembers the defects of a mesh that becomes the object next.
   void remember(const MeshPointer& mesh, Defects defects);
 

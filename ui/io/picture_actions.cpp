@@ -1,6 +1,5 @@
 #include "io/picture_actions.h"
 
-#include <QActionGroup>
 #include <QCheckBox>
 #include <QClipboard>
 #include <QComboBox>
@@ -16,6 +15,7 @@
 #include <QSettings>
 #include <QSpinBox>
 
+#include "common/actions.h"
 #include "common/number_field.h"
 #include "common/text.h"
 #include "io/questions.h"
@@ -167,127 +167,95 @@ PictureActions::PictureActions(QWidget& window, Document& document, PanelArea& a
       document_(document),
       area_(area),
       jobs_(jobs),
-      scales_(new QActionGroup(this)),
-      size_(PictureSize::remembered(sizeKey())) {
+      subject_(QSettings().value(subjectKey()).toString()),
+      scale_(QSettings().value(scaleKey(), scales.front()).toInt()),
+      size_(PictureSize::remembered(sizeKey())),
+      transparent_(QSettings().value(transparentKey()).toBool()) {
+  if (scale_ != ownSize && std::ranges::find(scales, scale_) == scales.end()) {
+    scale_ = scales.front();
+  }
   if (size_.asOnScreen()) {
     size_ = pageWidth;
   }
 }
 
-void PictureActions::fill(QMenu& menu) {
-  auto* pictures = menu.addMenu(QStringLiteral("&Picture"));
-  fillSubjects(*pictures);
-  pictures->addSeparator();
-  fillScales(*pictures);
-  fillTransparent(*pictures);
-  pictures->addSeparator();
-  auto* copy = pictures->addAction(QStringLiteral("&Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, this,
-                                   &PictureActions::copy);
-  copy->setObjectName(QStringLiteral("copyPicture"));
-  copy->setStatusTip(QStringLiteral("Copies the picture to the clipboard with these settings"));
-  auto* save = pictures->addAction(QStringLiteral("&Save picture…"), Qt::Key_F12, this, &PictureActions::save);
-  save->setObjectName(QStringLiteral("savePicture"));
-  save->setStatusTip(
-      QStringLiteral("Saves the picture with these settings as PNG, or the panels as SVG or PDF for print"));
+void PictureActions::fill(Actions& actions) {
+  actions.add("File", {{"picture", "&Picture", "screenshot"}});
+  actions.add("picture", subjectRows());
+  actions.add("picture", {{}});
+  actions.add("picture", scaleRows());
+  actions.add("picture", {{"pictureTransparent", "&Transparent background", "", "",
+                           "Pictures without a background, for use over other pictures",
+                           [this](bool on) { QSettings().setValue(transparentKey(), transparent_ = on); },
+                           IsOn([this] { return transparent_; })},
+                          {},
+                          {"copyPicture", "&Copy picture", "copy", "Ctrl+Shift+C",
+                           "Copies the picture to the clipboard with these settings", [this] { copy(); }},
+                          {"savePicture", "&Save picture…", "screenshot", "F12",
+                           "Saves the picture with these settings as PNG, or the panels as SVG or PDF for print",
+                           [this] { save(); }}});
 }
 
-void PictureActions::fillSubjects(QMenu& menu) {
-  addSubject(menu, What::window, 0, QStringLiteral("Of the &window"),
-             QStringLiteral("The whole window with its docks"));
-  addSubject(menu, What::panels, 0, QStringLiteral("Of &all panels"),
-             QStringLiteral("All visible panels, side by side"));
-  for (const What what : {What::panel, What::object}) {
-    for (int panel = 0; panel < Document::maxPanels; ++panel) {
-      const QString name = panelName(panel);
-      what == What::panel ? addSubject(menu, what, panel, QStringLiteral("Of panel %1").arg(name),
-                                       QStringLiteral("The view with algorithm, legend and figures"))
-                          : addSubject(menu, what, panel, QStringLiteral("Of the object in %1").arg(name),
-                                       QStringLiteral("Only the view"));
-    }
+std::vector<ActionRow> PictureActions::subjectRows() {
+  std::vector<ActionRow> rows;
+  const auto add = [&](const Subject& one, const QString& text, const char* tip) {
+    subjects_.push_back(one);
+    rows.emplace_back(
+        one.id, text, "", "", tip, [this, one] { QSettings().setValue(subjectKey(), subject_ = one.id); },
+        IsOn([this, one] { return subject().id == one.id; }),
+        Looks([this, one] { return Look{.visible = one.panel < document_.panels()}; }));
+  };
+  add({"pictureOfWindow", What::window}, "Of the &window", "The whole window with its docks");
+  add({"pictureOfPanels", What::panels}, "Of &all panels", "All visible panels, side by side");
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
+    const QString name = panelName(panel);
+    add({"pictureOfPanel" + name, What::panel, panel}, "Of panel " + name,
+        "The view with algorithm, legend and figures");
   }
-  auto* group = new QActionGroup(this);
-  const QString last = QSettings().value(subjectKey()).toString();
-  for (const Subject& one : subjects_) {
-    group->addAction(one.action);
-    one.action->setChecked(one.action->objectName() == last || &one == &subjects_.front());
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
+    const QString name = panelName(panel);
+    add({"pictureOfObject" + name, What::object, panel}, "Of the object in " + name, "Only the view");
   }
-  connect(group, &QActionGroup::triggered, this,
-          [](const QAction* chosen) { QSettings().setValue(subjectKey(), chosen->objectName()); });
-  connect(&document_, &Document::panelsChanged, this, &PictureActions::followPanels);
-  followPanels();
+  return rows;
 }
 
-void PictureActions::addSubject(QMenu& menu, What what, int panel, const QString& text, const QString& tip) {
-  static constexpr std::array names{"pictureOfWindow", "pictureOfPanels", "pictureOfPanel", "pictureOfObject"};
-  QAction* action = menu.addAction(text);
-  const bool one = what == What::panel || what == What::object;
-  action->setObjectName(QLatin1String(names[std::size_t(what)]) + (one ? panelName(panel) : QString()));
-  action->setCheckable(true);
-  action->setStatusTip(tip);
-  subjects_.push_back({action, what, panel});
-}
-
-void PictureActions::fillScales(QMenu& menu) {
-  const int last = QSettings().value(scaleKey(), scales.front()).toInt();
+std::vector<ActionRow> PictureActions::scaleRows() {
+  std::vector<ActionRow> rows;
   for (const int times : scales) {
-    QAction* action = scales_->addAction(QStringLiteral("&%1 ×").arg(times));
-    action->setObjectName(QStringLiteral("pictureScale%1").arg(times));
-    action->setStatusTip(
+    rows.emplace_back(
+        QStringLiteral("pictureScale%1").arg(times), QStringLiteral("&%1 ×").arg(times), "", "",
         times == 1 ? QStringLiteral("As many pixels as on the screen")
-                   : QStringLiteral("%1 times as many pixels per side as on the screen, drawn sharp").arg(times));
-    action->setCheckable(true);
-    action->setData(times);
-    action->setChecked(times == last || times == scales.front());
-    menu.addAction(action);
+                   : QStringLiteral("%1 times as many pixels per side as on the screen, drawn sharp").arg(times),
+        [this, times] { choose(times); }, IsOn([this, times] { return scale_ == times; }));
   }
-  fillOwnSize(menu);
-  connect(scales_, &QActionGroup::triggered, this,
-          [](const QAction* chosen) { QSettings().setValue(scaleKey(), chosen->data()); });
+  rows.emplace_back(
+      "pictureOwnSize", "&Own size", "", "", "Asks for the width of pictures, in pixels or mm, and for dots per inch",
+      [this] {
+        choose(ownSize);
+        askForSize();
+      },
+      IsOn([this] { return scale_ == ownSize; }),
+      Looks([this] { return Look{.text = QStringLiteral("&Own size: %1…").arg(size_.inWords())}; }));
+  return rows;
 }
 
-void PictureActions::fillOwnSize(QMenu& menu) {
-  ownSize_ = scales_->addAction(QString());
-  ownSize_->setObjectName(QStringLiteral("pictureOwnSize"));
-  ownSize_->setStatusTip(QStringLiteral("Asks for the width of pictures, in pixels or mm, and for dots per inch"));
-  ownSize_->setCheckable(true);
-  ownSize_->setData(ownSize);
-  ownSize_->setChecked(QSettings().value(scaleKey(), scales.front()).toInt() == ownSize);
-  menu.addAction(ownSize_);
-  connect(ownSize_, &QAction::triggered, this, &PictureActions::askForSize);
-  showOwnSize();
+void PictureActions::choose(int scale) {
+  scale_ = scale;
+  QSettings().setValue(scaleKey(), scale);
 }
-
-void PictureActions::showOwnSize() { ownSize_->setText(QStringLiteral("&Own size: %1…").arg(size_.inWords())); }
 
 void PictureActions::askForSize() {
   PictureSizeDialog dialog(&window_, QStringLiteral("Size of pictures"), size_, shownSubject().size());
   if (dialog.exec() == QDialog::Accepted) {
     size_ = dialog.chosen();
     size_.remember(sizeKey());
-    showOwnSize();
   }
 }
 
-void PictureActions::fillTransparent(QMenu& menu) {
-  transparent_ = menu.addAction(QStringLiteral("&Transparent background"));
-  transparent_->setObjectName(QStringLiteral("pictureTransparent"));
-  transparent_->setStatusTip(QStringLiteral("Pictures without a background, for use over other pictures"));
-  transparent_->setCheckable(true);
-  transparent_->setChecked(QSettings().value(transparentKey()).toBool());
-  connect(transparent_, &QAction::toggled, this, [](bool on) { QSettings().setValue(transparentKey(), on); });
-}
-
-void PictureActions::followPanels() {
-  for (const Subject& one : subjects_) {
-    one.action->setVisible(one.panel < document_.panels());
-    if (one.action->isChecked() && !one.action->isVisible()) {
-      subjects_.front().action->setChecked(true);
-    }
-  }
-}
-
+/// Returns what is chosen, or the window if its panel does not exist.
 const PictureActions::Subject& PictureActions::subject() const {
-  return *std::ranges::find_if(subjects_, [](const Subject& one) { return one.action->isChecked(); });
+  const auto chosen = std::ranges::find(subjects_, subject_, &Subject::id);
+  return chosen != subjects_.end() && chosen->panel < document_.panels() ? *chosen : subjects_.front();
 }
 
 /// Returns the panel of the picture. Throws Error if it is hidden.
@@ -316,8 +284,7 @@ QWidget& PictureActions::shownSubject() const {
 
 /// Returns how many times as many pixels per side as on the screen a picture has.
 double PictureActions::scaleFor(const QWidget& drawn) const {
-  const int scale = scales_->checkedAction()->data().toInt();
-  return scale != ownSize     ? scale
+  return scale_ != ownSize    ? scale_
          : size_.asOnScreen() ? 1
                               : size_.pixels() / (drawn.width() * drawn.devicePixelRatioF());
 }
@@ -326,11 +293,10 @@ double PictureActions::scaleFor(const QWidget& drawn) const {
 QImage PictureActions::picture() const {
   QWidget& drawn = shownSubject();
   const double scale = scaleFor(drawn);
-  const bool transparent = transparent_->isChecked();
-  QImage picture = subject().what == What::panels  ? figureOf(area_, scale, transparent)
-                   : subject().what == What::panel ? figureOf(shownPanel(), scale, transparent)
-                                                   : pictureOf(drawn, scale, transparent);
-  if (ownSize_->isChecked()) {
+  QImage picture = subject().what == What::panels  ? figureOf(area_, scale, transparent_)
+                   : subject().what == What::panel ? figureOf(shownPanel(), scale, transparent_)
+                                                   : pictureOf(drawn, scale, transparent_);
+  if (scale_ == ownSize) {
     picture.setDotsPerMeterX(qRound(size_.dotsPerMetre()));
     picture.setDotsPerMeterY(picture.dotsPerMeterX());
   }
@@ -339,12 +305,11 @@ QImage PictureActions::picture() const {
 
 /// Returns the drawing of the subject. A drawing of the window shows the panels only, as docks have no vector drawing.
 Drawing PictureActions::drawing() const {
-  const bool transparent = transparent_->isChecked();
   const What what = subject().what;
-  Drawing drawing = what == What::panel    ? drawingOf(shownPanel(), transparent)
-                    : what == What::object ? drawingOf(shownPanel().view(), transparent)
-                                           : drawingOf(area_, transparent);
-  drawing.millimetres = ownSize_->isChecked() ? size_.millimetres() : 0;
+  Drawing drawing = what == What::panel    ? drawingOf(shownPanel(), transparent_)
+                    : what == What::object ? drawingOf(shownPanel().view(), transparent_)
+                                           : drawingOf(area_, transparent_);
+  drawing.millimetres = scale_ == ownSize ? size_.millimetres() : 0;
   return drawing;
 }
 

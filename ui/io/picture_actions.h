@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QDialog>
-#include <QMenu>
 #include <QObject>
 #include <QSize>
 #include <algorithm>
@@ -16,9 +15,11 @@ class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QSpinBox;
-class QActionGroup;
 
 namespace chainmail {
+
+class Actions;
+struct ActionRow;
 
 /// The size of a picture that the user has chosen: a width in pixels or millimetres, and dots per inch for print.
 struct PictureSize {
@@ -80,7 +81,7 @@ class PictureActions : public QObject {
  public:
   PictureActions(QWidget& window, Document& document, PanelArea& area, Jobs& jobs);
 
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
   /// Saves PNG, SVG or PDF, by the extension. The picture shows the current state, even if the object changes before
   /// the file is written.
   void savePath(const QString& path);
@@ -95,19 +96,15 @@ class PictureActions : public QObject {
  private:
   enum class What { window, panels, panel, object };
   struct Subject {
-    QAction* action;
+    QString id;  // of its action
     What what;
-    int panel;  // for What::panel and What::object only
+    int panel = 0;  // for What::panel and What::object only
   };
 
-  void fillSubjects(QMenu& menu);
-  void addSubject(QMenu& menu, What what, int panel, const QString& text, const QString& tip);
-  void fillScales(QMenu& menu);
-  void fillTransparent(QMenu& menu);
-  void fillOwnSize(QMenu& menu);
+  std::vector<ActionRow> subjectRows();
+  std::vector<ActionRow> scaleRows();
+  void choose(int scale);
   void askForSize();
-  void showOwnSize();
-  void followPanels();
   void save();
   const Subject& subject() const;
   QWidget& shownSubject() const;
@@ -121,10 +118,10 @@ class PictureActions : public QObject {
   PanelArea& area_;
   Jobs& jobs_;
   std::vector<Subject> subjects_;
-  QActionGroup* scales_;
-  QAction* ownSize_ = nullptr;
+  QString subject_;
+  int scale_;  // times as on the screen; 0: own size
   PictureSize size_;
-  QAction* transparent_ = nullptr;
+  bool transparent_;
 };
 
 }  // namespace chainmail

@@ -174,8 +174,7 @@ QPushButton* makeButton(const QString& text, const char* name, const QString& he
 
 }  // namespace
 
-RecoveryBar::RecoveryBar()
-    : takeBack_(new QAction(QStringLiteral("&Take back discarded work"), this)), text_(new QLabel) {
+RecoveryBar::RecoveryBar() : text_(new QLabel) {
   setObjectName(QStringLiteral("recoveryBar"));
   setFrameShape(QFrame::StyledPanel);
   setAutoFillBackground(true);
@@ -185,8 +184,6 @@ RecoveryBar::RecoveryBar()
                              QStringLiteral("Restores object, cuts, pins, softness and positions as one undo step"));
   auto* discard = makeButton(QStringLiteral("Dis&card"), "discardWork",
                              QStringLiteral("Deletes the unsaved work when this window closes; the open object stays"));
-  takeBack_->setObjectName(QStringLiteral("takeBackWork"));
-  takeBack_->setStatusTip(QStringLiteral("Offers unsaved work again that was discarded since this window opened"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 6, 4);
   row->addWidget(text_, 1);
@@ -198,13 +195,6 @@ RecoveryBar::RecoveryBar()
     show();
     emit discarded();
   });
-  connect(takeBack_, &QAction::triggered, this, [this] {
-    while (!discarded_.empty()) {
-      moveLast(discarded_, found_);
-    }
-    show();
-  });
-  takeBack_->setEnabled(false);
   hide();
   followTheme(*this, [this] {
     QPalette own;
@@ -223,13 +213,20 @@ void RecoveryBar::offer() {
   show();
 }
 
+void RecoveryBar::takeBack() {
+  while (!discarded_.empty()) {
+    moveLast(discarded_, found_);
+  }
+  show();
+}
+
 void RecoveryBar::moveLast(std::vector<Found>& from, std::vector<Found>& to) {
   to.push_back(std::move(from.back()));
   from.pop_back();
 }
 
 void RecoveryBar::show() {
-  takeBack_->setEnabled(!discarded_.empty());
+  emit changed();
   setVisible(!found_.empty());
   if (found_.empty()) {
     return;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QAction>
 #include <QFrame>
 #include <QLabel>
 #include <QLockFile>
@@ -61,8 +60,9 @@ class RecoveryBar : public QFrame {
 
   /// Finds files that no running program has locked, and offers them.
   void offer();
-  /// The action that offers discarded files again.
-  QAction& takeBack() { return *takeBack_; }
+  bool hasDiscarded() const { return !discarded_.empty(); }
+  /// Offers discarded files again.
+  void takeBack();
   /// Offers nothing any more and removes what was discarded, because the window closes.
   void release();
   /// Offers this file no longer. Returns its lock, which belongs to another owner now.
@@ -71,6 +71,8 @@ class RecoveryBar : public QFrame {
  signals:
   void restoreRequested(const QString& path);
   void discarded();
+  /// Other files are offered or discarded.
+  void changed();
 
  private:
   struct Found {
@@ -83,7 +85,6 @@ class RecoveryBar : public QFrame {
 
   std::vector<Found> found_;      // newest last
   std::vector<Found> discarded_;  // the last one was discarded last
-  QAction* takeBack_;
   QLabel* text_;
 };
 

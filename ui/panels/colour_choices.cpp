@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/actions.h"
 #include "common/text.h"
 
 namespace chainmail {
@@ -60,18 +61,11 @@ std::optional<ColourRange> rangeOf(const QJsonObject& json) {
 
 }  // namespace
 
-ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), actions_(new QActionGroup(this)) {
+ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring) {
   setObjectName(QStringLiteral("colourBy"));
   setAccessibleName(QStringLiteral("Colour by"));
   for (const ColourModeInfo& info : colourModes()) {
     addItem(text(info.label), int(info.mode));
-    auto* action = actions_->addAction(text(info.label));
-    action->setObjectName(QStringLiteral("colourBy-") + text(info.name));
-    action->setCheckable(true);
-    action->setStatusTip(
-        info.title.empty() ? QStringLiteral("Draws each object in the colour of its panel")
-                           : QStringLiteral("Colours the objects by: %1 (%2)").arg(text(info.title), text(info.unit)));
-    connect(action, &QAction::triggered, this, [this, mode = info.mode] { colouring_.setMode(mode); });
   }
   connect(this, &QComboBox::activated, this, [this] {
     colouring_.setMode(ColourMode(currentData().toInt()));
@@ -81,9 +75,22 @@ ColourSelector::ColourSelector(Colouring& colouring) : colouring_(colouring), ac
   showMode();
 }
 
+void ColourSelector::fill(Actions& actions) {
+  std::vector<ActionRow> rows;
+  for (const ColourModeInfo& one : colourModes()) {
+    rows.emplace_back(
+        QStringLiteral("colourBy-") + text(one.name), text(one.label), "", "",
+        one.title.empty() ? QStringLiteral("Draws each object in the colour of its panel")
+                          : QStringLiteral("Colours the objects by: %1 (%2)").arg(text(one.title), text(one.unit)),
+        [this, mode = one.mode] { colouring_.setMode(mode); },
+        IsOn([this, mode = one.mode] { return colouring_.mode() == mode; }));
+  }
+  actions.add("View", {{"colours", "&Colour by", "colour"}});
+  actions.add("colours", rows);
+}
+
 void ColourSelector::showMode() {
   const int index = findData(int(colouring_.mode()));
-  actions_->actions().at(index)->setChecked(true);
   // While nothing is selected, the box shows its placeholder.
   setPlaceholderText(overlay_.section(QStringLiteral(" ("), 0, 0));  // without the unit
   setCurrentIndex(overlay_.isEmpty() ? index : -1);
@@ -98,38 +105,41 @@ void ColourSelector::showOverlay(const QString& title) {
   showMode();
 }
 
-ColourRangeMenu::ColourRangeMenu(Colouring& colouring, QWidget* parent)
-    : QMenu(QStringLiteral("Colo&ur range"), parent),
+ColourRangeMenu::ColourRangeMenu(Colouring& colouring, QObject* parent)
+    : QObject(parent),
       colouring_(colouring),
-      kinds_(new QActionGroup(this)),
+      fields_(new QWidgetAction(this)),
       lowest_(makeField(QStringLiteral("Lowest value"), "colourRangeLowest")),
       highest_(makeField(QStringLiteral("Highest value"), "colourRangeHighest")) {
-  setToolTipsVisible(true);
-  addKind(Kind::automatic, QStringLiteral("&Automatic"), "colourRange-automatic",
-          QStringLiteral("From the lowest to the highest value now"));
-  addKind(
-      Kind::logarithmic, QStringLiteral("&Logarithmic"), "colourRange-logarithmic",
-      QStringLiteral("As automatic, with equal ratios of values equally far apart, so that small values differ too"));
-  addKind(Kind::fixed, QStringLiteral("&Fixed"), "colourRange-fixed",
-          QStringLiteral("Between the two numbers below, so that a colour means the same value at any time"));
-  addFields();
+  arrangeFields();
   connect(&colouring, &Colouring::modeChanged, this, &ColourRangeMenu::showRange);
   restore();
   showRange();
 }
 
-void ColourRangeMenu::addKind(Kind kind, const QString& text, const char* name, const QString& tip) {
-  QAction* action = kinds_->addAction(text);
-  action->setObjectName(QLatin1String(name));
-  action->setCheckable(true);
-  action->setData(int(kind));
-  action->setStatusTip(tip);
-  action->setToolTip(tip);
-  connect(action, &QAction::triggered, this, [this, kind] { chooseKind(kind); });
-  addAction(action);
+void ColourRangeMenu::fill(Actions& actions) {
+  const auto row = [this](Kind kind, const char* id, const char* name, const char* tip) {
+    return ActionRow(
+        id, name, "", "", tip, [this, kind] { chooseKind(kind); },
+        IsOn([this, kind] { return colouring_.range().kind == kind; }), When([this, kind] {
+          return colouring_.mode() != ColourMode::plain &&
+                 (kind != Kind::logarithmic || !isDiverging(colouring_.mode()));
+        }));
+  };
+  actions.add("View", {{"colourRange", "Colo&ur range", "colour"}});
+  actions.add("colourRange",
+              {row(Kind::automatic, "colourRange-automatic", "&Automatic", "From the lowest to the highest value now"),
+               row(Kind::logarithmic, "colourRange-logarithmic", "&Logarithmic",
+                   "As automatic, with equal ratios of values equally far apart, so that small values differ too"),
+               row(Kind::fixed, "colourRange-fixed", "&Fixed",
+                   "Between the two numbers below, so that a colour means the same value at any time")});
+  actions.add("colourRange",
+              ActionRow("colourRangeFields", "Ends of the fixed range", "", "", "Fixes the range between these values",
+                        [this] { chooseKind(Kind::fixed); }),  // by keys
+              fields_);
 }
 
-void ColourRangeMenu::addFields() {
+void ColourRangeMenu::arrangeFields() {
   auto* fields = new QWidget;
   auto* row = new QHBoxLayout(fields);
   row->setContentsMargins(menuMargin, 0, menuMargin / 2, 2);
@@ -137,13 +147,7 @@ void ColourRangeMenu::addFields() {
   row->addWidget(lowest_);
   row->addWidget(new QLabel(QStringLiteral("to")));
   row->addWidget(highest_);
-  auto* action = new QWidgetAction(this);
-  action->setText(QStringLiteral("Ends of the fixed range"));
-  action->setObjectName(QStringLiteral("colourRangeFields"));
-  action->setStatusTip(QStringLiteral("Fixes the range between these values"));
-  connect(action, &QAction::triggered, this, [this] { chooseKind(Kind::fixed); });  // by keys
-  action->setDefaultWidget(fields);
-  addAction(action);
+  fields_->setDefaultWidget(fields);
 }
 
 NumberField* ColourRangeMenu::makeField(const QString& label, const char* name) {
@@ -185,11 +189,6 @@ void ColourRangeMenu::choose(const ColourRange& range) {
 /// Shows the range of the current mode.
 void ColourRangeMenu::showRange() {
   const ColourRange& range = colouring_.range();
-  for (QAction* action : kinds_->actions()) {
-    action->setChecked(action->data().toInt() == int(range.kind));
-    action->setEnabled(colouring_.mode() != ColourMode::plain &&
-                       (Kind(action->data().toInt()) != Kind::logarithmic || !isDiverging(colouring_.mode())));
-  }
   const QSignalBlocker noLowest(lowest_), noHighest(highest_);
   // A number that would turn the range around is refused by its field.
   lowest_->setRange(-ColourRange::limit, range.highest - ColourRange::smallestGap);

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <QActionGroup>
 #include <QComboBox>
 #include <QJsonObject>
-#include <QMenu>
 
 #include "common/number_field.h"
 #include "panels/colouring.h"
 
+class QWidgetAction;
+
 namespace chainmail {
+
+class Actions;
 
 /// The 'Colour by' setting of all panels: a selector for the tool bar, and the same choices as actions for a menu.
 class ColourSelector : public QComboBox {
@@ -16,7 +18,8 @@ class ColourSelector : public QComboBox {
 
  public:
   explicit ColourSelector(Colouring& colouring);
-  QList<QAction*> menuActions() const { return actions_->actions(); }
+  /// Adds the submenu of the View menu.
+  void fill(Actions& actions);
   /// Says that an overlay colours the objects instead, with its title; empty: none does.
   void showOverlay(const QString& title);
 
@@ -25,24 +28,23 @@ class ColourSelector : public QComboBox {
 
   Colouring& colouring_;
   QString overlay_;
-  QActionGroup* actions_;
 };
 
 /// The View menu's choice of the range of the colours: automatic, logarithmic, or fixed between two numbers. Each
 /// colour mode has its own choice, because modes have other units. The choice is stored.
-class ColourRangeMenu : public QMenu {
+class ColourRangeMenu : public QObject {
   Q_OBJECT
 
  public:
-  ColourRangeMenu(Colouring& colouring, QWidget* parent);
+  ColourRangeMenu(Colouring& colouring, QObject* parent);
+  void fill(Actions& actions);
 
   /// The range of the current mode for a session, and back. Ignores a range that is not valid.
   QJsonObject toJson() const;
   void take(const QJsonObject& json);
 
  private:
-  void addKind(ColourRange::Kind kind, const QString& text, const char* name, const QString& tip);
-  void addFields();
+  void arrangeFields();
   NumberField* makeField(const QString& label, const char* name);
   void choose(const ColourRange& range);
   void chooseKind(ColourRange::Kind kind);
@@ -50,7 +52,7 @@ class ColourRangeMenu : public QMenu {
   void restore();
 
   Colouring& colouring_;
-  QActionGroup* kinds_;
+  QWidgetAction* fields_;
   NumberField* lowest_;
   NumberField* highest_;
 };

@@ -40,7 +40,7 @@ PanelArea::PanelArea(Document& document, Colouring& colouring)
     : document_(document),
       fitted_(document.unsplitMesh()),
       colouring_(colouring),
-      links_(colouring, this),
+      links_(this),
       camera_(std::make_shared<Camera>()),
       levels_(std::make_shared<MeshLevels>()),
       legend_(new Legend),

@@ -47,6 +47,7 @@ class PanelArea : public QWidget {
   void setSection(const std::optional<SectionPlane>& section);
   /// Shows or hides the figures of the last pass in all panels.
   void setFigures(bool on);
+  bool figures() const { return figures_; }
   /// Marks the cursor with a ring and draws wide links, so that an audience can follow.
   void setLecture(bool on);
   /// Shows all that is there now in every panel, from its current side. Panels with linked cameras show the objects of

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <QAction>
 #include <QObject>
 
 namespace chainmail {
 
+class Actions;
 class Colouring;
 
 /// Switches that link the panels: the camera, the range of the colours, and the marks of elements. All are on by
@@ -13,14 +13,14 @@ class PanelLinks : public QObject {
   Q_OBJECT
 
  public:
-  PanelLinks(Colouring& colouring, QObject* parent);
+  using QObject::QObject;
 
-  /// The switches, for a menu and the tool bar.
-  QList<QAction*> actions() const { return {cameras_, colours_, marks_}; }
-  bool cameras() const { return cameras_->isChecked(); }
-  void setCameras(bool linked) { cameras_->setChecked(linked); }
+  /// Adds the switches to the View menu; `colouring` has that of the colours.
+  void fill(Actions& actions, Colouring& colouring);
+  bool cameras() const { return cameras_; }
+  void setCameras(bool linked);
   /// True if all panels mark the element under the cursor and the selection.
-  bool marks() const { return marks_->isChecked(); }
+  bool marks() const { return marks_; }
 
   /// The panel that last contained the mouse. If the marks are not linked, only this panel shows them.
   int pointed() const { return pointed_; }
@@ -31,12 +31,7 @@ class PanelLinks : public QObject {
   void marksLinked();
 
  private:
-  QAction* makeSwitch(const char* name, const QString& text, const QString& iconText, const QKeySequence& key,
-                      const QString& statusTip);
-
-  QAction* cameras_;
-  QAction* colours_;
-  QAction* marks_;
+  bool cameras_ = true, marks_ = true;
   int pointed_ = 0;
 };
 

@@ -15,6 +15,8 @@ class CutTool : public Tool {
  public:
   explicit CutTool(Document& document) : document_(document) {}
 
+  /// True if strokes cut only what is visible.
+  bool frontOnly() const { return frontOnly_; }
   void setFrontOnly(bool frontOnly) { frontOnly_ = frontOnly; }
   /// True if strokes split faces where faces are drawn; false if they always cut links.
   bool splits() const { return splits_; }

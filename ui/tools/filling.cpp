@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/actions.h"
 #include "common/number_field.h"
 #include "common/text.h"
 #include "document/edits.h"
@@ -79,7 +80,7 @@ Filling::Filling(Document& document, Jobs& jobs)
   });
   connect(size_, &QDoubleSpinBox::valueChanged, this, &Filling::describe);
   connect(this, &AskBar::agreed, this, &Filling::start);
-  connect(&document_, &Document::meshChanged, this, &Filling::adapt);
+  connect(&document_, &Document::meshChanged, this, &Filling::hide);
 }
 
 void Filling::makeFields() {
@@ -96,19 +97,14 @@ void Filling::makeFields() {
   addField({}, slider_);
 }
 
-void Filling::fill(QMenu& menu) {
-  action_ = menu.addAction(QStringLiteral("&Fill with tetrahedra…"), this, &Filling::askSize);
-  action_->setObjectName(QStringLiteral("fillSurface"));
-  adapt();
-}
-
-void Filling::adapt() {
-  hide();
-  const bool surface = isSurfaceInSpace(*document_.mesh());
-  action_->setEnabled(surface);
-  action_->setStatusTip(
-      surface ? QStringLiteral("Makes a volume of this surface, which must be closed; asks for the edge length")
-              : QStringLiteral("This object is not a surface in 3D: it cannot be filled"));
+void Filling::fill(Actions& actions) {
+  actions.add("Object", {{"fillSurface", "&Fill with tetrahedra…", "", "",
+                          "Makes a volume of this surface, which must be closed; asks for the edge length",
+                          [this] { askSize(); }, When([this] {
+                            return isSurfaceInSpace(*document_.mesh())
+                                       ? QString()
+                                       : "This object is not a surface in 3D: it cannot be filled";
+                          })}});
 }
 
 void Filling::askSize() {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QDoubleSpinBox>
-#include <QMenu>
 #include <QSlider>
 
 #include "common/ask_bar.h"
@@ -10,6 +9,8 @@
 
 namespace chainmail {
 
+class Actions;
+
 /// Fills a closed surface with tetrahedra: asks for their edge length, and works in the background.
 class Filling : public AskBar {
   Q_OBJECT
@@ -17,7 +18,7 @@ class Filling : public AskBar {
  public:
   Filling(Document& document, Jobs& jobs);
 
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
 
  private:
   void askSize();
@@ -30,14 +31,12 @@ class Filling : public AskBar {
   int suitedElements() const;
   double offeredSize() const;
   double elementsAt(double size) const;
-  void adapt();
   void start();
 
   Document& document_;
   Jobs& jobs_;
   QDoubleSpinBox* size_;
   QSlider* slider_;
-  QAction* action_ = nullptr;
   double volume_ = 0;  // enclosed by the surface (mesh units cubed)
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/icons.h"
+#include "common/actions.h"
 #include "common/text.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
@@ -23,39 +23,63 @@ bool carries(const Mesh& mesh, const ObjectSide& side) {
 
 }  // namespace
 
-PinLayers::PinLayers(Document& document, QWidget* parent)
-    : QObject(parent), document_(document), menu_(new QMenu(QStringLiteral("&Pin a layer"), parent)) {
-  menu_->setObjectName(QStringLiteral("pinLayers"));
-  menu_->setIcon(icon("pin"));
-  menu_->setToolTipsVisible(true);
-  for (const ObjectSide& side : object_sides) {
-    add(&side);
+PinLayers::PinLayers(Document& document, QObject* parent) : QObject(parent), document_(document) {
+  for (const auto signal : {&Document::meshChanged, &Document::pinsChanged}) {
+    connect(&document, signal, this, [this] { counts_.clear(); });
   }
-  menu_->addSeparator();
-  add(nullptr);
-  connect(menu_, &QMenu::aboutToShow, this, &PinLayers::count);
-  connect(&document, &Document::meshChanged, this, &PinLayers::adapt);
-  connect(&document, &Document::pinsChanged, this, &PinLayers::adapt);
-  adapt();
 }
 
-void PinLayers::add(const ObjectSide* side) {
-  QString name = side == nullptr ? QStringLiteral("boundary") : text(side->name) + QStringLiteral(" layer");
-  QString capital = side == nullptr ? QStringLiteral("boundary") : text(side->name);
-  capital[0] = capital[0].toUpper();
-  auto* action = menu_->addAction(QString());
-  action->setObjectName(QStringLiteral("pin") + capital);
-  connect(action, &QAction::triggered, this, [this, side] { side == nullptr ? pinBoundary() : pin(*side); });
-  choices_.push_back({side, std::move(name), action});
+void PinLayers::fill(Actions& actions) {
+  std::vector<ActionRow> rows;
+  for (const ObjectSide& side : object_sides) {
+    rows.push_back(rowOf(&side));
+  }
+  rows.emplace_back();
+  rows.push_back(rowOf(nullptr));
+  actions.add("Object", {{"pinLayers", "&Pin a layer", "pin"}});
+  actions.add("pinLayers", rows);
+  connect(&actions.menu("pinLayers"), &QMenu::aboutToShow, &actions, [this, &actions] {
+    count();
+    actions.refresh();
+  });
 }
+
+/// Returns the row of a side, or of the boundary if `side` is null. The sides along axes that the scene does not have
+/// are hidden.
+ActionRow PinLayers::rowOf(const ObjectSide* side) {
+  const QString name = side == nullptr ? QStringLiteral("boundary") : text(side->name);
+  const QString layer = side == nullptr ? name : name + " layer";
+  QString words = side == nullptr ? "Bound&ary" : "&" + layer.left(1).toUpper() + layer.mid(1);
+  if (name == "back") {
+    words = "Bac&k layer";  // the bottom layer uses the key B
+  }
+  return {"pin" + name.left(1).toUpper() + name.mid(1),
+          words,
+          "",
+          "",
+          QStringLiteral("Pins the elements of the %1 at their present positions, as one undo step").arg(layer),
+          [this, side] { pin(side); },
+          When([this, side, layer] {
+            return counts_.contains(side) && counts_[side] == 0
+                       ? QStringLiteral("All elements of the %1 are pinned already").arg(layer)
+                       : QString();
+          }),
+          Looks([this, side, words] {
+            const auto some = counts_.contains(side)
+                                  ? QStringLiteral(" (%1)").arg(counted(counts_[side], QStringLiteral("element")))
+                                  : QString();
+            return Look{.text = words + some, .visible = exists(side)};
+          })};
+}
+
+bool PinLayers::exists(const ObjectSide* side) const { return side == nullptr || carries(*document_.mesh(), *side); }
 
 const ObjectSide& PinLayers::foot() const {
   const ObjectSide& bottom = *find_side("bottom");
   return carries(*document_.mesh(), bottom) ? bottom : *find_side("left");
 }
 
-void PinLayers::pin(const ObjectSide& side) { pin(elements(&side)); }
-void PinLayers::pinBoundary() { pin(elements(nullptr)); }
+void PinLayers::pin(const ObjectSide* side) { edits::setPinned(document_, elements(side), true); }
 
 /// Returns the unpinned elements of a side, or of the boundary if `side` is null.
 std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
@@ -65,46 +89,18 @@ std::vector<ElementId> PinLayers::elements(const ObjectSide* side) const {
   return free;
 }
 
-void PinLayers::pin(const std::vector<ElementId>& elements) { edits::setPinned(document_, elements, true); }
-
-/// Hides the sides along axes that the scene does not have.
-void PinLayers::adapt() {
-  for (const Choice& one : choices_) {
-    one.action->setVisible(one.side == nullptr || carries(*document_.mesh(), *one.side));
-    show(one, std::nullopt);
-  }
-}
-
+/// Counts the elements that each row would pin.
 void PinLayers::count() {
+  counts_.clear();
   if (document_.mesh()->element_count() > maxCounted) {
     return;
   }
-  for (const Choice& one : choices_) {
-    if (one.action->isVisible()) {
-      show(one, elements(one.side).size());
+  counts_[nullptr] = elements(nullptr).size();
+  for (const ObjectSide& side : object_sides) {
+    if (exists(&side)) {
+      counts_[&side] = elements(&side).size();
     }
   }
-}
-
-void PinLayers::show(const Choice& choice, std::optional<std::size_t> count) const {
-  QString words = choice.name;
-  words[0] = words[0].toUpper();
-  words.insert(0, QLatin1Char('&'));
-  if (choice.side != nullptr && choice.side->name == "back") {
-    words = QStringLiteral("Bac&k layer");  // the bottom layer uses the key B
-  } else if (choice.side == nullptr) {
-    words = QStringLiteral("Bound&ary");
-  }
-  if (count) {
-    words += QStringLiteral(" (%1)").arg(counted(*count, QStringLiteral("element")));
-  }
-  const bool some = count.value_or(1) > 0;
-  choice.action->setText(words);
-  choice.action->setEnabled(some);
-  choice.action->setStatusTip(
-      some ? QStringLiteral("Pins the elements of the %1 at their present positions, as one undo step").arg(choice.name)
-           : QStringLiteral("All elements of the %1 are pinned already").arg(choice.name));
-  choice.action->setToolTip(choice.action->statusTip());
 }
 
 PinBar::PinBar(Document& document, PinLayers& layers)
@@ -113,7 +109,7 @@ PinBar::PinBar(Document& document, PinLayers& layers)
       document_(document),
       layers_(layers) {
   addChoices();
-  connect(this, &AskBar::agreed, this, [this] { layers_.pin(layers_.foot()); });
+  connect(this, &AskBar::agreed, this, [this] { layers_.pin(&layers_.foot()); });
   connect(&document, &Document::unpinned, this, &PinBar::await);
   // The end of a drag adds an undo step.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, &PinBar::offer);
@@ -136,7 +132,7 @@ void PinBar::addChoices() {
           QStringLiteral("Pins all elements on the boundary at their present positions, as one undo step"));
   auto* byHand = add("pinsByHand", QStringLiteral("Pin &single elements"),
                      QStringLiteral("Switches to the pin tool: click the elements to pin"));
-  connect(boundary, &QPushButton::clicked, this, [this] { layers_.pinBoundary(); });
+  connect(boundary, &QPushButton::clicked, this, [this] { layers_.pin(nullptr); });
   connect(byHand, &QPushButton::clicked, this, [this] {
     hide();
     emit byHandChosen();

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <QMenu>
 #include <QObject>
-#include <optional>
+#include <map>
 
 #include "common/ask_bar.h"
 #include "document/document.h"
@@ -11,37 +10,31 @@
 
 namespace chainmail {
 
+class Actions;
+struct ActionRow;
+
 /// Pins a whole layer of the object at its current positions: the layer at one side of the object, or the boundary.
 class PinLayers : public QObject {
   Q_OBJECT
 
  public:
-  PinLayers(Document& document, QWidget* parent);
+  PinLayers(Document& document, QObject* parent);
 
-  /// The menu of all layers. Each entry shows the number of elements that it pins.
-  QMenu& menu() { return *menu_; }
+  /// Adds the menu of all layers. When it opens, each entry shows the number of elements that it pins.
+  void fill(Actions& actions);
   /// Returns the bottom side, or the left side if the scene has no y axis.
   const ObjectSide& foot() const;
-  void pin(const ObjectSide& side);
-  void pinBoundary();
+  /// Pins a side, or the boundary if `side` is null.
+  void pin(const ObjectSide* side);
 
  private:
-  struct Choice {
-    const ObjectSide* side;  // null for the boundary
-    QString name;            // for example 'bottom layer'
-    QAction* action;
-  };
-
-  void add(const ObjectSide* side);
+  ActionRow rowOf(const ObjectSide* side);
+  bool exists(const ObjectSide* side) const;
   std::vector<ElementId> elements(const ObjectSide* side) const;
-  void pin(const std::vector<ElementId>& elements);
-  void adapt();
   void count();
-  void show(const Choice& choice, std::optional<std::size_t> count) const;
 
   Document& document_;
-  QMenu* menu_;
-  std::vector<Choice> choices_;
+  std::map<const ObjectSide*, std::size_t> counts_;  // of elements to pin; null is the boundary; empty: not counted
 };
 
 /// Offers to pin the object if a panel has no solution because no element is pinned. It asks when the drag has ended.

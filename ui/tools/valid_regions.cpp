@@ -1,12 +1,11 @@
 #include "tools/valid_regions.h"
 
-#include <QAction>
 #include <QMatrix4x4>
-#include <QMenu>
 #include <QVector3D>
 #include <array>
 #include <cmath>
 
+#include "common/actions.h"
 #include "common/colours.h"
 #include "drawing/camera.h"
 #include "panels/view.h"
@@ -219,17 +218,9 @@ constexpr float crossSize = 7, ringSize = 12;              // pixels
 
 }  // namespace
 
-ValidRegions::ValidRegions(const Document& document)
-    : document_(document), shown_(new QAction(QStringLiteral("&Valid regions"), this)) {
-  shown_->setObjectName(QStringLiteral("showValidRegions"));
-  shown_->setCheckable(true);
-  shown_->setShortcut(Qt::Key_V);
-  shown_->setStatusTip(
-      QStringLiteral("Shows where the neighbours of the element under the cursor may lie. Solid box with ring: the "
-                     "neighbour is inside. Dashed box with cross: it is outside"));
-  connect(shown_, &QAction::toggled, this, &ValidRegions::changed);
+ValidRegions::ValidRegions(const Document& document) : document_(document) {
   const auto follow = [this] {
-    if (shown_->isChecked()) {
+    if (shown_) {
       emit changed();
     }
   };
@@ -238,13 +229,19 @@ ValidRegions::ValidRegions(const Document& document)
   connect(&document, &Document::softnessChanged, this, follow);
 }
 
-void ValidRegions::fill(QMenu& menu) {
-  shown_->setParent(&menu);  // so that a search for all actions of the window finds it
-  menu.addAction(shown_);
+void ValidRegions::fill(Actions& actions) {
+  actions.add("View", {{"showValidRegions", "&Valid regions", "region", "V",
+                        "Shows where the neighbours of the element under the cursor may lie. Solid box with ring: the "
+                        "neighbour is inside. Dashed box with cross: it is outside",
+                        [this](bool on) {
+                          shown_ = on;
+                          emit changed();
+                        },
+                        IsOn([this] { return shown_; })}});
 }
 
 std::vector<ElementId> ValidRegions::elements() const {
-  if (!shown_->isChecked()) {
+  if (!shown_) {
     return {};
   }
   if (const auto& element = document_.highlight().marks().element) {
@@ -255,7 +252,7 @@ std::vector<ElementId> ValidRegions::elements() const {
 }
 
 QString ValidRegions::note(int /*panel*/) const {
-  if (!shown_->isChecked()) {
+  if (!shown_) {
     return {};
   }
   const auto all = elements();

@@ -7,10 +7,9 @@
 #include "measure/neighbour_regions.h"
 #include "panels/overlay.h"
 
-class QAction;
-class QMenu;
-
 namespace chainmail {
+
+class Actions;
 
 /// The debugging view (Dean 2004, 5.3). Draws the valid regions of the neighbours of the element under the cursor or in
 /// the handle. Without such an element, it uses the selected elements if they are few.
@@ -20,8 +19,7 @@ class ValidRegions : public QObject, public Overlay {
  public:
   explicit ValidRegions(const Document& document);
 
-  /// Adds its action to a menu.
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
   void draw(const Canvas& canvas) override;
   QString note(int panel) const override;
 
@@ -35,7 +33,7 @@ class ValidRegions : public QObject, public Overlay {
   void draw(const Canvas& canvas, const NeighbourRegion& region) const;
 
   const Document& document_;
-  QAction* shown_;
+  bool shown_ = false;
 };
 
 }  // namespace chainmail

@@ -2,13 +2,12 @@
 
 #include <QAction>
 #include <QMainWindow>
-#include <QMenu>
 #include <QUndoView>
 #include <algorithm>
 #include <array>
 #include <memory>
 
-#include "common/icons.h"
+#include "common/actions.h"
 #include "docks/element_dock.h"
 #include "docks/frame_rate_dock.h"
 #include "docks/mesh_dock.h"
@@ -38,13 +37,7 @@ Dock* connectFiles(Dock* dock, const DockParts& parts) {
   return dock;
 }
 
-QDockWidget* makeTools(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new ToolsDock(parts.tools, parts.document, parts.cut, parts.select);
-  dock->fill(parts.editMenu);
-  return dock;
-}
-
-QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeMesh(const DockParts& parts) {
   auto* dock = new MeshDock(parts.document, parts.jobs);
   QObject::connect(dock, &MeshDock::openRequested, &parts.files, &FileActions::open);
   QObject::connect(dock, &MeshDock::saveRequested, &parts.files, &FileActions::save);
@@ -52,57 +45,28 @@ QDockWidget* makeMesh(const DockParts& parts, const Docks& /*made*/) {
   return dock;
 }
 
-QDockWidget* makeStiffness(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new StiffnessDock(parts.document);
-  parts.objectMenu.addMenu(&dock->presets().menu());
+QDockWidget* makeStiffness(const DockParts& parts) {
+  auto* dock = new StiffnessDock(parts.document, parts.actions);
   QObject::connect(&dock->presets(), &PresetRow::failed, &parts.messages, &MessageBar::say);
   QObject::connect(&dock->presets(), &PresetRow::noted, &parts.window, parts.showStatus);
   return dock;
 }
 
-QDockWidget* makePhysics(const DockParts& parts, const Docks& /*made*/) {
-  return new PhysicsDock(parts.document, parts.pinLayers);
-}
-
-QDockWidget* makeRelaxation(const DockParts& parts, const Docks& /*made*/) {
-  return new RelaxationDock(parts.document);
-}
-
-QDockWidget* makeFrameRate(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new FrameRateDock(parts.document, parts.area.panels()), parts);
-  parts.viewMenu.addMenu(&dock->menu());
-  return dock;
-}
-
-QDockWidget* makeReport(const DockParts& parts, const Docks& /*made*/) {
-  return connectFiles(new ReportDock(parts.document), parts);
-}
-
-QDockWidget* makePropagation(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay);
+QDockWidget* makePropagation(const DockParts& parts) {
+  auto* dock = new PropagationDock(parts.document, parts.propagation, parts.propagationOverlay, parts.actions);
   QObject::connect(dock, &PropagationDock::changed, &parts.area, &PanelArea::refresh);
-  dock->fill(parts.viewMenu);
   return dock;
 }
 
-QDockWidget* makeReplay(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs), parts);
-  parts.objectMenu.addMenu(&dock->menu());
-  return dock;
-}
-
-QDockWidget* makeSection(const DockParts& parts, const Docks& /*made*/) {
-  auto* dock = new SectionDock(parts.document);
-  dock->fill(parts.showMenu);
+QDockWidget* makeSection(const DockParts& parts) {
+  auto* dock = new SectionDock(parts.document, parts.actions);
   QObject::connect(dock, &SectionDock::changed, &parts.area,
                    [&area = parts.area, dock] { area.setSection(dock->plane()); });
   return dock;
 }
 
-QDockWidget* makeElement(const DockParts& parts, const Docks& /*made*/) { return new ElementDock(parts.document); }
-
 /// The undo list: the name of every step. A click on a step goes back to it.
-QDockWidget* makeHistory(const DockParts& parts, const Docks& /*made*/) {
+QDockWidget* makeHistory(const DockParts& parts) {
   auto* dock = new QDockWidget;
   auto* list = new QUndoView(&parts.document.undoStack());
   list->setObjectName(QStringLiteral("undoList"));
@@ -120,7 +84,9 @@ const std::array entries{
               .tooltip = "Tools of the left mouse button, and their options",
               .icon = "tools",
               .area = Qt::LeftDockWidgetArea,
-              .make = makeTools},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return new ToolsDock(parts.document, parts.cut, parts.select, parts.actions);
+              }},
     DockEntry{.id = "meshDock",
               .action = "showMeshDock",
               .title = "Mesh",
@@ -137,23 +103,24 @@ const std::array entries{
               .area = Qt::RightDockWidgetArea,
               .height = 400,
               .make = makeStiffness},
-    DockEntry{.id = "physicsDock",
-              .action = "showPhysics",
-              .title = "Physics",
-              .tooltip = "Material, pins and control points of the methods that ChainMail is compared with",
-              .icon = "physics",
-              .key = Qt::Key_J,
-              .area = Qt::RightDockWidgetArea,
-              .tabbedWith = "stiffnessDock",
-              .visible = false,
-              .make = makePhysics},
+    DockEntry{
+        .id = "physicsDock",
+        .action = "showPhysics",
+        .title = "Physics",
+        .tooltip = "Material, pins and control points of the methods that ChainMail is compared with",
+        .icon = "physics",
+        .key = "J",
+        .area = Qt::RightDockWidgetArea,
+        .tabbedWith = "stiffnessDock",
+        .visible = false,
+        .make = [](const DockParts& parts) -> QDockWidget* { return new PhysicsDock(parts.document, parts.actions); }},
     DockEntry{.id = "relaxationDock",
               .action = "showRelaxationDock",
               .title = "Relaxation",
               .tooltip = "How elements move toward their rest shape in idle time",
               .icon = "relaxation",
               .area = Qt::RightDockWidgetArea,
-              .make = makeRelaxation},
+              .make = [](const DockParts& parts) -> QDockWidget* { return new RelaxationDock(parts.document); }},
     DockEntry{.id = "frameRateDock",
               .action = "showFrameRateDock",
               .title = "Frame rate",
@@ -161,23 +128,27 @@ const std::array entries{
               .icon = "frameRate",
               .area = Qt::RightDockWidgetArea,
               .height = 270,
-              .make = makeFrameRate},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new FrameRateDock(parts.document, parts.area.panels(), parts.actions), parts);
+              }},
     DockEntry{.id = "reportDock",
               .action = "showReport",
               .title = "Report",
               .tooltip = "Measures time per move and errors of the algorithms on this object",
               .icon = "report",
-              .key = Qt::Key_E,
+              .key = "E",
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
               .floating = true,
-              .make = makeReport},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new ReportDock(parts.document), parts);
+              }},
     DockEntry{.id = "propagationDock",
               .action = "showPropagation",
               .title = "Propagation",
               .tooltip = "Slow motion and single steps through a pass, with its waiting lists",
               .icon = "propagation",
-              .key = Qt::Key_O,
+              .key = "O",
               .area = Qt::LeftDockWidgetArea,
               .tabbedWith = "meshDock",
               .visible = false,
@@ -187,10 +158,12 @@ const std::array entries{
               .title = "Record and replay",
               .tooltip = "Steps through all moves since the object was opened; plays them and saves them as files",
               .icon = "record",
-              .key = Qt::CTRL | Qt::Key_R,
+              .key = "Ctrl+R",
               .area = Qt::BottomDockWidgetArea,
               .visible = false,
-              .make = makeReplay},
+              .make = [](const DockParts& parts) -> QDockWidget* {
+                return connectFiles(new ReplayDock(parts.document, parts.area, parts.jobs, parts.actions), parts);
+              }},
     DockEntry{.id = "sectionDock",
               .action = "showSectionDock",
               .title = "Section",
@@ -204,11 +177,11 @@ const std::array entries{
               .title = "Element",
               .tooltip = "Selects an element by its id, moves it by numbers, pins it, cuts its links",
               .icon = "element",
-              .key = Qt::CTRL | Qt::Key_E,
+              .key = "Ctrl+E",
               .area = Qt::LeftDockWidgetArea,
               .tabbedWith = "meshDock",
               .visible = false,
-              .make = makeElement},
+              .make = [](const DockParts& parts) -> QDockWidget* { return new ElementDock(parts.document); }},
     DockEntry{.id = "historyDock",
               .action = "showHistoryDock",
               .title = "Undo list",
@@ -219,18 +192,6 @@ const std::array entries{
               .visible = false,
               .make = makeHistory},
 };
-
-void describe(const DockEntry& entry, QDockWidget& dock) {
-  dock.setObjectName(QLatin1String(entry.id));
-  dock.setWindowTitle(QLatin1String(entry.title));
-  dock.setToolTip(QLatin1String(entry.tooltip));
-  QAction* show = dock.toggleViewAction();
-  show->setObjectName(QLatin1String(entry.action));
-  show->setText(QLatin1String(entry.title));
-  show->setStatusTip(QLatin1String(entry.tooltip));
-  show->setIcon(icon(entry.icon));
-  show->setShortcut(entry.key);
-}
 
 /// Brings a dock to the front of its tabs when it is shown. If it is behind another tab, its action does not hide it
 /// but brings it to the front, too.
@@ -262,19 +223,17 @@ Docks::Docks(const DockParts& parts) : window_(parts.window) {
 }
 
 void Docks::add(const DockEntry& entry, const DockParts& parts) {
-  QDockWidget* dock = entry.make(parts, *this);
-  describe(entry, *dock);
+  QDockWidget* dock = entry.make(parts);
+  dock->setObjectName(QLatin1String(entry.id));
+  dock->setWindowTitle(QLatin1String(entry.title));
+  dock->setToolTip(QLatin1String(entry.tooltip));
+  parts.actions.add("Docks", {entry.action, entry.title, entry.icon, entry.key, entry.tooltip},
+                    dock->toggleViewAction());
   window_.addDockWidget(entry.area, dock);
   if (entry.tabbedWith != nullptr) {
     raiseWhenShown(*dock);
   }
   docks_.push_back(dock);
-}
-
-void Docks::fill(QMenu& menu) const {
-  for (QDockWidget* dock : docks_) {
-    menu.addAction(dock->toggleViewAction());
-  }
 }
 
 Layout Docks::first() const {

@@ -1,27 +1,23 @@
 #pragma once
 
 #include <QDockWidget>
-#include <QKeySequence>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "window/layout.h"
 
-class QActionGroup;
 class QMainWindow;
-class QMenu;
 
 namespace chainmail {
 
+class Actions;
 class CutTool;
-class Docks;
 class Document;
 class FileActions;
 class Jobs;
 class MessageBar;
 class PanelArea;
-class PinLayers;
 class Propagation;
 class PropagationOverlay;
 class SelectTool;
@@ -34,16 +30,11 @@ struct DockParts {
   FileActions& files;
   MessageBar& messages;
   PanelArea& area;
-  PinLayers& pinLayers;
   Propagation& propagation;
   PropagationOverlay& propagationOverlay;
-  const QActionGroup& tools;
+  Actions& actions;
   CutTool& cut;
   SelectTool& select;
-  QMenu& editMenu;
-  QMenu& objectMenu;
-  QMenu& viewMenu;
-  QMenu& showMenu;  // a submenu of the View menu
   std::function<void(const QString&)> showStatus;
 };
 
@@ -54,14 +45,14 @@ struct DockEntry {
   const char* title;
   const char* tooltip;  // what the dock shows or does
   const char* icon;
-  QKeySequence key = {};
+  const char* key = "";
   Qt::DockWidgetArea area;
   const char* tabbedWith = nullptr;  // id of an earlier entry; both docks share a place as tabs
   bool visible = true;               // visible at the first start
   bool floating = false;             // a window of its own until the user docks it
   int width = 0, height = 0;         // at the first start (pixels); 0: as Qt divides the room
-  /// Makes the dock, connects it and adds its own actions to the menus. `made` holds the docks of earlier entries.
-  QDockWidget* (*make)(const DockParts& parts, const Docks& made);
+  /// Makes the dock, connects it and adds its own actions to the menus.
+  QDockWidget* (*make)(const DockParts& parts);
 };
 
 /// Returns the entries of all docks, in the order in which they are made and listed.
@@ -85,8 +76,6 @@ class Docks {
     qFatal("docks: no entry makes %s", Dock::staticMetaObject.className());
     std::abort();
   }
-  /// Adds the actions that show the docks.
-  void fill(QMenu& menu) const;
   /// Returns where the window and its docks are.
   Layout layout() const;
   /// Places the docks as in the JSON of a layout. A dock that it does not name stays as it is.

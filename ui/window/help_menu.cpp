@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/icons.h"
+#include "common/actions.h"
 
 namespace chainmail {
 namespace {
@@ -170,20 +170,16 @@ bool ExampleDrag::eventFilter(QObject* /*watched*/, QEvent* event) {
 HelpMenu::HelpMenu(QMainWindow& window, Document& document)
     : QObject(&window), window_(window), example_(document, nullptr) {}
 
-void HelpMenu::fill(QMenu& menu) {
-  auto* manual = menu.addAction(icon("help"), QStringLiteral("&Manual"), this, [this] { present(manual_, window_); });
-  manual->setObjectName(QStringLiteral("showManual"));
-  manual->setShortcut(Qt::CTRL | Qt::Key_F1);
-  manual->setStatusTip(QStringLiteral("Opens the manual: a tour, the algorithms, results, files and the command line"));
-  auto* keys = menu.addAction(QStringLiteral("&Keys"), this, [this] { present(keys_, window_); });
-  keys->setObjectName(QStringLiteral("showShortcuts"));
-  keys->setShortcut(QKeySequence::HelpContents);
-  keys->setStatusTip(QStringLiteral("Lists all keys on one page, by task"));
-  menu.addSeparator();
-  auto* about =
-      menu.addAction(QStringLiteral("&About ChainMail workbench"), this, [this] { present(about_, window_); });
-  about->setObjectName(QStringLiteral("showAbout"));
-  about->setStatusTip(QStringLiteral("Shows version, licences, Qt and OpenGL as text that can be copied"));
+void HelpMenu::fill(Actions& actions) {
+  actions.add("Help", {{"showManual", "&Manual", "help", "Ctrl+F1",
+                        "Opens the manual: a tour, the algorithms, results, files and the command line",
+                        [this] { present(manual_, window_); }},
+                       {"showShortcuts", "&Keys", "keyboard", QKeySequence::HelpContents,
+                        "Lists all keys on one page, by task", [this] { present(keys_, window_); }},
+                       {},
+                       {"showAbout", "&About ChainMail workbench", "", "",
+                        "Shows version, licences, Qt and OpenGL as text that can be copied",
+                        [this] { present(about_, window_); }}});
 }
 
 bool HelpMenu::welcome() {

@@ -2,7 +2,6 @@
 
 #include <QDialog>
 #include <QElapsedTimer>
-#include <QMenu>
 #include <QObject>
 #include <QTimer>
 
@@ -13,6 +12,8 @@
 class QMainWindow;
 
 namespace chainmail {
+
+class Actions;
 
 /// Returns the licence of the program and of the libraries that it links, in a few sentences.
 QString licenceInWords();
@@ -60,7 +61,7 @@ class HelpMenu : public QObject {
 
  public:
   HelpMenu(QMainWindow& window, Document& document);
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
   /// On the first start, shows an example and returns true.
   bool welcome();
 

@@ -7,7 +7,8 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 #include <array>
-#include <utility>
+
+#include "common/actions.h"
 
 namespace chainmail {
 namespace {
@@ -34,8 +35,6 @@ constexpr std::array mouseRows{MouseRow{"Left button", "the tool: drag, cut, pin
                                MouseRow{"R + wheel", "radius of the brush of Drag"},
                                MouseRow{"Shift in a drag", "rotates the handle"}};
 
-QString plainText(const QAction& action) { return action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…")); }
-
 /// Returns the actions of a menu and its submenus.
 QList<QAction*> actionsIn(const QMenu& menu) {
   QList<QAction*> all;
@@ -43,11 +42,6 @@ QList<QAction*> actionsIn(const QMenu& menu) {
     all += action->menu() != nullptr ? actionsIn(*action->menu()) : QList{action};
   }
   return all;
-}
-
-bool isNamed(const QAction& action) {
-  return !action.objectName().isEmpty() && !action.objectName().startsWith(QLatin1String("qt_")) &&
-         !action.isSeparator() && action.menu() == nullptr;
 }
 
 QString rowOf(const QString& keys, const QString& effect) {
@@ -95,31 +89,6 @@ QString pageOf(const QMainWindow& window) {
 }
 
 }  // namespace
-
-QList<QAction*> actionsOf(const QMainWindow& window) {
-  QList<QAction*> all;
-  for (const QAction* top : window.menuBar()->actions()) {
-    all += actionsIn(*top->menu());
-  }
-  all += window.findChildren<QAction*>();
-  QList<QAction*> named;
-  for (QAction* action : std::as_const(all)) {
-    if (isNamed(*action) && !named.contains(action)) {
-      named << action;
-    }
-  }
-  return named;
-}
-
-void showKeysInToolTips(const QMainWindow& window) {
-  for (QAction* action : actionsOf(window)) {
-    const QString words = plainText(*action), keys = action->shortcut().toString(QKeySequence::NativeText);
-    if (action->toolTip() == words || action->toolTip() == action->iconText()) {
-      action->setToolTip(words + (keys.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(keys)) +
-                         (action->statusTip().isEmpty() ? QString() : QLatin1Char('\n') + action->statusTip()));
-    }
-  }
-}
 
 KeysPage::KeysPage(QMainWindow* window) : QDialog(window), window_(*window), page_(new QTextBrowser) {
   setObjectName(QStringLiteral("keysPage"));

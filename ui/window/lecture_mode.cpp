@@ -1,12 +1,13 @@
 #include "window/lecture_mode.h"
 
 #include <QDockWidget>
-#include <QMenu>
 #include <QMenuBar>
 #include <QStatusBar>
 #include <QToolBar>
 #include <algorithm>
+#include <utility>
 
+#include "common/actions.h"
 #include "common/theme.h"
 #include "document/propagation.h"
 #include "panels/panel_area.h"
@@ -19,44 +20,39 @@ namespace {
 constexpr double largeTexts = 1.6;  // times the usual size
 constexpr int leastLetters = 24;    // pixels, which the last row of a lecture hall can read
 
-/// Adds the actions of menus and their submenus to a list.
-void collect(const QList<QAction*>& actions, QList<QAction*>& all) {
-  for (QAction* action : actions) {
-    if (action->menu() != nullptr) {
-      collect(action->menu()->actions(), all);
-    } else if (!action->isSeparator()) {
-      all << action;
-    }
-  }
-}
-
 }  // namespace
 
-LectureMode::LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools)
+LectureMode::LectureMode(MainWindow& window, Propagation& propagation, Actions& actions)
     : QObject(&window),
       window_(window),
       area_(window.area()),
       propagation_(propagation),
-      tools_(tools),
-      tool_(new QLabel),
-      action_(new QAction(QStringLiteral("Lecture mode"), this)) {
-  action_->setObjectName(QStringLiteral("lectureMode"));
-  action_->setCheckable(true);
-  action_->setShortcut(Qt::Key_F11);
-  action_->setStatusTip(
-      QStringLiteral("Shows only the panels and the lesson, on the whole screen, with large texts and a ring at the "
-                     "cursor"));
+      actions_(actions),
+      tool_(new QLabel) {
   tool_->setTextFormat(Qt::RichText);
   tool_->setObjectName(QStringLiteral("lectureTool"));
   tool_->hide();
   window.statusBar()->addPermanentWidget(tool_);
-  connect(&tools, &QActionGroup::triggered, this, &LectureMode::nameTool);
-  connect(action_, &QAction::toggled, this, [this](bool on) { on ? enter() : restore(); });
   connect(&area_, &PanelArea::arranged, this, [this] {  // also after a panel was added
     if (isOn()) {
       enlargeIcons();
     }
   });
+}
+
+void LectureMode::fill() {
+  actions_.add("View",
+               {{"lectureMode", "Lecture mode", "", "F11",
+                 "Shows only the panels and the lesson, on the whole screen, with large texts and a ring at the "
+                 "cursor",
+                 [this](bool on) { setOn(on); }, IsOn([this] { return isOn_; })}});
+}
+
+void LectureMode::setOn(bool on) {
+  if (std::exchange(isOn_, on) != on) {
+    on ? enter() : restore();
+    actions_.refresh();
+  }
 }
 
 void LectureMode::enter() {
@@ -68,10 +64,10 @@ void LectureMode::enter() {
   for (auto* bar : window_.findChildren<QToolBar*>(Qt::FindDirectChildrenOnly)) {
     bar->hide();
   }
-  nameTool();
   tool_->show();
   area_.setLecture(true);
-  hideMenus();
+  hadMenus_ = !window_.menuBar()->isHidden();
+  window_.menuBar()->hide();
   enlargeTexts();
   enlargeIcons();
   window_.showFullScreen();
@@ -107,32 +103,9 @@ void LectureMode::shrink() {
   }
 }
 
-/// Hides the menus. The keys of an action work only while a widget that has it is visible, so the window takes them.
-void LectureMode::hideMenus() {
-  QList<QAction*> all;
-  collect(window_.menuBar()->actions(), all);
-  for (QAction* action : all) {
-    if (!window_.actions().contains(action)) {
-      window_.addAction(action);
-      lent_.emplace_back(action);
-    }
-  }
-  hadMenus_ = !window_.menuBar()->isHidden();
-  window_.menuBar()->hide();
-}
-
-void LectureMode::showMenus() {
-  for (const QPointer<QAction>& action : std::exchange(lent_, {})) {
-    if (action != nullptr) {
-      window_.removeAction(action);
-    }
-  }
-  window_.menuBar()->setVisible(hadMenus_);
-}
-
 void LectureMode::restore() {
   shrink();  // first: large texts would make the docks and the window larger
-  showMenus();
+  window_.menuBar()->setVisible(hadMenus_);
   window_.showNormal();
   if (before_.maximized) {
     window_.showMaximized();
@@ -148,11 +121,9 @@ void LectureMode::restore() {
   area_.setLecture(false);
 }
 
-void LectureMode::nameTool() {
-  const QAction* tool = tools_.checkedAction();
+void LectureMode::nameTool(const QString& name) {
   tool_->setText(QStringLiteral("Tool: <b>%1</b>  ·  %2 ends the lecture mode")
-                     .arg(tool != nullptr ? tool->text().remove(QLatin1Char('&')) : QString(),
-                          action_->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped()));
+                     .arg(name, actions_["lectureMode"].shortcut().toString(QKeySequence::NativeText).toHtmlEscaped()));
 }
 
 }  // namespace chainmail

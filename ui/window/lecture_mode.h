@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QAbstractButton>
-#include <QActionGroup>
 #include <QLabel>
 #include <QPointer>
 #include <utility>
@@ -11,6 +10,7 @@
 
 namespace chainmail {
 
+class Actions;
 class MainWindow;
 class PanelArea;
 class Propagation;
@@ -23,36 +23,35 @@ class LectureMode : public QObject {
   Q_OBJECT
 
  public:
-  LectureMode(MainWindow& window, Propagation& propagation, QActionGroup& tools);
+  LectureMode(MainWindow& window, Propagation& propagation, Actions& actions);
 
-  /// The switch for the menu.
-  QAction& action() { return *action_; }
-  bool isOn() const { return action_->isChecked(); }
-  void leave() { action_->setChecked(false); }
+  /// Adds the switch to the View menu.
+  void fill();
+  bool isOn() const { return isOn_; }
+  void setOn(bool on);
+  void leave() { setOn(false); }
+  /// The status bar shows the name of this tool.
+  void nameTool(const QString& name);
   /// The layout to restore afterwards.
   const Layout& before() const { return before_; }
 
  private:
   void enter();
   void restore();
-  void nameTool();
   void enlargeTexts();
   void enlargeIcons();
   void shrink();
-  void hideMenus();
-  void showMenus();
 
   MainWindow& window_;
   PanelArea& area_;
   Propagation& propagation_;
-  const QActionGroup& tools_;
+  Actions& actions_;
   QLabel* tool_;
-  QAction* action_;
+  bool isOn_ = false;
   Layout before_;
   QFont font_;
   std::vector<std::pair<QPointer<QAbstractButton>, QSize>> icons_;  // buttons with large icons, and the size before
   bool hadMenus_ = false;
-  std::vector<QPointer<QAction>> lent_;  // actions of the menus that the window has meanwhile
 };
 
 }  // namespace chainmail

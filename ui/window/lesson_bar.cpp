@@ -117,13 +117,8 @@ void LessonBar::listen() {
 }
 
 void LessonBar::showKeys() {
-  const auto tip = [](const QString& what, const QAction& action) {
-    const QString key = action.shortcut().toString(QKeySequence::NativeText);
-    return key.isEmpty() ? what : QStringLiteral("%1 (%2)").arg(what, key);
-  };
-  back_->setToolTip(tip(
-      QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"), backAction_));
-  next_->setToolTip(tip(QStringLiteral("Plays the next step; during a step, goes to its end"), nextAction_));
+  back_->setToolTip(backAction_.toolTip());
+  next_->setToolTip(nextAction_.toolTip());
   if (player_.isOpen()) {
     showStep();
   }

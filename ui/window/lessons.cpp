@@ -1,15 +1,13 @@
 #include "window/lessons.h"
 
-#include <QAction>
 #include <QDir>
-#include <QMenu>
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
 
+#include "common/actions.h"
 #include "common/colours.h"
-#include "common/icons.h"
 #include "common/text.h"
 #include "drawing/camera.h"
 #include "files/session/session.h"
@@ -68,34 +66,20 @@ void LessonHandle::draw(const Canvas& canvas) {
   }
 }
 
-Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions)
+Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions, Actions& actions)
     : QObject(&window),
       window_(window),
       player_(window.document(), propagation),
-      next_(
-          add("lessonNext", QStringLiteral("&Next step"), Qt::Key_PageDown,
-              QStringLiteral("Plays the next step of the lesson; during a step, goes to its end; after the last step, "
-                             "opens the next lesson"))),
-      back_(add("lessonBack", QStringLiteral("Step &back"), Qt::Key_PageUp,
-                QStringLiteral("Restores the end of the step before; at the first step, opens the lesson before"))),
-      following_(add("lessonFollowing", QStringLiteral("Next l&esson"), {},
-                     QStringLiteral("Opens the lesson after the present one"))),
-      close_(add("lessonClose", QStringLiteral("&Close lesson"), {},
-                 QStringLiteral("Closes the lesson; the object stays as it is"))),
+      actions_(actions),
       handle_(player_),
       bar_(nullptr) {
-  next_->setIcon(icon("stepForward"));
-  back_->setIcon(icon("stepBack"));
-  close_->setIcon(icon("close"));
-  connect(next_, &QAction::triggered, this, &Lessons::goOn);
-  connect(back_, &QAction::triggered, this, &Lessons::goBack);
-  connect(following_, &QAction::triggered, this, &Lessons::openFollowing);
-  connect(close_, &QAction::triggered, &player_, &LessonPlayer::close);
+  addActions();
   // In this order: the bar reads the actions.
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
-    connect(&player_, change, this, &Lessons::adapt);
+    connect(&player_, change, &actions_, &Actions::refresh);
   }
-  bar_ = new LessonBar(player_, *back_, *next_, *following_, *close_);
+  bar_ = new LessonBar(player_, actions_["lessonBack"], actions_["lessonNext"], actions_["lessonFollowing"],
+                       actions_["lessonClose"]);
   connect(&player_, &LessonPlayer::openChanged, this, &Lessons::leave);
   connect(&sessions, &Sessions::opened, this, &Lessons::start);
   connect(&player_, &LessonPlayer::stepChanged, this, &Lessons::showStep);
@@ -103,29 +87,34 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   connect(&player_, &LessonPlayer::movesEnd, this, &Lessons::fitAfter);
   connect(&player_, &LessonPlayer::playsChanged, &window.area(), &PanelArea::refresh);
   window.area().addOverlay(handle_);
-  adapt();
 }
 
-QAction* Lessons::add(const char* name, const QString& text, const QKeySequence& key, const QString& help) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QLatin1String(name));
-  action->setShortcut(key);
-  action->setStatusTip(help);
-  return action;
-}
-
-void Lessons::fill(QMenu& menu) {
-  QMenu* lessons = menu.addMenu(icon("lesson"), QStringLiteral("&Lessons"));
+void Lessons::addActions() {
+  actions_.add("Help", {{"lessons", "&Lessons", "lesson"}});
   for (const LessonFile& lesson : lessonFiles()) {
     const auto number = &lesson - lessonFiles().data() + 1;
-    QAction* action = lessons->addAction(QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)));
-    action->setObjectName(QStringLiteral("lesson%1").arg(number));
-    action->setStatusTip(QStringLiteral("Opens this lesson: short captions, and Next plays each step"));
-    action->setIcon(icon("play"));
-    connect(action, &QAction::triggered, this, [this, &lesson] { open(lesson.file); });
+    actions_.add("lessons", {{QStringLiteral("lesson%1").arg(number),
+                              QStringLiteral("&%1 %2").arg(number).arg(QString::fromUtf8(lesson.title)), "play", "",
+                              "Opens this lesson: short captions, and Next plays each step",
+                              [this, &lesson] { open(lesson.file); }}});
   }
-  lessons->addSeparator();
-  lessons->addActions({next_, back_, following_, close_});
+  actions_.add(
+      "lessons",
+      {{},
+       {"lessonNext", "&Next step", "stepForward", "PgDown",
+        "Plays the next step of the lesson; during a step, goes to its end; after the last step, opens the next lesson",
+        [this] { goOn(); },
+        When([this] { return player_.isOpen() && (!player_.isLast() || player_.plays() || neighbour(1) != nullptr); })},
+       {"lessonBack", "Step &back", "stepBack", "PgUp",
+        "Restores the end of the step before; at the first step, opens the lesson before", [this] { goBack(); },
+        When([this] { return player_.isOpen() && (player_.step() > 0 || neighbour(-1) != nullptr); })},
+       {"lessonFollowing", "Next l&esson", "", "", "Opens the lesson after the present one",
+        [this] { openFollowing(); }, When([this] { return neighbour(1) != nullptr; }), Looks([this] {
+          const LessonFile* next = neighbour(1);
+          return Look{.text = next != nullptr ? "Next lesson: " + QString::fromUtf8(next->title) : "Next lesson"};
+        })},
+       {"lessonClose", "&Close lesson", "close", "", "Closes the lesson; the object stays as it is",
+        [this] { player_.close(); }, When([this] { return player_.isOpen(); })}});
 }
 
 /// Returns the bundled lesson that is so many places after the present one; null if there is none.
@@ -165,17 +154,6 @@ void Lessons::open(const char* file) {
     return;
   }
   window_.openFile(QDir(folder).filePath(QLatin1String(file)));
-}
-
-void Lessons::adapt() {
-  const bool open = player_.isOpen();
-  const LessonFile* next = neighbour(1);
-  next_->setEnabled(open && (!player_.isLast() || player_.plays() || next != nullptr));
-  back_->setEnabled(open && (player_.step() > 0 || neighbour(-1) != nullptr));
-  following_->setText(next != nullptr ? QStringLiteral("Next lesson: %1").arg(QString::fromUtf8(next->title))
-                                      : QStringLiteral("Next lesson"));
-  following_->setEnabled(next != nullptr);
-  close_->setEnabled(open);
 }
 
 void Lessons::start() {
@@ -231,8 +209,8 @@ void Lessons::showStep() {
   }
   window_.showMenu().show(nameOf(&LessonStep::show));
   chooseDock(nameOf(&LessonStep::dock));
-  if (QAction* action = tool(nameOf(&LessonStep::tool))) {
-    action->trigger();
+  if (const QString tool = nameOf(&LessonStep::tool); toolNames().contains(tool)) {
+    actions_["tool" + tool.left(1).toUpper() + tool.mid(1)].trigger();
   }
 }
 
@@ -258,16 +236,6 @@ QDockWidget* Lessons::dock(const QString& name) const {
     return one->objectName() == name + QStringLiteral("Dock");
   });
   return name.isEmpty() || found == all.end() ? nullptr : *found;
-}
-
-QAction* Lessons::tool(const QString& name) const {
-  const QString wanted = QStringLiteral("tool") + name;
-  for (QAction* action : window_.findChildren<QAction*>()) {
-    if (!name.isEmpty() && action->objectName().compare(wanted, Qt::CaseInsensitive) == 0) {
-      return action;
-    }
-  }
-  return nullptr;
 }
 
 /// Names that the window does not know have no effect. Their author should hear of it.

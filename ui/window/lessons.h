@@ -7,12 +7,11 @@
 #include "panels/colouring.h"
 #include "panels/overlay.h"
 
-class QAction;
 class QDockWidget;
-class QMenu;
 
 namespace chainmail {
 
+class Actions;
 class LessonBar;
 class MainWindow;
 class Sessions;
@@ -34,10 +33,8 @@ class Lessons : public QObject {
   Q_OBJECT
 
  public:
-  Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions);
+  Lessons(MainWindow& window, Propagation& propagation, const Sessions& sessions, Actions& actions);
 
-  /// Adds the submenu of lessons.
-  void fill(QMenu& menu);
   /// Returns the bar. The window places and owns it.
   LessonBar& bar() { return *bar_; }
   LessonPlayer& player() { return player_; }
@@ -48,10 +45,9 @@ class Lessons : public QObject {
   const LessonFile* neighbour(int steps) const;
   void goOn();
   void goBack();
-  QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& help);
+  void addActions();
   void start();
   void leave();
-  void adapt();
   void showStep();
   void fitBefore();
   void fitAfter(bool playedOneByOne);
@@ -59,11 +55,10 @@ class Lessons : public QObject {
   QString nameOf(std::string LessonStep::*which) const;
   void chooseDock(const QString& name);
   QDockWidget* dock(const QString& name) const;
-  QAction* tool(const QString& name) const;
 
   MainWindow& window_;
   LessonPlayer player_;
-  QAction *next_, *back_, *following_, *close_;
+  Actions& actions_;
   LessonHandle handle_;
   bool opensAtEnd_ = false;  // true while a lesson is opened to show its last step
   LessonBar* bar_;

@@ -1,6 +1,5 @@
 #include "window/main_window.h"
 
-#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
@@ -18,11 +17,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/actions.h"
 #include "common/application.h"
 #include "common/as_path.h"
-#include "common/icons.h"
 #include "common/text.h"
-#include "docks/replay_dock.h"
+#include "common/theme.h"
 #include "document/edits.h"
 #include "files/text/text.h"
 #include "io/file_actions.h"
@@ -38,34 +37,29 @@
 #include "tools/filling.h"
 #include "tools/pin_tool.h"
 #include "window/bars.h"
-#include "window/camera_actions.h"
 #include "window/docks.h"
 #include "window/help_menu.h"
-#include "window/keys_page.h"
 #include "window/layout.h"
 #include "window/lecture_mode.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
-#include "window/menus.h"
-#include "window/panel_actions.h"
 #include "window/show_menu.h"
+#include "window/view_actions.h"
 #include "window/window_layout.h"
 
 namespace chainmail {
 namespace {
 
 constexpr QSize usualSize(1600, 900);  // at the first start
-const QString layoutKey = QStringLiteral("window");
+const QString layoutKey = QStringLiteral("window"), figuresKey = QStringLiteral("figures");
 constexpr int statusMilliseconds = 4000;
 constexpr std::size_t longestUrl = 200;                     // bytes, in a message
 constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move of the handle when the window closes
 
-/// Shows the name of an undo step in the text of the menu item and in its tool tip. The text of the tool bar button
-/// stays short, so that the tool bar keeps its width.
-void showStep(QAction& action, const QString& verb, const QString& step) {
-  action.setText(step.isEmpty() ? QStringLiteral("&%1").arg(verb) : QStringLiteral("&%1 %2").arg(verb, step));
-  action.setIconText(verb);
-  action.setToolTip(step.isEmpty() ? verb : QStringLiteral("%1: %2").arg(verb, step));
+/// Shows the name of an undo step in the text of the menu item. The text of the tool bar button stays short, so that
+/// the tool bar keeps its width.
+Look lookOf(const QString& verb, const QString& step) {
+  return {.text = "&" + verb + (step.isEmpty() ? "" : " " + step)};
 }
 
 }  // namespace
@@ -83,6 +77,12 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       measurement_(document_),
       measureTool_(document_, measurement_),
       selectTool_(document_),
+      actions_(new Actions(*this, {{"File", "&File"},
+                                   {"Edit", "&Edit"},
+                                   {"Object", "&Object"},
+                                   {"View", "&View"},
+                                   {"Docks", "&Docks"},
+                                   {"Help", "&Help"}})),
       sessions_(new Sessions(
           document_, jobs_,
           {[this] { return layoutOf(*this); }, [this](const std::string& layout) { applyLayout(*this, layout); },
@@ -91,31 +91,21 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
       files_(new FileActions(*this, document_, jobs_, *sessions_)),
       messages_(new MessageBar),
       area_(new PanelArea(document_, colouring_)),
-      cameraActions_(new CameraActions(this, document_, *area_)),
       pinLayers_(new PinLayers(document_, this)),
       pinBar_(new PinBar(document_, *pinLayers_)),
       filling_(new Filling(document_, jobs_)),
       help_(new HelpMenu(*this, document_)),
-      panelActions_(new PanelActions(*area_, document_, colouring_)),
       showMenu_(new ShowMenu(document_, this)),
-      toolActions_(new QActionGroup(this)),
-      lecture_(new LectureMode(*this, propagation_, *toolActions_)),
-      lessons_(new Lessons(*this, propagation_, *sessions_)),
+      lecture_(new LectureMode(*this, propagation_, *actions_)),
+      lessons_(new Lessons(*this, propagation_, *sessions_, *actions_)),
       colourBy_(new ColourSelector(colouring_)),
       colourRange_(new ColourRangeMenu(colouring_, this)),
       readout_(new ElementReadout(document_, measurement_, [this] { return area_->links().pointed(); })) {
   arrange();
   listen();
   listenToFiles();
-  makeTools();
-  makeUndo();
-  makeMenus();
-  makeDocks();
-  auto* help = menuBar()->addMenu(QStringLiteral("&Help"));
-  lessons_->fill(*help);
-  help_->fill(*help);
-  completeMenus(*menuBar());
-  showKeysInToolTips(*this);
+  addActions();
+  listenForActions();
   showTitle();
   restoreLayout();
   activate(dragTool_);
@@ -127,7 +117,8 @@ MainWindow::~MainWindow() {
     field->clearFocus();  // takes the last input while the document exists
   }
   sessions_->close();
-  hide();  // while the receivers of the docks' signals exist
+  hide();           // while the receivers of the docks' signals exist
+  delete actions_;  // they read the document and the panels
   // The panels use the document until they are deleted.
   delete takeCentralWidget();
 }
@@ -169,7 +160,7 @@ void MainWindow::listen() {
   connect(&regions_, &ValidRegions::changed, area_, &PanelArea::refresh);
   connect(area_, &PanelArea::overlayTitleChanged, this, [this] { colourBy_->showOverlay(area_->overlayTitle()); });
   connect(area_, &PanelArea::failed, messages_, &MessageBar::say);
-  connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(pinLayers_->foot()); });
+  connect(area_, &PanelArea::pinWanted, this, [this] { pinLayers_->pin(&pinLayers_->foot()); });
   connect(showMenu_, &ShowMenu::changed, area_, [this] { area_->setDrawOptions(showMenu_->drawOptions()); });
   connect(&document_, &Document::meshChanged, messages_, &MessageBar::clear);
   connect(&document_, &Document::meshChanged, this, &MainWindow::showTitle);
@@ -210,27 +201,6 @@ void MainWindow::listenToFiles() {
 
 // Tools.
 
-void MainWindow::makeTools() {
-  addTool(dragTool_, "drag", Qt::Key_D);
-  addTool(cutTool_, "cut", Qt::Key_K);
-  const QAction* pin = addTool(pinTool_, "pin", Qt::Key_P);
-  addTool(measureTool_, "measure", Qt::Key_M);
-  addTool(selectTool_, "select", Qt::Key_S);
-  toolActions_->actions().first()->setChecked(true);
-  connect(pinBar_, &PinBar::byHandChosen, pin, &QAction::trigger);
-}
-
-QAction* MainWindow::addTool(Tool& tool, const char* iconName, const QKeySequence& key) {
-  auto* action = toolActions_->addAction(icon(iconName), tool.name());
-  action->setObjectName(QStringLiteral("tool") + tool.name());
-  action->setCheckable(true);
-  action->setShortcut(key);
-  action->setToolTip(QStringLiteral("%1 (%2)").arg(tool.name(), key.toString()));
-  action->setStatusTip(tool.hint());
-  connect(action, &QAction::triggered, this, [this, &tool] { activate(tool); });
-  return action;
-}
-
 void MainWindow::activate(Tool& tool) {
   if (tool_ != nullptr) {
     tool_->cancel();
@@ -240,6 +210,8 @@ void MainWindow::activate(Tool& tool) {
   tool.setActive(true);
   area_->setTool(tool);
   readout_->setHint(tool.hint());
+  lecture_->nameTool(tool.name());
+  actions_->refresh();
 }
 
 void MainWindow::cancelCurrent() {
@@ -260,133 +232,135 @@ void MainWindow::cancelCurrent() {
   area_->refresh();
 }
 
-// Menus and the tool bar.
+// Actions, menus and the tool bar.
 
-/// Document::undo and Document::redo end an unfinished drag first.
-void MainWindow::makeUndo() {
-  const auto undoVerb = QStringLiteral("Undo"), redoVerb = QStringLiteral("Redo");
-  undo_ = addUndo(undoVerb, "undo", QKeySequence::Undo, QStringLiteral("Undoes the last change"));
-  redo_ = addUndo(redoVerb, "redo", QKeySequence::Redo, QStringLiteral("Repeats the change that was undone"));
-  const QUndoStack& stack = document_.undoStack();
-  connect(&stack, &QUndoStack::canUndoChanged, undo_, &QAction::setEnabled);
-  connect(&stack, &QUndoStack::canRedoChanged, redo_, &QAction::setEnabled);
-  connect(&stack, &QUndoStack::undoTextChanged, undo_,
-          [this, undoVerb](const QString& step) { showStep(*undo_, undoVerb, step); });
-  connect(&stack, &QUndoStack::redoTextChanged, redo_,
-          [this, redoVerb](const QString& step) { showStep(*redo_, redoVerb, step); });
-  connect(undo_, &QAction::triggered, &document_, &Document::undo);
-  connect(redo_, &QAction::triggered, &document_, &Document::redo);
-}
-
-QAction* MainWindow::addUndo(const QString& verb, const char* name, QKeySequence::StandardKey key, const QString& tip) {
-  auto* action = new QAction(this);
-  action->setObjectName(QLatin1String(name));
-  action->setIcon(icon(name));
-  action->setShortcut(key);
-  action->setStatusTip(tip);
-  action->setEnabled(false);
-  showStep(*action, verb, {});
-  return action;
-}
-
-void MainWindow::makeMenus() {
-  fillFileMenu(*menuBar()->addMenu(QStringLiteral("&File")));
-  editMenu_ = menuBar()->addMenu(QStringLiteral("&Edit"));
-  fillEditMenu(*editMenu_);
-  objectMenu_ = menuBar()->addMenu(QStringLiteral("&Object"));
-  fillObjectMenu(*objectMenu_);
-  viewMenu_ = menuBar()->addMenu(QStringLiteral("&View"));
-  fillViewMenu(*viewMenu_);
+/// Each menu has its actions in the order in which they are added here.
+void MainWindow::addActions() {
+  files_->fill(*actions_);
+  actions_->add("File", {{}});
+  addPictures();
+  addEdits();
+  addTools();
+  addObject();
+  addView();
   makeToolBar();
+  makeDocks();
+  actions_->add("File", {{},
+                         {"quit", "&Quit", "quit", QKeySequence::Quit,
+                          "Closes the window. Layout and unsaved work are kept and offered at the next start",
+                          [this] { close(); }}});
+  actions_->add("Edit",
+                {{"giveUp", "&Cancel", "giveUp", "Esc",
+                  "Cancels the current stroke, drag or job, or clears the brush or the selection; dismisses the "
+                  "message",
+                  [this] { cancelCurrent(); }}});
+  help_->fill(*actions_);
+  actions_->addMnemonics();
 }
 
-void MainWindow::fillFileMenu(QMenu& menu) {
-  files_->fill(menu);
-  menu.addSeparator();
+void MainWindow::addPictures() {
   auto* pictures = new PictureActions(*this, document_, *area_, jobs_);
-  pictures->fill(menu);
+  pictures->fill(*actions_);
   connect(pictures, &PictureActions::failed, messages_, &MessageBar::say);
   connect(pictures, &PictureActions::noted, this, &MainWindow::showStatus);
   connect(pictures, &PictureActions::saved, files_, &FileActions::saved);
-  afterFilm_ = menu.addSeparator();
-  auto* quit = menu.addAction(QStringLiteral("&Quit"), QKeySequence::Quit, this, &QWidget::close);
-  quit->setObjectName(QStringLiteral("quit"));
-  quit->setStatusTip(
-      QStringLiteral("Closes the window. Layout and unsaved work are kept and offered at the next start"));
 }
 
-void MainWindow::fillEditMenu(QMenu& menu) {
-  menu.addActions({undo_, redo_});
-  menu.addSeparator();
-  menu.addActions(toolActions_->actions());
-  auto* cancel = menu.addAction(QStringLiteral("&Cancel"), Qt::Key_Escape, this, &MainWindow::cancelCurrent);
-  cancel->setObjectName(QStringLiteral("giveUp"));
-  cancel->setStatusTip(
-      QStringLiteral("Cancels the current stroke, drag or job, or clears the brush or the selection; dismisses the "
-                     "message"));
+/// Document::undo and Document::redo end an unfinished drag first.
+void MainWindow::addEdits() {
+  const QUndoStack& stack = document_.undoStack();
+  actions_->add("Edit", {{"undo", "&Undo|Undo", "undo", QKeySequence::Undo, "Undoes the last change",
+                          [this] { document_.undo(); }, When([&stack] { return stack.canUndo(); }),
+                          Looks([&stack] { return lookOf("Undo", stack.undoText()); })},
+                         {"redo", "&Redo|Redo", "redo", QKeySequence::Redo, "Repeats the change that was undone",
+                          [this] { document_.redo(); }, When([&stack] { return stack.canRedo(); }),
+                          Looks([&stack] { return lookOf("Redo", stack.redoText()); })},
+                         {}});
 }
 
-void MainWindow::fillObjectMenu(QMenu& menu) {
-  resetObject_ = menu.addAction(QStringLiteral("Reset &object"), this, [this] { edits::resetObject(document_); });
-  resetObject_->setObjectName(QStringLiteral("resetObject"));
-  resetObject_->setShortcut(Qt::CTRL | Qt::Key_Backspace);  // R alone belongs to the brush of the Drag tool
-  resetObject_->setStatusTip(
-      QStringLiteral("Moves all elements to their rest positions; cuts, pins and softness stay"));
-  auto* softness = menu.addAction(QStringLiteral("Reset &softness"), this, [this] { edits::resetSoftness(document_); });
-  softness->setObjectName(QStringLiteral("resetStiffness"));
-  softness->setStatusTip(QStringLiteral(
-      "Sets compression, stretch and shear of all links to their defaults, including links with values of their own"));
-  unpinAll_ = menu.addAction(QStringLiteral("&Unpin all"), this,
-                             [this] { edits::setPinned(document_, document_.pins(), false); });
-  unpinAll_->setObjectName(QStringLiteral("unpinAll"));
-  unpinAll_->setStatusTip(QStringLiteral("Lets all pinned elements move again"));
-  menu.addMenu(&pinLayers_->menu());
-  files_->repair().fill(menu);
-  filling_->fill(menu);
-  const auto adapt = [this] { unpinAll_->setEnabled(!document_.pins().empty()); };
-  connect(&document_, &Document::pinsChanged, unpinAll_, adapt);
-  connect(&document_, &Document::meshChanged, unpinAll_, adapt);
-  adapt();
+void MainWindow::addTools() {
+  struct ToolRow {
+    Tool* tool;
+    const char *icon, *key;
+  };
+  std::vector<ActionRow> rows;
+  for (const auto& [tool, icon, key] :
+       {ToolRow{&dragTool_, "drag", "D"}, ToolRow{&cutTool_, "cut", "K"}, ToolRow{&pinTool_, "pin", "P"},
+        ToolRow{&measureTool_, "measure", "M"}, ToolRow{&selectTool_, "select", "S"}}) {
+    rows.emplace_back(
+        "tool" + tool->name(), tool->name(), icon, key, tool->hint(), [this, one = tool] { activate(*one); },
+        IsOn([this, one = tool] { return tool_ == one; }));
+  }
+  actions_->add("Edit", rows);
+  connect(pinBar_, &PinBar::byHandChosen, &(*actions_)["toolPin"], &QAction::trigger);
 }
 
-void MainWindow::fillViewMenu(QMenu& menu) {
-  fitView_ = menu.addAction(QStringLiteral("Fit &view"), area_, &PanelArea::fit);
-  fitView_->setObjectName(QStringLiteral("fitView"));
-  fitView_->setShortcut(Qt::Key_F);
-  fitView_->setStatusTip(QStringLiteral("Shows the whole object as it is now in every view, from the current side"));
-  cameraActions_->fillMoves(menu);
-  auto* fitRest = menu.actions().constLast()->menu()->addAction(icon("fit"), QStringLiteral("Fit rest shape"), area_,
-                                                                &PanelArea::fitRest);
-  fitRest->setObjectName(QStringLiteral("fitRest"));
-  fitRest->setShortcut(Qt::Key_Home);
-  fitRest->setStatusTip(QStringLiteral("Shows the whole rest shape in every view, from the initial side"));
-  panelActions_->fill(menu);
-  regions_.fill(menu);
-  cameraActions_->fillSides(menu);
-  showMenu_->fill(menu);
-  menu.addMenu(QStringLiteral("&Colour by"))->addActions(colourBy_->menuActions());
-  menu.addMenu(colourRange_);
-  addFigures(menu);
-  menu.addSeparator();
-  menu.addAction(&lecture_->action());
-  auto* reset = menu.addAction(QStringLiteral("Reset la&yout"), this, &MainWindow::resetLayout);
-  reset->setObjectName(QStringLiteral("resetLayout"));
-  reset->setStatusTip(QStringLiteral("Shows, hides and places the docks and the tool bar as at the first start"));
-  addThemes(menu);
+void MainWindow::addObject() {
+  actions_->add(
+      "Object",
+      {// R alone belongs to the brush of the Drag tool.
+       {"resetObject", "Reset &object", "resetObject", "Ctrl+Backspace",
+        "Moves all elements to their rest positions; cuts, pins and softness stay",
+        [this] { edits::resetObject(document_); }},
+       {"resetStiffness", "Reset &softness", "resetStiffness", "",
+        "Sets compression, stretch and shear of all links to their defaults, including links with values of their own",
+        [this] { edits::resetSoftness(document_); }},
+       {"unpinAll", "&Unpin all", "unpin", "", "Lets all pinned elements move again",
+        [this] { edits::setPinned(document_, document_.pins(), false); },
+        When([this] { return !document_.pins().empty(); })}});
+  pinLayers_->fill(*actions_);
+  files_->repair().fill(*actions_);
+  filling_->fill(*actions_);
 }
 
-/// Adds the switch of the figures below the panels, which is remembered.
-void MainWindow::addFigures(QMenu& menu) {
-  auto* figures = menu.addAction(QStringLiteral("Fi&gures of the last pass"));
-  figures->setObjectName(QStringLiteral("showFigures"));
-  figures->setCheckable(true);
-  figures->setShortcut(Qt::Key_I);
-  figures->setStatusTip(QStringLiteral("Shows counts, time and violation of the last pass below each panel"));
-  connect(figures, &QAction::toggled, this, [this](bool on) {
-    area_->setFigures(on);
-    QSettings().setValue(QStringLiteral("figures"), on);
-  });
-  figures->setChecked(QSettings().value(QStringLiteral("figures")).toBool());
+void MainWindow::addView() {
+  actions_->add(
+      "View", {{"fitView", "Fit &view", "fit", "F",
+                "Shows the whole object as it is now in every view, from the current side", [this] { area_->fit(); }}});
+  addCameraMoves(*actions_, *area_);
+  area_->links().fill(*actions_, colouring_);
+  addPanelActions(*actions_, document_, *area_, colouring_);
+  regions_.fill(*actions_);
+  addSides(*actions_, document_, *area_);
+  showMenu_->fill(*actions_);
+  colourBy_->fill(*actions_);
+  colourRange_->fill(*actions_);
+  area_->setFigures(QSettings().value(figuresKey).toBool());
+  actions_->add("View", {{"showFigures", "Fi&gures of the last pass", "", "I",
+                          "Shows counts, time and violation of the last pass below each panel",
+                          [this](bool on) {
+                            area_->setFigures(on);
+                            QSettings().setValue(figuresKey, on);
+                          },
+                          IsOn([this] { return area_->figures(); })},
+                         {}});
+  lecture_->fill();
+  actions_->add(
+      "View", {{"resetLayout", "Reset la&yout", "", "",
+                "Shows, hides and places the docks and the tool bar as at the first start", [this] { resetLayout(); }},
+               {"theme", "&Theme", "theme"}});
+  const auto theme = [](const char* id, const char* name, colours::Ground ground, const char* tip) {
+    return ActionRow(
+        id, name, "", "", tip,
+        [ground] {
+          remember(ground);
+          applyGround(ground);
+        },
+        IsOn([ground] { return rememberedGround() == ground; }));
+  };
+  actions_->add("theme", {theme("themeDark", "&Dark", colours::Ground::dark, "Light text on a dark background"),
+                          theme("themeLight", "&Light", colours::Ground::light, "Dark text on a light background")});
+}
+
+/// Evaluates the actions again after what decides on them has changed.
+void MainWindow::listenForActions() {
+  for (const auto signal : {&Document::meshChanged, &Document::panelsChanged, &Document::pinsChanged}) {
+    connect(&document_, signal, actions_, &Actions::refresh);
+  }
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::arranged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::ghostsChanged, actions_, &Actions::refresh);
+  connect(&colouring_, &Colouring::modeChanged, actions_, &Actions::refresh);
 }
 
 /// Shows names beside the icons of the tool bar if there is room for all of them.
@@ -414,30 +388,27 @@ void MainWindow::makeToolBar() {
   connect(&colouring_, &Colouring::modeChanged, this, &MainWindow::adaptToolBar, Qt::QueuedConnection);
   bar->setObjectName(QStringLiteral("mainToolBar"));
   bar->setMovable(false);
-  files_->fill(*bar);
+  bar->addActions(actions_->all({"openFile", "saveSession"}));
   bar->addSeparator();
-  bar->addActions({undo_, redo_});
+  bar->addActions(actions_->all({"undo", "redo"}));
   bar->addSeparator();
-  bar->addActions({resetObject_, unpinAll_, fitView_});
+  bar->addActions(actions_->all({"resetObject", "unpinAll", "fitView"}));
   bar->addSeparator();
   // Before the switches of the links, so that it is the last to be hidden in a narrow window.
   bar->addWidget(new QLabel(QStringLiteral(" Colour by ")));
   bar->addWidget(colourBy_);
-  panelActions_->fill(*bar);
+  addCompared(*bar, *actions_, *area_, colouring_);
   bar->addSeparator();
   bar->addWidget(new QLabel(QStringLiteral(" Linked ")));
-  bar->addActions(area_->links().actions());
+  bar->addActions(actions_->all({"linkCameras", "linkColours", "linkMarks"}));
 }
 
 // Docks and the layout.
 
 void MainWindow::makeDocks() {
-  docks_ = std::make_unique<Docks>(DockParts{*this, document_, jobs_, *files_, *messages_, *area_, *pinLayers_,
-                                             propagation_, propagationOverlay_, *toolActions_, cutTool_, selectTool_,
-                                             *editMenu_, *objectMenu_, *viewMenu_, showMenu_->menu(),
+  docks_ = std::make_unique<Docks>(DockParts{*this, document_, jobs_, *files_, *messages_, *area_, propagation_,
+                                             propagationOverlay_, *actions_, cutTool_, selectTool_,
                                              [this](const QString& sentence) { showStatus(sentence); }});
-  menuBar()->actions().first()->menu()->insertAction(afterFilm_, &docks_->get<ReplayDock>().exportFilm());
-  docks_->fill(*menuBar()->addMenu(QStringLiteral("&Docks")));
 }
 
 Layout MainWindow::arrangement() const { return lecture_->isOn() ? lecture_->before() : docks_->layout(); }

@@ -16,13 +16,11 @@
 #include "tools/valid_regions.h"
 #include "window/layout.h"
 
-class QActionGroup;
-class QMenu;
 class QToolBar;
 
 namespace chainmail {
 
-class CameraActions;
+class Actions;
 class ColourRangeMenu;
 class ColourSelector;
 class Docks;
@@ -34,7 +32,6 @@ class LectureMode;
 class Lessons;
 class MessageBar;
 class Panel;
-class PanelActions;
 class PinBar;
 class PinLayers;
 class Sessions;
@@ -82,16 +79,13 @@ class MainWindow : public QMainWindow {
   void arrange();
   void listen();
   void listenToFiles();
-  void makeTools();
-  QAction* addTool(Tool& tool, const char* icon, const QKeySequence& key);
-  void makeUndo();
-  QAction* addUndo(const QString& verb, const char* name, QKeySequence::StandardKey key, const QString& tip);
-  void makeMenus();
-  void fillFileMenu(QMenu& menu);
-  void fillEditMenu(QMenu& menu);
-  void fillObjectMenu(QMenu& menu);
-  void fillViewMenu(QMenu& menu);
-  void addFigures(QMenu& menu);
+  void addActions();
+  void addPictures();
+  void addEdits();
+  void addTools();
+  void addObject();
+  void addView();
+  void listenForActions();
   void makeToolBar();
   void adaptToolBar();
   void makeDocks();
@@ -120,30 +114,24 @@ class MainWindow : public QMainWindow {
   SelectTool selectTool_;
   Tool* tool_ = nullptr;
   Jobs jobs_;
+  Actions* actions_;
   Sessions* sessions_;
   FileActions* files_;
   MessageBar* messages_;
   PanelArea* area_;
-  CameraActions* cameraActions_;
   PinLayers* pinLayers_;
   PinBar* pinBar_;
   Filling* filling_;
   HelpMenu* help_;
-  PanelActions* panelActions_;
   ShowMenu* showMenu_;
-  QActionGroup* toolActions_;
   LectureMode* lecture_;
   Lessons* lessons_;
-  QAction *undo_ = nullptr, *redo_ = nullptr;
-  QAction *resetObject_ = nullptr, *unpinAll_ = nullptr, *fitView_ = nullptr;
   ColourSelector* colourBy_;
   ColourRangeMenu* colourRange_;
   QToolBar* bar_ = nullptr;
   int widthWithNames_ = 0;  // of the tool bar (pixels)
   bool closesWhenSaved_ = false;
   ElementReadout* readout_;
-  QMenu *editMenu_ = nullptr, *objectMenu_ = nullptr, *viewMenu_ = nullptr;
-  QAction* afterFilm_ = nullptr;  // of the File menu
   std::unique_ptr<Docks> docks_;
 };
 

@@ -1,11 +1,10 @@
 #include "window/show_menu.h"
 
-#include <QActionGroup>
 #include <QSettings>
 #include <algorithm>
 #include <array>
 
-#include "common/icons.h"
+#include "common/actions.h"
 #include "drawing/object_drawing.h"
 
 namespace chainmail {
@@ -15,24 +14,16 @@ struct Choice {
   const char* name;
   const char* action;
   const char* text;
-  Qt::Key key;
+  const char* key;
   const char* tip;
-  DrawOptions options;
+  bool faces, links;
 };
 constexpr std::array choices{
-    Choice{"links", "showLinks", "&Links", Qt::Key_1, "All links of the object, without faces", {false, true}},
-    Choice{"surface",
-           "showSurface",
-           "&Surface",
-           Qt::Key_2,
-           "Only the faces (of a volume: its outside), and links that are coloured by a value",
-           {true, false}},
-    Choice{"both",
-           "showSurfaceAndLinks",
-           "Surface &and links",
-           Qt::Key_3,
-           "The faces (of a volume: its outside) and the links on them",
-           {true, true}}};
+    Choice{"links", "showLinks", "&Links", "1", "All links of the object, without faces", false, true},
+    Choice{"surface", "showSurface", "&Surface", "2",
+           "Only the faces (of a volume: its outside), and links that are coloured by a value", true, false},
+    Choice{"both", "showSurfaceAndLinks", "Surface &and links", "3",
+           "The faces (of a volume: its outside) and the links on them", true, true}};
 
 bool hasFaces(const Mesh& mesh) { return !mesh.triangles.empty() || mesh.has_cells(); }
 
@@ -43,25 +34,25 @@ QString settingsKey(const Mesh& mesh) {
 }  // namespace
 
 ShowMenu::ShowMenu(const Document& document, QObject* parent) : QObject(parent), document_(document) {
-  connect(&document, &Document::meshChanged, this, &ShowMenu::adapt);
+  connect(&document, &Document::meshChanged, this, &ShowMenu::changed);
 }
 
-void ShowMenu::fill(QMenu& menu) {
-  menu_ = menu.addMenu(icon("mesh"), QStringLiteral("S&how"));
-  menu_->setToolTipsVisible(true);
-  auto* group = new QActionGroup(this);
+void ShowMenu::fill(Actions& actions) {
+  std::vector<ActionRow> rows;
   for (const Choice& one : choices) {
-    auto* action = group->addAction(QString::fromUtf8(one.text));
-    action->setObjectName(QLatin1String(one.action));
-    action->setCheckable(true);
-    action->setShortcut(one.key);
-    action->setStatusTip(QString::fromUtf8(one.tip));
-    const QString name = QLatin1String(one.name);
-    connect(action, &QAction::triggered, this, [this, name] { choose(name); });
-    menu_->addAction(action);
-    actions_[name] = action;
+    const QString name = one.name;
+    const bool isLinks = !one.faces;
+    rows.emplace_back(
+        one.action, one.text, "", one.key, one.tip, [this, name] { choose(name); },
+        IsOn([this, name, isLinks] { return hasFaces(*document_.mesh()) ? chosen() == name : isLinks; }),
+        When([this, isLinks] {
+          return isLinks || hasFaces(*document_.mesh()) ? QString() : "Not available: this object has no faces";
+        }));
   }
-  adapt();
+  actions.add("View", {{"show", "S&how", "mesh"}});
+  actions.add("show", rows);
+  connect(this, &ShowMenu::changed, &actions, &Actions::refresh);
+  emit changed();
 }
 
 QStringList ShowMenu::names() {
@@ -79,27 +70,27 @@ QString ShowMenu::chosen() const {
   }
   const QString otherwise = ObjectDrawing::showsPicture(mesh) ? QStringLiteral("surface") : QStringLiteral("both");
   const QString remembered = QSettings().value(settingsKey(mesh), otherwise).toString();
-  return actions_.count(remembered) != 0 ? remembered : otherwise;
+  return names().contains(remembered) ? remembered : otherwise;
 }
 
 void ShowMenu::choose(const QString& name) {
-  if (actions_.count(name) != 0) {
+  if (names().contains(name)) {
     QSettings().setValue(settingsKey(*document_.mesh()), name);
     shown_.erase(settingsKey(*document_.mesh()));
-    adapt();
+    emit changed();
   }
 }
 
 void ShowMenu::show(const QString& name) {
-  if (actions_.count(name) != 0) {
+  if (names().contains(name)) {
     shown_[settingsKey(*document_.mesh())] = name;
-    adapt();
+    emit changed();
   }
 }
 
 void ShowMenu::forgetShown() {
   shown_.clear();
-  adapt();
+  emit changed();
 }
 
 DrawOptions ShowMenu::drawOptions() const {
@@ -107,18 +98,8 @@ DrawOptions ShowMenu::drawOptions() const {
     return {};
   }
   const QString name = chosen();
-  return std::ranges::find_if(choices, [&](const Choice& one) { return name == QLatin1String(one.name); })->options;
-}
-
-void ShowMenu::adapt() {
-  const bool faces = hasFaces(*document_.mesh());
-  for (const auto& [name, action] : actions_) {
-    const bool possible = faces || name == QLatin1String("links");
-    action->setEnabled(possible);
-    action->setToolTip(possible ? action->statusTip() : QStringLiteral("Not available: this object has no faces"));
-  }
-  actions_.at(faces ? chosen() : QStringLiteral("links"))->setChecked(true);
-  emit changed();
+  const Choice& one = *std::ranges::find_if(choices, [&](const Choice& it) { return name == QLatin1String(it.name); });
+  return {one.faces, one.links};
 }
 
 }  // namespace chainmail

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QMenu>
 #include <QObject>
 #include <map>
 
@@ -8,6 +7,8 @@
 #include "drawing/object_drawing.h"
 
 namespace chainmail {
+
+class Actions;
 
 /// The View menu's choice of what all panels show of the object: links, surface, or both, and how surfaces in space are
 /// shaded. The choices are stored. Sheets
@@ -17,13 +18,11 @@ class ShowMenu : public QObject {
 
  public:
   ShowMenu(const Document& document, QObject* parent);
-  void fill(QMenu& menu);
+  void fill(Actions& actions);
 
   /// Returns the names of all choices.
   static QStringList names();
   DrawOptions drawOptions() const;
-  /// Returns the submenu, which exists after fill().
-  QMenu& menu() const { return *menu_; }
   /// Returns the name of the choice for this kind of object, as sessions store it.
   QString chosen() const;
   /// Chooses by name, as the user does. Ignores unknown names.
@@ -37,12 +36,8 @@ class ShowMenu : public QObject {
   void changed();
 
  private:
-  void adapt();
-
   const Document& document_;
-  QMenu* menu_ = nullptr;
-  std::map<QString, QAction*> actions_;  // by name
-  std::map<QString, QString> shown_;     // not stored; by the key of the stored choice
+  std::map<QString, QString> shown_;  // not stored; by the key of the stored choice
 };
 
 }  // namespace chainmail

@@ -1,0 +1,167 @@
+#include "common/actions.h"
+
+#include <QActionGroup>
+#include <QMenuBar>
+#include <QScopedValueRollback>
+#include <QSet>
+
+#include "common/icons.h"
+
+namespace chainmail {
+namespace {
+
+QChar mnemonicOf(const QString& text) {
+  const qsizetype at = text.indexOf(QLatin1Char('&'));
+  return at < 0 || at + 1 >= text.size() ? QChar() : text[at + 1].toLower();
+}
+
+/// Returns the index of a letter that no other item uses, if possible the first letter of a word; -1 if there is none.
+qsizetype freeLetter(const QString& text, const QSet<QChar>& taken) {
+  for (const bool first : {true, false}) {
+    for (qsizetype i = 0; i < text.size(); ++i) {
+      const bool begins = i == 0 || text[i - 1].isSpace();
+      if (text[i].isLetterOrNumber() && (begins || !first) && !taken.contains(text[i].toLower())) {
+        return i;
+      }
+    }
+  }
+  return -1;
+}
+
+void addMnemonicsTo(const QList<QAction*>& actions) {
+  QSet<QChar> taken;
+  QList<QAction*> without;
+  for (QAction* action : actions) {
+    const QChar own = mnemonicOf(action->text());
+    if (!own.isNull() && !taken.contains(own)) {
+      taken += own;
+    } else if (!action->isSeparator()) {
+      without << action;
+    }
+  }
+  for (QAction* action : without) {
+    QString text = action->text().remove(QLatin1Char('&'));
+    if (const qsizetype at = freeLetter(text, taken); at >= 0) {
+      taken += text[at].toLower();
+      action->setText(text.insert(at, QLatin1Char('&')));
+    }
+  }
+  for (const QAction* action : actions) {
+    if (action->menu() != nullptr) {
+      addMnemonicsTo(action->menu()->actions());
+    }
+  }
+}
+
+}  // namespace
+
+Keys::Keys(const QString& names) : QList(QKeySequence::listFromString(names)) { removeAll(QKeySequence()); }
+
+Actions::Actions(QMainWindow& window, const std::vector<ActionRow>& menus) : QObject(&window), window_(window) {
+  add({}, menus);
+  for (const auto& [id, menu] : menus_) {
+    connect(menu, &QMenu::aboutToShow, this, &Actions::refresh);
+  }
+}
+
+void Actions::add(const QString& place, const std::vector<ActionRow>& rows) {
+  QWidget* parent = place.isEmpty() ? static_cast<QWidget*>(window_.menuBar()) : &menu(place);
+  QActionGroup* choices = nullptr;
+  for (const ActionRow& row : rows) {
+    if (!row.id.isEmpty() && !row.act.run) {
+      QMenu* menu = menus_[row.id] = new QMenu(row.text, parent);
+      menu->setObjectName(row.id);
+      menu->setIcon(icon(row.icon));
+      parent->addAction(menu->menuAction());
+      continue;
+    }
+    auto* action = new QAction(this);
+    if (row.id.isEmpty()) {
+      action->setSeparator(true);
+      parent->addAction(action);
+      continue;
+    }
+    add(place, row, action);
+    if (row.isOn.now && !row.act.takesState) {
+      choices = choices == nullptr ? new QActionGroup(this) : choices;
+      choices->addAction(action);
+    }
+  }
+}
+
+void Actions::add(const QString& place, const ActionRow& row, QAction* action) {
+  action->setObjectName(row.id);
+  action->setText(row.text.section(QLatin1Char('|'), 0, 0));
+  if (row.text.contains(QLatin1Char('|'))) {
+    action->setIconText(row.text.section(QLatin1Char('|'), 1));
+  }
+  action->setShortcuts(row.keys);
+  action->setIcon(icon(row.icon));
+  action->setCheckable(action->isCheckable() || row.isOn.now);
+  if (row.act.run) {
+    const auto signal = row.isOn.now && row.act.takesState ? &QAction::toggled : &QAction::triggered;
+    connect(action, signal, this, [this, act = row.act.run](bool on) {
+      if (!refreshes_) {
+        act(on);
+      }
+    });
+    connect(action, signal, this, &Actions::refresh);
+  }
+  QMenu& in = menu(place);
+  in.addAction(action);
+  in.setToolTipsVisible(in.toolTipsVisible() || (row.when.now && qobject_cast<QMenu*>(in.parent()) != nullptr));
+  window_.addAction(action);
+  actions_[row.id] = action;
+  made_.push_back({row, action});
+  refreshFrom(made_.size() - 1);
+}
+
+QList<QAction*> Actions::all(const QStringList& ids) const {
+  QList<QAction*> all;
+  for (const QString& id : ids) {
+    all << &(*this)[id];
+  }
+  return all;
+}
+
+void Actions::addMnemonics() const { addMnemonicsTo(window_.menuBar()->actions()); }
+
+/// Setting the state of a switch does not act again.
+void Actions::refreshFrom(std::size_t first) {
+  if (refreshes_) {
+    return;
+  }
+  const QScopedValueRollback refreshes(refreshes_, true);
+  for (std::size_t i = first; i < made_.size(); ++i) {
+    adapt(made_[i]);
+  }
+}
+
+/// The tips of an action that is not available say why.
+void Actions::adapt(Made& one) {
+  const ActionRow& row = one.row;
+  const Available available = row.when.now ? row.when.now() : Available(one.action->isEnabled());
+  const Look look = row.looks.now ? row.looks.now() : Look{.visible = one.action->isVisible()};
+  if (!look.text.isEmpty() && look.text != one.text) {  // else it keeps its mnemonic
+    one.text = look.text;
+    one.action->setText(look.text);
+  }
+  if (*look.icon != 0 && QLatin1String(look.icon) != one.icon) {
+    one.icon = QLatin1String(look.icon);
+    one.action->setIcon(icon(look.icon));
+  }
+  one.action->setVisible(look.visible);
+  one.action->setEnabled(available.is);
+  if (row.isOn.now) {
+    one.action->setChecked(row.isOn.now());
+  }
+  const QString tip = !available.why.isEmpty() ? available.why : look.tip.isEmpty() ? row.tip : look.tip;
+  const QString names = one.action->shortcut().toString(QKeySequence::NativeText);
+  one.action->setStatusTip(tip);
+  one.action->setToolTip(plainText(*one.action) + (names.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(names)) +
+                         QLatin1Char('\n') + tip);
+}
+
+QString plainText(const QAction& action) { return action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…")); }
+
+}  // namespace chainmail
