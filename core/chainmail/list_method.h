@@ -10,6 +10,15 @@
 
 namespace chainmail {
 
+/// Lists the steps of a pass of one element in which every element moves, unless the record has them.
+template <class Propagation>
+[[gnu::noinline]] void predict(BodyLinks& body, Propagation& propagation, PassRecord& record, ElementId element,
+                               const Progress& progress) {
+  if (const std::span handle(&element, 1); !record.knows(body, handle)) {
+    propagation.predict(body, record, handle, progress);
+  }
+}
+
 /// An algorithm that processes candidates one after another. `Propagation` answers a move as propagate() does.
 template <class Propagation, class Scalar, int Dimension>
 class ListMethod final : public Method {
@@ -33,15 +42,6 @@ class ListMethod final : public Method {
   Propagation propagation_;
   PassRecord record_;
 };
-
-/// Lists the steps of a pass of one element in which every element moves, unless the record has them.
-template <class Propagation>
-[[gnu::noinline]] void predict(BodyLinks& body, Propagation& propagation, PassRecord& record, ElementId element,
-                               const Progress& progress) {
-  if (const std::span handle(&element, 1); !record.knows(body, handle)) {
-    propagation.predict(body, record, handle, progress);
-  }
-}
 
 /// Stands in for a record while it lists the steps of a pass in which every element moves.
 class PredictedPass {

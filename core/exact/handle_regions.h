@@ -173,7 +173,7 @@ class HandleRegions {
   using Search = typename Partition::Search;
 
   /// Divides the elements into partitions, if that can pay.
-  [[gnu::noinline]] void divide(const BodyLinks& body, int threads) {
+  [[gnu::cold]] void divide(const BodyLinks& body, int threads) {
     const std::size_t elements = body.element_count();
     bool divides = false;
     if constexpr (Schedule::has_rounds) {
@@ -184,9 +184,9 @@ class HandleRegions {
     search_.stripe = divides ? std::bit_width(std::max<std::size_t>(1, elements / stripes)) - 1 : 31;
     if (partitions_.size() != search_.partition_count) {
       partitions_ = std::vector<Partition>(search_.partition_count);
-    }
-    for (std::size_t i = 0; i < partitions_.size(); ++i) {
-      partitions_[i].set_number(i, partitions_.size());
+      for (std::size_t i = 0; i < partitions_.size(); ++i) {
+        partitions_[i].set_number(i, partitions_.size());
+      }
     }
   }
 
