@@ -24,7 +24,7 @@ ElementBlocks all_blocks(const Mesh& mesh) {
 
 /// Moves a run of elements to rest.
 template <class View>
-void put_to_rest(const View& body, ElementId first, ElementId end) {
+[[gnu::noinline]] void put_to_rest(const View& body, ElementId first, ElementId end) {
   for (ElementId e = first; e < end; ++e) {
     for (int k = 0; k < View::Dimension; ++k) {
       body.set_position(e, k, body.mesh->rest[std::size_t{e} * View::Dimension + k]);
@@ -70,7 +70,8 @@ constexpr auto displacements_in_view = []<class View>(const View& view) {
 
 /// Restores a run of elements from the coordinates of a block.
 template <class View>
-void restore_block(const View& body, const std::vector<double>& held, ElementId first, ElementId end, bool from_rest) {
+[[gnu::noinline]] void restore_block(const View& body, const std::vector<double>& held, ElementId first, ElementId end,
+                                     bool from_rest) {
   auto one = held.begin();
   for (ElementId e = first; e < end; ++e) {
     for (int k = 0; k < View::Dimension; ++k, ++one) {

@@ -45,6 +45,7 @@ struct Revisions {
   bool operator==(const Revisions&) const = default;
 };
 
+class BodyLinks;
 template <class Scalar, int Dimension>
 class BodyView;
 
@@ -160,6 +161,7 @@ class Body {
   decltype(auto) with_view(Use use);
 
  private:
+  friend class BodyLinks;
   template <class Scalar, int Dimension>
   friend class BodyView;
 

@@ -32,73 +32,26 @@ double candidate_violation(const Mesh& mesh, ElementId element, const Scalar* x,
   return std::sqrt(outside) / (length > 0 ? std::sqrt(length) : mesh.mean_link_length > 0 ? mesh.mean_link_length : 1);
 }
 
-/// Typed access to a body for the loops of a pass, for one scalar and one space dimension. It is a handful of pointers:
-/// made for a pass, not kept. All coordinates are those of the body's axes.
-template <class Scalar_, int Dimension_>
-class BodyView {
+/// The links of a body, and what a pass has updated: access for loops that read no position. It is a handful of
+/// pointers: made for a pass, not kept.
+class BodyLinks {
  private:
-  using RegionId = typename RegionTable<Scalar_, Dimension_>::Id;
-
   struct Row {
     const std::uint32_t* offset;  // of the ids of neighbours, to be added to the base
     std::uint32_t base, size;
     const std::uint16_t* shape;  // the ids of the regions; without it they are consecutive
-    RegionId first;
+    std::uint32_t first;
   };
 
  public:
-  using Scalar = Scalar_;
-  static constexpr int Dimension = Dimension_;
-
-  explicit BodyView(Body& body)
-      : mesh(body.stored_mesh_.get()),
-        cuts(body.cuts_),
-        positions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).positions),
-        regions(std::get<Body::Typed<Scalar, Dimension>>(body.typed_).regions),
-        updates(body.updates_),
-        pin_count(static_cast<ElementId>(body.pins_.size())),
-        from_rest(body.stores_displacements_),
-        pass(body.pass_),
-        body_(&body) {}
-
   const Revisions& revisions() const { return body_->revisions(); }
-
-  /// The origin of the stored position of an element, on axis k (mesh units).
-  double origin(ElementId element, int k) const {
-    return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
-  }
-  double absolute(ElementId element, int k) const {
-    const double held = double(positions[element][k]);
-    return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
-  }
-  void set_position(ElementId element, int k, double absolute_position) const {
-    positions[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
-  }
+  std::size_t element_count() const { return updates.size(); }
 
   /// Begins a pass: only pinned elements count as updated.
   void begin_pass() { pass = body_->begin_pass(); }
   bool updated(ElementId element) const { return updates[element] >= pass; }
   void mark_updated(ElementId element) const { updates[element] = pass; }
   bool pinned(ElementId element) const { return updates[element] == Body::always; }
-
-  /// Returns the position of an element clamped into its valid region about its sponsor.
-  Position<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
-    const Scalar* about = positions[sponsor].at;
-    return chainmail::clamped(positions[element], about, about, regions.at(region_id));
-  }
-
-  /// Clamps the candidate's element into its valid region about its sponsor. Returns true if it moved.
-  bool clamp(ElementId element, ElementId sponsor, EntryId entry) const {
-    const auto position = clamped(element, sponsor, regions.id(entry));
-    const bool moved = position != positions[element];
-    positions[element] = position;
-    return moved;
-  }
-
-  /// Returns the distance of the candidate's element from its valid region about its sponsor, in rest lengths.
-  double violation(ElementId element, ElementId sponsor, EntryId entry) const {
-    return candidate_violation(*mesh, element, positions[element].at, sponsor, positions[sponsor].at, regions[entry]);
-  }
 
   /// Calls visit(neighbour, entry) for each neighbour whose link is not cut, in the file's order.
   template <class Visit>
@@ -133,7 +86,7 @@ class BodyView {
     [[gnu::always_inline]] bool is_cut(std::uint32_t i) const { return ids_ != nullptr && cuts_->is_cut(ids_[i]); }
 
    private:
-    friend class BodyView;
+    friend class BodyLinks;
     Links(const Row& row, const LinkId* ids, const Cuts& cuts) : row_(row), ids_(ids), cuts_(&cuts) {}
 
     Row row_;
@@ -144,31 +97,93 @@ class BodyView {
     const LinkId* ids = cuts.touches(element) ? mesh->entry_link.data() + mesh->first_entry[element] : nullptr;
     return {row_of(element), ids, cuts};
   }
+  /// The id of the region of a link.
+  std::uint32_t region_id(EntryId entry) const { return has_shapes ? mesh->entry_shape[entry] : entry; }
 
   const Mesh* mesh;
   const Cuts& cuts;
-  std::span<Position<Scalar, Dimension>> positions;
-  const RegionTable<Scalar, Dimension>& regions;
   std::span<std::uint32_t> updates;  // the last pass in which an element counted as updated
   ElementId pin_count;
-  bool from_rest;  // displacements from rest are stored, not positions
   std::uint32_t pass;
+  bool has_shapes;  // the id of a region is the number of the rest vector of its link
+
+ protected:
+  BodyLinks(Body& body, bool by_shape)
+      : mesh(body.stored_mesh_.get()),
+        cuts(body.cuts_),
+        updates(body.updates_),
+        pin_count(static_cast<ElementId>(body.pins_.size())),
+        pass(body.pass_),
+        has_shapes(by_shape),
+        body_(&body) {}
 
  private:
   [[gnu::always_inline]] Row row_of(ElementId element) const {
     const RowKinds& kinds = mesh->row_kinds;
-    const bool by_shape = regions.by_shape();
     if (kinds.known()) {
       const std::uint32_t kind = kinds.of[element], at = kinds.first[kind];
       return {kinds.offset.data() + at, element, kinds.first[kind + 1] - at,
-              by_shape ? kinds.shape.data() + at : nullptr, by_shape ? 0 : mesh->first_entry[element]};
+              has_shapes ? kinds.shape.data() + at : nullptr, has_shapes ? 0 : mesh->first_entry[element]};
     }
     const EntryId at = mesh->first_entry[element];
     return {mesh->neighbours.data() + at, 0, mesh->first_entry[element + 1] - at,
-            by_shape ? mesh->entry_shape.data() + at : nullptr, at};
+            has_shapes ? mesh->entry_shape.data() + at : nullptr, at};
   }
 
   Body* body_;
+};
+
+/// Typed access to a body for the loops of a pass, for one scalar and one space dimension. All coordinates are those of
+/// the body's axes.
+template <class Scalar_, int Dimension_>
+class BodyView : public BodyLinks {
+ public:
+  using Scalar = Scalar_;
+  static constexpr int Dimension = Dimension_;
+
+  explicit BodyView(Body& body) : BodyView(body, std::get<Body::Typed<Scalar, Dimension>>(body.typed_)) {}
+
+  /// The origin of the stored position of an element, on axis k (mesh units).
+  double origin(ElementId element, int k) const {
+    return from_rest ? mesh->rest[std::size_t{element} * Dimension + k] : 0;
+  }
+  double absolute(ElementId element, int k) const {
+    const double held = double(positions[element][k]);
+    return from_rest ? origin(element, k) + held : held;  // 0 + −0 would be 0
+  }
+  void set_position(ElementId element, int k, double absolute_position) const {
+    positions[element][k] = static_cast<Scalar>(absolute_position - origin(element, k));
+  }
+
+  /// Returns the position of an element clamped into its valid region about its sponsor.
+  Position<Scalar, Dimension> clamped(ElementId element, ElementId sponsor, std::uint32_t region_id) const {
+    const Scalar* about = positions[sponsor].at;
+    return chainmail::clamped(positions[element], about, about, regions.at(region_id));
+  }
+
+  /// Clamps the candidate's element into its valid region about its sponsor. Returns true if it moved.
+  bool clamp(ElementId element, ElementId sponsor, EntryId entry) const {
+    const auto position = clamped(element, sponsor, regions.id(entry));
+    const bool moved = position != positions[element];
+    positions[element] = position;
+    return moved;
+  }
+
+  /// Returns the distance of the candidate's element from its valid region about its sponsor, in rest lengths.
+  double violation(ElementId element, ElementId sponsor, EntryId entry) const {
+    return candidate_violation(*mesh, element, positions[element].at, sponsor, positions[sponsor].at, regions[entry]);
+  }
+
+  std::span<Position<Scalar, Dimension>> positions;
+  const RegionTable<Scalar, Dimension>& regions;
+  bool from_rest;  // displacements from rest are stored, not positions
+
+ private:
+  BodyView(Body& body, Body::Typed<Scalar, Dimension>& typed)
+      : BodyLinks(body, typed.regions.by_shape()),
+        positions(typed.positions),
+        regions(typed.regions),
+        from_rest(body.stores_displacements_) {}
 };
 
 template <class Scalar, int Dimension>

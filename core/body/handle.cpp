@@ -49,6 +49,12 @@ Eigen::Matrix3d turn_of(const Point& rotation) {
   return std::sin(angle) * cross + 2 * half * half * (cross * cross);  // 1 - cos, without cancellation
 }
 
+Eigen::Matrix3d turn_between(const Point& from, const Point& to) {
+  // R R0⁻¹ − I, of the rotations R0 and R, is (turn − turn0) R0ᵀ.
+  const Eigen::Matrix3d before = turn_of(from);
+  return (turn_of(to) - before) * (before + Eigen::Matrix3d::Identity()).transpose();
+}
+
 Point rotation_between(const Point& from, const Point& to, double fraction) {
   if (fraction == 0 || from == to) {
     return from;

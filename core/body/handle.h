@@ -51,6 +51,8 @@ struct RigidMotion {
 
 /// Returns the rotation matrix of a rotation vector, less the identity (Rodrigues). Exactly 0 for no rotation.
 Eigen::Matrix3d turn_of(const Point& rotation);
+/// Returns the rotation matrix from one rotation to another, less the identity. Exactly 0 if they are equal.
+Eigen::Matrix3d turn_between(const Point& from, const Point& to);
 /// Returns the rotation at a fraction of the shortest way from one rotation to another.
 Point rotation_between(const Point& from, const Point& to, double fraction);
 /// Returns the angle between two rotations (radians).

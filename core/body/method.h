@@ -84,14 +84,14 @@ using MakeMethod = std::function<std::unique_ptr<Method>(Precision precision, in
 /// Makes a method that is a template of the scalar and the space dimension.
 template <template <class Scalar, int Dimension> class Typed>
 std::unique_ptr<Method> make_method(Precision precision, int dimension) {
-  const auto make = [dimension]<class Scalar>(Scalar) -> std::unique_ptr<Method> {
+  const auto make = [dimension]<class Scalar>(Scalar) {
     switch (dimension) {
       case 1:
-        return std::make_unique<Typed<Scalar, 1>>();
+        return std::unique_ptr<Method>(new Typed<Scalar, 1>);
       case 2:
-        return std::make_unique<Typed<Scalar, 2>>();
+        return std::unique_ptr<Method>(new Typed<Scalar, 2>);
       default:
-        return std::make_unique<Typed<Scalar, 3>>();
+        return std::unique_ptr<Method>(new Typed<Scalar, 3>);
     }
   };
   return precision == Precision::single_precision ? make(float{}) : make(double{});

@@ -1,12 +1,12 @@
 #include "body/region_axes.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/symmetric_eigen.h"
 
 namespace chainmail {
 namespace {
@@ -52,7 +52,8 @@ Eigen::Matrix3d nearest_to_world(const Eigen::Matrix3d& axes) {
       ordered.col(k) = axes.col(order[std::size_t(k)]);
       ordered.col(k) *= ordered(k, k) < 0 ? -1 : 1;
     }
-    if (ordered.determinant() < 0) {  // a reflection: turns the axis that loses least
+    if (ordered.col(0).cross(ordered.col(1)).dot(ordered.col(2)) <
+        0) {  // a reflection: turns the axis that loses least
       Eigen::Index worst = 0;
       ordered.diagonal().minCoeff(&worst);
       ordered.col(worst) *= -1;
@@ -61,16 +62,18 @@ Eigen::Matrix3d nearest_to_world(const Eigen::Matrix3d& axes) {
       most = ordered.trace();
       best = ordered;
     }
-  } while (std::ranges::next_permutation(order).found);
+  } while (std::next_permutation(order.begin(), order.end()));
   return best;
 }
 
-/// Returns axes of which one is given, and the others are turned from those of the world as little as possible.
-Eigen::Matrix3d axes_about(const Point& single) {
+/// Returns the smallest rotation of the axes of the world after which one of them is along a vector of length 1.
+Point rotation_to(const Point& single) {
   Eigen::Index nearest = 0;
   single.cwiseAbs().maxCoeff(&nearest);
   const Point along = single[nearest] < 0 ? Point(-single) : single;
-  return Eigen::Quaterniond::FromTwoVectors(Point::Unit(nearest), along).toRotationMatrix();
+  const Point axis = Point::Unit(nearest).cross(along);
+  const double sine = axis.norm(), angle = std::atan2(sine, along[nearest]);
+  return angle < no_turn ? Point(Point::Zero()) : Point(angle / sine * axis);
 }
 
 Point rotation_of(const Eigen::Matrix3d& axes) {
@@ -92,18 +95,16 @@ PrincipalAxes principal_axes_in_plane(const Mesh& mesh, const Eigen::Matrix3d& s
 }
 
 PrincipalAxes principal_axes_in_space(const Eigen::Matrix3d& spread) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  const Point& spreads = solver.eigenvalues();  // ascending
+  const auto [spreads, vectors] = symmetric_eigen(spread);
   const double least = equal_spreads * spreads[2];
   const bool low_equal = !(spreads[1] - spreads[0] > least), high_equal = !(spreads[2] - spreads[1] > least);
   if (low_equal && high_equal) {
     return {{AxesKind::object, Point::Zero()}, false};
   }
   if (low_equal || high_equal) {
-    const Point single = solver.eigenvectors().col(low_equal ? 2 : 0);
-    return {{AxesKind::object, rotation_of(axes_about(single))}, false};
+    return {{AxesKind::object, rotation_to(vectors.col(low_equal ? 2 : 0))}, false};
   }
-  return {{AxesKind::object, rotation_of(nearest_to_world(solver.eigenvectors()))}, true};
+  return {{AxesKind::object, rotation_of(nearest_to_world(vectors))}, true};
 }
 
 }  // namespace

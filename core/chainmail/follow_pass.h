@@ -27,6 +27,13 @@ struct WaitingLog {
   }
   void leave(Candidate candidate) { of(candidate).left = step + 1; }
   WaitingCandidate& of(Candidate candidate) { return candidates[candidate_of[candidate.entry]]; }
+  /// Returns the history of the candidates, which the log loses.
+  WaitingHistory history(TakingOrder order) {
+    for (WaitingCandidate& one : candidates) {
+      one.left = std::min(one.left, step);  // candidates that are dropped at the end leave with the last step
+    }
+    return {order, std::move(candidates), order == TakingOrder::by_key ? std::move(keys) : std::vector<double>()};
+  }
   const Mesh& mesh;
   std::uint32_t step = 0;
   std::vector<WaitingCandidate> candidates;
@@ -54,7 +61,6 @@ class LoggedList : public List {
 };
 
 /// The object at the beginning of a recorded pass, as far as the loop needs it.
-template <int Dimension>
 struct RecordedBody {
   explicit RecordedBody(const RecordedPass& of)
       : pass(of), mesh(of.mesh), positions(of.before), is_updated(of.mesh->element_count()) {
@@ -73,17 +79,29 @@ struct RecordedBody {
     chainmail::for_each_neighbour(*mesh, pass.conditions->cuts, element, visit);
   }
   double violation(ElementId element, ElementId sponsor, EntryId entry) const {
+    switch (mesh->space_dimension) {
+      case 1:
+        return violation_in<1>(element, sponsor, entry);
+      case 2:
+        return violation_in<2>(element, sponsor, entry);
+      default:
+        return violation_in<3>(element, sponsor, entry);
+    }
+  }
+  template <int Dimension>
+  double violation_in(ElementId element, ElementId sponsor, EntryId entry) const {
     const Softness& softness = *pass.conditions->softness;
     const auto region =
         valid_region<float, Dimension>(*mesh, softness.axes, sponsor, element, softness.of(mesh->entry_link[entry]));
     if (softness.axes.is_turned()) {
-      const auto own = in_axes(element), about = in_axes(sponsor);
+      const auto own = in_axes<Dimension>(element), about = in_axes<Dimension>(sponsor);
       return candidate_violation(*mesh, element, own.data(), sponsor, about.data(), region);
     }
     return candidate_violation(*mesh, element, &positions[std::size_t{element} * Dimension], sponsor,
                                &positions[std::size_t{sponsor} * Dimension], region);
   }
   /// Returns the position of an element along the axes that the pass computed in.
+  template <int Dimension>
   std::array<float, Dimension> in_axes(ElementId element) const {
     std::array<double, Dimension> own;
     std::copy_n(positions.begin() + std::ptrdiff_t(std::size_t{element} * Dimension), Dimension, own.begin());
@@ -93,7 +111,8 @@ struct RecordedBody {
     return result;
   }
   void set_position(ElementId element, std::span<const float> position) {
-    std::ranges::copy(position, positions.begin() + static_cast<std::ptrdiff_t>(std::size_t{element} * Dimension));
+    std::copy(position.begin(), position.end(),
+              positions.begin() + static_cast<std::ptrdiff_t>(element * position.size()));
   }
   const RecordedPass& pass;
   MeshPointer mesh;
@@ -105,14 +124,12 @@ struct RecordedBody {
 class RecordedOutcomes {
  public:
   RecordedOutcomes(const RecordedPass& pass, WaitingLog& log) : pass_(pass), log_(log) {}
-  template <class Body>
-  bool begin(Body& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/,
+  bool begin(RecordedBody& /*body*/, std::span<const ElementId> /*handle*/, std::vector<ElementId>& /*moved*/,
              Replay /*uses*/) {
     return false;
   }
 
-  template <class Body>
-  bool update(Body& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
+  bool update(RecordedBody& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
     WaitingCandidate& taken = log_.of(candidate);
     taken.dropped = false;
     body.mark_updated(taken.element);
@@ -135,42 +152,16 @@ class RecordedOutcomes {
   bool agrees_ = true;
 };
 
-/// Calls run(body, outcomes, log) for the pass and returns the history that was logged.
-template <int Dimension, class Run>
-WaitingHistory follow_pass(const RecordedPass& pass, TakingOrder order, Run run) {
-  RecordedBody<Dimension> body(pass);
-  WaitingLog log(*pass.mesh);
-  RecordedOutcomes outcomes(pass, log);
-  run(body, outcomes, log);
-  if (!outcomes.agree()) {
-    return {};
-  }
-  for (WaitingCandidate& one : log.candidates) {
-    one.left = std::min(one.left, log.step);  // candidates that are dropped at the end leave with the last step
-  }
-  return {order, std::move(log.candidates), order == TakingOrder::by_key ? std::move(log.keys) : std::vector<double>()};
-}
-
-template <class Run>
-WaitingHistory follow_pass(const RecordedPass& pass, TakingOrder order, Run run) {
-  switch (pass.mesh->space_dimension) {
-    case 1:
-      return follow_pass<1>(pass, order, run);
-    case 2:
-      return follow_pass<2>(pass, order, run);
-    default:
-      return follow_pass<3>(pass, order, run);
-  }
-}
-
 /// The history of a pass by one waiting list.
 template <WaitingList List>
 WaitingHistory follow_list(const RecordedPass& pass) {
-  return follow_pass(pass, List::order, [&](auto& body, RecordedOutcomes& outcomes, WaitingLog& log) {
-    LoggedList<List> list(log);
-    std::vector<ElementId> none;
-    propagate(body, list, outcomes, pass.handle, none);
-  });
+  RecordedBody body(pass);
+  WaitingLog log(*pass.mesh);
+  RecordedOutcomes outcomes(pass, log);
+  LoggedList<List> list(log);
+  std::vector<ElementId> none;
+  propagate(body, list, outcomes, pass.handle, none);
+  return outcomes.agree() ? log.history(List::order) : WaitingHistory();
 }
 
 /// The history of a pass by Natural Queue ChainMail.

@@ -21,16 +21,14 @@ struct WaitingRow {
 ///
 /// An element that moves admits all its neighbours, and they are next to each other in the list. So the list holds the
 /// element, and how many of them have not been taken. The order, and every bit, is that of FrontList.
-template <class Scalar, int Dimension>
 class GeneralizedPass {
  public:
-  using View = BodyView<Scalar, Dimension>;
-
-  GeneralizedPass(View& body, PassRecord& record, std::vector<WaitingRow>& list)
+  GeneralizedPass(BodyLinks& body, PassRecord& record, std::vector<WaitingRow>& list)
       : body_(body), record_(record), list_(list) {}
 
-  /// Runs the pass. The record has carried out its first steps already.
-  void run(std::span<const ElementId> handle, std::vector<ElementId>& moved) {
+  /// Runs the pass on a view of the body. The record has carried out its first steps already.
+  template <class View>
+  void run(const View& view, std::span<const ElementId> handle, std::vector<ElementId>& moved) {
     Step* const steps = record_.queue();
     const std::size_t agreed = record_.agreed();
     moved.clear();
@@ -40,8 +38,8 @@ class GeneralizedPass {
       if (number < agreed) {
         moves = steps[number].has_moved();
       } else {
-        auto& position = body_.positions[element];
-        const auto next = body_.clamped(element, step.sponsor, step.region);
+        auto& position = view.positions[element];
+        const auto next = view.clamped(element, step.sponsor, step.region);
         moves = next != position;
         position = next;
       }
@@ -56,7 +54,7 @@ class GeneralizedPass {
   void predict(std::span<const ElementId> handle, const Progress& progress) {
     record_.predict(body_, handle);
     record_.end(take_all(handle, [&](std::size_t number, const Step& /*step*/) {
-      progress.report(number, body_.positions.size());
+      progress.report(number, body_.element_count());
       return true;
     }));
   }
@@ -100,7 +98,7 @@ class GeneralizedPass {
     return count;
   }
 
-  View& body_;
+  BodyLinks& body_;
   PassRecord& record_;
   std::vector<WaitingRow>& list_;
 };
@@ -113,16 +111,14 @@ class Generalized {
   void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) {
     if (!record.begin(body, handle, moved, Replay::whole)) {
-      GeneralizedPass<Scalar, Dimension>(body, record, list_).run(handle, moved);
+      GeneralizedPass(body, record, list_).run(body, handle, moved);
     }
   }
 
   /// Lists the steps of a pass in which every element moves.
-  template <class Scalar, int Dimension>
-  void predict(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
-               const Progress& progress) {
+  void predict(BodyLinks& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
     record.make_room(body);  // the pass keeps a pointer to it
-    GeneralizedPass<Scalar, Dimension>(body, record, list_).predict(handle, progress);
+    GeneralizedPass(body, record, list_).predict(handle, progress);
   }
 
  private:

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <iterator>
+#include <span>
 #include <vector>
 
 #include "body/method.h"
@@ -11,6 +10,15 @@
 
 namespace chainmail {
 
+/// Lists the steps of a pass of one element in which every element moves, unless the record has them.
+template <class Propagation>
+[[gnu::noinline]] void predict(BodyLinks& body, Propagation& propagation, PassRecord& record, ElementId element,
+                               const Progress& progress) {
+  if (const std::span handle(&element, 1); !record.knows(body, handle)) {
+    propagation.predict(body, record, handle, progress);
+  }
+}
+
 /// An algorithm that processes candidates one after another. `Propagation` answers a move as propagate() does.
 template <class Propagation, class Scalar, int Dimension>
 class ListMethod final : public Method {
@@ -19,20 +27,15 @@ class ListMethod final : public Method {
     auto view = body.view<Scalar, Dimension>();
     place_handle(view, move);
     propagation_.propagate(view, record_, move.handle.elements(), output.moved);
-    const auto steps = record_.steps();
     if (output.trace != nullptr) {
-      std::ranges::transform(steps, std::back_inserter(*output.trace), [](const Step& step) {
-        return TraceRow{step.element(), step.sponsor, step.has_moved()};
-      });
+      record_.write(*output.trace);
     }
-    return {steps.size(), output.moved.size()};
+    return {record_.steps().size(), output.moved.size()};
   }
 
   void prepare(Body& body, ElementId element, int /*threads*/, const Progress& progress) override {
     auto view = body.view<Scalar, Dimension>();
-    if (const std::span handle(&element, 1); !record_.knows(view, handle)) {
-      propagation_.predict(view, record_, handle, progress);
-    }
+    predict(view, propagation_, record_, element, progress);
   }
 
  private:
@@ -45,14 +48,13 @@ class PredictedPass {
  public:
   PredictedPass(PassRecord& record, const Progress& progress) : record_(record), progress_(progress) {}
 
-  template <class View>
-  bool begin(View& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/, Replay /*uses*/) {
+  bool begin(const BodyLinks& body, std::span<const ElementId> handle, std::vector<ElementId>& /*moved*/,
+             Replay /*uses*/) {
     record_.predict(body, handle);
     return false;
   }
-  template <class View>
-  bool update(View& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
-    progress_.report(count_++, body.positions.size());
+  bool update(const BodyLinks& body, Candidate candidate, std::vector<ElementId>& /*moved*/) {
+    progress_.report(count_++, body.element_count());
     record_.note(body, candidate, true);
     return true;
   }
@@ -73,8 +75,7 @@ struct Propagation {
   }
 
   /// Lists the steps of a pass in which every element moves, unless their order depends on positions.
-  template <class View>
-  void predict(View& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
+  void predict(BodyLinks& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) {
     if constexpr (!List::by_violation) {
       PredictedPass predicted(record, progress);
       std::vector<ElementId> none;

@@ -15,12 +15,9 @@ namespace chainmail {
 /// admitted, not when it is taken. Each element waits once, no list is searched, and the queue of a pass lists exactly
 /// the processed candidates in order: it is the record of the pass. Where a replay ends at a difference, the pass goes
 /// on from there. The result is the same, bit for bit.
-template <class Scalar, int Dimension>
 class NaturalQueuePass {
  public:
-  using View = BodyView<Scalar, Dimension>;
-
-  NaturalQueuePass(View& body, PassRecord& record, std::vector<ElementId>& moved)
+  NaturalQueuePass(BodyLinks& body, PassRecord& record, std::vector<ElementId>& moved)
       : body_(body), record_(record), queue_(record.queue()), moved_(moved) {}
 
   /// Lists the steps of a pass in which every element moves.
@@ -29,25 +26,28 @@ class NaturalQueuePass {
     mark(handle);
     std::size_t tail = admit_neighbours_of(handle);
     for (std::size_t head = 0; head < tail; ++head) {
-      progress.report(head, body_.positions.size());
+      progress.report(head, body_.element_count());
       queue_[head].note(true);
       tail = admit(body_, queue_[head].element(), queue_, tail);
     }
     record_.end(tail);
   }
 
-  /// Runs what the record has not replayed.
-  void run(std::span<const ElementId> handle) {
+  /// Runs what the record has not replayed, on a view of the body.
+  template <class View>
+  void run(const View& view, std::span<const ElementId> handle) {
     mark(handle);
     const std::size_t head = record_.agreed();
     const std::size_t tail = head > 0 ? take_up(head) : begin(handle);
-    record_.end(run(head, tail));
+    record_.end(run(view, head, tail));
   }
 
  private:
   void mark(std::span<const ElementId> handle) {
     body_.begin_pass();
-    std::ranges::for_each(handle, [this](ElementId element) { body_.mark_updated(element); });
+    for (const ElementId element : handle) {
+      body_.mark_updated(element);
+    }
   }
 
   std::size_t begin(std::span<const ElementId> handle) {
@@ -64,7 +64,7 @@ class NaturalQueuePass {
   }
 
   /// Admits the neighbours that have not been admitted yet; returns the new end of the queue.
-  static std::size_t admit(const View& body, ElementId sponsor, Step* queue, std::size_t tail) {
+  static std::size_t admit(const BodyLinks& body, ElementId sponsor, Step* queue, std::size_t tail) {
     const std::uint32_t pass = body.pass;
     body.for_each_link(sponsor, [&](ElementId neighbour, std::uint32_t region) {
       std::uint32_t& update = body.updates[neighbour];
@@ -76,8 +76,9 @@ class NaturalQueuePass {
   }
 
   /// Processes the candidates from `head` on. Returns the end of the queue.
-  std::size_t run(std::size_t head, std::size_t tail) {
-    const View body = body_;
+  template <class View>
+  std::size_t run(const View& view, std::size_t head, std::size_t tail) {
+    const View body = view;
     Step* const queue = queue_;
     for (; head < tail; ++head) {
       Step& step = queue[head];
@@ -114,7 +115,7 @@ class NaturalQueuePass {
     return tail;
   }
 
-  View& body_;
+  BodyLinks& body_;
   PassRecord& record_;
   Step* queue_;
   std::vector<ElementId>& moved_;
@@ -126,17 +127,15 @@ struct NaturalQueue {
   void propagate(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
                  std::vector<ElementId>& moved) const {
     if (!record.begin(body, handle, moved, Replay::up_to_a_difference)) {
-      NaturalQueuePass<Scalar, Dimension>(body, record, moved).run(handle);
+      NaturalQueuePass(body, record, moved).run(body, handle);
     }
   }
 
   /// Lists the steps of a pass in which every element moves.
-  template <class Scalar, int Dimension>
-  void predict(BodyView<Scalar, Dimension>& body, PassRecord& record, std::span<const ElementId> handle,
-               const Progress& progress) const {
+  void predict(BodyLinks& body, PassRecord& record, std::span<const ElementId> handle, const Progress& progress) const {
     record.make_room(body);
     std::vector<ElementId> none;
-    NaturalQueuePass<Scalar, Dimension>(body, record, none).predict(handle, progress);
+    NaturalQueuePass(body, record, none).predict(handle, progress);
   }
 };
 

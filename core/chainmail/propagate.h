@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -21,7 +20,11 @@ void propagate(Body& body, List& list, Record& record, std::span<const ElementId
     body.for_each_neighbour(sponsor, [&](ElementId neighbour, EntryId entry) {
       const Candidate candidate{entry, sponsor};
       if ((List::admits_updated || !body.updated(neighbour)) && list.admits(candidate)) {
-        list.admit(candidate, List::by_violation ? body.violation(neighbour, sponsor, entry) : 0);
+        double violation = 0;
+        if constexpr (List::by_violation) {
+          violation = body.violation(neighbour, sponsor, entry);
+        }
+        list.admit(candidate, violation);
       }
     });
   };
@@ -31,8 +34,12 @@ void propagate(Body& body, List& list, Record& record, std::span<const ElementId
   list.begin(*body.mesh);
   moved.clear();
   body.begin_pass();
-  std::ranges::for_each(handle, [&](ElementId element) { body.mark_updated(element); });
-  std::ranges::for_each(handle, admit_neighbours);
+  for (const ElementId element : handle) {
+    body.mark_updated(element);
+  }
+  for (const ElementId element : handle) {
+    admit_neighbours(element);
+  }
   while (!list.empty()) {
     const Candidate candidate = list.take();
     const ElementId element = body.mesh->neighbours[candidate.entry];

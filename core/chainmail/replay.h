@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "body/body_view.h"
@@ -80,45 +79,17 @@ class PassRecord {
       handle_.clear();
     }
     const bool is_known = is_of(body, handle);
-    const bool tries = is_known && unused_ == 0;
-    agreed_ = tries ? replay(body, steps()) : 0;
-    if (std::exchange(is_predicted_, false) && agreed_ > 0) {
-      list_moved(moved);
-    }
-    if (agreed_ > 0 && agreed_ == count_) {
-      failures_ = 0;
-      return true;
-    }
-    if (!is_known || (tries && (uses == Replay::up_to_a_difference || 2 * agreed_ >= count_))) {
-      failures_ = unused_ = 0;
-    } else if (tries) {
-      failures_ = std::min(failures_ + 1, max_failures);
-      unused_ = failures_ < 2 ? 0 : 1 << (failures_ - 2);
-    } else {
-      --unused_;
-    }
-    made_for_ = revisions_of(body);
-    handle_.assign(handle.begin(), handle.end());
-    next_ = 0;
-    return false;
+    agreed_ = is_known && unused_ == 0 ? replay(body, steps()) : 0;
+    return end_replay(body, handle, moved, uses, is_known);
   }
 
   /// True if the steps are those of a pass of this handle on the body as it is.
-  template <class View>
-  bool knows(const View& body, std::span<const ElementId> handle) const {
+  bool knows(const BodyLinks& body, std::span<const ElementId> handle) const {
     return count_ > 0 && is_of(body, handle);
   }
 
   /// Begins the record of a pass that has not happened. Its steps follow, by note() or in queue(), then end().
-  template <class View>
-  void predict(View& body, std::span<const ElementId> handle) {
-    make_room(body);
-    made_for_ = revisions_of(body);
-    handle_.assign(handle.begin(), handle.end());
-    failures_ = unused_ = 0;
-    count_ = next_ = agreed_ = 0;
-    is_predicted_ = true;
-  }
+  void predict(const BodyLinks& body, std::span<const ElementId> handle);
 
   /// Number of steps that agreed, if the pass is not all replayed. They have been carried out.
   std::size_t agreed() const { return agreed_; }
@@ -138,26 +109,22 @@ class PassRecord {
   }
 
   /// Adds a step. The element counts as updated.
-  template <class View>
-  void note(View& body, Candidate candidate, bool has_moved) {
+  void note(const BodyLinks& body, Candidate candidate, bool has_moved) {
     const ElementId element = body.mesh->neighbours[candidate.entry];
     body.mark_updated(element);
-    steps_[next_] = {element, candidate.sponsor, body.regions.id(candidate.entry)};
+    steps_[next_] = {element, candidate.sponsor, body.region_id(candidate.entry)};
     steps_[next_++].note(has_moved);
   }
 
   void end() { count_ = next_; }
 
   /// Takes memory for the steps of this body, if that has not been done.
-  template <class View>
-  void make_room(const View& body) {
-    if (!steps_) {
-      steps_ = LargeArray<Step>(body.positions.size() + 1);
-    }
-  }
+  void make_room(const BodyLinks& body);
 
   /// The steps of the last pass.
   std::span<const Step> steps() const { return {steps_.get(), count_}; }
+  /// Writes them as rows of a trace.
+  void write(Trace& trace) const;
 
   /// For a pass whose queue is its record: the steps, with room for one more than there are elements; and the call at
   /// the end of the pass.
@@ -165,24 +132,10 @@ class PassRecord {
   void end(std::size_t count) { count_ = count; }
 
  private:
-  /// The parts of a body that a record depends on, besides the handle.
-  template <class View>
-  static Revisions revisions_of(const View& body) {
-    return body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::softness});
-  }
-  template <class View>
-  bool is_of(const View& body, std::span<const ElementId> handle) const {
-    return revisions_of(body) == made_for_ && std::ranges::equal(handle, handle_);
-  }
-  /// Lists the elements that the replayed steps moved.
-  void list_moved(std::vector<ElementId>& moved) const {
-    moved.clear();
-    for (const Step& step : steps().first(agreed_)) {
-      if (step.has_moved()) {
-        moved.push_back(step.element());
-      }
-    }
-  }
+  bool is_of(const BodyLinks& body, std::span<const ElementId> handle) const;
+  /// Ends the replay in begin(), or its omission.
+  bool end_replay(const BodyLinks& body, std::span<const ElementId> handle, std::vector<ElementId>& moved, Replay uses,
+                  bool is_known);
 
   static constexpr int max_failures = 8;  // at most 64 passes without a replay
 

@@ -29,7 +29,7 @@ class RigidHandle {
   using View = BodyView<Scalar, Dimension>;
   using Offset = Position<Scalar, Dimension>;
 
-  void begin(const View& body, const Handle& handle) {
+  [[gnu::noinline]] void begin(const View& body, const Handle& handle) {
     mesh_ = body.mesh;
     pose_ = handle.pose();
     offsets_.clear();
@@ -68,10 +68,8 @@ class RigidHandle {
   }
 
   /// Returns the offset of each element after a rotation, measured from the grab.
-  std::vector<Offset> offsets(const Point& rotation) const {
-    // R R0⁻¹ − I, of the rotation R and the one at the beginning R0, is (turn − turn0) R0ᵀ: exactly 0 for no change.
-    const Eigen::Matrix3d before = turn_of(pose_.rotation);
-    const Eigen::Matrix3d turn = (turn_of(rotation) - before) * (before + Eigen::Matrix3d::Identity()).transpose();
+  [[gnu::noinline]] std::vector<Offset> offsets(const Point& rotation) const {
+    const Eigen::Matrix3d turn = turn_between(pose_.rotation, rotation);
     std::vector<Offset> offsets = offsets_;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       const Point displacement = turn * arms_[i];
@@ -102,6 +100,30 @@ class RigidHandle {
   std::vector<Offset> offsets_;  // at the beginning, when the handle's displacement is 0
   std::vector<Point> arms_;      // from the pivot to each element at the beginning (mesh units)
 };
+
+/// Returns the remark about a rotation that stopped at an angle (radians).
+inline std::string stopped_at(double angle) {
+  char text[96];
+  std::snprintf(text, sizeof text, "stopped at %.3g degrees by links outside the handle, or by pins",
+                angle * (180 / std::numbers::pi));
+  return text;
+}
+
+/// A row of a trace, and how far its element moved.
+struct MovedRow {
+  double way;
+  TraceRow row;
+};
+
+/// Appends rows to a trace, the largest move first, ties by id.
+inline void write_sorted(std::vector<MovedRow>& rows, Trace& trace) {
+  std::sort(rows.begin(), rows.end(), [](const MovedRow& a, const MovedRow& b) {
+    return a.way != b.way ? a.way > b.way : a.row.element < b.row.element;
+  });
+  for (const MovedRow& row : rows) {
+    trace.push_back(row.row);
+  }
+}
 
 /// Exact ChainMail: moves every element, on every axis, as little as any valid answer to the move can.
 ///
@@ -164,7 +186,7 @@ class ExactPropagation {
   };
 
   /// The offsets of a handle of many come from positions.
-  static Basis basis_of(const State& body, const Handle& handle, int threads) {
+  [[gnu::noinline]] static Basis basis_of(const BodyLinks& body, const Handle& handle, int threads) {
     Revisions now = body.revisions().only({&Revisions::cuts, &Revisions::pins, &Revisions::softness});
     now.positions = handle.has_one() ? 0 : body.revisions().positions;
     return {now, handle.elements()[0], handle.grab(), threads};
@@ -180,7 +202,7 @@ class ExactPropagation {
     offsets_.clear();
     const Basis wanted = basis_of(body, handle, threads);
     if (prepared_for_ == wanted && prepared_.moves_all(body, reach)) {
-      std::swap(regions_, prepared_);
+      regions_.swap(prepared_);
       prepared_for_ = {};
     } else {
       regions_.begin(body, handle.elements(), offsets_, threads);
@@ -232,7 +254,7 @@ class ExactPropagation {
     return reach;
   }
 
-  Reach extend_many(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
+  [[gnu::noinline]] Reach extend_many(const State& body, HandleMove& move, int threads, ThreadTeam& team) {
     begin_many(body, move.handle, threads);
     const Pose target = move.pose;
     const Offset to = shape_.at(target);
@@ -273,15 +295,12 @@ class ExactPropagation {
           fraction;
     }
     reached = try_rotation(body, handle, rotation_between(from, target, possible), to, team);
-    char text[96];
-    std::snprintf(text, sizeof text, "stopped at %.3g degrees by links outside the handle, or by pins",
-                  rotation_.norm() * (180 / std::numbers::pi));
-    remark_ = text;
+    remark_ = stopped_at(rotation_.norm());
     return possible > 0 ? reached : std::nullopt;
   }
 
-  std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation,
-                                     const Offset& target, ThreadTeam& team) {
+  [[gnu::noinline]] std::optional<Offset> try_rotation(const State& body, const Handle& handle, const Point& rotation,
+                                                       const Offset& target, ThreadTeam& team) {
     Offset to = target;
     rotation_ = rotation;
     offsets_ = shape_.offsets(rotation);
@@ -386,28 +405,18 @@ class ExactPropagation {
   // Elements that a thread must have to clamp before it pays.
   static constexpr std::size_t min_for_thread = 16'384;
 
-  struct Row {
-    double way;
-    TraceRow row;
-  };
-
-  void write_trace(const State& body, const Reach& reach, Trace& trace) const {
-    std::vector<Row> rows;
+  [[gnu::noinline]] void write_trace(const State& body, const Reach& reach, Trace& trace) const {
+    std::vector<MovedRow> rows;
     for (const auto& partition : regions_.partitions()) {
       for (std::size_t i = partition.handle_size(); i < partition.elements().size(); ++i) {
         add_row(body, reach, partition.elements()[i], partition.regions()[i], rows);
       }
     }
-    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-      return a.way != b.way ? a.way > b.way : a.row.element < b.row.element;
-    });
-    for (const Row& row : rows) {
-      trace.push_back(row.row);
-    }
+    write_sorted(rows, trace);
   }
 
   void add_row(const State& body, const Reach& reach, ElementId element, const Region<Scalar, Dimension>& region,
-               std::vector<Row>& rows) const {
+               std::vector<MovedRow>& rows) const {
     const auto next = clamped(body.positions[element], reach.low, reach.high, region);
     double ways[Dimension];
     for (int k = 0; k < Dimension; ++k) {

@@ -53,7 +53,7 @@ class ExactMethod final : public Method {
  private:
   /// Returns the largest stored coordinate of the handle, before and after the move. Throws Error if one is out of
   /// range.
-  static double size_of(const State& view, const HandleMove& move) {
+  [[gnu::noinline]] static double size_of(const State& view, const HandleMove& move) {
     double size = 0;
     for_each_target(view, move, [&](ElementId element, const Position<Scalar, Dimension>& target) {
       for (int k = 0; k < Dimension; ++k) {
@@ -88,8 +88,9 @@ class ExactMethod final : public Method {
 
   /// Counts the restoration of validity and the pass after it as one pass. An element has moved if its position changed
   /// in total. Elements that the pass did not reach moved without a sponsor.
-  void add_restored(const State& body, const std::vector<Position<Scalar, Dimension>>& before, const Handle& handle,
-                    std::vector<ElementId>& moved, PassCount& count, Trace* trace) const {
+  [[gnu::cold]] void add_restored(const State& body, const std::vector<Position<Scalar, Dimension>>& before,
+                                  const Handle& handle, std::vector<ElementId>& moved, PassCount& count,
+                                  Trace* trace) const {
     const auto has_moved = [&](ElementId e) {
       return !std::equal(before[e].at, before[e].at + Dimension, body.positions[e].at);
     };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -41,7 +40,8 @@ class HandleRegions {
 
   /// Drops all regions. Call this for a new handle, when offsets or links, softness or pins have changed. A handle of
   /// one element has no offsets; one of many has an offset for each element. The search will use `threads` at most.
-  void begin(const State& body, std::span<const ElementId> handle, std::span<const Offset> offsets, int threads = 1) {
+  [[gnu::noinline]] void begin(const State& body, std::span<const ElementId> handle, std::span<const Offset> offsets,
+                               int threads = 1) {
     search_.index.resize(body.positions.size(), Search::unknown);
     for (Partition& partition : partitions_) {
       partition.clear(search_);
@@ -49,9 +49,11 @@ class HandleRegions {
     divide(body, threads);
     search_.handle.assign(handle.begin(), handle.end());
     for (int k = 0; k < Dimension; ++k) {
-      const auto of_axis = [k](const Offset& one) { return one[k]; };
-      search_.least[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::min_element(offsets, {}, of_axis));
-      search_.most[k] = offsets.empty() ? Scalar{0} : of_axis(*std::ranges::max_element(offsets, {}, of_axis));
+      search_.least[k] = search_.most[k] = offsets.empty() ? Scalar{0} : offsets[0][k];
+      for (const Offset& one : offsets) {
+        search_.least[k] = std::min(search_.least[k], one[k]);
+        search_.most[k] = std::max(search_.most[k], one[k]);
+      }
     }
     for (std::size_t i = 0; i < handle.size(); ++i) {
       partitions_[search_.partition_of(handle[i])].add_to_handle(search_, handle[i],
@@ -61,7 +63,7 @@ class HandleRegions {
 
   /// True if every element and every pin can lie in its region while the handle is at a displacement, up to a
   /// tolerance (mesh units). False if the handle has rotated so far that it contradicts itself.
-  bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
+  [[gnu::noinline]] bool agree(const State& body, const Offset& handle, Scalar tolerance) const {
     bool agree = true;
     for (const Partition& partition : partitions_) {
       for (const Bounds& region : partition.regions()) {
@@ -80,7 +82,7 @@ class HandleRegions {
   }
 
   /// Moves the displacement of a handle, on each axis, as little as the known pins require. Returns true if it moved.
-  bool hold(const State& body, Offset& handle) const {
+  [[gnu::noinline]] bool hold(const State& body, Offset& handle) const {
     const Offset before = handle;
     for (const Partition& partition : partitions_) {
       for (const auto& pin : partition.pins()) {
@@ -93,6 +95,8 @@ class HandleRegions {
     return handle != before;
   }
 
+  [[gnu::noinline]] void swap(HandleRegions& other) { std::swap(*this, other); }
+
   /// Computes the regions of all elements, before it is known where the handle goes.
   void extend_everywhere(const State& body, ThreadTeam& team, const Progress& progress) {
     Reach reach = Reach::everywhere();
@@ -101,20 +105,22 @@ class HandleRegions {
 
   /// True if a handle with this reach moves all elements that have a region, and no pin stops it: then the search would
   /// have found just these regions.
-  bool moves_all(const State& body, const Reach& reach) const {
+  [[gnu::noinline]] bool moves_all(const State& body, const Reach& reach) const {
     Reach held = reach;
     for (const Partition& partition : partitions_) {
       for (const auto& pin : partition.pins()) {
         held.hold(body.positions[pin.element], pin.region);
       }
     }
-    return std::ranges::none_of(held.stopped, std::identity()) &&
-           std::ranges::all_of(partitions_,
-                               [&](const Partition& partition) { return partition.moves_all(body, reach); });
+    bool moves = std::find(held.stopped, held.stopped + Dimension, true) == held.stopped + Dimension;
+    for (const Partition& partition : partitions_) {
+      moves = moves && partition.moves_all(body, reach);
+    }
+    return moves;
   }
 
   /// Computes the regions of all elements that a handle with this reach moves. Pins that it finds stop the handle.
-  void extend(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress = {}) {
+  [[gnu::noinline]] void extend(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress = {}) {
     for (const Partition& partition : partitions_) {
       for (const auto& pin : partition.pins()) {
         reach.hold(body.positions[pin.element], pin.region);
@@ -167,8 +173,8 @@ class HandleRegions {
   using Search = typename Partition::Search;
 
   /// Divides the elements into partitions, if that can pay.
-  void divide(const State& body, int threads) {
-    const std::size_t elements = body.positions.size();
+  [[gnu::cold]] void divide(const BodyLinks& body, int threads) {
+    const std::size_t elements = body.element_count();
     bool divides = false;
     if constexpr (Schedule::has_rounds) {
       divides = threads > 1 && body.pin_count == 0 && elements >= Schedule::min_to_share;
@@ -178,13 +184,13 @@ class HandleRegions {
     search_.stripe = divides ? std::bit_width(std::max<std::size_t>(1, elements / stripes)) - 1 : 31;
     if (partitions_.size() != search_.partition_count) {
       partitions_ = std::vector<Partition>(search_.partition_count);
-    }
-    for (std::size_t i = 0; i < partitions_.size(); ++i) {
-      partitions_[i].set_number(i, partitions_.size());
+      for (std::size_t i = 0; i < partitions_.size(); ++i) {
+        partitions_[i].set_number(i, partitions_.size());
+      }
     }
   }
 
-  void extend_in_rounds(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress) {
+  [[gnu::noinline]] void extend_in_rounds(const State& body, Reach& reach, ThreadTeam& team, const Progress& progress) {
     for (;;) {
       progress.report(0);
       std::size_t waiting = 0;
@@ -214,7 +220,9 @@ class HandleRegions {
       if constexpr (Schedule::adapts) {
         if (partitions_.front().schedule().must_adapt(visits(), known())) {
           const Scalar width = bucket_width(body);
-          std::ranges::for_each(partitions_, [width](Partition& partition) { partition.adapt(width); });
+          for (Partition& partition : partitions_) {
+            partition.adapt(width);
+          }
         }
       }
     }
@@ -222,7 +230,7 @@ class HandleRegions {
 
   /// Returns the width of buckets in which few elements are visited again: a fraction of the mean length of the links
   /// of some known elements.
-  Scalar bucket_width(const State& body) const {
+  [[gnu::noinline]] Scalar bucket_width(const State& body) const {
     double sum = 0;
     std::size_t count = 0;
     const std::size_t step = known() / sampled_elements + 1;

@@ -108,7 +108,7 @@ class alignas(64) RegionPartition {
   };
 
   /// Drops all regions.
-  void clear(Search& search) {
+  [[gnu::noinline]] void clear(Search& search) {
     for (const ElementId element : elements_) {
       search.index[element] = Search::unknown;
     }
@@ -134,7 +134,7 @@ class alignas(64) RegionPartition {
   }
 
   /// Adds an element of the handle. Call this before all others become known.
-  void add_to_handle(Search& search, ElementId element, const Offset& offset) {
+  [[gnu::noinline]] void add_to_handle(Search& search, ElementId element, const Offset& offset) {
     frontier_.push_back(add(search, element));
     std::copy_n(offset.at, Dimension, regions_.back().low);
     std::copy_n(offset.at, Dimension, regions_.back().high);
@@ -148,7 +148,7 @@ class alignas(64) RegionPartition {
   }
 
   /// Begins a pass: admits the elements that now move.
-  void begin(const State& body, const Reach& reach) {
+  [[gnu::noinline]] void begin(const State& body, const Reach& reach) {
     schedule_.begin();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < frontier_.size(); ++i) {
@@ -177,8 +177,8 @@ class alignas(64) RegionPartition {
 
   /// One round of one of several partitions: reads the messages that the others wrote in the last round, then visits
   /// the elements of this one. There are no pins.
-  void run_round(Search& search, const State& body, Reach& reach, std::span<RegionPartition> partitions,
-                 std::uint64_t round) {
+  [[gnu::noinline]] void run_round(Search& search, const State& body, Reach& reach,
+                                   std::span<RegionPartition> partitions, std::uint64_t round) {
     for (RegionPartition& other : partitions) {
       auto& messages = other.messages_[(round + 1) % 2][number_];
       for (const Message& message : messages) {
@@ -191,7 +191,7 @@ class alignas(64) RegionPartition {
     }
   }
   /// True if every element, and all of the handle, moves.
-  bool moves_all(const State& body, const Reach& reach) const {
+  [[gnu::noinline]] bool moves_all(const State& body, const Reach& reach) const {
     for (Index i = 0; i < elements_.size(); ++i) {
       __builtin_prefetch(&body.positions[elements_[std::min<std::size_t>(i + fetched_ahead, elements_.size() - 1)]]);
       if (!moves(body, reach, i)) {
@@ -202,13 +202,18 @@ class alignas(64) RegionPartition {
   }
 
   bool has_messages() const {
-    return std::ranges::any_of(messages_, [](const auto& of_round) {
-      return std::ranges::any_of(of_round, [](const auto& messages) { return !messages.empty(); });
-    });
+    for (const auto& of_round : messages_) {
+      for (const auto& messages : of_round) {
+        if (!messages.empty()) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// Goes on in the order of keys: see AdaptiveSchedule.
-  void adapt(Scalar width) {
+  [[gnu::noinline]] void adapt(Scalar width) {
     schedule_.adapt(width, [this](Index i) { return searched_[i].key; });
   }
 

@@ -77,6 +77,13 @@ class PathSearch {
   std::vector<std::pair<double, ElementId>> heap_;
 };
 
+/// The error about two pins that are further apart than links allow.
+inline Error contradiction(ElementId pin, ElementId other) {
+  return Error("pins " + std::to_string(std::min(pin, other)) + " and " + std::to_string(std::max(pin, other)),
+               "they contradict each other: the links between them do not allow their positions",
+               "unpin one of them, or soften the object");
+}
+
 /// Makes any state of a body that stores displacements valid: Exact ChainMail needs this after softness was edited
 /// under load or another algorithm left its state.
 ///
@@ -101,7 +108,7 @@ class RestoreValidity {
 
   /// Returns true if every link is valid, up to rounding of displacements of this size and, within an invisible
   /// tolerance, up to rounding of the displacements that led to the state.
-  bool is_valid() const {
+  [[gnu::noinline]] bool is_valid() const {
     for (ElementId e = 0; e < body_.mesh->element_count(); ++e) {
       bool holds = true;
       body_.for_each_neighbour(e, [&](ElementId n, EntryId entry) {
@@ -116,7 +123,7 @@ class RestoreValidity {
 
   /// Restores the state. Throws Error, with the pins, if two pins are further apart than links allow; nothing has moved
   /// then.
-  void run(std::span<const ElementId> pins) {
+  [[gnu::noinline]] void run(std::span<const ElementId> pins) {
     Labels result[Dimension];
     for (int k = 0; k < Dimension; ++k) {
       result[k] = axis(pins, k);
@@ -155,8 +162,7 @@ class RestoreValidity {
 
   /// Computes the highest position to which links let every element go, from all sources together; for Side::down the
   /// lowest one, negated.
-  template <class Sources>
-  void search(const Labels& u, const Sources& sources, Side side, int k) {
+  [[gnu::noinline]] void search(const Labels& u, std::span<const ElementId> sources, Side side, int k) {
     search_.begin(body_.mesh->element_count());
     for (const ElementId source : sources) {
       search_.add_source(source, side == Side::up ? u[source] : -u[source]);
@@ -244,9 +250,7 @@ class RestoreValidity {
       }
     }
     if (worst != pin) {
-      throw Error("pins " + std::to_string(std::min(pin, worst)) + " and " + std::to_string(std::max(pin, worst)),
-                  "they contradict each other: the links between them do not allow their positions",
-                  "unpin one of them, or soften the object");
+      throw contradiction(pin, worst);
     }
   }
 

@@ -1,8 +1,6 @@
 #include "measure/shape_measures.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "mesh/cells.h"
+#include "mesh/symmetric_eigen.h"
 
 namespace chainmail {
 namespace {
@@ -21,14 +20,12 @@ struct Simplex {
   int count = 0;  // of the corners: 4, or 3
   std::size_t cell = 0;
 
-  /// Returns the edges from the first corner, one per column (3 x (count − 1), mesh units).
+  /// Returns the edges from the first corner (mesh units); the third one is 0 for a triangle.
   template <class PositionOf>
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(PositionOf position_of) const {
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> result(3, count - 1);
-    for (int i = 1; i < count; ++i) {
-      result.col(i - 1) = position_of(corners[std::size_t(i)]) - position_of(corners[0]);
-    }
-    return result;
+  std::array<Point, 3> edges(PositionOf position_of) const {
+    const Point first = position_of(corners[0]);
+    return {position_of(corners[1]) - first, position_of(corners[2]) - first,
+            count == 4 ? Point(position_of(corners[3]) - first) : Point(Point::Zero())};
   }
 };
 
@@ -61,10 +58,9 @@ std::vector<Simplex> simplices_of(const Mesh& mesh) {
 /// Returns a number with the sign of the orientation of a simplex.
 template <class PositionOf>
 double orientation(const Mesh& mesh, const Simplex& simplex, PositionOf at) {
-  const auto edges = simplex.edges(at);
-  const Point first = edges.col(0), second = edges.col(1);
+  const auto [first, second, third] = simplex.edges(at);
   const Point across = first.cross(second);
-  return simplex.count == 4 ? across.dot(Point(edges.col(2)))
+  return simplex.count == 4 ? across.dot(third)
                             : across.dot(Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])));
 }
 
@@ -91,19 +87,59 @@ std::optional<std::uint64_t> inverted_cells(const Mesh& mesh, const PositionView
 
 namespace {
 
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+/// Returns the products of edges with each other: the metric of their simplex.
+Eigen::Matrix3d metric_of(const std::array<Point, 3>& edges) {
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      result(i, j) = edges[std::size_t(i)].dot(edges[std::size_t(j)]);
+    }
+  }
+  return result;
+}
+
+/// Returns the Cholesky factor of a positive definite matrix, in its lower triangle.
+Eigen::Matrix3d factor_of(Eigen::Matrix3d matrix) {
+  for (int j = 0; j < 3; ++j) {
+    for (int i = j; i < 3; ++i) {
+      for (int k = 0; k < j; ++k) {
+        matrix(i, j) -= matrix(i, k) * matrix(j, k);
+      }
+      matrix(i, j) = i == j ? std::sqrt(matrix(j, j)) : matrix(i, j) / matrix(j, j);
+    }
+  }
+  return matrix;
+}
+
+/// Multiplies a matrix, from the left, by the inverse of a lower triangle.
+Eigen::Matrix3d divided(Eigen::Matrix3d matrix, const Eigen::Matrix3d& lower) {
+  for (int column = 0; column < 3; ++column) {
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < i; ++k) {
+        matrix(i, column) -= lower(i, k) * matrix(k, column);
+      }
+      matrix(i, column) /= lower(i, i);
+    }
+  }
+  return matrix;
+}
 
 /// Returns the largest principal stretch of a simplex; 0 if it is flat at rest.
 double stretch_of(const Mesh& mesh, const Simplex& simplex, const PositionView& positions) {
-  const auto rest = simplex.edges([&](ElementId e) { return mesh.rest_position(e); });
-  const auto now = simplex.edges([&](ElementId e) { return point_of(mesh, positions, e); });
   // The squares of the stretches are the eigenvalues of the metric now, relative to that at rest.
-  const Square before = rest.transpose() * rest, after = now.transpose() * now;
-  if (!(before.determinant() > 1e-16 * std::pow(before.trace(), double(before.rows())))) {
+  Eigen::Matrix3d before = metric_of(simplex.edges([&](ElementId e) { return mesh.rest_position(e); }));
+  const Eigen::Matrix3d after = metric_of(simplex.edges([&](ElementId e) { return point_of(mesh, positions, e); }));
+  const double trace = before.trace();
+  if (simplex.count < 4) {
+    before(2, 2) = 1;  // the stretch across a triangle is 0
+  }
+  const double volume = before.col(0).cross(before.col(1)).dot(before.col(2));
+  if (!(volume > 1e-16 * std::pow(trace, simplex.count - 1))) {
     return 0;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(after, before, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  const Eigen::Matrix3d lower = factor_of(before);
+  const Eigen::Matrix3d half = divided(after, lower);
+  return std::sqrt(std::max(0.0, symmetric_eigen(divided(half.transpose(), lower)).values[2]));
 }
 
 }  // namespace

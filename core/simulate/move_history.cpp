@@ -146,8 +146,7 @@ std::vector<Command> MoveHistory::last_drag() const {
       break;
     }
   }
-  std::ranges::reverse(drag);
-  return drag;
+  return {drag.rbegin(), drag.rend()};
 }
 
 MeshPointer first_mesh(const std::vector<Command>& commands) {
