@@ -48,7 +48,7 @@ Square closest_by_eigenvector(const Square& matrix) {
   for (int i = 1; i < 4; ++i) {
     largest = eigen.values[i] > eigen.values[largest] ? i : largest;
   }
-  return rotation_of(eigen.vector(largest));
+  return rotation_of(column(eigen.vectors, largest));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ FixedMatrix<double, Size, Size> convex_part(FixedMatrix<double, Size, Size> hess
   const Eigenvectors<Size> modes(hessian);
   for (int i = 0; i < Size; ++i) {
     if (modes.values[i] < 0) {
-      add_square(hessian, -modes.values[i], modes.vector(i));
+      add_square(hessian, -modes.values[i], column(modes.vectors, i));
     }
   }
   return hessian;
@@ -146,7 +146,7 @@ std::array<Twist<3>, 3> twists_of(const Square<3>& rotation, const Square<3>& st
   const Eigenvectors<3> principal((stretch + transposed(stretch)) / 2);
   std::array<Twist<3>, 3> twists;
   for (int i = 0; i < 3; ++i) {
-    const FixedMatrix<double, 3> axis = std::sqrt(0.5) * principal.vector(i);
+    const FixedMatrix<double, 3> axis = std::sqrt(0.5) * column(principal.vectors, i);
     Square<3> cross;
     for (int k = 0; k < 3; ++k) {
       cross((k + 2) % 3, (k + 1) % 3) = axis[k];

@@ -17,10 +17,6 @@ struct Eigenvectors {
     find_eigenvectors({vectors.data(), std::size_t(Rows * Rows)}, {values.data(), std::size_t(Rows)});
   }
 
-  FixedMatrix<double, Rows> vector(int i) const {
-    return FixedMatrix<double, Rows>::from(vectors.data() + std::size_t(i * Rows));
-  }
-
   FixedMatrix<double, Rows> values;
   FixedMatrix<double, Rows, Rows> vectors;
 };
