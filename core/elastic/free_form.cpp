@@ -270,8 +270,8 @@ class FreeForm final : public ElasticSolver {
   int dimension_;
   Eigen::MatrixXd resistance_, factors_;  // of the control points to motion, and its Cholesky factor
   ElasticHandle handle_;
-  Eigen::MatrixXd control_response_,
-      response_;  // to the motion of the handle: a row per control point, a column per element
+  // Responses to the motion of the handle: of the control points, a row each, and of the elements, a column each.
+  Eigen::MatrixXd control_response_, response_;
   std::vector<double> displacements_, begun_;  // now, and where the handle's displacement begins
   Eigen::MatrixXd controls_, begun_controls_;  // displacements, one row per control point
   std::vector<double> control_places_;
