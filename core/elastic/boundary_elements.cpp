@@ -1,10 +1,10 @@
 #include "elastic/boundary_elements.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "elastic/dense.h"
 #include "elastic/methods.h"
 #include "elastic/response.h"
 #include "elastic/simplices.h"
@@ -135,9 +135,12 @@ Eigen::MatrixXd PinnedSolid::respond(std::span<const ElementId> corners, const E
   for (std::size_t i = 0; i < free.size(); ++i) {
     at_handle.middleRows<3>(Index(3 * i)) = fields.displacements.middleRows<3>(Index(3 * free[i]));
   }
-  const Eigen::MatrixXd tractions = at_handle.leftCols(units).partialPivLu().solve(follow - at_handle.rightCols(cases));
-  const auto together = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
-    return of.rightCols(cases) + of.leftCols(units) * tractions;
+  Eigen::MatrixXd tractions = follow - at_handle.rightCols(cases);
+  DenseLu(at_handle.leftCols(units)).solve(tractions);
+  const auto together = [&](const Eigen::MatrixXd& of) {
+    Eigen::MatrixXd sum = of.rightCols(cases);
+    add_product(sum, 1, of.leftCols(units), tractions);
+    return sum;
   };
   return at_elements({together(fields.displacements), together(fields.tractions)}, progress.part(0.5, 1));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "elastic/dense.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -38,10 +39,11 @@ void DenseLu::factor_block(Eigen::Index first, Eigen::Index width) {
     if (pivot != 0) {
       factors_.row(i).segment(first, width).swap(factors_.row(i + pivot).segment(first, width));
     }
-    const Eigen::Index below = size - i - 1, right = first + width - i - 1;
-    factors_.col(i).tail(below) /= factors_(i, i);
-    factors_.block(i + 1, i + 1, below, right).noalias() -=
-        factors_.col(i).tail(below) * factors_.row(i).segment(i + 1, right);
+    const auto below = factors_.col(i).tail(size - i - 1);
+    factors_.col(i).tail(size - i - 1) /= factors_(i, i);
+    for (Eigen::Index column = i + 1; column < first + width; ++column) {
+      factors_.col(column).tail(size - i - 1) -= factors_(i, column) * below;
+    }
   }
 }
 
@@ -60,9 +62,9 @@ void DenseLu::update_rest(Eigen::Index first, Eigen::Index width, const Progress
     progress.report(double(column - next) / double(below));
     const Eigen::Index columns = std::min(slab, size - column);
     swap_rows(first, width, column, columns);
-    auto top = factors_.block(first, column, width, columns);
+    Dense top = factors_.block(first, column, width, columns);
     factors_.block(first, first, width, width).triangularView<Eigen::UnitLower>().solveInPlace(top);
-    factors_.block(next, column, below, columns).noalias() -= factors_.block(next, first, below, width) * top;
+    add_product(factors_.block(next, column, below, columns), -1, factors_.block(next, first, below, width), top);
   }
 }
 
@@ -127,12 +129,12 @@ Eigen::MatrixXd BoundarySystem::right_sides(const Eigen::MatrixXd& known) const 
       continue;  // most displacements are 0, and integrals are slow
     }
     for (std::size_t i = 0; i < facets_.size(); ++i) {
-      if (i == j && displacement_known_[j]) {
-        sides.middleRows<3>(row_of(i)) -= own_traction_[i] * of_facet;
-        continue;
+      Eigen::Matrix3d factor = -own_traction_[i];
+      if (i != j || !displacement_known_[j]) {
+        const auto [displacement, traction] = integrate_kelvin(facets_[j], facets_[i].centroid, poisson_);
+        factor = displacement_known_[j] ? Eigen::Matrix3d(-traction) : displacement;
       }
-      const auto [displacement, traction] = integrate_kelvin(facets_[j], facets_[i].centroid, poisson_);
-      sides.middleRows<3>(row_of(i)) += (displacement_known_[j] ? Eigen::Matrix3d(-traction) : displacement) * of_facet;
+      sides.middleRows<3>(row_of(i)).noalias() += factor * of_facet;
     }
   }
   return sides;

@@ -1,7 +1,8 @@
 #include "elastic/cholesky.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "elastic/dense.h"
 
 namespace chainmail {
 namespace {
@@ -150,15 +151,14 @@ namespace {
 
 /// Subtracts below · belowᵀ from the lower triangle of a matrix, some columns at a time: on a slow machine, all of a
 /// large front would take seconds, in which nobody could cancel. Reports `share` in between.
-void subtract_square(Eigen::Block<Eigen::MatrixXd> from, const Eigen::Block<Eigen::MatrixXd>& below,
-                     const Progress& progress, double share) {
+void subtract_square(Dense from, const Dense& below, const Progress& progress, double share) {
   for (Eigen::Index first = 0; first < from.cols(); first += columns_subtracted) {
     progress.report(share);
     const Eigen::Index columns = std::min(columns_subtracted, from.cols() - first);
     const Eigen::Index rest = from.rows() - first - columns;
     const auto own = below.middleRows(first, columns);
-    from.block(first, first, columns, columns).selfadjointView<Eigen::Lower>().rankUpdate(own, -1);
-    from.block(first + columns, first, rest, columns).noalias() -= below.bottomRows(rest) * own.transpose();
+    chainmail::subtract_square(from.block(first, first, columns, columns), own);
+    add_outer_product(from.block(first + columns, first, rest, columns), -1, below.bottomRows(rest), own);
   }
 }
 
@@ -168,14 +168,13 @@ bool eliminate(Eigen::MatrixXd& front, Eigen::Index width, const Progress& progr
   for (Eigen::Index first = 0; first < width; first += columns_at_once) {
     progress.report(double(first) / double(width));
     const Eigen::Index columns = std::min(columns_at_once, width - first), rest = front.rows() - first - columns;
-    auto own = front.block(first, first, columns, columns);
-    auto below = front.block(first + columns, first, rest, columns);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factored(own);
-    if (factored.info() != Eigen::Success) {
+    const Dense own = front.block(first, first, columns, columns);
+    const Dense below = front.block(first + columns, first, rest, columns);
+    if (!factor_positive(own)) {
       return false;
     }
     if (rest > 0) {
-      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+      solve_on_the_right(own, below);
       subtract_square(front.bottomRightCorner(rest, rest), below, progress, double(first) / double(width));
     }
   }
@@ -237,12 +236,13 @@ Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd right) const {
   };
   for (const Supernode& one : supernodes_) {
     const Panel panel = panel_of(one);
-    auto own = right.middleRows(one.first, one.width);
-    panel.topRows(one.width).triangularView<Eigen::Lower>().solveInPlace(own);
-    const Eigen::MatrixXd update = panel.bottomRows(one.height() - one.width) * own;
+    const Dense own = right.middleRows(one.first, one.width);
+    solve_lower(panel.topRows(one.width), own);
+    Eigen::MatrixXd update = Eigen::MatrixXd::Zero(one.height() - one.width, right.cols());
+    add_product(update, -1, panel.bottomRows(one.height() - one.width), own);
     Eigen::Index i = 0;
     for (const int row : below_of(one)) {
-      right.row(row) -= update.row(i++);
+      right.row(row) += update.row(i++);
     }
   }
   for (std::size_t s = supernodes_.size(); s-- > 0;) {
@@ -253,9 +253,9 @@ Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd right) const {
     for (const int row : below_of(one)) {
       below.row(i++) = right.row(row);
     }
-    auto own = right.middleRows(one.first, one.width);
-    own.noalias() -= panel.bottomRows(one.height() - one.width).transpose() * below;
-    panel.topRows(one.width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    const Dense own = right.middleRows(one.first, one.width);
+    add_transposed_product(own, -1, panel.bottomRows(one.height() - one.width), below);
+    solve_lower_transposed(panel.topRows(one.width), own);
   }
   return right;
 }

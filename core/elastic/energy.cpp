@@ -1,16 +1,52 @@
 #include "elastic/energy.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "elastic/closest_rotation.h"
 #include "elastic/stiffening.h"
+#include "mesh/eigenvectors.h"
 #include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
+
+/// Adds the matrix factor · a aᵀ to a sum.
+template <int Size>
+[[gnu::always_inline]] inline void add_square(FixedMatrix<double, Size, Size>& sum, double factor,
+                                              const FixedMatrix<double, Size>& a) {
+  for (int column = 0; column < Size; ++column) {
+    const double share = factor * a[column];
+    for (int row = 0; row < Size; ++row) {
+      sum(row, column) += share * a[row];
+    }
+  }
+}
+
+/// Returns the nearest matrix without negative curvature.
+template <int Size>
+FixedMatrix<double, Size, Size> convex_part(FixedMatrix<double, Size, Size> hessian) {
+  const Eigenvectors<Size> modes(hessian);
+  for (int i = 0; i < Size; ++i) {
+    if (modes.values[i] < 0) {
+      add_square(hessian, -modes.values[i], column(modes.vectors, i));
+    }
+  }
+  return hessian;
+}
+
+template <int Size>
+void set_gradient(SimplexEnergy& energy, const double* gradient) {
+  energy.gradient.resize(Size);
+  std::copy_n(gradient, Size, energy.gradient.data());
+}
+
+template <int Size>
+void set_hessian(SimplexEnergy& energy, const FixedMatrix<double, Size, Size>& hessian) {
+  energy.hessian.resize(Size, Size);
+  std::copy_n(hessian.data(), Size * Size, energy.hessian.data());
+}
 
 template <int N>
 SimplexEnergy energy_in(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
@@ -41,35 +77,27 @@ SimplexEnergy energy_in(const Simplices& simplices, std::size_t simplex, const C
   const Corners by_volume = transposed(adjoint) / ratio * rest;  // derivatives of L
   const Corners by_shape = 2 * (deformation * rest);             // of S
   const Corners forces = volume * (term.slope_s * by_shape + term.slope_l * by_volume);
-  result.gradient = Eigen::Map<const CornerVector>(forces.data(), Corners::size);
+  set_gradient<Corners::size>(result, forces.data());
   if (want == Want::gradient) {
     return result;
   }
-  result.hessian.resize(Corners::size, Corners::size);
+  FixedMatrix<double, Corners::size, Corners::size> hessian;
   const FixedMatrix<double, N + 1, N + 1> products = transposed(rest) * rest;
   for (int q = 0; q < Corners::size; ++q) {
     for (int p = 0; p < Corners::size; ++p) {
       const int a = p / N, i = p % N, b = q / N, j = q % N;  // corner and axis
-      result.hessian(p, q) =
+      hessian(p, q) =
           volume *
           (term.curvature_ss * by_shape[p] * by_shape[q] + term.curvature_ll * by_volume[p] * by_volume[q] +
            term.curvature_sl * (by_shape[p] * by_volume[q] + by_volume[p] * by_shape[q]) -
            term.slope_l * by_volume(i, b) * by_volume(j, a) + (i == j ? 2 * term.slope_s * products(a, b) : 0));
     }
   }
-  if (want == Want::convex) {
-    result.hessian = convex_part(result.hessian);
-  }
+  set_hessian(result, want == Want::convex ? convex_part(hessian) : hessian);
   return result;
 }
 
 }  // namespace
-
-CornerMatrix convex_part(const CornerMatrix& hessian) {
-  const Eigen::SelfAdjointEigenSolver<CornerMatrix> modes(hessian);
-  const CornerMatrix& vectors = modes.eigenvectors();
-  return vectors * modes.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
-}
 
 SimplexEnergy energy_of_law(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                             const StrainLaw& law, const Lame& lame, Want want) {
@@ -91,7 +119,7 @@ CornerMatrix stiffness(const Simplices& simplices, std::size_t simplex, const La
 namespace {
 
 template <int N>
-using Square = Eigen::Matrix<double, N, N>;
+using Square = FixedMatrix<double, N, N>;
 
 /// One way in which a simplex turns against its rotation: a matrix of size 1, and the second derivative of tr RᵀF along
 /// it.
@@ -108,20 +136,24 @@ std::array<Twist<1>, 0> twists_of(const Square<1>& /*rotation*/, const Square<1>
 
 std::array<Twist<2>, 1> twists_of(const Square<2>& rotation, const Square<2>& stretch) {
   Square<2> quarter;
-  quarter << 0, -1, 1, 0;
-  return {Twist<2>{rotation * quarter * std::sqrt(0.5), 2 / std::max(stretch.trace(), least_stretch)}};
+  quarter(1, 0) = std::sqrt(0.5);
+  quarter(0, 1) = -quarter(1, 0);
+  return {Twist<2>{rotation * quarter, 2 / std::max(stretch.trace(), least_stretch)}};
 }
 
 /// About the principal axes of the stretch (Smith, de Goes and Kim 2019).
 std::array<Twist<3>, 3> twists_of(const Square<3>& rotation, const Square<3>& stretch) {
-  const Eigen::SelfAdjointEigenSolver<Square<3>> principal((stretch + stretch.transpose()) / 2);
+  const Eigenvectors<3> principal((stretch + transposed(stretch)) / 2);
   std::array<Twist<3>, 3> twists;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = principal.eigenvectors().col(i);
+    const FixedMatrix<double, 3> axis = std::sqrt(0.5) * column(principal.vectors, i);
     Square<3> cross;
-    cross << 0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0;
-    const double others = stretch.trace() - principal.eigenvalues()[i];
-    twists[std::size_t(i)] = {rotation * cross * std::sqrt(0.5), 2 / std::max(others, least_stretch)};
+    for (int k = 0; k < 3; ++k) {
+      cross((k + 2) % 3, (k + 1) % 3) = axis[k];
+      cross((k + 1) % 3, (k + 2) % 3) = -axis[k];
+    }
+    const double others = stretch.trace() - principal.values[i];
+    twists[std::size_t(i)] = {rotation * cross, 2 / std::max(others, least_stretch)};
   }
   return twists;
 }
@@ -129,15 +161,15 @@ std::array<Twist<3>, 3> twists_of(const Square<3>& rotation, const Square<3>& st
 template <int N>
 SimplexEnergy corotated_in(const Simplices& simplices, std::size_t simplex, const CornerDisplacements& at,
                            const Lame& whole, Want want) {
-  using Corners = Eigen::Matrix<double, N, N + 1>;
-  using Flat = Eigen::Matrix<double, N*(N + 1), 1>;
+  using Corners = FixedMatrix<double, N, N + 1>;
+  using Flat = FixedMatrix<double, Corners::size>;
   const auto [mu, lambda] = lame_of_dimension(whole, N);
   const double volume = simplices.volumes[simplex];
-  const Corners gradients = simplices.gradients_of(simplex), moved = at;
-  const Square<N> deformation = Square<N>::Identity() + moved * gradients.transpose();
+  const Corners gradients = Corners::from(simplices.gradients_of(simplex).data()), moved = Corners::from(at.data());
+  const Square<N> deformation = Square<N>::Identity() + moved * transposed(gradients);
   Square<N> rotation = Square<N>::Identity();
   turn_to_closest(deformation, rotation);
-  const Square<N> stretch = rotation.transpose() * deformation, strain = stretch - Square<N>::Identity();
+  const Square<N> stretch = transposed(rotation) * deformation, strain = stretch - Square<N>::Identity();
   const double longer = strain.trace();
   SimplexEnergy result;
   result.energy = volume * (mu * strain.squaredNorm() + lambda / 2 * longer * longer);
@@ -148,28 +180,27 @@ SimplexEnergy corotated_in(const Simplices& simplices, std::size_t simplex, cons
   }
   const Corners turned = rotation * gradients;
   const Corners forces = volume * (2 * mu * (deformation * gradients - turned) + lambda * longer * turned);
-  result.gradient = Eigen::Map<const Flat>(forces.data());
+  set_gradient<Corners::size>(result, forces.data());
   if (want == Want::gradient) {
     return result;
   }
-  Eigen::Matrix<double, N*(N + 1), N*(N + 1)> hessian;
-  const Eigen::Matrix<double, N + 1, N + 1> products = 2 * mu * (gradients.transpose() * gradients);
+  FixedMatrix<double, Corners::size, Corners::size> hessian;
+  const FixedMatrix<double, N + 1, N + 1> products = 2 * mu * (transposed(gradients) * gradients);
   for (int a = 0; a <= N; ++a) {
     for (int b = 0; b <= N; ++b) {
-      hessian.template block<N, N>(N * a, N * b) = products(a, b) * Square<N>::Identity();
+      for (int k = 0; k < N; ++k) {
+        hessian(N * a + k, N * b + k) = products(a, b);
+      }
     }
   }
-  const auto flat = Eigen::Map<const Flat>(turned.data());
-  hessian.noalias() += lambda * flat * flat.transpose();
+  add_square(hessian, lambda, Flat::from(turned.data()));
   for (const Twist<N>& twist : twists_of(rotation, stretch)) {
     const double resists = (lambda * longer - 2 * mu) * twist.curvature;
-    const Corners turning = twist.way * gradients;
-    const auto of_twist = Eigen::Map<const Flat>(turning.data());
     // The second derivative along the twist is 2 μ + this; only there it can be negative.
     const double used = want == Want::convex ? std::max(resists, -2 * mu) : resists;
-    hessian.noalias() += used * of_twist * of_twist.transpose();
+    add_square(hessian, used, Flat::from((twist.way * gradients).data()));
   }
-  result.hessian = volume * hessian;
+  set_hessian(result, volume * hessian);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <functional>
 
 #include "elastic/material.h"
@@ -37,25 +36,8 @@ SimplexEnergy energy_of_law(const Simplices& simplices, std::size_t simplex, con
 using SimplexModel = std::function<SimplexEnergy(const Simplices& simplices, std::size_t simplex,
                                                  const CornerDisplacements& at, const Lame& lame, Want want)>;
 
-/// Returns the nearest matrix without negative curvature.
-CornerMatrix convex_part(const CornerMatrix& hessian);
-
 /// Returns the stiffness of a simplex: the Hessian at rest, the same for all laws.
 CornerMatrix stiffness(const Simplices& simplices, std::size_t simplex, const Lame& lame);
-
-/// Returns the derivatives of the determinant of a matrix by its entries. As a call, it makes XPBD 15 % slower.
-template <int N>
-EIGEN_ALWAYS_INLINE Eigen::Matrix<double, N, N> cofactors(const Eigen::Matrix<double, N, N>& f) {
-  Eigen::Matrix<double, N, N> cofactors;
-  if constexpr (N == 3) {
-    cofactors << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
-  } else if constexpr (N == 2) {
-    cofactors << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0);
-  } else {
-    cofactors.setOnes();
-  }
-  return cofactors;
-}
 
 /// Returns the corotated energy of a simplex (Sifakis and Barbič 2012),
 ///     W = μ |F − R|² + λ/2 (tr RᵀF − n)²,

@@ -1,9 +1,10 @@
 #include "elastic/free_form.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <span>
+#include <utility>
 
+#include "elastic/dense.h"
 #include "elastic/methods.h"
 
 namespace chainmail {
@@ -48,7 +49,12 @@ Eigen::VectorXd BernsteinVolume::weights(ElementId element) const {
         mesh_
             .rest[std::size_t{element} * static_cast<std::size_t>(mesh_.space_dimension) + static_cast<std::size_t>(k)];
     const double share = high > low ? (at - low) / (high - low) : 0;
-    all = Eigen::VectorXd((all * polynomials(counts_[k], share).transpose()).reshaped());
+    const Eigen::VectorXd along = polynomials(counts_[k], share);
+    Eigen::VectorXd products(all.size() * along.size());
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      products.segment(i * all.size(), all.size()) = along[i] * all;
+    }
+    all = std::move(products);
   }
   return all;
 }
@@ -76,27 +82,30 @@ class FreeForm final : public ElasticSolver {
     reset();
     resistance_ = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
     add_resistance(pins_, resistance_, {});
-    factors_.compute(resistance_);
+    factors_ = resistance_;
+    factor_positive(factors_);
   }
 
   void hold(const ElasticHandle& handle, const Progress& progress) override {
     handle_ = handle;
     begin();
     control_response_ = handle.elements.size() == 1 ? respond_to_one() : respond_to_many(progress.part(0, 0.5));
-    response_.resize(mesh_->element_count(), control_response_.cols());
+    response_.resize(control_response_.cols(), mesh_->element_count());
     for (ElementId e = 0; e < mesh_->element_count(); ++e) {
       progress.part(0.5, 1).report(e, mesh_->element_count());
       const Eigen::VectorXd weights = volume_.weights(e);
-      for (Eigen::Index column = 0; column < response_.cols(); ++column) {
-        response_(e, column) = weights.dot(control_response_.col(column));
+      for (Eigen::Index i = 0; i < response_.rows(); ++i) {
+        response_(i, e) = weights.dot(control_response_.col(i));
       }
     }
   }
 
   void move(const ElasticMotion& motion, const Progress& /*progress*/) override {
     const Eigen::MatrixXd displacement = way_of(motion);
-    controls_ = begun_controls_ + control_response_ * displacement;
-    fields(displacements_).noalias() = fields(begun_) + displacement.transpose() * response_.transpose();
+    controls_ = begun_controls_;
+    add_product(controls_, 1, control_response_, displacement);
+    displacements_ = begun_;
+    add_transposed_product(fields(displacements_), 1, displacement, response_);
     for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
       fields(displacements_).col(handle_.elements[i]) = displacement_of(handle_, i, motion);  // exact, without rounding
     }
@@ -149,15 +158,29 @@ class FreeForm final : public ElasticSolver {
     for (std::size_t i = 0; i < elements.size(); ++i) {
       progress.report(i, elements.size());
       const Eigen::VectorXd weights = volume_.weights(elements[i]);
-      to += pin_weight * weights * weights.transpose();
+      add_square(pin_weight, weights, to);
     }
+  }
+
+  /// Adds factor · a aᵀ to a sum.
+  static void add_square(double factor, const Eigen::VectorXd& a, Eigen::MatrixXd& sum) {
+    for (Eigen::Index column = 0; column < a.size(); ++column) {
+      sum.col(column) += factor * a[column] * a;
+    }
+  }
+
+  /// Replaces right sides by the solutions, from the Cholesky factor of a matrix.
+  static Eigen::MatrixXd solved(const Eigen::MatrixXd& factor, Eigen::MatrixXd right) {
+    solve_lower(factor, right);
+    solve_lower_transposed(factor, right);
+    return right;
   }
 
   /// Returns the response of the control points to a unit displacement of the handle, the same along each axis.
   Eigen::MatrixXd respond_to_one() const {
     const Eigen::VectorXd weights = volume_.weights(handle_.elements[0]);
-    const Eigen::VectorXd response = factors_.solve(weights);
-    return response / weights.dot(response);
+    const Eigen::MatrixXd response = solved(factors_, weights);
+    return response / weights.dot(response.col(0));
   }
 
   /// Returns the responses of the control points to a unit turn about each coordinate of the arms, and to a unit
@@ -169,16 +192,16 @@ class FreeForm final : public ElasticSolver {
     add_resistance(handle_.elements, resistance, progress);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2 * n + 1);
     for (std::size_t i = 0; i < handle_.elements.size(); ++i) {
-      const auto of_element = [&](const std::vector<double>& all) {
-        return Eigen::Map<const Eigen::RowVectorXd>(all.data() + static_cast<Eigen::Index>(i) * n, n);
-      };
       const Eigen::VectorXd weights = pin_weight * volume_.weights(handle_.elements[i]);
-      right.leftCols(n) += weights * of_element(handle_.arms);
       right.col(n) += weights;
-      right.rightCols(n) +=
-          weights * (of_element(handle_.displacements) - fields(begun_).col(handle_.elements[i]).transpose());
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const std::size_t at = i * std::size_t(n) + std::size_t(k);
+        right.col(k) += handle_.arms[at] * weights;
+        right.col(n + 1 + k) += (handle_.displacements[at] - fields(begun_)(k, handle_.elements[i])) * weights;
+      }
     }
-    const Eigen::MatrixXd responses = resistance.llt().solve(right);
+    factor_positive(resistance);
+    const Eigen::MatrixXd responses = solved(resistance, std::move(right));
     take_shape(responses.rightCols(n));
     return responses.leftCols(n + 1);
   }
@@ -231,10 +254,13 @@ class FreeForm final : public ElasticSolver {
     const std::size_t stride = std::max<std::size_t>(1, mesh_->element_count() / max_fitted);
     for (std::size_t e = 0; e < mesh_->element_count(); e += stride) {
       const Eigen::VectorXd weights = volume_.weights(static_cast<ElementId>(e));
-      normal += weights * weights.transpose();
-      right += weights * fields(displacements_).col(static_cast<Eigen::Index>(e)).transpose();
+      add_square(1, weights, normal);
+      for (int k = 0; k < dimension_; ++k) {
+        right.col(k) += fields(displacements_)(k, static_cast<Eigen::Index>(e)) * weights;
+      }
     }
-    return normal.ldlt().solve(right);
+    factor_positive(normal);
+    return solved(normal, std::move(right));
   }
 
   MeshPointer mesh_;
@@ -242,12 +268,12 @@ class FreeForm final : public ElasticSolver {
   std::vector<double> pinned_;
   BernsteinVolume volume_;
   int dimension_;
-  Eigen::MatrixXd resistance_;           // of the control points to motion
-  Eigen::LLT<Eigen::MatrixXd> factors_;  // of it
+  Eigen::MatrixXd resistance_, factors_;  // of the control points to motion, and its Cholesky factor
   ElasticHandle handle_;
-  Eigen::MatrixXd control_response_, response_;  // to the motion of the handle: one row per control point or element
-  std::vector<double> displacements_, begun_;    // now, and where the handle's displacement begins
-  Eigen::MatrixXd controls_, begun_controls_;    // displacements, one row per control point
+  // Responses to the motion of the handle: of the control points, a row each, and of the elements, a column each.
+  Eigen::MatrixXd control_response_, response_;
+  std::vector<double> displacements_, begun_;  // now, and where the handle's displacement begins
+  Eigen::MatrixXd controls_, begun_controls_;  // displacements, one row per control point
   std::vector<double> control_places_;
   std::string none_;
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "elastic/closest_rotation.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -76,29 +77,29 @@ namespace {
 
 template <int N>
 std::vector<double> rigid_fit_in(const ElasticProblem& problem) {
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Square = Eigen::Matrix<double, N, N>;
+  using Vector = FixedMatrix<double, N>;
+  using Square = FixedMatrix<double, N, N>;
   const std::vector<double>& rest = problem.mesh->rest;
   const auto at = [](const std::vector<double>& all, std::size_t i) {
-    return Eigen::Map<const Vector>(all.data() + i * std::size_t(N));
+    return Vector::from(all.data() + i * std::size_t(N));
   };
   const auto& pins = problem.pins;
-  Vector centre = Vector::Zero(), moved = Vector::Zero();
+  Vector centre, moved;
   for (std::size_t i = 0; i < pins.size(); ++i) {
     centre += at(rest, pins[i]) / double(pins.size());
     moved += at(problem.pinned, i) / double(pins.size());
   }
-  Square sum = Square::Zero();
+  Square sum;
   for (std::size_t i = 0; i < pins.size(); ++i) {
     const Vector arm = at(rest, pins[i]) - centre;
-    sum += (arm + at(problem.pinned, i) - moved) * arm.transpose();
+    sum += outer_product(arm + at(problem.pinned, i) - moved, arm);
   }
   Square rotation = Square::Identity();
   turn_to_closest(sum, rotation);
   const Square turn = rotation - Square::Identity();
   std::vector<double> all(rest.size());
   for (std::size_t e = 0; e < problem.mesh->element_count(); ++e) {
-    Eigen::Map<Vector>(all.data() + e * std::size_t(N)) = turn * (at(rest, e) - centre) + moved;
+    std::copy_n((turn * (at(rest, e) - centre) + moved).data(), N, all.data() + e * std::size_t(N));
   }
   return all;
 }

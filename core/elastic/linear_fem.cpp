@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 #include "elastic/simplices.h"
 #include "elastic/stiffness.h"
 #include "mesh/error.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
@@ -332,10 +332,17 @@ class LinearFem final : public LinearResponse, public CutUpdate {
     if (first != Unknowns::none) {
       Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(unknowns.count(), n);
       forces.middleRows(first, n).setIdentity();
-      Eigen::MatrixXd fields = base_.solve(std::move(forces));
-      const SmallMatrix compliance = fields.middleRows(first, n);
-      fields *= compliance.inverse();
-      unknowns.scatter(fields, response);
+      const Eigen::MatrixXd fields = base_.solve(std::move(forces));
+      auto compliance = FixedMatrix<double, 3, 3>::Identity();
+      for (int i = 0; i < n * n; ++i) {
+        compliance(i % n, i / n) = fields(first + i % n, i / n);
+      }
+      const auto stiffness = inverse_of_positive(compliance);
+      Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(unknowns.count(), n);
+      for (int i = 0; i < n * n; ++i) {
+        scaled.col(i / n) += stiffness(i % n, i / n) * fields.col(i % n);
+      }
+      unknowns.scatter(scaled, response);
     }
     // The grabbed element is exactly at its target, without rounding. If it has no cell, it moves alone.
     response.middleRows(Eigen::Index{element} * n, n).setIdentity();

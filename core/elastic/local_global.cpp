@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <memory>
@@ -14,9 +13,31 @@
 #include "elastic/methods.h"
 #include "elastic/stiffness.h"
 #include "mesh/error.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
+
+/// Solves a symmetric positive definite system by elimination.
+template <int Size>
+FixedMatrix<double, Size> solved(FixedMatrix<double, Size, Size> lower, FixedMatrix<double, Size> right) {
+  for (int k = 0; k < Size; ++k) {
+    for (int i = k + 1; i < Size; ++i) {
+      const double factor = lower(i, k) / lower(k, k);
+      right[i] -= factor * right[k];
+      for (int j = k + 1; j <= i; ++j) {
+        lower(i, j) -= factor * lower(j, k);
+      }
+    }
+  }
+  for (int k = Size - 1; k >= 0; --k) {
+    for (int i = k + 1; i < Size; ++i) {
+      right[k] -= lower(i, k) * right[i];
+    }
+    right[k] /= lower(k, k);
+  }
+  return right;
+}
 
 /// Anderson acceleration of a fixed-point iteration x ← x + f(x) (Peng et al. 2018): from the last steps, it
 /// extrapolates to where the next step would be shortest. The limit is the same.
@@ -29,30 +50,48 @@ class Anderson {
   /// Returns the next iterate, from the step f(x) and its end x + f(x).
   Eigen::VectorXd next(const Eigen::VectorXd& step, const Eigen::VectorXd& end) {
     if (seen_ > 0) {
-      const Eigen::Index slot = (seen_ - 1) % window;
+      const int slot = (seen_ - 1) % window;
       steps_.col(slot) = step - last_step_;
       ends_.col(slot) = end - last_end_;
+      multiply(slot);
+    } else {
+      products_ = Products::Identity();
     }
     last_step_ = step;
     last_end_ = end;
-    const Eigen::Index used = std::min(seen_++, window);
-    if (used == 0) {
+    const int used = std::min(seen_++, window);
+    FixedMatrix<double, window> shares;
+    for (int i = 0; i < used; ++i) {
+      shares[i] = steps_.col(i).dot(step);
+    }
+    shares = solved(products_, shares);
+    if (!std::isfinite(shares.squaredNorm())) {
       return end;
     }
-    const auto changes = steps_.leftCols(used);
-    Eigen::MatrixXd products = changes.transpose() * changes;
-    products.diagonal() *= 1 + ridge;
-    const Eigen::VectorXd shares = products.ldlt().solve(changes.transpose() * step);
-    return shares.allFinite() ? Eigen::VectorXd(end - ends_.leftCols(used) * shares) : end;
+    Eigen::VectorXd next = end;
+    for (int i = 0; i < used; ++i) {
+      next -= shares[i] * ends_.col(i);
+    }
+    return next;
   }
 
  private:
-  static constexpr Eigen::Index window = 6;  // 5 to 8 work alike (Peng et al. 2018)
-  static constexpr double ridge = 1e-12;     // steps of nearly the same direction have no unique shares
+  static constexpr int window = 6;        // 5 to 8 work alike (Peng et al. 2018)
+  static constexpr double ridge = 1e-12;  // steps of nearly the same direction have no unique shares
+  using Products = FixedMatrix<double, window, window>;
+
+  /// Multiplies a new change of a step with all others that are there.
+  void multiply(int slot) {
+    for (int i = 0; i < std::min(seen_, window); ++i) {
+      products_(i, slot) = products_(slot, i) = steps_.col(i).dot(steps_.col(slot));
+    }
+    products_(slot, slot) *= 1 + ridge;
+  }
 
   Eigen::MatrixXd steps_, ends_;  // changes of the last steps and of their ends
+  Products products_;             // of the changes of steps; of the identity where there are none
   Eigen::VectorXd last_step_, last_end_;
-  Eigen::Index seen_ = 0;
+  int seen_ = 0;
 };
 
 /// A local/global energy (Sorkine and Alexa 2007; Bouaziz et al. 2014). With the vector d of an edge and its vector r
@@ -96,8 +135,8 @@ class LocalGlobal final : public IteratedSolver {
   }
 
  private:
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Square = Eigen::Matrix<double, N, N>;
+  using Vector = FixedMatrix<double, N>;
+  using Square = FixedMatrix<double, N, N>;
   struct Edge {
     std::size_t from = 0, to = 0;
     double weight = 0;
@@ -108,7 +147,7 @@ class LocalGlobal final : public IteratedSolver {
     std::vector<Edge> result;
     result.reserve(edges.size());
     for (const auto& [from, to, weight] : edges) {
-      const auto at = [&](ElementId e) { return Eigen::Map<const Vector>(mesh.rest.data() + std::size_t{e} * N); };
+      const auto at = [&](ElementId e) { return Vector::from(mesh.rest.data() + std::size_t{e} * N); };
       result.push_back({from, to, weight, at(to) - at(from)});
     }
     return result;
@@ -147,14 +186,15 @@ class LocalGlobal final : public IteratedSolver {
   }
 
   Vector apart(const Edge& edge, const std::vector<double>& displacements) const {
-    const double* from = displacements.data() + edge.from * N;
-    const double* to = displacements.data() + edge.to * N;
-    return edge.rest + (Eigen::Map<const Vector>(to) - Eigen::Map<const Vector>(from));
+    return edge.rest +
+           (Vector::from(displacements.data() + edge.to * N) - Vector::from(displacements.data() + edge.from * N));
   }
 
   void pull(const Edge& edge, const Vector& force) {
-    Eigen::Map<Vector>(gradient_.data() + edge.to * N) += force;
-    Eigen::Map<Vector>(gradient_.data() + edge.from * N) -= force;
+    for (int k = 0; k < N; ++k) {
+      gradient_[edge.to * N + std::size_t(k)] += force[k];
+      gradient_[edge.from * N + std::size_t(k)] -= force[k];
+    }
   }
 
   /// The local step: turns the groups. Returns the energy, and its derivatives in gradient_.
@@ -164,9 +204,9 @@ class LocalGlobal final : public IteratedSolver {
     std::size_t begin = 0;
     for (std::size_t g = 0; g < group_ends_.size(); ++g) {
       const std::size_t end = group_ends_[g];
-      Square sum = Square::Zero();
+      Square sum;
       for (std::size_t i = begin; i < end; ++i) {
-        sum.noalias() += edges_[i].weight * apart(edges_[i], displacements) * edges_[i].rest.transpose();
+        sum += outer_product(edges_[i].weight * apart(edges_[i], displacements), edges_[i].rest);
       }
       turn_to_closest(sum, rotations_[g]);
       for (std::size_t i = begin; i < end; ++i) {

@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "elastic/methods.h"
 #include "elastic/stiffness.h"
 #include "mesh/error.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 namespace {
@@ -37,7 +37,7 @@ class QuasiNewton final : public IteratedSolver {
     lambda_ = material.lambda + material.mu;
     alpha_ = 1 + mu_ / lambda_;
     for (std::size_t s = 0; s < cells.count(); ++s) {
-      Cell cell{{}, cells.gradients_of(s), cells.volumes[s]};
+      Cell cell{{}, Corners::from(cells.gradients_of(s).data()), cells.volumes[s]};
       std::ranges::copy(cells.corners_of(s), cell.corners.begin());
       cells_.push_back(cell);
     }
@@ -57,9 +57,10 @@ class QuasiNewton final : public IteratedSolver {
   // Rounding error of the energy, as a share of the magnitude of its terms.
   static constexpr double rounding_share = 1e-15;
 
-  using Square = Eigen::Matrix<double, N, N>;
-  using Corners = Eigen::Matrix<double, N, N + 1>;
-  using Unknown = Eigen::Matrix<double, Eigen::Dynamic, N>;  // a row for each element that moves
+  using Vector = FixedMatrix<double, N>;
+  using Square = FixedMatrix<double, N, N>;
+  using Corners = FixedMatrix<double, N, N + 1>;
+  using Unknown = Eigen::MatrixXd;  // a row of N for each element that moves
   struct Cell {
     std::array<ElementId, N + 1> corners;
     Corners gradients;  // of the shape functions
@@ -93,10 +94,10 @@ class QuasiNewton final : public IteratedSolver {
     const double modulus = cell.volume * (mu_ + lambda_);
     for (int a = 0; a <= N; ++a) {
       for (int b = 0; b <= N; ++b) {
-        const std::int32_t row = unknowns_.of(cell.corners[std::size_t(a)]),
-                           column = unknowns_.of(cell.corners[std::size_t(b)]);
-        if (row != Unknowns::none && column != Unknowns::none && row >= column) {
-          entries.emplace_back(row, column, modulus * cell.gradients.col(a).dot(cell.gradients.col(b)));
+        const std::int32_t i = unknowns_.of(cell.corners[std::size_t(a)]),
+                           j = unknowns_.of(cell.corners[std::size_t(b)]);
+        if (i != Unknowns::none && j != Unknowns::none && i >= j) {
+          entries.emplace_back(i, j, modulus * column(cell.gradients, a).dot(column(cell.gradients, b)));
         }
       }
     }
@@ -110,18 +111,19 @@ class QuasiNewton final : public IteratedSolver {
     for (const Cell& cell : cells_) {
       Corners at;
       for (int k = 0; k <= N; ++k) {
-        at.col(k) =
-            Eigen::Map<const Eigen::Matrix<double, N, 1>>(displacements.data() + cell.corners[std::size_t(k)] * N);
+        set_column(at, k, Vector::from(displacements.data() + std::size_t{cell.corners[std::size_t(k)]} * N));
       }
-      const Square f = Square::Identity() + at * cell.gradients.transpose();
-      const double beyond = f.determinant() - alpha_;
+      const Square f = Square::Identity() + at * transposed(cell.gradients), adjoint = adjugate(f);
+      const double beyond = determinant(f, adjoint) - alpha_;
       const double shape = mu_ * f.squaredNorm(), size = lambda_ * beyond * beyond;
       const double shape_at_rest = mu_ * N, size_at_rest = lambda_ * (1 - alpha_) * (1 - alpha_);
       sum += cell.volume / 2 * (shape - shape_at_rest + size - size_at_rest);
       magnitude_ += cell.volume / 2 * (shape + shape_at_rest + size + size_at_rest);
-      const Corners forces = cell.volume * (mu_ * f + lambda_ * beyond * cofactors(f)) * cell.gradients;
+      const Corners forces = cell.volume * (mu_ * f + lambda_ * beyond * transposed(adjoint)) * cell.gradients;
       for (int k = 0; k <= N; ++k) {
-        Eigen::Map<Eigen::Matrix<double, N, 1>>(gradient_.data() + cell.corners[std::size_t(k)] * N) += forces.col(k);
+        for (int i = 0; i < N; ++i) {
+          gradient_[std::size_t{cell.corners[std::size_t(k)]} * N + std::size_t(i)] += forces(i, k);
+        }
       }
     }
     return sum;
@@ -130,16 +132,16 @@ class QuasiNewton final : public IteratedSolver {
   Unknown gather(std::span<const double> all) const {
     Unknown unknown(unknowns_.count(), N);
     for (ElementId e = 0; e < elements_; ++e) {
-      if (const auto row = unknowns_.of(e); row != Unknowns::none) {
-        unknown.row(row) = Eigen::Map<const Eigen::Matrix<double, 1, N>>(all.data() + std::size_t{e} * N);
+      for (int k = 0; k < N && unknowns_.of(e) != Unknowns::none; ++k) {
+        unknown(unknowns_.of(e), k) = all[std::size_t{e} * N + std::size_t(k)];
       }
     }
     return unknown;
   }
   void scatter(const Unknown& unknown, std::vector<double>& all) const {
     for (ElementId e = 0; e < elements_; ++e) {
-      if (const auto row = unknowns_.of(e); row != Unknowns::none) {
-        Eigen::Map<Eigen::Matrix<double, 1, N>>(all.data() + std::size_t{e} * N) = unknown.row(row);
+      for (int k = 0; k < N && unknowns_.of(e) != Unknowns::none; ++k) {
+        all[std::size_t{e} * N + std::size_t(k)] = unknown(unknowns_.of(e), k);
       }
     }
   }
@@ -185,7 +187,7 @@ class QuasiNewton final : public IteratedSolver {
         pairs_.clear();
         step = step_of(slope);
       }
-      longest = step.template lpNorm<Eigen::Infinity>();
+      longest = step.lpNorm<Eigen::Infinity>();
       converged = longest <= last_step_below * length_;
       if (!converged && !descend(displacements, slope, step)) {
         if (pairs_.empty()) {

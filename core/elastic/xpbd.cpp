@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "elastic/cell_edges.h"
+#include "elastic/energy.h"
 #include "elastic/iterated.h"
 #include "elastic/methods.h"
 
@@ -28,8 +29,8 @@ std::vector<WeightedEdge> material_springs(const ElasticProblem& problem, const 
 template <int N>
 class TimeStepSolver : public IteratedSolver {
  protected:
-  using Vector = Eigen::Matrix<double, N, 1>;
-  using Square = Eigen::Matrix<double, N, N>;
+  using Vector = FixedMatrix<double, N>;
+  using Square = FixedMatrix<double, N, N>;
   /// What the constraints read and write.
   struct Element {
     Vector at;            // from the first element at rest, so that an object far from the origin loses no digits
@@ -72,12 +73,10 @@ class TimeStepSolver : public IteratedSolver {
   static constexpr double diverging_move = 100;
 
   struct Motion {
-    Vector rest, before = Vector::Zero(), velocity = Vector::Zero();  // velocity: way in a time step
+    Vector rest, before, velocity;  // velocity: way in a time step
   };
 
-  static Eigen::Map<const Vector> of(std::span<const double> all, std::size_t element) {
-    return Eigen::Map<const Vector>(all.data() + element * N);
-  }
+  static Vector of(std::span<const double> all, std::size_t element) { return Vector::from(all.data() + element * N); }
 
   void prescribe(const std::vector<ElementId>& prescribed, const Progress& /*progress*/) override {
     for (Element& element : elements_) {
@@ -118,7 +117,7 @@ class TimeStepSolver : public IteratedSolver {
     }
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       if (elements_[e].mobility != 0) {
-        Eigen::Map<Vector>(displacements.data() + e * N) = elements_[e].at - motions_[e].rest;
+        std::copy_n((elements_[e].at - motions_[e].rest).data(), N, displacements.data() + e * N);
       }
     }
     last_ = displacements;
@@ -135,7 +134,7 @@ class TimeStepSolver : public IteratedSolver {
   }
   void stop() {
     for (Motion& motion : motions_) {
-      motion.velocity.setZero();
+      motion.velocity = {};
     }
   }
 
@@ -218,13 +217,13 @@ class Xpbd final : public TimeStepSolver<N> {
   Slope slope_of(const Volume& one) const {
     Square edges;
     for (int k = 0; k < N; ++k) {
-      edges.col(k) = element(one.corners[std::size_t(k) + 1]).at - element(one.corners[0]).at;
+      set_column(edges, k, element(one.corners[std::size_t(k) + 1]).at - element(one.corners[0]).at);
     }
-    const Square slopes = cofactors(edges);
-    Slope slope{of_box * slopes.col(0).dot(edges.col(0)), {}};
-    slope.by_corner[0] = -of_box * slopes.rowwise().sum();
+    const Square slopes = of_box * transposed(adjugate(edges));
+    Slope slope{column(slopes, 0).dot(column(edges, 0)), {}};
     for (int k = 0; k < N; ++k) {
-      slope.by_corner[std::size_t(k) + 1] = of_box * slopes.col(k);
+      slope.by_corner[std::size_t(k) + 1] = column(slopes, k);
+      slope.by_corner[0] -= column(slopes, k);
     }
     return slope;
   }
@@ -321,7 +320,8 @@ class NeoHookeanXpbd final : public TimeStepSolver<N> {
     rest_volume_ = 1 + material.mu / of_volume;
     for (std::size_t s = 0; s < cells.count(); ++s) {
       const double inertia = 1 / (cells.volumes[s] * this->square());
-      Cell cell{{}, cells.gradients_of(s).template rightCols<N>(), inertia / material.mu, inertia / of_volume};
+      const auto gradients = Square::from(cells.gradients_of(s).data() + N);
+      Cell cell{{}, gradients, inertia / material.mu, inertia / of_volume};
       std::ranges::copy(cells.corners_of(s), cell.corners.begin());
       cells_.push_back(cell);
     }
@@ -346,13 +346,13 @@ class NeoHookeanXpbd final : public TimeStepSolver<N> {
     for (std::size_t k = 0; k <= N; ++k) {
       corners[k] = &element(cell.corners[k]);
     }
-    for (std::size_t k = 0; k < N; ++k) {
-      edges.col(Eigen::Index(k)) = corners[k + 1]->at - corners[0]->at;
+    for (int k = 0; k < N; ++k) {
+      set_column(edges, k, corners[std::size_t(k) + 1]->at - corners[0]->at);
     }
     const NeoHookeanConstraints<N> now(edges, cell.gradients);
     double shapes = cell.shape_compliance * now.shape, both = 0, volumes = cell.volume_compliance;
     for (std::size_t k = 0; k <= N; ++k) {
-      const auto by_shape = now.by_shape.col(Eigen::Index(k)), by_volume = now.by_volume.col(Eigen::Index(k));
+      const auto by_shape = column(now.by_shape, int(k)), by_volume = column(now.by_volume, int(k));
       shapes += corners[k]->mobility * by_shape.squaredNorm();
       both += corners[k]->mobility * by_shape.dot(by_volume);
       volumes += corners[k]->mobility * by_volume.squaredNorm();
@@ -365,9 +365,8 @@ class NeoHookeanXpbd final : public TimeStepSolver<N> {
     const double of_shape = (both * beyond - volumes * now.shape) / determinant;
     const double of_volume = (both * now.shape - shapes * beyond) / determinant;
     for (std::size_t k = 0; k <= N; ++k) {
-      const auto column = Eigen::Index(k);
       corners[k]->at +=
-          corners[k]->mobility * (of_shape * now.by_shape.col(column) + of_volume * now.by_volume.col(column));
+          corners[k]->mobility * (of_shape * column(now.by_shape, int(k)) + of_volume * column(now.by_volume, int(k)));
     }
   }
 

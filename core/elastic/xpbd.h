@@ -1,10 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 
 #include "elastic/elastic.h"
-#include "elastic/energy.h"
+#include "mesh/fixed_matrix.h"
 
 namespace chainmail {
 
@@ -22,19 +21,24 @@ std::unique_ptr<ElasticSolver> make_xpbd(const ElasticProblem& problem, const Xp
 /// The values of which the two constraints of a simplex consist, with their derivatives by its corners, one per column.
 template <int N>
 struct NeoHookeanConstraints {
-  using Square = Eigen::Matrix<double, N, N>;
-  using Corners = Eigen::Matrix<double, N, N + 1>;
+  using Square = FixedMatrix<double, N, N>;
+  using Corners = FixedMatrix<double, N, N + 1>;
 
   /// `edges`: from corner 0 to the others. `gradients`: of the shape functions of these others at rest (1 / mesh unit).
-  NeoHookeanConstraints(const Square& edges, const Square& gradients) {
-    const Square f = edges * gradients.transpose();
-    const Square cofactor = cofactors(f);
+  /// As a call, it makes XPBD 15 % slower.
+  [[gnu::always_inline]] NeoHookeanConstraints(const Square& edges, const Square& gradients) {
+    const Square f = edges * transposed(gradients), adjoint = adjugate(f);
     shape = f.squaredNorm();
-    volume = f.col(0).dot(cofactor.col(0));
-    by_shape.template rightCols<N>().noalias() = f * gradients;
-    by_volume.template rightCols<N>().noalias() = cofactor * gradients;
-    by_shape.col(0) = -by_shape.template rightCols<N>().rowwise().sum();
-    by_volume.col(0) = -by_volume.template rightCols<N>().rowwise().sum();
+    volume = determinant(f, adjoint);
+    const Square shapes = f * gradients, volumes = transposed(adjoint) * gradients;
+    for (int k = 0; k < N; ++k) {
+      for (int i = 0; i < N; ++i) {
+        by_shape(i, k + 1) = shapes(i, k);
+        by_shape(i, 0) -= shapes(i, k);
+        by_volume(i, k + 1) = volumes(i, k);
+        by_volume(i, 0) -= volumes(i, k);
+      }
+    }
   }
 
   double shape;                 // tr FᵀF

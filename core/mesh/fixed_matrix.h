@@ -258,4 +258,18 @@ template <class Scalar, int Rows>
   return result;
 }
 
+template <class Scalar, int Rows, int Columns>
+[[gnu::always_inline]] inline FixedMatrix<Scalar, Rows> column(const FixedMatrix<Scalar, Rows, Columns>& matrix,
+                                                               int i) {
+  return FixedMatrix<Scalar, Rows>::from(matrix.data() + i * Rows);
+}
+
+template <class Scalar, int Rows, int Columns>
+[[gnu::always_inline]] inline void set_column(FixedMatrix<Scalar, Rows, Columns>& matrix, int i,
+                                              const FixedMatrix<Scalar, Rows>& column) {
+  for (int row = 0; row < Rows; ++row) {
+    matrix(row, i) = column[row];
+  }
+}
+
 }  // namespace chainmail

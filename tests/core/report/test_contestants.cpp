@@ -420,7 +420,8 @@ double error_of_gradients(std::mt19937_64& random) {
     const Square f = edges_of(corners) * inverse;
     return std::array{std::sqrt((f.transpose() * f).trace()), f.determinant()};
   };
-  const NeoHookeanConstraints<N> found(edges_of(now), inverse.transpose());
+  const auto fixed = [](const Square& square) { return FixedMatrix<double, N, N>::from(square.data()); };
+  const NeoHookeanConstraints<N> found(fixed(edges_of(now)), fixed(inverse.transpose()));
   const auto [shape, volume] = constraints(now);
   const double scale = 1 + inverse.norm() + std::pow(inverse.norm(), N);
   double worst = std::max(std::abs(std::sqrt(found.shape) - shape), std::abs(found.volume - volume)) / scale;
@@ -431,8 +432,8 @@ double error_of_gradients(std::mt19937_64& random) {
     below(i) -= by;
     const auto [shape_above, volume_above] = constraints(above);
     const auto [shape_below, volume_below] = constraints(below);
-    const double of_shape = found.by_shape(i) / shape - (shape_above - shape_below) / (2 * by);
-    const double of_volume = found.by_volume(i) - (volume_above - volume_below) / (2 * by);
+    const double of_shape = found.by_shape[i] / shape - (shape_above - shape_below) / (2 * by);
+    const double of_volume = found.by_volume[i] - (volume_above - volume_below) / (2 * by);
     worst = std::max({worst, std::abs(of_shape) / scale, std::abs(of_volume) / scale});
   }
   return worst;
