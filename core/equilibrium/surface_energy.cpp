@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "equilibrium/unique_ids.h"
+
 namespace chainmail {
 namespace {
 
@@ -153,8 +155,7 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
                     triangles_.begin() + first_triangle_[link + 1]);
     }
   }
-  std::ranges::sort(beside);
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  make_unique(beside);
   for (const std::uint32_t t : beside) {
     const auto links = cells_.links_of(t);
     const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
@@ -168,8 +169,7 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
     }
   }
   moments_.update(cells_, is_whole_, triangles);
-  std::ranges::sort(changed);
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  make_unique(changed);
   loose_.find(*mesh_, cuts, whole_beside_);
   return changed;
 }
