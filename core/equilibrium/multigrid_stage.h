@@ -62,18 +62,21 @@ class MultigridStage {
     }
     step_.resize(right.size());
     const std::vector<Square>& inverses = transfer_.inverses();
+    // A copy of a number stays in a register.
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      const float divisor = middle;
       for (std::size_t i = first; i < last; ++i) {
-        step_[i] = inverses[i] * (from_zero ? right[i] : right[i] - product_[i]) / middle;
+        step_[i] = inverses[i] * (from_zero ? right[i] : right[i] - product_[i]) / divisor;
         x[i] = from_zero ? step_[i] : x[i] + step_[i];
       }
     });
-    const float rho = 1 / sigma, next = 1 / (2 * sigma - rho);
+    const float rho = 1 / sigma, next = 1 / (2 * sigma - rho), of_step = next * rho, of_scaled = 2 * next / half;
     matrix.apply(x, product_, shared);
     shared.run(right.size(), [&](std::size_t first, std::size_t last) {
+      const float a = of_step, b = of_scaled;
       for (std::size_t i = first; i < last; ++i) {
         const Vector scaled = inverses[i] * (right[i] - product_[i]);
-        x[i] += next * rho * step_[i] + 2 * next / half * scaled;
+        x[i] += a * step_[i] + b * scaled;
       }
     });
   }

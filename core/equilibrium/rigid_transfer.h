@@ -142,7 +142,7 @@ FixedMatrix<float, Rows, Rows> safe_inverse(const FixedMatrix<float, Rows, Rows>
 }
 
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::find_inverses(Matrix& matrix) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::find_inverses(Matrix& matrix) {
   inverse_.resize(matrix.size());
   for (std::uint32_t row = 0; row < matrix.size(); ++row) {
     update_inverse(matrix, row);
@@ -150,14 +150,14 @@ void RigidTransfer<Rows, Dimension>::find_inverses(Matrix& matrix) {
 }
 
 template <int Rows, int Dimension>
-[[gnu::noinline]] void RigidTransfer<Rows, Dimension>::update_inverse(Matrix& matrix, std::uint32_t row) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::update_inverse(Matrix& matrix, std::uint32_t row) {
   const auto [columns, blocks] = matrix.row(row);
   const auto found = std::ranges::find(columns, row);
   inverse_[row] = found != columns.end() ? safe_inverse(blocks[std::size_t(found - columns.begin())]) : Square();
 }
 
 template <int Rows, int Dimension>
-Aggregates::Couplings RigidTransfer<Rows, Dimension>::couplings_of(Matrix& matrix) {
+[[gnu::noinline, gnu::noclone]] Aggregates::Couplings RigidTransfer<Rows, Dimension>::couplings_of(Matrix& matrix) {
   return [&](std::uint32_t row) -> std::span<const Aggregates::Coupling> {
     const auto [columns, blocks] = matrix.row(row);
     couplings_.resize(columns.size());
@@ -169,14 +169,15 @@ Aggregates::Couplings RigidTransfer<Rows, Dimension>::couplings_of(Matrix& matri
 }
 
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::aggregate(Matrix& matrix, Frames frames) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::aggregate(Matrix& matrix, Frames frames) {
   frames_ = std::move(frames);
   aggregates_.form(matrix.size(), couplings_of(matrix));
 }
 
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::build_coarse(Matrix& matrix, float radius, CoarseRows& coarse,
-                                                  const Progress& progress) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::build_coarse(Matrix& matrix, float radius,
+                                                                                  CoarseRows& coarse,
+                                                                                  const Progress& progress) {
   coarse_frames_.resize(aggregates_.size());
   for (std::uint32_t a = 0; a < aggregates_.size(); ++a) {
     coarse_frames_[a] = frame_of(a);
@@ -200,7 +201,7 @@ void RigidTransfer<Rows, Dimension>::build_coarse(Matrix& matrix, float radius, 
 }
 
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::append(const Ids& like, const Frames& all_frames) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::append(const Ids& like, const Frames& all_frames) {
   frames_ = all_frames;
   for (const std::uint32_t row : like) {
     aggregates_.append_like(row);
@@ -211,8 +212,9 @@ void RigidTransfer<Rows, Dimension>::append(const Ids& like, const Frames& all_f
 }
 
 template <int Rows, int Dimension>
-auto RigidTransfer<Rows, Dimension>::update(Matrix& matrix, float radius, const Ids& rows, bool cut, CoarseRows& coarse)
-    -> LevelChanges {
+[[gnu::noinline, gnu::noclone]] auto RigidTransfer<Rows, Dimension>::update(Matrix& matrix, float radius,
+                                                                            const Ids& rows, bool cut,
+                                                                            CoarseRows& coarse) -> LevelChanges {
   LevelChanges changes;
   Ids moved = rows;  // rows whose transfer to the coarse level changes
   for (const std::uint32_t row : rows) {
@@ -237,7 +239,8 @@ auto RigidTransfer<Rows, Dimension>::update(Matrix& matrix, float radius, const 
 
 /// Splits aggregates. Returns the rows that got another one, and their neighbours.
 template <int Rows, int Dimension>
-auto RigidTransfer<Rows, Dimension>::split(Matrix& matrix, const Ids& rows, Ids& like) -> Ids {
+[[gnu::noinline, gnu::noclone]] auto RigidTransfer<Rows, Dimension>::split(Matrix& matrix, const Ids& rows, Ids& like)
+    -> Ids {
   const Aggregates::Couplings couplings = couplings_of(matrix);
   const Ids moved = aggregates_.split(
       rows, couplings, [&](std::uint32_t row) { return inverse_[row].isZero(); }, like);
@@ -249,7 +252,8 @@ auto RigidTransfer<Rows, Dimension>::split(Matrix& matrix, const Ids& rows, Ids&
 
 /// Adds the rows of the coarse matrix to which these rows transfer.
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::append_columns(const Ids& rows, Ids& columns) const {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::append_columns(const Ids& rows,
+                                                                                    Ids& columns) const {
   for (const std::uint32_t row : rows) {
     const auto some = transfer_.columns(row);
     columns.insert(columns.end(), some.begin(), some.end());
@@ -257,8 +261,10 @@ void RigidTransfer<Rows, Dimension>::append_columns(const Ids& rows, Ids& column
 }
 
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::update_coarse_rows(Matrix& matrix, const Ids& changed, const Ids& touched,
-                                                        CoarseRows& coarse) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::update_coarse_rows(Matrix& matrix,
+                                                                                        const Ids& changed,
+                                                                                        const Ids& touched,
+                                                                                        CoarseRows& coarse) {
   const Ids rows = aggregates_.with_neighbours(aggregates_.members_of(touched), couplings_of(matrix));
   products_.resize(matrix.size());
   for (const std::uint32_t row : keeps_products ? changed : rows) {
@@ -269,7 +275,8 @@ void RigidTransfer<Rows, Dimension>::update_coarse_rows(Matrix& matrix, const Id
 }
 
 template <int Rows, int Dimension>
-RigidFrame<Dimension> RigidTransfer<Rows, Dimension>::frame_of(std::uint32_t aggregate) const {
+[[gnu::noinline, gnu::noclone]] RigidFrame<Dimension> RigidTransfer<Rows, Dimension>::frame_of(
+    std::uint32_t aggregate) const {
   const Ids& members = aggregates_.members(aggregate);
   RigidFrame<Dimension> frame;
   for (const std::uint32_t row : members) {
@@ -289,8 +296,8 @@ RigidFrame<Dimension> RigidTransfer<Rows, Dimension>::frame_of(std::uint32_t agg
 
 /// Rigid motions of the aggregates, smoothed by one step of damped Jacobi.
 template <int Rows, int Dimension>
-[[gnu::noinline]] void RigidTransfer<Rows, Dimension>::update_transfer(Matrix& matrix, float radius,
-                                                                       std::uint32_t row) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::update_transfer(Matrix& matrix, float radius,
+                                                                                     std::uint32_t row) {
   transfer_sum_.begin(aggregates_.size());
   const auto [columns, blocks] = matrix.row(row);
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -310,7 +317,7 @@ template <int Rows, int Dimension>
 
 /// Computes a row of A P.
 template <int Rows, int Dimension>
-[[gnu::noinline]] void RigidTransfer<Rows, Dimension>::update_product(Matrix& matrix, std::uint32_t row) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::update_product(Matrix& matrix, std::uint32_t row) {
   product_sum_.begin(aggregates_.size());
   const auto [columns, blocks] = matrix.row(row);
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -325,7 +332,8 @@ template <int Rows, int Dimension>
 
 /// Sums up the wanted rows of Pᵀ A P (ascending) from the products in `rows`.
 template <int Rows, int Dimension>
-void RigidTransfer<Rows, Dimension>::set_coarse_rows(const Ids& rows, const Ids& wanted, CoarseRows& coarse) {
+[[gnu::noinline, gnu::noclone]] void RigidTransfer<Rows, Dimension>::set_coarse_rows(const Ids& rows, const Ids& wanted,
+                                                                                     CoarseRows& coarse) {
   const auto [first, terms] = terms_of(transfer_, rows, wanted, aggregates_.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     coarse_sum_.begin(aggregates_.size());
