@@ -400,7 +400,7 @@ auto SurfaceEnergy::curvature_of_triangle(std::uint32_t triangle, const Vectors&
 }
 
 auto SurfaceEnergy::curvature_of_hinge(std::size_t hinge, const Vectors& displacements) const -> HingeVector {
-  HingeVector result = HingeVector();
+  HingeVector result;
   if (moments_.is_whole(hinge)) {
     Turn one;
     turn(hinge, displacements, one, true);
