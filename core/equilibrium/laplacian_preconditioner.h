@@ -8,6 +8,7 @@
 
 #include "equilibrium/block_vectors.h"
 #include "equilibrium/multigrid.h"
+#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 
@@ -51,8 +52,7 @@ class LaplacianPreconditioner {
 
   /// Returns true if it built a multigrid.
   bool update(const Progress& progress) {
-    std::ranges::sort(outdated_);
-    outdated_.erase(std::unique(outdated_.begin(), outdated_.end()), outdated_.end());
+    make_unique(outdated_);
     const bool builds = !grid_.is_built() || outdated_.size() > matrix_.size() / 2;
     if (builds) {
       grid_.build(matrix_, progress);

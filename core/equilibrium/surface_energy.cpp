@@ -1,10 +1,11 @@
 #include "equilibrium/surface_energy.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 namespace {
@@ -14,14 +15,54 @@ constexpr double fades_below = 0.1;
 // A triangle with a smaller ratio has no normal.
 constexpr double no_area = 1e-12;
 
+using Vector = SurfaceEnergy::Vector;
+using Six = FixedMatrix<double, 6, 6>;
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// Adds a multiple of the slope of a triangle's area, twice: `normal` is this multiple of its unit normal, `edge` and
 /// `side` run from its first corner to the next ones.
-void add_slope_of_area(std::array<Eigen::Vector3d, 4>& slope, const std::array<std::size_t, 3>& corners,
-                       const Eigen::Vector3d& normal, const Eigen::Vector3d& edge, const Eigen::Vector3d& side) {
-  const Eigen::Vector3d at_next = side.cross(normal), at_last = normal.cross(edge);
+void add_slope_of_area(std::array<Vector, 4>& slope, const std::array<std::size_t, 3>& corners, const Vector& normal,
+                       const Vector& edge, const Vector& side) {
+  const Vector at_next = cross(side, normal), at_last = cross(normal, edge);
   slope[corners[1]] += at_next;
   slope[corners[2]] += at_last;
   slope[corners[0]] -= at_next + at_last;
+}
+
+/// Returns |F|² less its value at rest, from the axes at rest and F less them.
+double stretched(const std::array<Vector, 2>& axes, const std::array<Vector, 2>& strain) {
+  return 2 * (axes[0].dot(strain[0]) + axes[1].dot(strain[1])) + strain[0].squaredNorm() + strain[1].squaredNorm();
+}
+
+FixedMatrix<double, 6> joined(const Vector& a, const Vector& b) { return {a[0], a[1], a[2], b[0], b[1], b[2]}; }
+
+/// Returns the second derivatives of |a × b|, times it, by a and b; `slope` is the first.
+Six curvature_of_ratio(const Vector& a, const Vector& b, const FixedMatrix<double, 6>& slope) {
+  const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
+  Six result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const bool unit = i == j;
+      result(i, j) = (unit ? bb : 0) - b[i] * b[j];
+      result(3 + i, 3 + j) = (unit ? aa : 0) - a[i] * a[j];
+      result(i, 3 + j) = result(3 + j, i) = 2 * a[i] * b[j] - b[i] * a[j] - (unit ? ab : 0);
+    }
+  }
+  return result - outer_product(slope, slope);
+}
+
+/// Returns a symmetric matrix with 0 in place of its negative eigenvalues.
+Six without_negative(const Six& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
+      Eigen::Map<const Eigen::Matrix<double, 6, 6>>(matrix.data()));
+  Six vectors = Six::from(eigen.eigenvectors().data()), scaled = vectors;
+  for (int i = 0; i < 36; ++i) {
+    scaled[i] *= std::max(0.0, eigen.eigenvalues()[i / 6]);
+  }
+  return scaled * transposed(vectors);
 }
 
 /// The share of a hinge that a triangle with this ratio of areas has, and its slope.
@@ -68,14 +109,14 @@ void SurfaceEnergy::find_rest() {
   for (std::size_t t = 0; t < rest_.size(); ++t) {
     Rest& rest = rest_[t];
     const auto [i, j, k] = cells_.triangles[t];
-    const Point a = mesh_->rest_position(i), b = mesh_->rest_position(j) - a, c = mesh_->rest_position(k) - a;
-    const Vector normal = b.cross(c);
-    rest.frame.col(0) = b.normalized();
-    rest.frame.col(1) = normal.cross(b).normalized();
-    const double width = b.norm(), foot = c.dot(rest.frame.col(0)), height = c.dot(rest.frame.col(1));
-    rest.gradients.col(1) = Eigen::Vector2d(1 / width, -foot / (width * height));
-    rest.gradients.col(2) = Eigen::Vector2d(0, 1 / height);
-    rest.gradients.col(0) = -rest.gradients.col(1) - rest.gradients.col(2);
+    const auto position = [&](ElementId e) { return Vector::from(mesh_->rest.data() + 3 * std::size_t{e}); };
+    const Vector a = position(i), b = position(j) - a, c = position(k) - a, across = cross(cross(b, c), b);
+    const double width = b.norm();
+    rest.frame = {b / width, across / across.norm()};
+    const double foot = c.dot(rest.frame[0]), height = c.dot(rest.frame[1]);
+    rest.gradients[1] = {1 / width, -foot / (width * height)};
+    rest.gradients[2] = {0, 1 / height};
+    rest.gradients[0] = -rest.gradients[1] - rest.gradients[2];
     rest.area = width * height / 2;
   }
 }
@@ -119,7 +160,7 @@ void SurfaceEnergy::find_pulls() {
     first_pull_[e + 1] += first_pull_[e];
   }
   pulls_.resize(on.size());
-  pull_.assign(on.size(), Vector::Zero());
+  pull_.assign(on.size(), Vector());
   std::vector<std::uint32_t> next(first_pull_.begin(), first_pull_.end() - 1);
   for (std::uint32_t place = 0; place < on.size(); ++place) {
     pulls_[next[on[place]]++] = place;
@@ -153,8 +194,7 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
                     triangles_.begin() + first_triangle_[link + 1]);
     }
   }
-  std::ranges::sort(beside);
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  make_unique(beside);
   for (const std::uint32_t t : beside) {
     const auto links = cells_.links_of(t);
     const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
@@ -168,8 +208,7 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
     }
   }
   moments_.update(cells_, is_whole_, triangles);
-  std::ranges::sort(changed);
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  make_unique(changed);
   loose_.find(*mesh_, cuts, whole_beside_);
   return changed;
 }
@@ -184,7 +223,8 @@ double SurfaceEnergy::stiffness_around(LinkId link) const {
     const auto a = std::ranges::find(corners, i), b = std::ranges::find(corners, j);
     if (is_whole(t) && a != corners.end() && b != corners.end()) {
       const auto& gradients = rest_[t].gradients;
-      sum -= rest_[t].area * gradients.col(a - corners.begin()).dot(gradients.col(b - corners.begin()));
+      sum -=
+          rest_[t].area * gradients[std::size_t(a - corners.begin())].dot(gradients[std::size_t(b - corners.begin())]);
     }
   }
   return sum * (2 * lame_.mu + lame_.lambda) / scale_;
@@ -214,11 +254,11 @@ double SurfaceEnergy::evaluate(const Vectors& displacements, Vectors* force, con
     force->resize(displacements.size());
     shared.run(force->size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t e = first; e < last; ++e) {
-        Vector sum = Vector::Zero();
+        Vector sum;
         for (std::uint32_t i = first_pull_[e]; i < first_pull_[e + 1]; ++i) {
           sum += pull_[pulls_[i]];
         }
-        Eigen::Map<Vector>((*force)[e].data()) = sum;
+        (*force)[e] = sum;
       }
     });
   }
@@ -244,7 +284,7 @@ double SurfaceEnergy::bend(const Vectors& displacements, bool wants_force, const
       sum += stiffness / 2 * moment_[h] * turned_[h];
       for (std::size_t k = 0; wants_force && k < 4; ++k) {
         pull_[3 * cells_.triangles.size() + 4 * h + k] =
-            moments_.is_whole(h) ? Vector(-stiffness * moment_[h] * turns_[h].slope[k]) : Vector(Vector::Zero());
+            moments_.is_whole(h) ? -stiffness * moment_[h] * turns_[h].slope[k] : Vector();
       }
     }
     return sum;
@@ -255,38 +295,38 @@ double SurfaceEnergy::bend(const Vectors& displacements, bool wants_force, const
 auto SurfaceEnergy::stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const -> Frame {
   const auto& corners = cells_.triangles[triangle];
   const Rest& rest = rest_[triangle];
-  const auto from_first = [&](std::size_t corner) {
-    return Vector((displacements[corners[corner]] - displacements[corners[0]]).data());
-  };
-  strain = from_first(1) * rest.gradients.col(1).transpose() + from_first(2) * rest.gradients.col(2).transpose();
-  return rest.frame + strain;
+  const Vector one = displacements[corners[1]] - displacements[corners[0]],
+               other = displacements[corners[2]] - displacements[corners[0]];
+  for (int k = 0; k < 2; ++k) {
+    strain[std::size_t(k)] = one * rest.gradients[1][k] + other * rest.gradients[2][k];
+  }
+  return {rest.frame[0] + strain[0], rest.frame[1] + strain[1]};
 }
 
 double SurfaceEnergy::stretch(std::uint32_t triangle, const Vectors& displacements, bool wants_force) {
   ratio_[triangle] = 1;
   const std::size_t place = 3 * std::size_t{triangle};
   if (!is_whole(triangle)) {
-    std::fill_n(pull_.begin() + std::ptrdiff_t(place), 3, Vector::Zero());
+    std::fill_n(pull_.begin() + std::ptrdiff_t(place), 3, Vector());
     return 0;
   }
   const Rest& rest = rest_[triangle];
   Frame strain;
   const Frame f = stretch_of(triangle, displacements, strain);
-  const Vector across = f.col(0).cross(f.col(1));
-  const double ratio = across.norm(), shape = 2 * rest.frame.cwiseProduct(strain).sum() + strain.squaredNorm();
+  const Vector across = cross(f[0], f[1]);
+  const double ratio = across.norm(), shape = stretched(rest.frame, strain);
   ratio_[triangle] = ratio;
   const auto density = density_.at(shape, ratio);
   const double area = rest.area / scale_;
   if (wants_force) {
-    Frame stress = 2 * density.by_shape * f;
+    Frame stress{2 * density.by_shape * f[0], 2 * density.by_shape * f[1]};
     if (ratio > no_area) {
       const Vector normal = across / ratio;
-      stress.col(0) += density.by_volume * f.col(1).cross(normal);
-      stress.col(1) += density.by_volume * normal.cross(f.col(0));
+      stress[0] += density.by_volume * cross(f[1], normal);
+      stress[1] += density.by_volume * cross(normal, f[0]);
     }
-    const Eigen::Matrix3d pulls = -area * stress * rest.gradients;
     for (std::size_t k = 0; k < 3; ++k) {
-      pull_[place + k] = pulls.col(Eigen::Index(k));
+      pull_[place + k] = -area * (stress[0] * rest.gradients[k][0] + stress[1] * rest.gradients[k][1]);
     }
   }
   return area * density.value;
@@ -297,17 +337,17 @@ void SurfaceEnergy::turn(std::size_t hinge, const Vectors& displacements, Turn& 
   const auto& [corners, triangle, side, agrees] = cells_.hinges[hinge];
   const Vector p = position(corners[0], displacements), q = position(corners[1], displacements);
   const Vector a = position(corners[2], displacements), b = position(corners[3], displacements);
-  const Vector edge = q - p, one = edge.cross(a - p), other = (b - p).cross(edge);  // normals, twice the areas
+  const Vector edge = q - p, one = cross(edge, a - p), other = cross(b - p, edge);  // normals, twice the areas
   const double size_one = one.norm(), size_other = other.norm(), size = edge.norm();
   const double rest_one = 2 * rest_[triangle[0]].area, rest_other = 2 * rest_[triangle[1]].area;
   const double length = moments_.length(hinge);
   turn.value = 0;
-  turn.slope.fill(Vector::Zero());
+  turn.slope = {};
   if (!(size_one > no_area * rest_one && size_other > no_area * rest_other)) {
     return;
   }
   const Vector normal_one = one / size_one, normal_other = other / size_other;
-  const double sine = normal_one.cross(normal_other).dot(edge) / size, cosine = normal_one.dot(normal_other);
+  const double sine = cross(normal_one, normal_other).dot(edge) / size, cosine = normal_one.dot(normal_other);
   const double angle = std::atan2(sine, cosine) - rest_turn_[hinge];
   const Fade fade_one(size_one / rest_one), fade_other(size_other / rest_other);
   turn.value = length * angle * fade_one.value * fade_other.value;
@@ -326,62 +366,47 @@ void SurfaceEnergy::turn(std::size_t hinge, const Vectors& displacements, Turn& 
   add_slope_of_area(turn.slope, {1, 0, 3}, by_area_other * normal_other, -edge, b - q);
 }
 
-/// Returns the second derivatives of |a × b|, times it, by a and b; `slope` is the first.
-Eigen::Matrix<double, 6, 6> SurfaceEnergy::curvature_of_ratio(const Vector& a, const Vector& b,
-                                                              const Eigen::Matrix<double, 6, 1>& slope) {
-  const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
-  Eigen::Matrix<double, 6, 6> result;
-  result.topLeftCorner<3, 3>() = b.squaredNorm() * unit - b * b.transpose();
-  result.bottomRightCorner<3, 3>() = a.squaredNorm() * unit - a * a.transpose();
-  result.topRightCorner<3, 3>() = 2 * a * b.transpose() - b * a.transpose() - a.dot(b) * unit;
-  result.bottomLeftCorner<3, 3>() = result.topRightCorner<3, 3>().transpose();
-  return result - slope * slope.transpose();
-}
-
 auto SurfaceEnergy::curvature_of_triangle(std::uint32_t triangle, const Vectors& displacements) const
     -> TriangleMatrix {
-  using Six = Eigen::Matrix<double, 6, 6>;
   const Rest& rest = rest_[triangle];
   Frame strain;
   const Frame f = stretch_of(triangle, displacements, strain);
-  const Vector across = f.col(0).cross(f.col(1));
+  const Vector across = cross(f[0], f[1]);
   const double ratio = std::max(across.norm(), no_area);
-  const double shape = 2 * rest.frame.cwiseProduct(strain).sum() + strain.squaredNorm();
+  const double shape = stretched(rest.frame, strain);
   const auto slope = density_.at(shape, ratio);
   const auto curved = density_.curvature_at(shape, ratio);
   const Vector normal = across / ratio;
-  Eigen::Matrix<double, 6, 1> by_shape, by_ratio;
-  by_shape << 2 * f.col(0), 2 * f.col(1);
-  by_ratio << f.col(1).cross(normal), normal.cross(f.col(0));
-  Six all = 2 * slope.by_shape * Six::Identity() +
-            slope.by_volume / ratio * curvature_of_ratio(f.col(0), f.col(1), by_ratio) +
-            curved.by_shape * by_shape * by_shape.transpose() + curved.by_volume * by_ratio * by_ratio.transpose() +
-            curved.by_both * (by_shape * by_ratio.transpose() + by_ratio * by_shape.transpose());
-  const Eigen::SelfAdjointEigenSolver<Six> eigen(all);
-  all = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  const auto by_shape = joined(2 * f[0], 2 * f[1]), by_ratio = joined(cross(f[1], normal), cross(normal, f[0]));
+  const Six both = outer_product(by_shape, by_ratio);
+  const Six all = without_negative(
+      2 * slope.by_shape * Six::Identity() + slope.by_volume / ratio * curvature_of_ratio(f[0], f[1], by_ratio) +
+      curved.by_shape * outer_product(by_shape, by_shape) + curved.by_volume * outer_product(by_ratio, by_ratio) +
+      curved.by_both * (both + transposed(both)));
   TriangleMatrix result;
-  for (int k = 0; k < 3; ++k) {
-    for (int l = 0; l < 3; ++l) {
-      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 9; ++column) {
+      const auto &one = rest.gradients[std::size_t(row / 3)], &other = rest.gradients[std::size_t(column / 3)];
+      double sum = 0;
       for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 2; ++j) {
-          block += rest.gradients(i, k) * rest.gradients(j, l) * all.block<3, 3>(3 * i, 3 * j);
+          sum += one[i] * other[j] * all(3 * i + row % 3, 3 * j + column % 3);
         }
       }
-      result.block<3, 3>(3 * k, 3 * l) = rest.area / scale_ * block;
+      result(row, column) = rest.area / scale_ * sum;
     }
   }
   return result;
 }
 
 auto SurfaceEnergy::curvature_of_hinge(std::size_t hinge, const Vectors& displacements) const -> HingeVector {
-  HingeVector result = HingeVector::Zero();
+  HingeVector result;
   if (moments_.is_whole(hinge)) {
     Turn one;
     turn(hinge, displacements, one, true);
     const double root = std::sqrt(bending() * moments_.stiffness(hinge));
-    for (int k = 0; k < 4; ++k) {
-      result.segment<3>(3 * k) = root * one.slope[std::size_t(k)];
+    for (int i = 0; i < 12; ++i) {
+      result[i] = root * one.slope[std::size_t(i / 3)][i % 3];
     }
   }
   return result;

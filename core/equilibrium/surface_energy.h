@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,7 +27,7 @@ double thickness_of(const Mesh& mesh, const ElasticOptions& elastic);
 /// MaterialEnergy; numbers are scaled in the same way, too.
 class SurfaceEnergy {
  public:
-  using Vector = Eigen::Vector3d;
+  using Vector = FixedMatrix<double, 3>;
   using Vectors = BlockVectors<double, 3>;
 
   /// Makes the triangles of a mesh, none cut. Throws Cancelled.
@@ -57,8 +56,8 @@ class SurfaceEnergy {
   const Mesh& mesh() const { return *mesh_; }
   const SurfaceCells& cells() const { return cells_; }
   bool is_whole(std::uint32_t triangle) const { return is_whole_[triangle] != 0; }
-  using TriangleMatrix = Eigen::Matrix<double, 9, 9>;
-  using HingeVector = Eigen::Matrix<double, 12, 1>;
+  using TriangleMatrix = FixedMatrix<double, 9, 9>;
+  using HingeVector = FixedMatrix<double, 12>;
   /// Returns the Hessian of a triangle, without negative curvature (Teran et al. 2005), by its corners' coordinates.
   TriangleMatrix curvature_of_triangle(std::uint32_t triangle, const Vectors& displacements) const;
   /// Returns the vector c for which c cᵀ approximates the Hessian of a hinge, by its corners' coordinates.
@@ -67,11 +66,11 @@ class SurfaceEnergy {
   std::span<const LinkId> loose_links() const { return loose_.links(); }
 
  private:
-  using Frame = Eigen::Matrix<double, 3, 2>;
+  using Frame = std::array<Vector, 2>;  // columns
   struct Rest {
-    Frame frame;                            // two axes in the plane of the triangle
-    Eigen::Matrix<double, 2, 3> gradients;  // of the corners' shape functions (1 / mesh unit)
-    double area = 0;                        // (mesh units squared)
+    Frame frame;                                      // two axes in the plane of the triangle
+    std::array<FixedMatrix<double, 2>, 3> gradients;  // of the corners' shape functions (1 / mesh unit)
+    double area = 0;                                  // (mesh units squared)
   };
   struct Turn {
     double value = 0;             // of a hinge, times its edge, faded
@@ -84,15 +83,12 @@ class SurfaceEnergy {
   double bending() const;  // stiffness of the plate per thickness and Young's modulus, divided by the scale
   double stiffness_around(LinkId link) const;
   Vector position(ElementId e, const Vectors& displacements) const {
-    return Eigen::Map<const Vector>(mesh_->rest.data() + 3 * std::size_t{e}) +
-           Eigen::Map<const Vector>(displacements[e].data());
+    return Vector::from(mesh_->rest.data() + 3 * std::size_t{e}) + displacements[e];
   }
   Frame stretch_of(std::uint32_t triangle, const Vectors& displacements, Frame& strain) const;
   double stretch(std::uint32_t triangle, const Vectors& displacements, bool wants_force);
   double bend(const Vectors& displacements, bool wants_force, const SharedLoop& shared);
   void turn(std::size_t hinge, const Vectors& displacements, Turn& turn, bool wants_slope) const;
-  static Eigen::Matrix<double, 6, 6> curvature_of_ratio(const Vector& a, const Vector& b,
-                                                        const Eigen::Matrix<double, 6, 1>& slope);
 
   MeshPointer mesh_;
   SurfaceCells cells_;

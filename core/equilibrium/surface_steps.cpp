@@ -72,7 +72,7 @@ void SurfaceInverse::find_pattern(const SurfaceEnergy& energy) {
   for (std::size_t i = 0; i < order_.size(); ++i) {
     first_block_[i + 1] += first_block_[i];
   }
-  blocks_.assign(block_row_.size(), Square::Zero());
+  blocks_.assign(block_row_.size(), Square());
 }
 
 /// Makes the matrix of these blocks, all 0.
@@ -98,13 +98,17 @@ std::uint32_t SurfaceInverse::find_block(std::uint32_t row, std::uint32_t column
   return std::uint32_t(std::lower_bound(first, last, row) - block_row_.begin());
 }
 
+/// `matrix`: a block per pair of corners.
 template <class Corners, class Matrix>
 void SurfaceInverse::add(const Corners& corners, const Matrix& matrix) {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     for (std::size_t l = 0; l < corners.size(); ++l) {
       const std::uint32_t row = place_[corners[k]], column = place_[corners[l]];
       if (row >= column && is_fixed_[corners[k]] == 0 && is_fixed_[corners[l]] == 0) {
-        blocks_[find_block(row, column)] += matrix.template block<3, 3>(Eigen::Index(3 * k), Eigen::Index(3 * l));
+        Square& block = blocks_[find_block(row, column)];
+        for (int i = 0; i < 9; ++i) {
+          block[i] += matrix(3 * int(k) + i % 3, 3 * int(l) + i / 3);
+        }
       }
     }
   }
@@ -112,7 +116,7 @@ void SurfaceInverse::add(const Corners& corners, const Matrix& matrix) {
 
 void SurfaceInverse::assemble(const SurfaceEnergy& energy, const RegionPenalties<3>& regions, const Vectors& at,
                               const Progress& progress) {
-  std::ranges::fill(blocks_, Square::Zero());
+  std::ranges::fill(blocks_, Square());
   const SurfaceCells& cells = energy.cells();
   for (std::uint32_t t = 0; t < cells.triangles.size(); ++t) {
     progress.report(t, cells.triangles.size());
@@ -122,8 +126,8 @@ void SurfaceInverse::assemble(const SurfaceEnergy& energy, const RegionPenalties
   }
   for (std::size_t h = 0; h < cells.hinges.size(); ++h) {
     const SurfaceEnergy::HingeVector one = energy.curvature_of_hinge(h, at);
-    if (!one.isZero(0)) {
-      add(cells.hinges[h].corners, Eigen::Matrix<double, 12, 12>(one * one.transpose()));
+    if (!one.isZero()) {
+      add(cells.hinges[h].corners, outer_product(one, one));
     }
   }
   // Springs count at their ends only, which is at most twice as stiff: the pattern does not have all links.
@@ -178,12 +182,12 @@ void SurfaceInverse::factor(const SurfaceEnergy& energy, const RegionPenalties<3
 void SurfaceInverse::apply(const Vectors& right, Vectors& result, const SharedLoop& /*shared*/) const {
   Eigen::MatrixXd all(Eigen::Index(3 * order_.size()), 1);
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    all.block<3, 1>(Eigen::Index(3 * i), 0) = Eigen::Map<const Eigen::Vector3d>(right[order_[i]].data());
+    std::copy_n(right[order_[i]].data(), 3, all.data() + 3 * i);
   }
   all = factor_.solve(std::move(all));
   result.resize(right.size());
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    Eigen::Map<Eigen::Vector3d>(result[order_[i]].data()) = all.block<3, 1>(Eigen::Index(3 * i), 0);
+    std::copy_n(all.data() + 3 * i, 3, result[order_[i]].data());
   }
 }
 

@@ -27,7 +27,7 @@ class SurfaceInverse {
   void apply(const Vectors& right, Vectors& result, const SharedLoop& shared = {}) const;
 
  private:
-  using Square = Eigen::Matrix3d;
+  using Square = FixedMatrix<double, 3, 3>;
 
   std::uint32_t find_block(std::uint32_t row, std::uint32_t column) const;
   void find_pattern(const SurfaceEnergy& energy);
@@ -37,7 +37,7 @@ class SurfaceInverse {
   void assemble(const SurfaceEnergy& energy, const RegionPenalties<3>& regions, const Vectors& at,
                 const Progress& progress);
   void add_to_diagonal(ElementId element, double stiffness) {
-    blocks_[first_block_[place_[element]]].diagonal().array() += stiffness;
+    blocks_[first_block_[place_[element]]] += stiffness * Square::Identity();
   }
   void write_matrix(double added);
 
