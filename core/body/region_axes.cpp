@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "mesh/eigenvectors.h"
 #include "mesh/error.h"
-#include "mesh/symmetric_eigen.h"
 
 namespace chainmail {
 namespace {
@@ -95,7 +95,7 @@ PrincipalAxes principal_axes_in_plane(const Mesh& mesh, const Eigen::Matrix3d& s
 }
 
 PrincipalAxes principal_axes_in_space(const Eigen::Matrix3d& spread) {
-  const auto [spreads, vectors] = symmetric_eigen(spread);
+  const auto [spreads, vectors] = ascending_eigenvectors(spread);
   const double least = equal_spreads * spreads[2];
   const bool low_equal = !(spreads[1] - spreads[0] > least), high_equal = !(spreads[2] - spreads[1] > least);
   if (low_equal && high_equal) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesh/cells.h"
-#include "mesh/symmetric_eigen.h"
+#include "mesh/eigenvectors.h"
 
 namespace chainmail {
 namespace {
@@ -139,7 +139,7 @@ double stretch_of(const Mesh& mesh, const Simplex& simplex, const PositionView& 
   }
   const Eigen::Matrix3d lower = factor_of(before);
   const Eigen::Matrix3d half = divided(after, lower);
-  return std::sqrt(std::max(0.0, symmetric_eigen(divided(half.transpose(), lower)).values[2]));
+  return std::sqrt(std::max(0.0, ascending_eigenvectors(divided(half.transpose(), lower)).values[2]));
 }
 
 }  // namespace

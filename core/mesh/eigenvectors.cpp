@@ -188,4 +188,17 @@ void find_eigenvectors(std::span<double> matrix, std::span<double> values) {
   }
 }
 
+AscendingEigenvectors ascending_eigenvectors(const Eigen::Matrix3d& matrix) {
+  const Eigenvectors<3> found(FixedMatrix<double, 3, 3>::from(matrix.data()));
+  std::array<int, 3> order{0, 1, 2};
+  std::ranges::sort(order, {}, [&found](int i) { return found.values[i]; });
+  AscendingEigenvectors result;
+  for (int k = 0; k < 3; ++k) {
+    const int from = order[std::size_t(k)];
+    result.values[k] = found.values[from];
+    result.vectors.col(k) = Eigen::Vector3d(found.vectors.data() + std::ptrdiff_t{3} * from);
+  }
+  return result;
+}
+
 }  // namespace chainmail

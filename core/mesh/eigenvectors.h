@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 
 #include "mesh/fixed_matrix.h"
@@ -20,5 +21,12 @@ struct Eigenvectors {
   FixedMatrix<double, Rows> values;
   FixedMatrix<double, Rows, Rows> vectors;
 };
+
+/// The eigenvalues of a symmetric matrix, ascending, and its eigenvectors of length 1, as columns.
+struct AscendingEigenvectors {
+  Eigen::Vector3d values;
+  Eigen::Matrix3d vectors;
+};
+AscendingEigenvectors ascending_eigenvectors(const Eigen::Matrix3d& matrix);
 
 }  // namespace chainmail
