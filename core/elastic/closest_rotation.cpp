@@ -5,15 +5,15 @@
 namespace chainmail {
 namespace {
 
-using Square = FixedMatrix<double, 3, 3>;
+using Matrix3 = FixedMatrix<double, 3, 3>;
 using Vector = FixedMatrix<double, 3>;
 using Quaternion = FixedMatrix<double, 4>;
 
 /// Returns the rotation of a quaternion w + xi + yj + zk of any length.
-Square rotation_of(const Quaternion& quaternion) {
+Matrix3 rotation_of(const Quaternion& quaternion) {
   const auto [w, x, y, z] = std::array{quaternion[0], quaternion[1], quaternion[2], quaternion[3]};
   const double twice = 2 / quaternion.squaredNorm();
-  Square rotation;
+  Matrix3 rotation;
   rotation(0, 0) = 1 - twice * (y * y + z * z);
   rotation(1, 1) = 1 - twice * (x * x + z * z);
   rotation(2, 2) = 1 - twice * (x * x + y * y);
@@ -27,13 +27,13 @@ Square rotation_of(const Quaternion& quaternion) {
 }
 
 /// Returns twice the axial vector of the antisymmetric part of a matrix.
-Vector torque_of(const Square& matrix) {
+Vector torque_of(const Matrix3& matrix) {
   return {matrix(2, 1) - matrix(1, 2), matrix(0, 2) - matrix(2, 0), matrix(1, 0) - matrix(0, 1)};
 }
 
 /// By the quaternion q for which tr RᵀA, a quadratic form, is largest (Horn 1987): slow, for matrices that are nearly
 /// singular.
-Square closest_by_eigenvector(const Square& matrix) {
+Matrix3 closest_by_eigenvector(const Matrix3& matrix) {
   const Vector torque = torque_of(matrix);
   FixedMatrix<double, 4, 4> form;
   form(0, 0) = matrix.trace();
@@ -53,18 +53,18 @@ Square closest_by_eigenvector(const Square& matrix) {
 
 }  // namespace
 
-void turn_to_closest(const Square& matrix, Square& rotation) {
+void turn_to_closest(const Matrix3& matrix, Matrix3& rotation) {
   constexpr int max_steps = 8;
   constexpr double enough = 1e-8;           // radians; the error after a step is of the order of its square
   constexpr double least_curvature = 1e-6;  // of the size of the matrix
   const double size = matrix.norm(), floor = least_curvature * size;
   for (int i = 0; i < max_steps; ++i) {
-    const Square product = matrix * transposed(rotation);
-    Square curvature = (product + transposed(product)) * -0.5;
+    const Matrix3 product = matrix * transposed(rotation);
+    Matrix3 curvature = (product + transposed(product)) * -0.5;
     for (int k = 0; k < 3; ++k) {
       curvature(k, k) += product.trace();
     }
-    const Square adjoint = adjugate(curvature);
+    const Matrix3 adjoint = adjugate(curvature);
     const double minor = adjoint(2, 2), volume = determinant(curvature, adjoint);
     if (!(curvature(0, 0) > floor && minor > floor * floor && volume > floor * floor * floor)) {
       break;
@@ -77,7 +77,7 @@ void turn_to_closest(const Square& matrix, Square& rotation) {
     rotation = rotation_of({1, turn[0] / 2, turn[1] / 2, turn[2] / 2}) * rotation;
     if (squared < enough * enough) {
       // Removes what rounding adds to the rotation over many searches.
-      rotation = rotation * (1.5 * Square::Identity() - 0.5 * (transposed(rotation) * rotation));
+      rotation = rotation * (1.5 * Matrix3::Identity() - 0.5 * (transposed(rotation) * rotation));
       return;
     }
   }

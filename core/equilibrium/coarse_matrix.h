@@ -10,9 +10,10 @@
 
 namespace chainmail {
 
-/// The columns of the blocks in each row of a sparse matrix. Single rows can be replaced: a row that grows moves to the
+/// A sparse matrix of small dense blocks, by rows, in which single rows can be replaced. A row that grows moves to the
 /// end; the place it leaves stays empty.
-class BlockColumns {
+template <class Block>
+class BlockRows {
  public:
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   void resize(std::uint32_t rows) { rows_.resize(rows); }
@@ -20,85 +21,43 @@ class BlockColumns {
   std::span<const std::uint32_t> columns(std::uint32_t row) const {
     return {columns_.data() + rows_[row].first, rows_[row].count};
   }
-
- protected:
-  struct Row {
-    std::size_t first = 0;
-    std::uint32_t count = 0, capacity = 0;
-  };
-
-  /// Returns where the row is now.
-  std::size_t set_columns(std::uint32_t row, std::span<const std::uint32_t> columns) {
-    Row& place = rows_[row];
-    if (columns.size() > place.capacity) {
-      place.first = columns_.size();
-      place.capacity = static_cast<std::uint32_t>(columns.size());
-      columns_.resize(columns_.size() + columns.size());
-    }
-    place.count = static_cast<std::uint32_t>(columns.size());
-    std::ranges::copy(columns, columns_.begin() + static_cast<std::ptrdiff_t>(place.first));
-    return place.first;
-  }
-
-  std::vector<Row> rows_;
-  std::vector<std::uint32_t> columns_;
-};
-
-/// A sparse matrix of small dense blocks, by rows.
-template <class Block>
-class BlockRows : public BlockColumns {
- public:
   std::span<const Block> blocks(std::uint32_t row) const {
     return {blocks_.data() + rows_[row].first, rows_[row].count};
   }
 
   void set_row(std::uint32_t row, std::span<const std::uint32_t> columns, std::span<const Block> blocks) {
-    const std::size_t first = set_columns(row, columns);
-    blocks_.resize(columns_.size());
-    std::ranges::copy(blocks, blocks_.begin() + static_cast<std::ptrdiff_t>(first));
+    Row& place = rows_[row];
+    if (columns.size() > place.capacity) {
+      place.first = columns_.size();
+      place.capacity = static_cast<std::uint32_t>(columns.size());
+      columns_.resize(columns_.size() + columns.size());
+      blocks_.resize(columns_.size());
+    }
+    place.count = static_cast<std::uint32_t>(columns.size());
+    std::ranges::copy(columns, columns_.begin() + static_cast<std::ptrdiff_t>(place.first));
+    std::ranges::copy(blocks, blocks_.begin() + static_cast<std::ptrdiff_t>(place.first));
   }
 
  private:
+  struct Row {
+    std::size_t first = 0;
+    std::uint32_t count = 0, capacity = 0;
+  };
+
+  std::vector<Row> rows_;
+  std::vector<std::uint32_t> columns_;
   std::vector<Block> blocks_;
 };
 
-/// The blocks of one row.
-template <int Rows>
-struct BlockRow {
-  std::span<const std::uint32_t> columns;
-  std::span<const FixedMatrix<float, Rows, Rows>> blocks;
-};
-
-/// The rows of the matrix of any level, for what prepares the levels.
-template <int Rows>
-class RowReader {
- public:
-  virtual ~RowReader() = default;
-  virtual std::uint32_t size() const = 0;
-  /// Returns the blocks of a row, until it is called again.
-  virtual BlockRow<Rows> row(std::uint32_t row) = 0;
-};
-
-/// The matrix of any level, which multiplies several columns at once.
-template <int Rows, int Columns>
-class LevelMatrix : public RowReader<Rows> {
- public:
-  using Vector = FixedMatrix<float, Rows, Columns>;
-  using Vectors = std::vector<Vector>;
-
-  virtual void apply(const Vectors& x, Vectors& product, const SharedLoop& shared) const = 0;
-};
-
-/// The matrix of a coarse level.
-template <int Rows, int Columns>
-struct CoarseMatrix final : LevelMatrix<Rows, Columns> {
+/// The matrix of a coarse level, which multiplies several columns at once.
+template <int Rows, int Columns = 1>
+struct CoarseMatrix {
   using Square = FixedMatrix<float, Rows, Rows>;
   using Vector = FixedMatrix<float, Rows, Columns>;
   using Vectors = std::vector<Vector>;
 
-  std::uint32_t size() const override { return rows.size(); }
-  BlockRow<Rows> row(std::uint32_t row) override { return {rows.columns(row), rows.blocks(row)}; }
-  void apply(const Vectors& x, Vectors& product, const SharedLoop& shared) const override {
+  std::uint32_t size() const { return rows.size(); }
+  void apply(const Vectors& x, Vectors& product, const SharedLoop& shared) const {
     product.resize(x.size());
     shared.run(x.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -112,6 +71,15 @@ struct CoarseMatrix final : LevelMatrix<Rows, Columns> {
       }
     });
   }
+  template <class Visit>
+  void for_each_in_row(std::uint32_t row, Visit visit) const {
+    const auto columns = rows.columns(row);
+    const auto blocks = rows.blocks(row);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      visit(columns[k], blocks[k]);
+    }
+  }
+
   BlockRows<Square> rows;
 };
 

@@ -8,7 +8,6 @@
 
 #include "equilibrium/block_vectors.h"
 #include "equilibrium/multigrid.h"
-#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 
@@ -52,7 +51,8 @@ class LaplacianPreconditioner {
 
   /// Returns true if it built a multigrid.
   bool update(const Progress& progress) {
-    make_unique(outdated_);
+    std::ranges::sort(outdated_);
+    outdated_.erase(std::unique(outdated_.begin(), outdated_.end()), outdated_.end());
     const bool builds = !grid_.is_built() || outdated_.size() > matrix_.size() / 2;
     if (builds) {
       grid_.build(matrix_, progress);

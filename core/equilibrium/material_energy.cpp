@@ -6,10 +6,15 @@
 #include <utility>
 
 #include "equilibrium/surface_energy.h"
-#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 namespace {
+
+template <class Id>
+void make_unique(std::vector<Id>& ids) {
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
 
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 

@@ -5,147 +5,127 @@
 #include <utility>
 
 #include "equilibrium/multigrid_stage.h"
-#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 namespace {
 
-/// The matrix of links, as its stage sees it.
+/// A coarsest level with at most this many unknowns is solved directly. A Laplacian's other levels cost less.
 template <class Matrix>
-class LinkRows final : public LevelMatrix<Matrix::rows, Matrix::columns> {
+constexpr std::uint32_t max_direct_unknowns = Matrix::columns == 1 ? 240 : 80;
+
+}  // namespace
+
+template <class Matrix>
+class Multigrid<Matrix>::Levels {
  public:
-  using Square = typename Matrix::Square;
-  using Vectors = typename Matrix::Vectors;
+  static constexpr int Dimension = Matrix::dimension, modes = rigid_modes<Dimension>, columns = Matrix::columns;
+  using Coarse = CoarseMatrix<modes, columns>;
 
-  explicit LinkRows(const Matrix& matrix) : matrix_(matrix) {}
-
-  std::uint32_t size() const override { return matrix_.size(); }
-  BlockRow<Matrix::rows> row(std::uint32_t row) override {
-    columns_.clear();
-    blocks_.clear();
-    matrix_.for_each_in_row(row, [&](std::uint32_t column, const Square& block) {
-      columns_.push_back(column);
-      blocks_.push_back(block);
-    });
-    return {columns_, blocks_};
-  }
-  void apply(const Vectors& x, Vectors& product, const SharedLoop& shared) const override {
-    matrix_.apply(x, product, shared);
-  }
-
- private:
-  const Matrix& matrix_;
-  std::vector<std::uint32_t> columns_;  // of one row
-  std::vector<Square> blocks_;
-};
-
-/// The factors of a coarsest matrix.
-class DenseFactors {
- public:
-  void factor(Eigen::MatrixXd& matrix) {
-    const bool is_empty = matrix.size() == 0;
-    // The matrix may be singular: free parts, and aggregates of elements in a row or of fixed elements.
-    matrix.diagonal().array() += is_empty ? 0 : 1e-6 * std::max(matrix.diagonal().maxCoeff(), 1e-30);
-    factors_.compute(matrix);
-  }
-  void solve(Eigen::VectorXd& right) const {
-    if (right.size() > 0) {
-      right = factors_.solve(right);
-    }
-  }
-
- private:
-  Eigen::LDLT<Eigen::MatrixXd> factors_;
-};
-
-/// All levels but the finest, which may be that of different matrices.
-template <int Dimension, int Columns>
-class CoarseLevels {
- public:
-  static constexpr int modes = rigid_modes<Dimension>;
-  using Coarse = CoarseMatrix<modes, Columns>;
-  using Vectors = typename Coarse::Vectors;
-  using Frames = std::vector<RigidFrame<Dimension>>;
-  using Ids = Aggregates::Ids;
-
-  CoarseLevels() { levels_.push_back(std::make_unique<Level>()); }
-  Coarse& matrix() { return levels_.front()->matrix; }
-  Vectors& right() { return levels_.front()->right; }
-
-  /// Builds the levels below the first, whose matrix is there. `frames`: of its rows.
-  void build(Frames frames, const Progress& progress) {
-    std::uint32_t count = matrix().size();
+  Levels(const Matrix& matrix, const Progress& progress) {
+    finest_.build_smoother(matrix);
+    std::uint32_t count = finest_.aggregate(matrix, element_frames(matrix.mesh()));
+    add_level(finest_, matrix, progress);
     while (!is_coarsest(count)) {
       Level& last = *levels_.back();
       last.stage.build_smoother(last.matrix);
-      const std::uint32_t next = last.stage.aggregate(last.matrix, std::move(frames));
+      const std::uint32_t next = last.stage.aggregate(last.matrix, frames_);
       if (next == 0 || next > 0.8 * count) {
         break;
       }
       count = next;
-      levels_.push_back(std::make_unique<Level>());
-      last.stage.build_coarse(last.matrix, levels_.back()->matrix, progress);
-      frames = last.stage.frames_of_aggregates();
+      add_level(last.stage, last.matrix, progress);
     }
     factor();
     was_direct_ = is_direct_;
   }
 
-  /// Updates what depends on changes of the first level. `frames`: of its rows.
-  void update(LevelChanges changes, const Frames& frames, bool cut) {
-    const Frames* all_frames = &frames;
+  void update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
+    std::vector<std::uint32_t> changed(rows.begin(), rows.end());
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    auto [next, like] = finest_.update(matrix, changed, cut, levels_.front()->matrix);
+    const std::vector<RigidFrame<Dimension>>* frames = &finest_.frames_of_aggregates();
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
       Level& level = *levels_[l];
-      level.stage.append(changes.like, *all_frames);
-      changes = level.stage.update(level.matrix, changes.rows, cut, levels_[l + 1]->matrix);
-      all_frames = &level.stage.frames_of_aggregates();
+      level.stage.append(like, *frames);
+      auto changes = level.stage.update(level.matrix, next, cut, levels_[l + 1]->matrix);
+      next = std::move(changes.rows);
+      like = std::move(changes.like);
+      frames = &level.stage.frames_of_aggregates();
     }
     factor();
+  }
+
+  void update_finest(const Matrix& matrix, std::span<const ElementId> rows) {
+    for (const ElementId row : rows) {
+      finest_.update_inverse(matrix, row);
+    }
   }
 
   /// True if cuts have split so many aggregates that the coarsest level cannot be solved directly any more.
   bool has_outgrown() const { return was_direct_ && !is_direct_; }
 
-  /// Returns one cycle's approximation of the first level's matrix's inverse times its right-hand side.
-  const Vectors& cycle(const SharedLoop& shared) {
+  void cycle(const Matrix& matrix, const Vectors& right, Vectors& x, const SharedLoop& shared) {
+    finest_.smooth(matrix, right, x, true, shared);
+    finest_.restrict_residual(matrix, right, x, levels_.front()->right, shared);
     solve(0, shared);
-    return levels_.front()->x;
+    finest_.prolong(levels_.front()->x, x, shared);
+    finest_.smooth(matrix, right, x, false, shared);
   }
 
  private:
   struct Level {
     Coarse matrix;
-    MultigridStage<modes, Dimension, Columns> stage;  // to the next level
-    Vectors right, x;
+    MultigridStage<modes, Dimension, columns> stage;  // to the next level
+    typename Coarse::Vectors right, x;
   };
 
-  /// A coarsest level with at most this many unknowns is solved directly. A Laplacian's other levels cost less.
-  static constexpr std::uint32_t max_direct_unknowns = Columns == 1 ? 240 : 80;
-
-  static bool is_coarsest(std::uint32_t count) { return count * modes <= max_direct_unknowns; }
+  static bool is_coarsest(std::uint32_t count) { return count * modes <= max_direct_unknowns<Matrix>; }
   /// After cuts, the coarsest level may have grown.
-  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * max_direct_unknowns; }
+  static bool can_be_factored(std::uint32_t count) { return count * modes <= 2 * max_direct_unknowns<Matrix>; }
+
+  static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
+    std::vector<RigidFrame<Dimension>> frames(mesh.element_count());
+    const double length = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
+    for (ElementId e = 0; Dimension == mesh.space_dimension && e < frames.size(); ++e) {
+      for (int k = 0; k < Dimension; ++k) {
+        const double from_corner =
+            mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] - mesh.box[0][mesh.axes[std::size_t(k)]];
+        frames[e].centre[k] = float(from_corner / length);
+      }
+    }
+    return frames;
+  }
+
+  template <class Finer, class FinerMatrix>
+  void add_level(Finer& finer, const FinerMatrix& matrix, const Progress& progress) {
+    levels_.push_back(std::make_unique<Level>());
+    finer.build_coarse(matrix, levels_.back()->matrix, progress);
+    frames_ = finer.frames_of_aggregates();
+  }
 
   /// Factors the coarsest matrix, if it is small. Otherwise only the smoother works on it.
   void factor() {
-    Level& coarsest = *levels_.back();
-    is_direct_ = can_be_factored(coarsest.matrix.size());
+    const Coarse& coarsest = levels_.back()->matrix;
+    is_direct_ = can_be_factored(coarsest.size());
     if (!is_direct_) {
-      coarsest.stage.build_smoother(coarsest.matrix);
+      levels_.back()->stage.build_smoother(coarsest);
       return;
     }
-    const Eigen::Index size = Eigen::Index{coarsest.matrix.size()} * modes;
+    const Eigen::Index size = Eigen::Index{coarsest.size()} * modes;
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
-    for (std::uint32_t row = 0; row < coarsest.matrix.size(); ++row) {
-      const auto [columns, blocks] = coarsest.matrix.row(row);
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        for (int k = 0; k < modes * modes; ++k) {
-          const Eigen::Index i = k % modes, j = k / modes;
-          dense(Eigen::Index{row} * modes + i, Eigen::Index{columns[c]} * modes + j) = blocks[c][k];
+    for (std::uint32_t row = 0; row < coarsest.size(); ++row) {
+      coarsest.for_each_in_row(row, [&](std::uint32_t column, const typename Coarse::Square& block) {
+        for (int i = 0; i < modes; ++i) {
+          for (int j = 0; j < modes; ++j) {
+            dense(Eigen::Index{row} * modes + i, Eigen::Index{column} * modes + j) = block(i, j);
+          }
         }
-      }
+      });
     }
-    direct_.factor(dense);
+    // The matrix may be singular: free parts, and aggregates of elements in a row or of fixed elements.
+    dense.diagonal().array() += size == 0 ? 0 : 1e-6 * std::max(dense.diagonal().maxCoeff(), 1e-30);
+    direct_.compute(dense);
   }
 
   void solve(std::size_t l, const SharedLoop& shared) {
@@ -161,82 +141,29 @@ class CoarseLevels {
     level.stage.smooth(level.matrix, level.right, level.x, false, shared);
   }
 
-  [[gnu::noinline]] void solve_directly(Level& level) {
-    numbers_.resize(Eigen::Index(level.right.size()) * modes);
+  void solve_directly(Level& level) {
+    const Eigen::Index size = Eigen::Index(level.right.size()) * modes;
     level.x.resize(level.right.size());
-    for (int column = 0; column < Columns; ++column) {
-      for (Eigen::Index i = 0; i < numbers_.size(); ++i) {
-        numbers_[i] = double(level.right[std::size_t(i / modes)](int(i % modes), column));
+    Eigen::MatrixXd numbers(size, Eigen::Index{columns});
+    const auto for_each = [&](auto visit) {
+      for (Eigen::Index i = 0; i < size; ++i) {
+        for (int k = 0; k < columns; ++k) {
+          visit(std::size_t(i / modes), int(i % modes), k, numbers(i, k));
+        }
       }
-      direct_.solve(numbers_);
-      for (Eigen::Index i = 0; i < numbers_.size(); ++i) {
-        level.x[std::size_t(i / modes)](int(i % modes), column) = float(numbers_[i]);
-      }
+    };
+    for_each([&](std::size_t row, int i, int k, double& number) { number = double(level.right[row](i, k)); });
+    if (size > 0) {
+      numbers = direct_.solve(numbers);
     }
+    for_each([&](std::size_t row, int i, int k, double number) { level.x[row](i, k) = float(number); });
   }
 
-  std::vector<std::unique_ptr<Level>> levels_;
-  DenseFactors direct_;
-  Eigen::VectorXd numbers_;                    // one column of the coarsest level
+  MultigridStage<Matrix::rows, Dimension, columns> finest_;
+  std::vector<std::unique_ptr<Level>> levels_;  // all but the finest
+  std::vector<RigidFrame<Dimension>> frames_;   // of the last level, while levels are built
+  Eigen::LDLT<Eigen::MatrixXd> direct_;
   bool is_direct_ = true, was_direct_ = true;  // the coarsest level is solved directly: now, after the build
-};
-
-}  // namespace
-
-template <class Matrix>
-class Multigrid<Matrix>::Levels {
- public:
-  static constexpr int Dimension = Matrix::dimension;
-
-  Levels(const Matrix& matrix, const Progress& progress) {
-    LinkRows<Matrix> rows(matrix);
-    // A bound of the radius for every energy of links, since |a − b|² ≤ 2|a|² + 2|b|².
-    finest_.build_smoother(rows, 2);
-    finest_.aggregate(rows, element_frames(matrix.mesh()));
-    finest_.build_coarse(rows, coarse_.matrix(), progress);
-    coarse_.build(finest_.frames_of_aggregates(), progress);
-  }
-
-  void update(const Matrix& matrix, std::span<const ElementId> rows, bool cut) {
-    std::vector<std::uint32_t> changed(rows.begin(), rows.end());
-    make_unique(changed);
-    LinkRows<Matrix> reader(matrix);
-    coarse_.update(finest_.update(reader, changed, cut, coarse_.matrix()), finest_.frames_of_aggregates(), cut);
-  }
-
-  void update_finest(const Matrix& matrix, std::span<const ElementId> rows) {
-    LinkRows<Matrix> reader(matrix);
-    for (const ElementId row : rows) {
-      finest_.update_inverse(reader, row);
-    }
-  }
-
-  bool has_outgrown() const { return coarse_.has_outgrown(); }
-
-  void cycle(const Matrix& matrix, const Vectors& right, Vectors& x, const SharedLoop& shared) {
-    const LinkRows<Matrix> rows(matrix);
-    finest_.smooth(rows, right, x, true, shared);
-    finest_.restrict_residual(rows, right, x, coarse_.right(), shared);
-    finest_.prolong(coarse_.cycle(shared), x, shared);
-    finest_.smooth(rows, right, x, false, shared);
-  }
-
- private:
-  static std::vector<RigidFrame<Dimension>> element_frames(const Mesh& mesh) {
-    std::vector<RigidFrame<Dimension>> frames(mesh.element_count());
-    const double length = mesh.mean_link_length > 0 ? mesh.mean_link_length : 1;
-    for (ElementId e = 0; Dimension == mesh.space_dimension && e < frames.size(); ++e) {
-      for (int k = 0; k < Dimension; ++k) {
-        const double from_corner =
-            mesh.rest[std::size_t{e} * Dimension + std::size_t(k)] - mesh.box[0][mesh.axes[std::size_t(k)]];
-        frames[e].centre[k] = float(from_corner / length);
-      }
-    }
-    return frames;
-  }
-
-  MultigridStage<Matrix::rows, Dimension, Matrix::columns> finest_;
-  CoarseLevels<Dimension, Matrix::columns> coarse_;
 };
 
 template <class Matrix>

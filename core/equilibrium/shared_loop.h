@@ -1,55 +1,62 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include "exact/thread_team.h"
 
 namespace chainmail {
 
-template <class Signature>
-class FunctionRef;
-
-/// A function that belongs to the caller. Code that takes one is compiled once for all functions; a call is indirect.
-template <class Result, class... Arguments>
-class FunctionRef<Result(Arguments...)> {
- public:
-  template <class Function>
-  requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef>)
-      // NOLINTNEXTLINE(google-explicit-constructor): functions are given as they are
-      FunctionRef(Function&& function)
-      : context_(&function), call_([](const void* context, Arguments... arguments) -> Result {
-          return (*static_cast<const std::remove_cvref_t<Function>*>(context))(arguments...);
-        }) {}
-  Result operator()(Arguments... arguments) const { return call_(context_, arguments...); }
-
- private:
-  const void* context_;
-  Result (*call_)(const void* context, Arguments... arguments);
-};
-
 /// Loops over elements, in blocks of a fixed size that the threads of a team share. Results have the same bits for any
 /// number of threads.
 class SharedLoop {
  public:
-  /// Works on the elements from the first to the one before the last.
-  using Work = FunctionRef<void(std::size_t first, std::size_t last)>;
-  using Term = FunctionRef<double(std::size_t first, std::size_t last)>;
-
   /// On this thread alone.
   SharedLoop() = default;
   explicit SharedLoop(ThreadTeam& team) : team_(&team) {}
 
   /// Calls work(i) for all i below `count`, which is at most ThreadTeam::max_parts.
-  void each(std::size_t count, FunctionRef<void(std::size_t)> work) const;
+  template <class Work>
+  void each(std::size_t count, Work work) const {
+    if (team_ != nullptr && count > 1) {
+      team_->run(count, work);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        work(i);
+      }
+    }
+  }
   /// Calls work(first, last) for all blocks below `count`.
-  void run(std::size_t count, Work work) const;
+  template <class Work>
+  void run(std::size_t count, Work work) const {
+    // Where the coarser levels of a multigrid have few rows, each of them is long.
+    constexpr std::size_t small = 512, usual_blocks = 16;
+    for_each_block(count, std::clamp(count / usual_blocks, small, block),
+                   [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
+  }
   /// Returns the sum of term(first, last) over all blocks, in their order.
-  double sum(std::size_t count, Term term) const;
+  template <class Term>
+  double sum(std::size_t count, Term term) const {
+    if (count <= block) {
+      return count > 0 ? term(std::size_t{0}, count) : 0;
+    }
+    double total = 0;
+    for (const double one : terms_of(count, term)) {
+      total += one;
+    }
+    return total;
+  }
   /// Returns the largest term(first, last) of all blocks, at least 0.
-  double largest(std::size_t count, Term term) const;
+  template <class Term>
+  double largest(std::size_t count, Term term) const {
+    double largest = 0;
+    for (const double one : terms_of(count, term)) {
+      largest = std::max(largest, one);
+    }
+    return largest;
+  }
   /// Returns true if holds(i) for all i below `count`.
   template <class Holds>
   bool all(std::size_t count, Holds holds) const {
@@ -65,7 +72,24 @@ class SharedLoop {
   }
 
  private:
-  std::vector<double> terms_of(std::size_t count, Term term) const;
+  static constexpr std::size_t block = 4096;
+
+  template <class Term>
+  std::vector<double> terms_of(std::size_t count, Term term) const {
+    std::vector<double> terms((count + block - 1) / block);
+    for_each_block(count, block,
+                   [&](std::size_t number, std::size_t first, std::size_t last) { terms[number] = term(first, last); });
+    return terms;
+  }
+  template <class Work>
+  void for_each_block(std::size_t count, std::size_t size, Work work) const {
+    const std::size_t blocks = (count + size - 1) / size, parts = std::min(blocks, ThreadTeam::max_parts);
+    each(parts, [&](std::size_t part) {
+      for (std::size_t number = part; number < blocks; number += parts) {
+        work(number, number * size, std::min(count, (number + 1) * size));
+      }
+    });
+  }
 
   ThreadTeam* team_ = nullptr;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "equilibrium/unique_ids.h"
 
 namespace chainmail {
 namespace {
@@ -194,7 +193,8 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
                     triangles_.begin() + first_triangle_[link + 1]);
     }
   }
-  make_unique(beside);
+  std::ranges::sort(beside);
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
   for (const std::uint32_t t : beside) {
     const auto links = cells_.links_of(t);
     const bool whole = std::ranges::none_of(links, [&](LinkId link) { return is_cut_[link] != 0; });
@@ -208,7 +208,8 @@ std::vector<LinkId> SurfaceEnergy::set_cuts(const Cuts& cuts) {
     }
   }
   moments_.update(cells_, is_whole_, triangles);
-  make_unique(changed);
+  std::ranges::sort(changed);
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   loose_.find(*mesh_, cuts, whole_beside_);
   return changed;
 }
