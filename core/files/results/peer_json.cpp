@@ -25,11 +25,6 @@ Json points_json(const std::vector<Point>& points) {
 
 Json cells_json(const Mesh& mesh) { return mesh.tetrahedra.empty() ? Json(mesh.triangles) : Json(mesh.tetrahedra); }
 
-/// Returns true for what a case says of the material: what changes the shape of its reference.
-bool is_in_cases(const MemberInfo& member) {
-  return member.number == &parameters::poisson || member.key == "law" || is_of_law(member);
-}
-
 /// Reads cases and answers. Every member is checked: they come from other programs.
 class PeerReader {
  public:
@@ -160,6 +155,10 @@ Result read_peer(const std::filesystem::path& path, const std::string& content,
 }
 
 }  // namespace
+
+bool is_in_cases(const MemberInfo& member) {
+  return member.number == &parameters::poisson || member.key == "law" || is_of_law(member);
+}
 
 void write_json(std::ostream& out, const report::PeerCase& object) {
   Json json{{"name", object.name},

@@ -3,9 +3,13 @@
 #include <filesystem>
 #include <ostream>
 
+#include "mesh/described.h"
 #include "report/run/peer.h"
 
 namespace chainmail {
+
+/// Returns true for an elastic option that cases have: one that changes the shape of the reference.
+bool is_in_cases(const MemberInfo& member);
 
 /// Writes a case for another solver as JSON.
 void write_json(std::ostream& out, const report::PeerCase& object);

@@ -1,5 +1,6 @@
 #include "elastic/material.h"
 #include "files/results/json_kind.h"
+#include "files/results/peer_json.h"
 #include "files/schema/schemas.h"
 #include "report/table/results.h"
 
@@ -94,14 +95,16 @@ Json different_ids(std::string_view help, std::uint64_t least, std::uint64_t mos
 }
 
 Member peer_case() {
-  const Json material = object({{"poisson", schema_of(parameters::poisson)},
-                                {"law", one_of(strain_law_names, "law of the reference")},
-                                {"gent_limit", schema_of(parameters::gent_limit)},
-                                {"fung_exponent", schema_of(parameters::fung_exponent)}});
+  Members material;
+  for (const MemberInfo& member : members_of<ElasticOptions>) {
+    if (is_in_cases(member)) {
+      material.emplace_back(member.key, schema_of(member));
+    }
+  }
   return of_kind(
       json_kinds::peer_case, "A case of chainmail compare --cases, for other solvers",
       joined({named,
-              {{"material", material},
+              {{"material", object(material)},
                {"pins", different_ids("elements that stay at rest", 0)},
                {"handle", different_ids("elements that the moves place", 1)},
                {"positions", points("rest position of each element (mesh units); z is constant in a plane")},

@@ -67,9 +67,7 @@ MeshPointer written_mesh(const Session& session);
 ///        "frame": {"kind": "object" or "given", "rotation": [x, y, z: the axis times the angle in radians]},
 ///        "own": [both ends and all numbers of each link with its own…]},
 ///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
-///      "elastic": {"young": E, "poisson": v, "lattice": [control points along each axis],
-///        "iterations": most of a move, "law": "neo-hookean", "gent" or "fung", "gent_limit": of I1 - 3,
-///        "fung_exponent": per I1 - 3, "thickness": of the longest side},
+///      "elastic": {each member of ElasticOptions, which material.h describes},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "frame": [rotation, as above], "runs": [first, end of each run of elements that are given…], "held": [their
 ///        coordinates…]}],
