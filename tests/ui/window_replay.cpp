@@ -330,7 +330,8 @@ class WindowReplay : public QObject {
     file.close();
     dock(bench)->openMoves(other);
     bench.settle();
-    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("command 0: there is no element 99999")));
+    QVERIFY(bench.window.messages().sentence().contains(
+        QStringLiteral("command 0: 'element' names element 99999, which does not exist")));
     QVERIFY(shapes(bench) == live);
   }
 

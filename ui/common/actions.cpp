@@ -140,7 +140,7 @@ void Actions::refreshFrom(std::size_t first) {
 /// The tips of an action that is not available say why.
 void Actions::adapt(Made& one) {
   const ActionRow& row = one.row;
-  const Available available = row.when.now ? row.when.now() : Available(one.action->isEnabled());
+  const Available available = row.when.now ? row.when.now() : Available(true);
   const Look look = row.looks.now ? row.looks.now() : Look{.visible = one.action->isVisible()};
   if (!look.text.isEmpty() && look.text != one.text) {  // else it keeps its mnemonic
     one.text = look.text;
@@ -151,7 +151,9 @@ void Actions::adapt(Made& one) {
     one.action->setIcon(icon(look.icon));
   }
   one.action->setVisible(look.visible);
-  one.action->setEnabled(available.is);
+  if (row.when.now) {
+    one.action->setEnabled(available.is);
+  }
   if (row.isOn.now) {
     one.action->setChecked(row.isOn.now());
   }
