@@ -54,6 +54,8 @@ bool factor_positive(Dense matrix) {
   return factor_positive(rest);
 }
 
+// A block that is written to is given by value.
+// NOLINTBEGIN(performance-unnecessary-value-param)
 void solve_lower(ConstDense lower, Dense right) { lower.triangularView<Eigen::Lower>().solveInPlace(right); }
 
 void solve_lower_transposed(ConstDense lower, Dense right) {
@@ -63,6 +65,7 @@ void solve_lower_transposed(ConstDense lower, Dense right) {
 void solve_on_the_right(ConstDense lower, Dense left) {
   lower.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(left);
 }
+// NOLINTEND(performance-unnecessary-value-param)
 
 void subtract_square(Dense from, ConstDense b) { from.selfadjointView<Eigen::Lower>().rankUpdate(b, -1); }
 
