@@ -50,14 +50,23 @@ struct Look {
 
 /// Makes a row a switch, or one of several choices; the function returns its state.
 struct IsOn {
+  IsOn() = default;
+  explicit IsOn(std::function<bool()> function) : now(std::move(function)) {}
+
   std::function<bool()> now;
 };
 /// When the action of a row is available; else always.
 struct When {
+  When() = default;
+  explicit When(std::function<Available()> function) : now(std::move(function)) {}
+
   std::function<Available()> now;
 };
 /// How the action of a row looks now; else always as the row says.
 struct Looks {
+  Looks() = default;
+  explicit Looks(std::function<Look()> function) : now(std::move(function)) {}
+
   std::function<Look()> now;
 };
 
