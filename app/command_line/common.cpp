@@ -114,7 +114,8 @@ std::optional<std::string> value_of(const CLI::Option* option) {
 }
 
 void add_precision(Options& options, Precision& precision) {
-  Choices<Precision> all{{"float", Precision::single_precision}, {"double", Precision::double_precision}};
+  Choices<Precision> all{{std::string(name(Precision::single_precision)), Precision::single_precision},
+                         {std::string(name(Precision::double_precision)), Precision::double_precision}};
   if (precision == Precision::double_precision) {
     std::ranges::reverse(all);
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,9 @@
 namespace chainmail {
 
 enum class Precision { single_precision, double_precision };
+/// Their names in files and on the command line, in the order of the constants.
+inline constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
+constexpr std::string_view name(Precision precision) { return precision_names[std::size_t(precision)]; }
 
 /// Largest coordinate that a solver stores (mesh units), so that sums of a few of them are finite.
 double position_limit(Precision precision);

@@ -1,5 +1,7 @@
 #include "elastic/closest_rotation.h"
 
+#include <array>
+
 #include "mesh/eigenvectors.h"
 
 namespace chainmail {

@@ -19,7 +19,7 @@ void add_outer_product(Dense sum, double factor, ConstDense a, ConstDense b);
 
 /// Replaces the lower triangle of a symmetric matrix by its Cholesky factor L. Returns false if the matrix is not
 /// positive definite. The upper triangle is not used.
-bool factor_positive(Dense matrix);
+[[nodiscard]] bool factor_positive(Dense matrix);
 /// Replaces right sides, one per column, by the solutions of L x = b, or of Lᵀ x = b.
 void solve_lower(ConstDense lower, Dense right);
 void solve_lower_transposed(ConstDense lower, Dense right);

@@ -12,30 +12,6 @@
 namespace chainmail {
 namespace {
 
-/// Adds the matrix factor · a aᵀ to a sum.
-template <int Size>
-[[gnu::always_inline]] inline void add_square(FixedMatrix<double, Size, Size>& sum, double factor,
-                                              const FixedMatrix<double, Size>& a) {
-  for (int column = 0; column < Size; ++column) {
-    const double share = factor * a[column];
-    for (int row = 0; row < Size; ++row) {
-      sum(row, column) += share * a[row];
-    }
-  }
-}
-
-/// Returns the nearest matrix without negative curvature.
-template <int Size>
-FixedMatrix<double, Size, Size> convex_part(FixedMatrix<double, Size, Size> hessian) {
-  const Eigenvectors<Size> modes(hessian);
-  for (int i = 0; i < Size; ++i) {
-    if (modes.values[i] < 0) {
-      add_square(hessian, -modes.values[i], column(modes.vectors, i));
-    }
-  }
-  return hessian;
-}
-
 template <int Size>
 void set_gradient(SimplexEnergy& energy, const double* gradient) {
   energy.gradient.resize(Size);
@@ -93,7 +69,7 @@ SimplexEnergy energy_in(const Simplices& simplices, std::size_t simplex, const C
            term.slope_l * by_volume(i, b) * by_volume(j, a) + (i == j ? 2 * term.slope_s * products(a, b) : 0));
     }
   }
-  set_hessian(result, want == Want::convex ? convex_part(hessian) : hessian);
+  set_hessian(result, want == Want::convex ? without_negative(hessian) : hessian);
   return result;
 }
 

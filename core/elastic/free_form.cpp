@@ -6,6 +6,7 @@
 
 #include "elastic/dense.h"
 #include "elastic/methods.h"
+#include "mesh/error.h"
 
 namespace chainmail {
 namespace {
@@ -67,6 +68,19 @@ constexpr double pin_weight = 1e6;
 // Largest number of elements to which control points are fitted. More would not change a few hundred points much.
 constexpr std::size_t max_fitted = 20'000;
 
+/// Returns the Cholesky factor of a positive definite matrix. Where rounding has made a pivot negative, it adds as
+/// little to the diagonal as is enough.
+Eigen::MatrixXd factored(const Eigen::MatrixXd& matrix) {
+  for (double added = 0; added < 1; added = std::max(1e-14, 10 * added)) {
+    Eigen::MatrixXd factor = matrix;
+    factor.diagonal().array() += added * matrix.trace();
+    if (factor_positive(factor)) {
+      return factor;
+    }
+  }
+  throw Error("free-form deformation", "its numbers are not finite", "use smaller coordinates");
+}
+
 /// Free-form deformation (Sederberg and Parry 1986) by direct manipulation (Hsu et al. 1992): of all motions of the
 /// control points that bring the grabbed element to its target, takes the smallest. Pins stay as well as the lattice
 /// allows, and so does the shape of a handle of many elements: its elements are at their targets in any case, but the
@@ -82,8 +96,7 @@ class FreeForm final : public ElasticSolver {
     reset();
     resistance_ = Eigen::MatrixXd::Identity(volume_.count(), volume_.count());
     add_resistance(pins_, resistance_, {});
-    factors_ = resistance_;
-    factor_positive(factors_);
+    factors_ = factored(resistance_);
   }
 
   void hold(const ElasticHandle& handle, const Progress& progress) override {
@@ -200,8 +213,7 @@ class FreeForm final : public ElasticSolver {
         right.col(n + 1 + k) += (handle_.displacements[at] - fields(begun_)(k, handle_.elements[i])) * weights;
       }
     }
-    factor_positive(resistance);
-    const Eigen::MatrixXd responses = solved(resistance, std::move(right));
+    const Eigen::MatrixXd responses = solved(factored(resistance), std::move(right));
     take_shape(responses.rightCols(n));
     return responses.leftCols(n + 1);
   }
@@ -259,7 +271,6 @@ class FreeForm final : public ElasticSolver {
         right.col(k) += fields(displacements_)(k, static_cast<Eigen::Index>(e)) * weights;
       }
     }
-    factor_positive(normal);
     return solved(normal, std::move(right));
   }
 

@@ -68,15 +68,17 @@ template <>
 inline constexpr std::array members_of<ElasticOptions>{
     number<&ElasticOptions::material, &Material::young>("young", parameters::young),
     number<&ElasticOptions::material, &Material::poisson>("poisson", parameters::poisson),
-    number<&ElasticOptions::lattice>("lattice", parameters::lattice),
-    may_be_absent(number<&ElasticOptions::iterations>("iterations", parameters::iterations)),
-    may_be_absent(shown_as("Law", strain_law_labels,
-                           choice<&ElasticOptions::law, &StrainLaw::kind>(
-                               "law", strain_law_names,
-                               "how the material stiffens, in relaxation to the material and in neo-Hookean FEM"))),
+    may_be_absent(shown_as(
+        "Law", strain_law_labels,
+        choice<&ElasticOptions::law, &StrainLaw::kind>(
+            "law", strain_law_names,
+            "how the material stiffens, in relaxation to the material and in neo-Hookean FEM: gent toward a limit, "
+            "fung exponentially"))),
     may_be_absent(number<&ElasticOptions::law, &StrainLaw::gent_limit>("gent_limit", parameters::gent_limit)),
     may_be_absent(number<&ElasticOptions::law, &StrainLaw::fung_exponent>("fung_exponent", parameters::fung_exponent)),
-    may_be_absent(number<&ElasticOptions::thickness>("thickness", parameters::thickness))};
+    may_be_absent(number<&ElasticOptions::thickness>("thickness", parameters::thickness)),
+    number<&ElasticOptions::lattice>("lattice", parameters::lattice),
+    may_be_absent(number<&ElasticOptions::iterations>("iterations", parameters::iterations))};
 
 /// Returns true for the numbers of single laws, and for those that only surfaces in space have.
 constexpr bool is_of_law(const MemberInfo& member) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 namespace chainmail {
@@ -37,16 +36,6 @@ inline constexpr std::array<std::string_view, relaxation_schemes.size()> relaxat
 /// Returns the row of a scheme.
 constexpr const RelaxationSchemeInfo& info(RelaxationScheme scheme) {
   return relaxation_schemes[static_cast<std::size_t>(scheme)];
-}
-
-/// Returns the scheme with this name, if any.
-constexpr std::optional<RelaxationScheme> find_relaxation_scheme(std::string_view name) {
-  for (const RelaxationSchemeInfo& one : relaxation_schemes) {
-    if (one.name == name) {
-      return one.scheme;
-    }
-  }
-  return std::nullopt;
 }
 
 /// Largest number of iterations of the scheme `equilibrium`, where a user does not choose.

@@ -87,59 +87,21 @@ std::optional<std::uint64_t> inverted_cells(const Mesh& mesh, const PositionView
 
 namespace {
 
-/// Returns the products of edges with each other: the metric of their simplex.
-Eigen::Matrix3d metric_of(const std::array<Point, 3>& edges) {
-  Eigen::Matrix3d result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      result(i, j) = edges[std::size_t(i)].dot(edges[std::size_t(j)]);
-    }
-  }
-  return result;
-}
-
-/// Returns the Cholesky factor of a positive definite matrix, in its lower triangle.
-Eigen::Matrix3d factor_of(Eigen::Matrix3d matrix) {
-  for (int j = 0; j < 3; ++j) {
-    for (int i = j; i < 3; ++i) {
-      for (int k = 0; k < j; ++k) {
-        matrix(i, j) -= matrix(i, k) * matrix(j, k);
-      }
-      matrix(i, j) = i == j ? std::sqrt(matrix(j, j)) : matrix(i, j) / matrix(j, j);
-    }
-  }
-  return matrix;
-}
-
-/// Multiplies a matrix, from the left, by the inverse of a lower triangle.
-Eigen::Matrix3d divided(Eigen::Matrix3d matrix, const Eigen::Matrix3d& lower) {
-  for (int column = 0; column < 3; ++column) {
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < i; ++k) {
-        matrix(i, column) -= lower(i, k) * matrix(k, column);
-      }
-      matrix(i, column) /= lower(i, i);
-    }
-  }
-  return matrix;
-}
-
 /// Returns the largest principal stretch of a simplex; 0 if it is flat at rest.
 double stretch_of(const Mesh& mesh, const Simplex& simplex, const PositionView& positions) {
-  // The squares of the stretches are the eigenvalues of the metric now, relative to that at rest.
-  Eigen::Matrix3d before = metric_of(simplex.edges([&](ElementId e) { return mesh.rest_position(e); }));
-  const Eigen::Matrix3d after = metric_of(simplex.edges([&](ElementId e) { return point_of(mesh, positions, e); }));
-  const double trace = before.trace();
-  if (simplex.count < 4) {
-    before(2, 2) = 1;  // the stretch across a triangle is 0
-  }
-  const double volume = before.col(0).cross(before.col(1)).dot(before.col(2));
-  if (!(volume > 1e-16 * std::pow(trace, simplex.count - 1))) {
+  const auto [a, b, c] = simplex.edges([&](ElementId e) { return mesh.rest_position(e); });
+  const Point across = a.cross(b), third = simplex.count == 4 ? c : Point(across.normalized());
+  const double volume = third.dot(across), squares = a.squaredNorm() + b.squaredNorm() + c.squaredNorm();
+  if (!(volume * volume > 1e-16 * std::pow(squares, simplex.count - 1))) {
     return 0;
   }
-  const Eigen::Matrix3d lower = factor_of(before);
-  const Eigen::Matrix3d half = divided(after, lower);
-  return std::sqrt(std::max(0.0, ascending_eigenvectors(divided(half.transpose(), lower)).values[2]));
+  // The stretches are the singular values of the deformation gradient. The one across a triangle is 0.
+  const std::array<Point, 3> now = simplex.edges([&](ElementId e) { return point_of(mesh, positions, e); });
+  Eigen::Matrix3d gradient = now[0] * b.cross(third).transpose();
+  gradient += now[1] * third.cross(a).transpose();
+  gradient += now[2] * across.transpose();
+  gradient /= volume;
+  return std::sqrt(std::max(0.0, ascending_eigenvectors(gradient.transpose() * gradient).values[2]));
 }
 
 }  // namespace

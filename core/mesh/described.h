@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "mesh/parameters.h"
 
@@ -23,6 +24,8 @@ struct MemberInfo {
   std::string_view label = {};                   // in the window
   std::span<const std::string_view> labels = {};  // of a choice: its names in the window
 };
+
+constexpr bool is_yes_or_no(const MemberInfo& member) { return member.number == nullptr && member.names.empty(); }
 
 /// A member that is read and written as numbers: a choice by its index, yes as 1, and item `i` of an array.
 template <class Struct>

@@ -8,8 +8,6 @@
 namespace chainmail {
 namespace {
 
-constexpr int max_rows = 12;
-
 /// A symmetric matrix that becomes tridiagonal by reflections (Householder), and then diagonal by rotations (implicit
 /// QR with Wilkinson's shifts): algorithms 8.3.1 and 8.3.2 of Golub and Van Loan (2013). Its largest number is 1.
 class Diagonalization {
@@ -58,7 +56,7 @@ class Diagonalization {
 
   /// Reflects the rows and columns beyond k.
   void reflect_remainder(int k, const double* normal, double factor) {
-    std::array<double, max_rows> product{};  // of the matrix and the normal
+    std::array<double, max_eigenvector_rows> product{};  // of the matrix and the normal
     for (int j = k + 1; j < rows_; ++j) {
       const double* const one = column(j);
       const double share = factor * normal[j];
@@ -166,8 +164,9 @@ class Diagonalization {
   int rows_;
   double* matrix_;
   double* diagonal_;
-  std::array<double, max_rows> below_{};    // the numbers below the diagonal
-  std::array<double, max_rows> factors_{};  // of the reflections: 2 over the squared lengths of their normals
+  std::array<double, max_eigenvector_rows> below_{};  // the numbers below the diagonal
+  std::array<double, max_eigenvector_rows>
+      factors_{};  // of the reflections: 2 over the squared lengths of their normals
 };
 
 }  // namespace

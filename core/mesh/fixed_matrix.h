@@ -272,4 +272,16 @@ template <class Scalar, int Rows, int Columns>
   }
 }
 
+/// Adds the matrix factor · a aᵀ to a sum.
+template <class Scalar, int Size>
+[[gnu::always_inline]] inline void add_square(FixedMatrix<Scalar, Size, Size>& sum, Scalar factor,
+                                              const FixedMatrix<Scalar, Size>& a) {
+  for (int column = 0; column < Size; ++column) {
+    const Scalar scaled = factor * a[column];
+    for (int row = 0; row < Size; ++row) {
+      sum(row, column) += scaled * a[row];
+    }
+  }
+}
+
 }  // namespace chainmail

@@ -14,6 +14,7 @@
 #include <QTextBrowser>
 #include <QToolBar>
 
+#include "common/actions.h"
 #include "window.h"
 
 namespace chainmail::window_keyboard {
@@ -97,6 +98,40 @@ class WindowKeyboard : public QObject {
 
  private slots:
   void init() { failOnWarnings(); }
+
+  void anActionIsOneRow() {
+    QMainWindow window;
+    int done = 0;
+    bool isEarly = true, isOn = false;
+    Actions actions(window, {{"tests", "&Tests"}});
+    actions.add(
+        "tests",
+        {{"act", "&Act…", "fit", "Ctrl+J", "Does it", [&done] { ++done; },
+          When([&isEarly] { return isEarly ? QStringLiteral("Not available: it is too early") : QString(); })},
+         {"turn", "&Turn", "", "", "Turns it", [&isOn](bool on) { isOn = on; }, IsOn([&isOn] { return isOn; })}});
+    QAction& act = actions["act"];
+    QCOMPARE(actions.menu("tests").actions(), (QList{&act, &actions["turn"]}));
+    QVERIFY(!act.isEnabled());
+    QCOMPARE(act.statusTip(), QStringLiteral("Not available: it is too early"));
+    isEarly = false;
+    actions["turn"].trigger();
+    QVERIFY(isOn && actions["turn"].isChecked() && act.isEnabled());  // an action evaluates all others
+    act.trigger();
+    QCOMPARE(done, 1);
+    QCOMPARE(act.shortcut(), QKeySequence(QStringLiteral("Ctrl+J")));
+    QCOMPARE(act.toolTip(), QStringLiteral("Act (Ctrl+J)\nDoes it"));
+  }
+
+  void aTextThatChangesHasALetterWhenItsMenuOpens() {
+    QMainWindow window;
+    QString name = QStringLiteral("one && two");
+    Actions actions(window, {{"tests", "&Tests"}});
+    actions.add("tests", {{"act", "&Act", "", "", "", [] {}, Appears([&name] { return Appearance{.text = name}; })}});
+    QCOMPARE(plainText(actions["act"]), QStringLiteral("one & two"));
+    name = QStringLiteral("three");
+    emit actions.menu("tests").aboutToShow();
+    QCOMPARE(actions["act"].text(), QStringLiteral("&three"));
+  }
 
   void everyActionHasANameAnEffectALetterAndItsOwnKeys() {
     Workbench bench;

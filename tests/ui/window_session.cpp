@@ -65,6 +65,7 @@ class WindowSession : public QObject {
       bench.trigger("addPanel");
       bench.trigger("linkCameras");
       bench.settle();
+      bench.view(0).setParallel(true);
       bench.view(0).orbit({70, 35});
       bench.view(0).pan({40, -25});
       bench.view(1).orbit({-55, 20});
@@ -82,6 +83,7 @@ class WindowSession : public QObject {
     bench.open(path);
     QCOMPARE(bench.document().panels(), 3);
     QVERIFY(!bench.find<QAction>("linkCameras")->isChecked());
+    QVERIFY(bench.find<QAction>("parallelRays")->isChecked());
     for (int panel = 0; panel < 3; ++panel) {
       const Camera::Pose now = bench.view(panel).camera()->pose(), before = poses[std::size_t(panel)];
       QVERIFY2(now.centre == before.centre, qPrintable(QString::number(panel)));

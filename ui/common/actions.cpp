@@ -2,6 +2,7 @@
 
 #include <QActionGroup>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QScopedValueRollback>
 #include <QSet>
 
@@ -60,7 +61,10 @@ Keys::Keys(const QString& names) : QList(QKeySequence::listFromString(names)) { 
 Actions::Actions(QMainWindow& window, const std::vector<ActionRow>& menus) : QObject(&window), window_(window) {
   add({}, menus);
   for (const auto& [id, menu] : menus_) {
-    connect(menu, &QMenu::aboutToShow, this, &Actions::refresh);
+    connect(menu, &QMenu::aboutToShow, this, [this] {
+      refresh();
+      addMnemonics();  // a text that has changed lost its own
+    });
   }
 }
 
@@ -105,15 +109,15 @@ void Actions::add(const QString& place, const ActionRow& row, QAction* action) {
         act(on);
       }
     });
-    connect(action, signal, this, &Actions::refresh);
+    connect(action, signal, this, [this] { refresh(); });
   }
   QMenu& in = menu(place);
   in.addAction(action);
   in.setToolTipsVisible(in.toolTipsVisible() || (row.when.now && qobject_cast<QMenu*>(in.parent()) != nullptr));
   window_.addAction(action);
   actions_[row.id] = action;
-  made_.push_back({row, action});
-  refreshFrom(made_.size() - 1);
+  made_.push_back({place, row, action});
+  adapt(made_.back());
 }
 
 QList<QAction*> Actions::all(const QStringList& ids) const {
@@ -127,13 +131,15 @@ QList<QAction*> Actions::all(const QStringList& ids) const {
 void Actions::addMnemonics() const { addMnemonicsTo(window_.menuBar()->actions()); }
 
 /// Setting the state of a switch does not act again.
-void Actions::refreshFrom(std::size_t first) {
+void Actions::refresh(const QString& menu) {
   if (refreshes_) {
     return;
   }
   const QScopedValueRollback refreshes(refreshes_, true);
-  for (std::size_t i = first; i < made_.size(); ++i) {
-    adapt(made_[i]);
+  for (Made& one : made_) {
+    if (menu.isEmpty() || one.menu == menu) {
+      adapt(one);
+    }
   }
 }
 
@@ -141,29 +147,32 @@ void Actions::refreshFrom(std::size_t first) {
 void Actions::adapt(Made& one) {
   const ActionRow& row = one.row;
   const Available available = row.when.now ? row.when.now() : Available(true);
-  const Look look = row.looks.now ? row.looks.now() : Look{.visible = one.action->isVisible()};
-  if (!look.text.isEmpty() && look.text != one.text) {  // else it keeps its mnemonic
-    one.text = look.text;
-    one.action->setText(look.text);
+  const Appearance appearance = row.appears.now ? row.appears.now() : Appearance{.visible = one.action->isVisible()};
+  if (!appearance.text.isEmpty() && appearance.text != one.text) {  // else it keeps its mnemonic
+    one.text = appearance.text;
+    one.action->setText(appearance.text);
   }
-  if (*look.icon != 0 && QLatin1String(look.icon) != one.icon) {
-    one.icon = QLatin1String(look.icon);
-    one.action->setIcon(icon(look.icon));
+  if (*appearance.icon != 0 && QLatin1String(appearance.icon) != one.icon) {
+    one.icon = QLatin1String(appearance.icon);
+    one.action->setIcon(icon(appearance.icon));
   }
-  one.action->setVisible(look.visible);
+  one.action->setVisible(appearance.visible);
   if (row.when.now) {
     one.action->setEnabled(available.is);
   }
   if (row.isOn.now) {
     one.action->setChecked(row.isOn.now());
   }
-  const QString tip = !available.why.isEmpty() ? available.why : look.tip.isEmpty() ? row.tip : look.tip;
+  const QString tip = !available.why.isEmpty() ? available.why : appearance.tip.isEmpty() ? row.tip : appearance.tip;
   const QString names = one.action->shortcut().toString(QKeySequence::NativeText);
   one.action->setStatusTip(tip);
   one.action->setToolTip(plainText(*one.action) + (names.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(names)) +
                          QLatin1Char('\n') + tip);
 }
 
-QString plainText(const QAction& action) { return action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…")); }
+QString plainText(const QAction& action) {
+  static const QRegularExpression marks(QStringLiteral("&(.)"));  // of a mnemonic, and before a real '&'
+  return action.text().replace(marks, QStringLiteral("\\1")).remove(QStringLiteral("…"));
+}
 
 }  // namespace chainmail

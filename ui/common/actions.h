@@ -20,12 +20,12 @@ struct Keys : QList<QKeySequence> {
 };
 
 /// What an action does. A row with IsOn is a switch if the function takes its new state, and a choice otherwise.
-struct Act {
-  Act() = default;
+struct Effect {
+  Effect() = default;
   template <std::invocable Function>
-  Act(Function function) : run([function](bool) { function(); }) {}
+  Effect(Function function) : run([function](bool) { function(); }) {}
   template <std::invocable<bool> Function>
-  Act(Function function) : run(std::move(function)), takesState(true) {}
+  Effect(Function function) : run(std::move(function)), takesState(true) {}
 
   std::function<void(bool)> run;
   bool takesState = false;
@@ -41,42 +41,32 @@ struct Available {
   QString why;
 };
 
-/// How an action looks now, where it does not always look as its row says. What is empty is as in the row.
-struct Look {
+/// How an action appears now, where it does not always look as its row says. What is empty is as in the row.
+struct Appearance {
   QString text = {}, tip = {};
   const char* icon = "";
   bool visible = true;
 };
 
-/// Makes a row a switch, or one of several choices; the function returns its state.
-struct IsOn {
-  IsOn() = default;
-  explicit IsOn(std::function<bool()> function) : now(std::move(function)) {}
+/// What a row says anew each time: a function that is called in refresh().
+template <class Value>
+struct Now {
+  Now() = default;
+  explicit Now(std::function<Value()> function) : now(std::move(function)) {}
 
-  std::function<bool()> now;
+  std::function<Value()> now;
 };
-/// When the action of a row is available; else always.
-struct When {
-  When() = default;
-  explicit When(std::function<Available()> function) : now(std::move(function)) {}
-
-  std::function<Available()> now;
-};
-/// How the action of a row looks now; else always as the row says.
-struct Looks {
-  Looks() = default;
-  explicit Looks(std::function<Look()> function) : now(std::move(function)) {}
-
-  std::function<Look()> now;
-};
+using IsOn = Now<bool>;           // makes a row a switch, or one of several choices: its state
+using When = Now<Available>;      // when the action is available; else always
+using Appears = Now<Appearance>;  // how the action appears; else always as the row says
 
 /// A row of a table of actions. Without `act`, it is a submenu; without `id`, a separator.
 struct ActionRow {
   ActionRow() = default;
-  /// `more` are IsOn, When and Looks.
+  /// `more` are IsOn, When and Appears.
   template <class... More>
   ActionRow(QString name, QString words, const char* drawing = "", Keys shortcuts = "", QString help = {},
-            Act does = {}, More... more)
+            Effect does = {}, More... more)
       : id(std::move(name)),
         text(std::move(words)),
         icon(drawing),
@@ -91,15 +81,15 @@ struct ActionRow {
   const char* icon = "";  // a name in icons.cpp
   Keys keys;
   QString tip;
-  Act act;
+  Effect act;
   IsOn isOn;
   When when;
-  Looks looks;
+  Appears appears;
 
  private:
   void set(IsOn one) { isOn = std::move(one); }
   void set(When one) { when = std::move(one); }
-  void set(Looks one) { looks = std::move(one); }
+  void set(Appears one) { appears = std::move(one); }
 };
 
 /// The actions of a window, made from rows. Its menus have them in the order in which they are added. Their predicates
@@ -121,17 +111,19 @@ class Actions : public QObject {
   QMenu& menu(const QString& id) const { return *menus_.at(id); }
   /// Gives every item of all menus a mnemonic, unique in its menu, so that all can be reached with Alt and letters.
   void addMnemonics() const;
-  void refresh() { refreshFrom(0); }
+  void refresh() { refresh({}); }
+  /// Evaluates the actions of one menu only, for what changes many times in a second.
+  void refresh(const QString& menu);
 
  private:
   struct Made {
+    QString menu;
     ActionRow row;
     QAction* action;
-    QString text = {};  // the last text of a Look
+    QString text = {};  // the last text that was not the row's
     QString icon = {};
   };
 
-  void refreshFrom(std::size_t first);
   static void adapt(Made& one);
 
   QMainWindow& window_;

@@ -2,6 +2,7 @@
 
 #include <QBoxLayout>
 #include <QWidget>
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -27,6 +28,8 @@ MemberRow makeRow(const MemberInfo& member,
 /// The rows of all members of a described struct, in their order.
 template <class Struct>
 class MemberRows {
+  static_assert(std::ranges::none_of(members_of<Struct>, is_yes_or_no), "makeRow has no check box yet");
+
  public:
   /// Receives the changed struct, the name of the member, and the gesture.
   using Change = std::function<void(const Struct& all, const QString& label, int gesture)>;

@@ -214,7 +214,7 @@ const SoftnessPreset* PresetRow::chosen() const {
 
 const SoftnessPreset* PresetRow::chosenOwn() const {
   const SoftnessPreset* one = chosen();
-  return one == nullptr || one < &all_[built_in_presets().size()] ? nullptr : one;
+  return one == nullptr || one - all_.data() < std::ssize(built_in_presets()) ? nullptr : one;
 }
 
 void PresetRow::choose(int index) {

@@ -107,7 +107,7 @@ void PropagationDock::addActions(Actions& actions) {
         [this] { propagation_.stepBy(-1); }, ready},
        {"passPlay", "&Slow motion", "play", "Ctrl+Space", "Plays the pass at the selected speed, or pauses",
         [this](bool on) { propagation_.setPlays(on); }, ready, IsOn([this] { return propagation_.plays(); }),
-        Looks([this] { return Look{.icon = propagation_.plays() ? "pause" : "play"}; })},
+        Appears([this] { return Appearance{.icon = propagation_.plays() ? "pause" : "play"}; })},
        {"passForward", "Step f&orward", "stepForward", ".", "Goes forward by one candidate of the pass",
         [this] { propagation_.stepBy(1); }, ready},
        {"passLast", "&Last step", "toEnd", "Ctrl+.", "Goes to the end of the pass",
@@ -116,7 +116,7 @@ void PropagationDock::addActions(Actions& actions) {
        {"passFollow", "Follow &drag", "", "Shift+O", "On: always shows the last pass. Off: keeps the present pass",
         [this](bool on) { propagation_.setShowsNewest(on); }, ready,
         IsOn([this] { return propagation_.showsNewest(); })}});
-  connect(this, &PropagationDock::changed, &actions, &Actions::refresh);
+  connect(this, &PropagationDock::changed, &actions, [&actions] { actions.refresh(QStringLiteral("steps")); });
 }
 
 QWidget* PropagationDock::makeButtons(Actions& actions) {

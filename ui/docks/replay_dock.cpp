@@ -75,8 +75,9 @@ void ReplayDock::addActions() {
        {"replayBack", "Move b&ack", "stepBack", "Ctrl+Alt+Left", "Goes back by one pass",
         goes([this](const MoveHistory&) { return previousMove(); }), someBehind},
        {"replayPlay", "&Play", "play", "Ctrl+Alt+Space", "Plays the moves by the algorithms of the panels",
-        [this] { setPlaying(!playing_.isActive()); }, some, Looks([this] {
-          return playing_.isActive() ? Look{.text = "&Pause", .icon = "pause"} : Look{.text = "&Play", .icon = "play"};
+        [this] { setPlaying(!playing_.isActive()); }, some, Appears([this] {
+          return playing_.isActive() ? Appearance{.text = "&Pause", .icon = "pause"}
+                                     : Appearance{.text = "&Play", .icon = "play"};
         })},
        {"replayForward", "Move &forward", "stepForward", "Ctrl+Alt+Right", "Goes forward by one pass",
         goes([this](const MoveHistory&) { return nextMove(); }), someAhead},
@@ -126,7 +127,9 @@ void ReplayDock::showMoves() {
   slider_->setValue(int(wanted_.value_or(history.position())));
   position_->setText(describe());
   slider_->setEnabled(hasMoves() && !film_.running());
-  actions_.refresh();
+  for (const char* menu : {"replay", "File"}) {  // "File" has the film
+    actions_.refresh(QLatin1String(menu));
+  }
 }
 
 bool ReplayDock::hasMoves() const { return ahead() || behind(); }

@@ -143,9 +143,9 @@ void FileActions::fill(Actions& actions) {
                 {{"saveShape" + panelName(panel), QStringLiteral("Panel &%1…").arg(panelName(panel)), "shape", "",
                   "Saves the positions of this panel in mesh units as " + endings(FormatUse::write_positions),
                   [this, panel] { saveShape(panel); },
-                  Looks([this, panel] { return Look{.visible = panel < document_.panels()}; })}});
+                  Appears([this, panel] { return Appearance{.visible = panel < document_.panels()}; })}});
   }
-  connect(&sessions_.recoveryBar(), &RecoveryBar::changed, &actions, &Actions::refresh);
+  connect(&sessions_.recoveryBar(), &RecoveryBar::changed, &actions, [&actions] { actions.refresh(); });
   recent_ = &actions.menu("recent");
   fillRecent();
 }

@@ -203,7 +203,7 @@ std::vector<ActionRow> PictureActions::subjectRows() {
     rows.emplace_back(
         one.id, text, "", "", tip, [this, one] { QSettings().setValue(subjectKey(), subject_ = one.id); },
         IsOn([this, one] { return subject().id == one.id; }),
-        Looks([this, one] { return Look{.visible = one.panel < document_.panels()}; }));
+        Appears([this, one] { return Appearance{.visible = one.panel < document_.panels()}; }));
   };
   add({"pictureOfWindow", What::window}, "Of the &window", "The whole window with its docks");
   add({"pictureOfPanels", What::panels}, "Of &all panels", "All visible panels, side by side");
@@ -235,7 +235,7 @@ std::vector<ActionRow> PictureActions::scaleRows() {
         askForSize();
       },
       IsOn([this] { return scale_ == ownSize; }),
-      Looks([this] { return Look{.text = QStringLiteral("&Own size: %1…").arg(size_.inWords())}; }));
+      Appears([this] { return Appearance{.text = QStringLiteral("&Own size: %1…").arg(size_.inWords())}; }));
   return rows;
 }
 

@@ -64,11 +64,11 @@ ActionRow PinLayers::rowOf(const ObjectSide* side) {
                        ? QStringLiteral("All elements of the %1 are pinned already").arg(layer)
                        : QString();
           }),
-          Looks([this, side, words] {
+          Appears([this, side, words] {
             const auto some = counts_.contains(side)
                                   ? QStringLiteral(" (%1)").arg(counted(counts_[side], QStringLiteral("element")))
                                   : QString();
-            return Look{.text = words + some, .visible = exists(side)};
+            return Appearance{.text = words + some, .visible = exists(side)};
           })};
 }
 

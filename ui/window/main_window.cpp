@@ -58,8 +58,8 @@ constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move
 
 /// Shows the name of an undo step in the text of the menu item. The text of the tool bar button stays short, so that
 /// the tool bar keeps its width.
-Look lookOf(const QString& verb, const QString& step) {
-  return {.text = "&" + verb + (step.isEmpty() ? "" : " " + step)};
+Appearance appearanceOf(const QString& verb, const QString& step) {
+  return {.text = "&" + verb + (step.isEmpty() ? "" : " " + QString(step).replace('&', "&&"))};
 }
 
 }  // namespace
@@ -85,7 +85,11 @@ MainWindow::MainWindow(MeshPointer mesh, const QString& name)
                                    {"Help", "&Help"}})),
       sessions_(new Sessions(
           document_, jobs_,
-          {[this] { return layoutOf(*this); }, [this](const std::string& layout) { applyLayout(*this, layout); },
+          {[this] { return layoutOf(*this); },
+           [this](const std::string& layout) {
+             applyLayout(*this, layout);
+             actions_->refresh();
+           },
            [this](QObject& context, const std::function<void()>& changed) { followLayout(*this, context, changed); }},
           this)),
       files_(new FileActions(*this, document_, jobs_, *sessions_)),
@@ -271,10 +275,10 @@ void MainWindow::addEdits() {
   const QUndoStack& stack = document_.undoStack();
   actions_->add("Edit", {{"undo", "&Undo|Undo", "undo", QKeySequence::Undo, "Undoes the last change",
                           [this] { document_.undo(); }, When([&stack] { return stack.canUndo(); }),
-                          Looks([&stack] { return lookOf("Undo", stack.undoText()); })},
+                          Appears([&stack] { return appearanceOf("Undo", stack.undoText()); })},
                          {"redo", "&Redo|Redo", "redo", QKeySequence::Redo, "Repeats the change that was undone",
                           [this] { document_.redo(); }, When([&stack] { return stack.canRedo(); }),
-                          Looks([&stack] { return lookOf("Redo", stack.redoText()); })},
+                          Appears([&stack] { return appearanceOf("Redo", stack.redoText()); })},
                          {}});
 }
 
@@ -355,12 +359,12 @@ void MainWindow::addView() {
 /// Evaluates the actions again after what decides on them has changed.
 void MainWindow::listenForActions() {
   for (const auto signal : {&Document::meshChanged, &Document::panelsChanged, &Document::pinsChanged}) {
-    connect(&document_, signal, actions_, &Actions::refresh);
+    connect(&document_, signal, actions_, [this] { actions_->refresh(); });
   }
-  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, &Actions::refresh);
-  connect(area_, &PanelArea::arranged, actions_, &Actions::refresh);
-  connect(area_, &PanelArea::ghostsChanged, actions_, &Actions::refresh);
-  connect(&colouring_, &Colouring::modeChanged, actions_, &Actions::refresh);
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, [this] { actions_->refresh(); });
+  connect(area_, &PanelArea::arranged, actions_, [this] { actions_->refresh(); });
+  connect(area_, &PanelArea::ghostsChanged, actions_, [this] { actions_->refresh(); });
+  connect(&colouring_, &Colouring::modeChanged, actions_, [this] { actions_->refresh(); });
 }
 
 /// Shows names beside the icons of the tool bar if there is room for all of them.

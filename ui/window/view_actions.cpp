@@ -55,6 +55,38 @@ QString endOf(const AxisView& view) {
   return (view.positive ? QStringLiteral("+") : QStringLiteral("−")) + QStringLiteral("xyz")[view.axis];
 }
 
+/// Adds the rows that each panel has.
+void addActionsOfPanels(Actions& actions, const Document& document, PanelArea& area, Colouring& colouring) {
+  std::vector<ActionRow> alone{{}}, reference;
+  for (int panel = 0; panel < Document::maxPanels; ++panel) {
+    const QString name = panelName(panel), number = QString::number(panel + 1);
+    const Appears existing([&document, panel] { return Appearance{.visible = panel < document.panels()}; });
+    const auto isSeen = [&area, panel] { return std::ranges::count(area.inSight(), panel) != 0; };
+    actions.add(
+        "panels",
+        {{"showPanel" + name, "Show &" + name, "", "Ctrl+" + number,
+          QStringLiteral("Shows panel %1. Hidden panels keep running. At least one panel stays visible").arg(name),
+          [&area, panel](bool shown) { area.setShown(panel, shown); }, IsOn(isSeen), existing,
+          When([&area, isSeen] { return !isSeen() || area.inSight().size() > 1; })}});  // the last visible panel stays
+    alone.emplace_back(
+        "showAlone" + name, "Show only " + name, "", "Alt+" + number,
+        QStringLiteral("Show only panel %1, or all panels (or double-click the header of the panel)").arg(name),
+        [&area, panel](bool on) { area.setAlone(on ? std::optional(panel) : std::nullopt); },
+        IsOn([&area, panel] { return area.alone() == panel; }), existing);
+    reference.emplace_back(
+        "compareWith" + name, "Panel &" + name, "", "",
+        QStringLiteral("Compares all other panels with panel %1 in colours of distance and difference").arg(name),
+        [&colouring, panel] { colouring.setReference(panel); },
+        IsOn([&colouring, panel] { return colouring.reference() == panel; }), existing, When([&colouring] {
+          return comparesPanels(colouring.mode())
+                     ? QString()
+                     : "Not available: choose a distance or a difference in 'Colour by' first";
+        }));
+  }
+  actions.add("panels", alone);
+  actions.add("compareWith", reference);
+}
+
 }  // namespace
 
 void addCameraMoves(Actions& actions, PanelArea& area) {
@@ -111,8 +143,8 @@ void addSides(Actions& actions, const Document& document, PanelArea& area) {
             panel->view().lookFromAxis(side.axis, side.positive);
           }
         },
-        spatial, Looks([&area, side] {
-          return Look{.text = QStringLiteral("From %1 (%2)").arg(endOf(side), sideAt(side, area.up()))};
+        spatial, Appears([&area, side] {
+          return Appearance{.text = QStringLiteral("From %1 (%2)").arg(endOf(side), sideAt(side, area.up()))};
         }));
   }
   rows.emplace_back(
@@ -148,45 +180,18 @@ void addPanelActions(Actions& actions, Document& document, PanelArea& area, Colo
                      ? QString()
                      : "Not available: the window keeps two panels. Hide one of them instead";
         }),
-        Looks([&document] {
-          return Look{.tip = QStringLiteral("Removes panel %1 and its results").arg(panelName(document.panels() - 1))};
+        Appears([&document] {
+          return Appearance{
+              .tip = QStringLiteral("Removes panel %1 and its results").arg(panelName(document.panels() - 1))};
         })},
        {"swapPanels", "S&wap panels", "swap", "W", "Moves each panel to the next position; two panels swap sides",
         [&area] { area.rotatePanels(); }},
        {"ghosts", "&Ghosts", "overlay", "G",
         "Shows the next panel's object over each panel's own, transparent and in that panel's colour. The button above "
-        "a "
-        "panel chooses another",
+        "a panel chooses another",
         [&area](bool on) { area.setGhosts(on); }, IsOn([&area] { return area.hasGhosts(); })},
        {}});
-  std::vector<ActionRow> alone{{}}, reference;
-  for (int panel = 0; panel < Document::maxPanels; ++panel) {
-    const QString name = panelName(panel), number = QString::number(panel + 1);
-    const Looks existing([&document, panel] { return Look{.visible = panel < document.panels()}; });
-    const auto isSeen = [&area, panel] { return std::ranges::count(area.inSight(), panel) != 0; };
-    actions.add(
-        "panels",
-        {{"showPanel" + name, "Show &" + name, "", "Ctrl+" + number,
-          QStringLiteral("Shows panel %1. Hidden panels keep running. At least one panel stays visible").arg(name),
-          [&area, panel](bool shown) { area.setShown(panel, shown); }, IsOn(isSeen), existing,
-          When([&area, isSeen] { return !isSeen() || area.inSight().size() > 1; })}});  // the last visible panel stays
-    alone.emplace_back(
-        "showAlone" + name, "Show only " + name, "", "Alt+" + number,
-        QStringLiteral("Show only panel %1, or all panels (or double-click the header of the panel)").arg(name),
-        [&area, panel](bool on) { area.setAlone(on ? std::optional(panel) : std::nullopt); },
-        IsOn([&area, panel] { return area.alone() == panel; }), existing);
-    reference.emplace_back(
-        "compareWith" + name, "Panel &" + name, "", "",
-        QStringLiteral("Compares all other panels with panel %1 in colours of distance and difference").arg(name),
-        [&colouring, panel] { colouring.setReference(panel); },
-        IsOn([&colouring, panel] { return colouring.reference() == panel; }), existing, When([&colouring] {
-          return comparesPanels(colouring.mode())
-                     ? QString()
-                     : "Not available: choose a distance or a difference in 'Colour by' first";
-        }));
-  }
-  actions.add("panels", alone);
-  actions.add("compareWith", reference);
+  addActionsOfPanels(actions, document, area, colouring);
   area.setHeadActions(actions.all({"addPanel", "removePanel"}));
 }
 

@@ -81,12 +81,12 @@ class Elasticity:
         *,
         young: float = 1.0,
         poisson: float = 0.3,
-        control_points: tuple[int, int, int] = (4, 4, 4),
-        iterations: int = 2000,
         law: _Law = "neo-hookean",
         gent_limit: float = 2.0,
         fung_exponent: float = 0.5,
         thickness: float = 0.01,
+        control_points: tuple[int, int, int] = (4, 4, 4),
+        iterations: int = 2000,
     ) -> None: ...
     @property
     def young(self) -> float: ...

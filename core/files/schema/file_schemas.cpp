@@ -2,7 +2,9 @@
 #include "elastic/material.h"
 #include "files/schema/schemas.h"
 #include "files/session/lesson.h"
+#include "files/session/moves.h"
 #include "files/session/session.h"
+#include "files/session/softness_presets.h"
 #include "files/text/limits.h"
 #include "simulate/command.h"
 
@@ -21,9 +23,9 @@ Members optional_softness() {
 }
 
 Json preset() {
-  const Json name = with(words("one line", limits::preset_name_bytes), "pattern", "^[^ ](.*[^ ])?$");
+  const Json name = with(non_empty_text("one line", limits::preset_name_bytes), "pattern", "^[^ ](.*[^ ])?$");
   const Json one = object(joined({{{"name", name}}, region()}), softness(region_numbers));
-  return object({{"version", one_of(Json::array({1}))}, {"presets", array_of(one)}});
+  return object({{"version", one_of(Json::array({presets_version}))}, {"presets", array_of(one)}});
 }
 
 Json command(std::string_view name, std::string_view help, const Members& required = {}, const Members& optional = {}) {
@@ -35,25 +37,28 @@ Json handle_commands() {
   const Member target{"target", point("target of the handle's pivot (mesh units)")};
   const Member by{"by", point("displacement of the pivot since it was grabbed (mesh units)")};
   const Member turn = rotate("rotation since it was grabbed");
-  return any_of({command("grab", "grabs one element", {{"element", id()}}),
-                 command("grab", "grabs several elements as a rigid body", {{"elements", array_of(id(), {}, 1)}}),
-                 command("drag", "moves the handle in one pass", {target}, {turn}),
-                 command("drag", "moves the handle in one pass", {by}, {turn}),
-                 command("drag", "rotates the handle in one pass", {turn}), command("release", "releases the handle")});
+  return any_of(
+      {command(commands::Grab::name, "grabs one element", {{"element", id()}}),
+       command(commands::Grab::name, "grabs several elements as a rigid body", {{"elements", array_of(id(), {}, 1)}}),
+       command(commands::Drag::name, "moves the handle in one pass", {target}, {turn}),
+       command(commands::Drag::name, "moves the handle in one pass", {by}, {turn}),
+       command(commands::Drag::name, "rotates the handle in one pass", {turn}),
+       command(commands::Release::name, "releases the handle")});
 }
 
 Json relaxation_commands() {
   const Member step{"step", schema_of(parameters::relax_step)};
-  const Members sweeps = needed_members<commands::Relax>();
+  const Members sweeps = described<commands::Relax>();
   const Members to_equilibrium{{"scheme", {{"const", info(RelaxationScheme::equilibrium).name}}},
                                {"until", schema_of(parameters::relax_until)}};
   const Members panels{
       {"panels", array_of(text(), "algorithm of each panel", 1, limits::session_panels)},
       {"slices", array_of(id(), "iterations, or sweeps of up to 20,000 elements", 1, limits::session_panels)}};
-  return any_of(
-      {command("relax", "relaxes the object", sweeps, {step, {"scheme", scheme()}}),
-       command("relax", "relaxes the object to the equilibrium", joined({sweeps, to_equilibrium}), {step}),
-       command("relaxed", "what relaxation did in idle time", joined({needed_members<commands::Relaxed>(), panels}))});
+  return any_of({command(commands::Relax::name, "relaxes the object", sweeps, {step, {"scheme", scheme()}}),
+                 command(commands::Relax::name, "relaxes the object to the equilibrium",
+                         joined({sweeps, to_equilibrium}), {step}),
+                 command(commands::Relaxed::name, "what relaxation did in idle time",
+                         joined({described<commands::Relaxed>(), panels}))});
 }
 
 Json object_commands() {
@@ -67,15 +72,18 @@ Json object_commands() {
                       {"triangles", array_of(array_of(id(), {}, 3, 3), "corners of the new triangles")},
                       {"removed_polygons", ids("indices of the polygons that go")},
                       {"polygons", ids("the new polygons: a count, then as many ids, for each")}};
-  return any_of({command("cut", "cuts links", links), command("uncut", "joins cut links again", links),
-                 command("pin", {}, elements), command("unpin", {}, elements),
-                 command("softness", "replaces that of all links", region(), joined({optional_softness(), {own}})),
-                 command("reset", "returns to rest"),
-                 command("split", "divides faces, and appends elements", {{"elements", array_of(place)}}, split)});
+  return any_of(
+      {command(commands::Cut::name, "cuts links", links),
+       command(commands::Uncut::name, "joins cut links again", links), command(commands::Pin::name, {}, elements),
+       command(commands::Unpin::name, {}, elements),
+       command(commands::SetSoftness::name, "replaces that of all links", region(),
+               joined({optional_softness(), {own}})),
+       command(commands::Reset::name, "returns to rest"),
+       command(commands::Split::name, "divides faces, and appends elements", {{"elements", array_of(place)}}, split)});
 }
 
 Json moves() {
-  const Json version = whole(1, 3, "2 if moves split the object, 3 if relaxation ran between them");
+  const Json version = whole(1, newest_moves_version, "2 if moves split the object, 3 if relaxation ran between them");
   const Json command = any_of({handle_commands(), object_commands(), relaxation_commands()});
   return object({{"version", version}, {"commands", array_of(command)}}, {}, "recorded moves, from rest");
 }
@@ -89,7 +97,7 @@ Json mesh_with(const Members& links) {
                                {"texels", with(text("bytes in base 64"), "contentEncoding", "base64")}});
   const Json lattice = object({{"size", size}, {"spacing", schema_of(parameters::spacing)}}, {}, "grid of elements");
   const Members parts{{"elements", from_one("number of elements")},
-                      {"space", whole(1, 3, "number of coordinates")},
+                      {"space", whole(1, newest_moves_version, "number of coordinates")},
                       {"rest", array_of(number(), "x, y, z of each element at rest (mesh units)")},
                       {"triangles", ids("three ids of each triangle")},
                       {"polygons", ids("a count, then as many ids, of each polygon")},
@@ -109,17 +117,17 @@ Json mesh() {
 
 Json panel() {
   return object({{"algorithm", algorithm()},
-                 {"precision", one_of(precisions, "of the coordinates")},
-                 {"from_rest", truth("true if the coordinates are displacements from rest")},
+                 {"precision", one_of(precision_names, "of the coordinates")},
+                 {"from_rest", boolean("true if the coordinates are displacements from rest")},
                  {"runs", ids("first and end of each run of elements that are given")},
                  {"held", array_of(number(), "coordinates of these elements (mesh units)")}},
                 {{"frame", point(rotation_vector)}});
 }
 
 Json lesson() {
-  const auto name = [](std::string_view help = {}) { return words(help, limits::name_bytes); };
+  const auto name = [](std::string_view help = {}) { return non_empty_text(help, limits::name_bytes); };
   const Json step = object({{"title", name()},
-                            {"text", words({}, limits::caption_bytes)},
+                            {"text", non_empty_text({}, limits::caption_bytes)},
                             {"until", count("number of recorded moves that are carried out at the end of the step")}},
                            {{"algorithms", array_of(algorithm(), "of panels", lesson_panels_least, lesson_panels_most)},
                             {"candidate", id("number of candidates of the last pass that are shown")},
@@ -132,20 +140,21 @@ Json lesson() {
 
 Json session() {
   const Member own{"own", array_of(number(), "both ends and the numbers of each link with its own softness")};
-  const Json all = object({{"format", {{"const", "chainmail session"}}},
-                           {"version", {{"const", session_version}}},
-                           {"name", text("name of the object")},
-                           {"mesh", mesh()},
-                           {"cuts", ids("both ends of each cut link")},
-                           {"pins", ids("ids of the pinned elements")},
-                           {"softness", object(joined({region(), {own}}), optional_softness())},
-                           {"relaxation", schema_of<commands::SetRelaxation>()},
-                           {"panels", array_of(panel(), {}, 1, limits::session_panels)},
-                           {"ui", about("state of the window: only the workbench reads it", {{"type", "object"}})}},
-                          {{"elastic", schema_of<ElasticOptions>()},
-                           {"moves", moves()},
-                           {"moves_done", count("number of moves that are done; the others can be redone")},
-                           {"lesson", lesson()}});
+  const Json all =
+      object({{"format", {{"const", "chainmail session"}}},
+              {"version", {{"const", session_version}}},
+              {"name", text("name of the object")},
+              {"mesh", mesh()},
+              {"cuts", ids("both ends of each cut link")},
+              {"pins", ids("ids of the pinned elements")},
+              {"softness", object(joined({region(), {own}}), optional_softness())},
+              {"relaxation", object(described<commands::SetRelaxation>(), described<commands::SetRelaxation>(true))},
+              {"panels", array_of(panel(), {}, 1, limits::session_panels)},
+              {"ui", about("state of the window: only the workbench reads it", {{"type", "object"}})}},
+             {{"elastic", object(described<ElasticOptions>(), described<ElasticOptions>(true))},
+              {"moves", moves()},
+              {"moves_done", count("number of moves that are done; the others can be redone")},
+              {"lesson", lesson()}});
   return with(all, "dependencies", {{"moves", Json::array({"moves_done"})}});
 }
 

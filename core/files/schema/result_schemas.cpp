@@ -60,7 +60,7 @@ Json pass_with(const Member& handle) {
                  {"milliseconds", from_zero("time of the pass without relaxation (ms)")}},
                 {rotate("rotation of the handle since it was grabbed"),
                  {"stopped_at", point("position of the pivot, if pins stopped it before its target (mesh units)")},
-                 {"remark", words("reason why the pass did not end as requested")}});
+                 {"remark", non_empty_text("reason why the pass did not end as requested")}});
 }
 
 Member deform() {
@@ -73,7 +73,7 @@ Member deform() {
   const Members equilibrium{{"violation", from_zero("the largest violation of a link (its rest lengths)")},
                             {"residual", from_zero("estimated distance from the equilibrium (relative)")},
                             {"energy_gap", or_null(number("estimated energy above the least (relative)"))},
-                            {"regions_bind", truth("true if valid regions change the equilibrium")},
+                            {"regions_bind", boolean("true if valid regions change the equilibrium")},
                             {"iterations", count()}};
   return of_kind(
       json_kinds::deform, "Output of chainmail deform --json",
@@ -135,10 +135,10 @@ Json any_figure() {
 }
 
 Json contestant() {
-  Members optional{{"open_regions", truth("true with the energy of the material, and regions that do not bind")},
+  Members optional{{"open_regions", boolean("true with the energy of the material, and regions that do not bind")},
                    {"limit", from_one("most iterations per move")},
                    {"calibrated", object(softness(), {}, "softness that was found on this object")},
-                   {"refusal", words("reason why there are no figures")}};
+                   {"refusal", non_empty_text("reason why there are no figures")}};
   for (const Figure* figure : every_figure()) {
     const std::string help = figure->definition.empty() ? std::string(figure->heading) : definition_of(*figure);
     optional.emplace_back(figure->key, defined("figure", help + in_brackets(*figure)));
@@ -146,7 +146,7 @@ Json contestant() {
   return object({{"algorithm", text("as on the command line; nothing: only the handle moves; or another solver")},
                  {"label", text("name for readers")},
                  {"sweeps", count("sweeps of relaxation after each move")},
-                 {"equilibrium", truth("true if each move is relaxed to the equilibrium")}},
+                 {"equilibrium", boolean("true if each move is relaxed to the equilibrium")}},
                 optional);
 }
 
@@ -157,7 +157,7 @@ Json options() {
   const Members others{
       {"relaxation", scheme()},
       {"relax_step", schema_of(parameters::relax_step)},
-      {"precision", one_of(precisions, "of the contestants")},
+      {"precision", one_of(precision_names, "of the contestants")},
       {"young", schema_of(parameters::young)},
       {"poisson", schema_of(parameters::poisson)},
       {"lattice", with(text(lattice.help), "pattern", "^" + axis + "x" + axis + "x" + axis + "$")},
@@ -176,15 +176,15 @@ Json options() {
 
 Json drag() {
   const Json level = object({{"elements", count()}}, {{"change", from_zero("from the level before (relative)")}});
-  const Json reference = object({{"levels", array_of(level)}, {"converged", truth()}, {"end", text("its reason")}},
+  const Json reference = object({{"levels", array_of(level)}, {"converged", boolean()}, {"end", text("its reason")}},
                                 {{"order", number("observed order")}}, "levels of a reference on refined cells");
   return object(joined({named,
                         {{"handle", count("id of an element of the handle")},
                          {"moves", count("number of moves")},
-                         {"has_cut", truth("true if a cut precedes the last move")},
+                         {"has_cut", boolean("true if a cut precedes the last move")},
                          {"handle_displacement", from_zero("mesh units; 0: not known")},
                          {"contestants", array_of(defined("contestant"))}}}),
-                {{"no_reference", words("reason why there are no errors")}, {"reference", reference}});
+                {{"no_reference", non_empty_text("reason why there are no errors")}, {"reference", reference}});
 }
 
 Json object_of_report() {
@@ -195,8 +195,8 @@ Json object_of_report() {
                          {"seconds", from_zero("duration of its experiment (s); 0: not known")},
                          {"notes", array_of(text())},
                          {"drags", array_of(drag())}}}),
-                {{"series", words("name that objects which grow or are refined have in common")},
-                 {"reference", words("what errors are measured against")},
+                {{"series", non_empty_text("name that objects which grow or are refined have in common")},
+                 {"reference", non_empty_text("what errors are measured against")},
                  {"contestants", array_of(defined("contestant"), "figures of the object as a whole")}});
 }
 
@@ -205,13 +205,13 @@ Members members_of_ramps() {
   const Json size =
       object(joined({{{"width", from_one("elements along each side of the grid")}, {"algorithm", algorithm()}},
                      each(schema::count(), {"elements", "links", passes.key}),
-                     each(truth(), {figures::repeated.key, real_time.key})}),
+                     each(boolean(), {figures::repeated.key, real_time.key})}),
              each(from_zero(), {median_ms.key, p99_ms.key, mean_moved.key}));
   const Members fit{{"exponent", number()}, {"from", from_zero()}, {"to", from_zero()}, {"sizes", count()}};
   const Json verdict =
       object({{"algorithm", algorithm()},
               {"largest_width", or_null(from_one("width of the largest grid in real time"))},
-              {"lost", truth("true if the next size was too slow")},
+              {"lost", boolean("true if the next size was too slow")},
               {"growth", or_null(object(fit, {}, "of the median time, over the number of elements in a range"))}});
   return {{"sizes", array_of(size, "of a ramp: its rows")},
           {"algorithms", array_of(verdict, "of a ramp: what became of each algorithm")}};
@@ -235,7 +235,7 @@ Member report() {
       of_kind(json_kinds::report, "report.json of compare, and output of ramp --json and calibrate --json",
               {{"report", one_of(names_of(report_kinds()), "what the report is about")},
                {"options", options()},
-               {"stopped", truth("true if it was cancelled, and contains only what was finished")},
+               {"stopped", boolean("true if it was cancelled, and contains only what was finished")},
                {"figures", array_of(object(each(text(), {"key", "heading", "unit", "definition"})), "of contestants")},
                {"objects", array_of(object_of_report())}},
               joined({runs, members_of_ramps(), members_of_calibrations()}));

@@ -9,7 +9,8 @@
 
 #include "body/softness.h"
 #include "equilibrium/relaxation_scheme.h"
-#include "files/text/described_json.h"
+#include "files/text/json_fields.h"
+#include "mesh/described.h"
 
 /// JSON schemas (draft 7). `help` becomes the description; an empty one leaves it out.
 namespace chainmail::schema {
@@ -35,10 +36,10 @@ inline Json about(std::string_view help, Json schema) {
 }
 inline Json one_of(Json values, std::string_view help = {}) { return about(help, {{"enum", std::move(values)}}); }
 inline Json any_of(const std::vector<Json>& all, std::string_view help = {}) { return about(help, {{"anyOf", all}}); }
-inline Json truth(std::string_view help = {}) { return about(help, {{"type", "boolean"}}); }
+inline Json boolean(std::string_view help = {}) { return about(help, {{"type", "boolean"}}); }
 inline Json text(std::string_view help = {}) { return about(help, {{"type", "string"}}); }
 /// A text that is not empty. Schemas count characters, of which there are not more than bytes.
-inline Json words(std::string_view help = {}, std::uint64_t bytes = no_most) {
+inline Json non_empty_text(std::string_view help = {}, std::uint64_t bytes = no_most) {
   const Json all = with(text(help), "minLength", 1);
   return bytes == no_most ? all : with(all, "maxLength", bytes);
 }
@@ -94,7 +95,6 @@ inline Member document(std::string_view name, std::string_view title, const Json
   return {name, all};
 }
 
-inline const Json precisions{"float", "double"};
 Json names_of(const auto& rows) {
   Json names = Json::array();
   for (const auto& row : rows) {
@@ -108,12 +108,15 @@ inline Json energy() { return one_of(names_of(energy_kinds()), "kind of elastic 
 inline Member rotate(std::string_view help) {
   return {"rotate", object({{"axis", point("direction of the axis")}, {"degrees", number()}}, {}, help)};
 }
-/// The members of a described struct that must be there.
+/// A number, and a member of a described struct.
+Json schema_of(const Parameter& number);
+Json schema_of(const MemberInfo& member);
+/// The members of a described struct that must be there, or those that may be absent.
 template <class Struct>
-Members needed_members() {
+Members described(bool may_be_absent = false) {
   Members members;
   for (const MemberInfo& member : members_of<Struct>) {
-    if (!member.may_be_absent) {
+    if (member.may_be_absent == may_be_absent) {
       members.emplace_back(member.key, schema_of(member));
     }
   }

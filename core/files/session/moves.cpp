@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 // The second version knows `split`, the third `relaxed`.
-constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = 3;
+constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = newest_moves_version;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 

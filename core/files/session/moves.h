@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -11,6 +12,8 @@
 #include "simulate/command.h"
 
 namespace chainmail {
+
+inline constexpr std::uint64_t newest_moves_version = 3;
 
 /// Recorded moves as JSON. Any algorithm can replay them from rest:
 ///

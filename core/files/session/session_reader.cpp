@@ -147,9 +147,8 @@ class SessionReader {
   }
   Session::Panel panel(const ObjectFields& fields, const Json& object) const {
     fields.check_keys(object, {"algorithm", "precision", "from_rest", "frame", "runs", "held"});
-    constexpr std::array<std::string_view, 2> precisions{"float", "double"};
     const Algorithm algorithm = fields.algorithm(fields.member(object, "algorithm"));
-    const auto precision = Precision(fields.choice(fields.member(object, "precision"), "precision", precisions));
+    const auto precision = Precision(fields.choice(fields.member(object, "precision"), "precision", precision_names));
     check(algorithm, *result_.mesh);
     RegionAxes axes;
     if (object.contains("frame")) {

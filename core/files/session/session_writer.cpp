@@ -226,9 +226,7 @@ class SessionWriter {
   }
   void write_panel(const Session::Panel& panel, const Progress& progress) {
     const PositionRuns runs = runs_of(panel.positions, mesh_);
-    const bool single = panel.precision == Precision::single_precision;
-    out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \""
-         << std::string_view(single ? "float" : "double")
+    out_ << "\n{\"algorithm\": \"" << info(panel.algorithm).name << "\", \"precision\": \"" << name(panel.precision)
          << "\", \"from_rest\": " << std::string_view(runs.from_rest ? "true" : "false");
     if (runs.axes.is_turned()) {
       const Point& turn = runs.axes.rotation();

@@ -13,8 +13,6 @@
 namespace chainmail {
 namespace {
 
-constexpr std::uint64_t presets_version = 1;
-
 // A preset describes how far a material deforms before it reaches its limit, not the force for this.
 constexpr std::array all_built_in_presets{
     BuiltInPreset{"Standard", {}, "the softness of a new object"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <span>
@@ -10,6 +11,8 @@
 #include "body/softness.h"
 
 namespace chainmail {
+
+inline constexpr std::uint64_t presets_version = 1;
 
 /// A named softness for all links.
 struct SoftnessPreset {

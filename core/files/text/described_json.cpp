@@ -10,8 +10,6 @@ namespace {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-bool is_yes_or_no(const MemberInfo& member) { return member.number == nullptr && member.names.empty(); }
-
 OrderedJson json_of_item(const MemberInfo& member, double value) {
   if (is_yes_or_no(member)) {
     return value != 0;
@@ -64,39 +62,6 @@ std::vector<double> values_of(const JsonFields& fields, const Json& json, const 
     values.push_back(item_of(fields, item, member));
   }
   return values;
-}
-
-OrderedJson schema_of(const MemberInfo& member) {
-  OrderedJson item;
-  if (is_yes_or_no(member)) {
-    item = {{"type", "boolean"}};
-  } else if (!member.names.empty()) {
-    item = {{"enum", std::vector<std::string>(member.names.begin(), member.names.end())}};
-  } else {
-    item = schema_of(*member.number);
-    item["type"] = member.is_whole ? "integer" : "number";
-  }
-  item["description"] = member.help;
-  if (member.count == 1) {
-    return item;
-  }
-  return {{"type", "array"}, {"items", item}, {"minItems", member.count}, {"maxItems", member.count}};
-}
-
-OrderedJson schema_of(const Parameter& number) {
-  OrderedJson schema{{"type", "number"}};
-  if (number.lowest == parameters::above_zero) {
-    schema["exclusiveMinimum"] = 0;
-  } else {
-    schema["minimum"] = number.lowest;
-  }
-  if (number.highest == parameters::below_half) {
-    schema["exclusiveMaximum"] = 0.5;
-  } else if (number.highest != parameters::no_highest) {
-    schema["maximum"] = number.highest;
-  }
-  schema["description"] = number.help;
-  return schema;
 }
 
 }  // namespace chainmail

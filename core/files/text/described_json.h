@@ -14,9 +14,6 @@ namespace chainmail {
 nlohmann::ordered_json json_of(const MemberInfo& member, const std::function<double(std::size_t)>& value);
 /// Reads and checks the items of a member. Throws Error.
 std::vector<double> values_of(const JsonFields& fields, const nlohmann::json& json, const MemberInfo& member);
-/// Return the schema of a number and of a member.
-nlohmann::ordered_json schema_of(const Parameter& number);
-nlohmann::ordered_json schema_of(const MemberInfo& member);
 
 /// Returns the keys of a described struct.
 template <class Struct>
@@ -54,20 +51,6 @@ Struct read_members(const JsonFields& fields, const nlohmann::json& object) {
     }
   }
   return all;
-}
-
-/// Returns the schema of an object that has the members of a described struct and no others.
-template <class Struct>
-nlohmann::ordered_json schema_of() {
-  nlohmann::ordered_json schema{{"type", "object"}, {"properties", {}}, {"required", nlohmann::ordered_json::array()}};
-  for (const MemberInfo& member : members_of<Struct>) {
-    schema["properties"][std::string(member.key)] = schema_of(member);
-    if (!member.may_be_absent) {
-      schema["required"].push_back(member.key);
-    }
-  }
-  schema["additionalProperties"] = false;
-  return schema;
 }
 
 }  // namespace chainmail

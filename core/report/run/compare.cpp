@@ -184,7 +184,7 @@ DragInfo info_of(const RecordedMoves& moves) {
 std::vector<Setting> settings_of(const RunOptions& options) {
   return {{"relaxation", std::string(info(options.scheme).name)},
           {"relax_step", options.relax_step},
-          {"precision", options.precision == Precision::single_precision ? "float" : "double"}};
+          {"precision", std::string(name(options.precision))}};
 }
 
 void add_drag(Results& results, DragInfo drag, std::vector<Row> rows) {

@@ -55,7 +55,7 @@ class RampSize {
 std::vector<Setting> settings_of(const RampOptions& options) {
   return {{"seed", double(options.seed)},
           {"budget", options.budget},
-          {"precision", options.precision == Precision::single_precision ? "float" : "double"},
+          {"precision", std::string(name(options.precision))},
           {"compression", options.softness.compression},
           {"stretch", options.softness.stretch},
           {"shear", options.softness.shear},
