@@ -1,6 +1,7 @@
 #include "elastic/free_form.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -71,7 +72,8 @@ constexpr std::size_t max_fitted = 20'000;
 /// Returns the Cholesky factor of a positive definite matrix. Where rounding has made a pivot negative, it adds as
 /// little to the diagonal as is enough.
 Eigen::MatrixXd factored(const Eigen::MatrixXd& matrix) {
-  for (double added = 0; added < 1; added = std::max(1e-14, 10 * added)) {
+  for (int power = -15; power < 0; ++power) {
+    const double added = power == -15 ? 0 : std::pow(10.0, power);
     Eigen::MatrixXd factor = matrix;
     factor.diagonal().array() += added * matrix.trace();
     if (factor_positive(factor)) {
