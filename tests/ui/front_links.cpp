@@ -102,6 +102,30 @@ class FrontLinks : public QObject {
     QVERIFY(hidden > 0 && hidden < int(scene.elementsIn(part).size()));
   }
 
+  /// The corners of a face may be in any order, and far from each other. This one covers the rows 1 and 2 of four.
+  void aFaceHidesWhatIsFarFromItsFirstCorners() {
+    MeshParts parts;
+    parts.rest = {{199, 1.5, 3}, {0, -0.5, 3}, {0, 3.5, 3}};
+    test::add_triangle(parts, 2, 1, 0);
+    const auto at = [](ElementId column, ElementId row) { return 3 + 4 * column + row; };
+    for (int column = 0; column < 200; ++column) {
+      for (int row = 0; row < 4; ++row) {
+        parts.rest.emplace_back(column, row, 0);
+      }
+    }
+    const Front scene(build_mesh(std::move(parts)));
+    const QRectF part =
+        QRectF(scene.place(at(80, 0)), scene.place(at(110, 3))).normalized().adjusted(-0.5, -0.5, 0.5, 0.5);
+    const FrontFaces front(scene.frame, scene.projection(),
+                           wholeFaces(scene.frame, scene.boxes, scene.cuts, scene.projection(), part), part);
+    const std::vector<ElementId> elements = scene.elementsIn(part);
+    QCOMPARE(elements.size(), std::size_t{31 * 4});
+    for (const ElementId element : elements) {
+      const double row = scene.frame.mesh->rest_position(element).y();
+      QCOMPARE(front.hides(element), row == 1 || row == 2);
+    }
+  }
+
   void aPositionInAFaceHasTheCornerNearestToIt() {
     const Front scene(twoSheets());
     const QRectF part(330, 230, 140, 140);

@@ -1,6 +1,7 @@
 // Tests exact work in a real window: figures of the element under the cursor, views along the axes, distances, and
 // elements that are chosen by their ids.
 
+#include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
@@ -99,13 +100,21 @@ class WindowExact : public QObject {
       const ElementId element = mesh->space_dimension == 3 ? 53 : 5;  // 53 is visible on the front of the block
       QCOMPARE(bench.view(0).search().elementAt(bench.place(0, element)), std::optional(element));
       doubleClick(bench.view(0), bench.place(0, element));
-      const QPointF middleOfView(bench.view(0).width() / 2.0, bench.view(0).height() / 2.0);
-      for (int p = 0; p < 2; ++p) {
-        // The cameras are linked.
-        const QPointF off = bench.view(p).viewPosition(element) - middleOfView;
-        QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
-      }
+      const auto isInTheMiddle = [&] {
+        for (int p = 0; p < 2; ++p) {
+          // The cameras are linked.
+          const QPointF off = bench.view(p).viewPosition(element) - QRectF(bench.view(p).rect()).center();
+          QVERIFY2(off.manhattanLength() < 2, qPrintable(QStringLiteral("%1 %2").arg(off.x()).arg(off.y())));
+        }
+      };
+      isInTheMiddle();
+      const QSize before = bench.view(0).size();
+      bench.window.resize(bench.window.size() - QSize(150, 100));
+      bench.settle();
+      QVERIFY(bench.view(0).size() != before);
+      isInTheMiddle();
       QVERIFY(bench.document().handle().held().empty());
+      const QPointF middleOfView = QRectF(bench.view(0).rect()).center();
       QMouseEvent move(QEvent::MouseMove, middleOfView + QPointF(50, 50),
                        bench.view(0).mapToGlobal(middleOfView + QPointF(50, 50)), Qt::NoButton, Qt::NoButton,
                        Qt::NoModifier);

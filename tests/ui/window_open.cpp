@@ -125,6 +125,19 @@ class WindowOpen : public QObject {
              QStringLiteral("broken.off: the object was changed while it was repaired. Start the repair again"));
   }
 
+  void softnessThatIsSetDuringARepairStays() {
+    Workbench bench;
+    bench.open(brokenCube());
+    const auto [from, to] = bench.document().mesh()->links.front();
+    const LinkSoftness before = bench.document().softness(), own{0.5, 1.5, 0.3};
+    QVERIFY(!(own == before));
+    bench.find<QPushButton>("repairHoles")->click();
+    QVERIFY(bench.window.jobs().running());
+    edits::setSoftnessOf(bench.document(), {0}, own);
+    bench.settle();
+    QVERIFY(bench.document().wholeSoftness()->of(*find_link(*bench.document().mesh(), from, to)) == own);
+  }
+
   void showSelectsOneDefectAfterAnother() {
     Workbench bench;
     bench.open(brokenCube());

@@ -138,6 +138,29 @@ class WindowPropagation : public QObject {
     QTRY_COMPARE(cell(bench, 1, 1, 2), QStringLiteral("to come"));
   }
 
+  /// Backward, so that fewer candidates at the head of the list are dropped than at the step before.
+  void theNextOneIsTheOneThatIsTakenNext() {
+    Workbench bench;
+    openAndDrag(bench);
+    const auto candidate = [&](int panel, int row) { return cell(bench, panel, row, 0) + cell(bench, panel, row, 1); };
+    for (int panel = 0; panel < 2; ++panel) {
+      int droppedFirst = 0;
+      for (int step = slider(bench, panel).maximum(); step > 0; --step) {
+        slider(bench, panel).setValue(step);
+        const QString taken = candidate(panel, 0);
+        slider(bench, panel).setValue(step - 1);
+        QStringList next;
+        for (int row = 1; row < list(bench, panel).rowCount(); ++row) {
+          next += cell(bench, panel, row, 2) == QStringLiteral("next") ? candidate(panel, row) : QString();
+        }
+        next.removeAll({});
+        QCOMPARE(next, QStringList{taken});
+        droppedFirst += cell(bench, panel, 1, 2) == QStringLiteral("dropped") ? 1 : 0;
+      }
+      QVERIFY(droppedFirst > 0 || panel > 0);  // Generalized admits what is updated already
+    }
+  }
+
   void elementsAreColouredByOrderOfUpdate() {
     Workbench bench;
     openAndDrag(bench, Point(1.5, 1, 0));

@@ -74,16 +74,10 @@ class WindowReport : public QObject {
   void aMarkIsReadWithContestantTimeAndError() {
     ReportBench bench;
     bench.run();
-    QSet<QString> readings;
-    for (int x = 0; x < bench.plot().width(); x += 4) {
-      for (int y = 0; y < bench.plot().height(); y += 4) {
-        readings << bench.plot().readingAt(QPointF(x, y));
-      }
-    }
+    const QStringList all = readings(bench);
     static const QRegularExpression whole(QStringLiteral(
         "^[A-Z3].* ChainMail.*: [0-9.,]+ (µs|ms|s) per move \\(.*\\), largest violation .* rest lengths$"));
-    QVERIFY2(!QStringList(readings.values()).filter(whole).isEmpty(),
-             qPrintable(QStringList(readings.values()).join(QLatin1Char('\n'))));
+    QVERIFY2(!all.filter(whole).isEmpty(), qPrintable(all.join(QLatin1Char('\n'))));
   }
 
   void physicsNeedsPinsAndSaysSo() {
@@ -131,6 +125,41 @@ class WindowReport : public QObject {
     bench.find<QComboBox>("reportDrag")->setCurrentText(QStringLiteral("pull"));
     QVERIFY(bench.find<QLabel>("reportHeading")->text().contains(QStringLiteral("away from the pins; 24 moves")));
     QVERIFY(bench.numberOf(QStringLiteral("Linear FEM"), report::figures::relative) != linear);
+  }
+
+  /// Of a drag with a cut, the time is that of the move after the cut: in the window, and in the file of the plot.
+  void aDragWithACutHasTheTimeOfItsCut() {
+    ReportBench bench;
+    report::Results results{.kind = report::ReportKind::physics};
+    results.objects = {{.name = "bar", .drags = {{.name = "bend", .moves = 12}, {.name = "cut", .moves = 12}}}};
+    results.objects[0].drags[1].has_cut = true;
+    for (const auto drag : {std::size_t{0}, std::size_t{1}}) {
+      report::Row row{.drag = drag, .contestant = {.algorithm = Algorithm::natural_queue}};
+      row.set(report::figures::relative, 0.25);
+      row.set(report::figures::later_ms, 3);
+      row.set(report::figures::fresh_ms, 5);
+      row.set(report::figures::after_cut_ms, drag == 1 ? std::optional(7.0) : std::nullopt);
+      results.rows.push_back(row);
+    }
+    emit bench.thread().arrived(std::make_shared<const report::Results>(results));
+    const auto times = [&](const char* plot) {
+      bench.find<QComboBox>("reportError")->setCurrentText(QLatin1String(plot));
+      bench.settle();
+      return readings(bench);
+    };
+    QCOMPARE(times("Later move"),
+             QStringList{QStringLiteral("Natural Queue ChainMail: 3 ms per later move, relative error 0.25")});
+    const QStringList ofCut{QStringLiteral("Natural Queue ChainMail: 7 ms per move after a cut, relative error 0.25")};
+    QCOMPARE(times("Move after a cut"), ofCut);
+    bench.find<QComboBox>("reportDrag")->setCurrentText(QStringLiteral("cut"));
+    QCOMPARE(times("Move after a cut"), ofCut);
+    const QTemporaryDir folder;
+    bench.results().saveTo(folder.path());
+    const QByteArray file = read(folder, "object-1.svg");
+    for (const char* title : {"Natural Queue ChainMail: 3 ms per move, ", "Natural Queue ChainMail: 7 ms per move, "}) {
+      QVERIFY2(file.contains(title), file);
+    }
+    QVERIFY(!file.contains("5 ms per"));
   }
 
   void whoIsRefusedIsListedWithTheReason() {
@@ -198,6 +227,17 @@ class WindowReport : public QObject {
   }
 
  private:
+  /// Returns what the plot says under the pointer, wherever that is.
+  static QStringList readings(ReportBench& bench) {
+    QSet<QString> all;
+    for (int x = 0; x < bench.plot().width(); x += 4) {
+      for (int y = 0; y < bench.plot().height(); y += 4) {
+        all << bench.plot().readingAt(QPointF(x, y));
+      }
+    }
+    all.remove({});
+    return all.values();
+  }
   static QByteArray read(const QTemporaryDir& folder, const char* name) {
     QFile file(folder.filePath(QLatin1String(name)));
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
