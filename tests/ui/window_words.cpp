@@ -117,6 +117,7 @@ class WindowWords : public QObject {
     QVERIFY(!std::isfinite(bench.document().solvers().frame(0)->statistics.violation.max));
     bench.document().selection().set({1});
     bench.settleFigures();
+    bench.document().highlight().set({ElementId{1}, false, {}});  // in the status bar
     static const QRegularExpression raw(QStringLiteral("\\b(inf|nan)\\b"), QRegularExpression::CaseInsensitiveOption);
     for (const QString& text : textsOf(bench)) {
       QVERIFY2(!text.contains(raw), qPrintable(text));

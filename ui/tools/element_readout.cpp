@@ -1,6 +1,5 @@
 #include "tools/element_readout.h"
 
-#include <QLocale>
 #include <QTextDocument>
 #include <algorithm>
 
@@ -97,7 +96,7 @@ QString ElementReadout::describe(ElementId element) const {
     places += QStringLiteral("  ·  %1: %2, violation %3")
                   .arg(panel == hovered_() ? QStringLiteral("<b>%1</b>").arg(panelName(panel)) : panelName(panel),
                        coordinates(*document_.mesh(), positionIn(document_, panel, element)),
-                       QLocale().toString(violationIn(document_, panel, element), 'g', 3));
+                       shownNumber(violationIn(document_, panel, element), 'g', 3));
   }
   const SoftnessRange softness = softnessOf(document_, element);
   const QString links = softness.links == 0 ? QStringLiteral("  ·  no links")
