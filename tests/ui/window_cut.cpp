@@ -44,11 +44,7 @@ class WindowCut : public QObject {
     }
     QVERIFY(bench.document().highlight().marks().links.empty());
 
-    // The object now has two parts: both panels and the Mesh dock show this, and dragging one part does not move the
-    // other.
-    for (const char* label : {"state0", "state1", "meshDescription"}) {
-      QTRY_VERIFY(bench.find<QLabel>(label)->text().contains(QStringLiteral("2 parts")));
-    }
+    // The object now has two parts: dragging one does not move the other.
     bench.trigger("toolDrag");
     const QPoint from = bench.place(1, 35);
     bench.stroke(1, {from, from + QPoint(100, -120)});

@@ -131,18 +131,12 @@ class WindowExact : public QObject {
     QVERIFY(readout(bench).contains(QStringLiteral("From element 27: click another one")));
     bench.click(0, 31);
     QVERIFY2(readout(bench).contains(QStringLiteral("From element 27 to 31, at rest 4")), qPrintable(readout(bench)));
-    QVERIFY(readout(bench).contains(QStringLiteral("(× 1.000; dx 4, dy 0)")));
     const QPointF along = (bench.view(1).viewPosition(28) + bench.view(1).viewPosition(29)) / 2;
     QVERIFY(bench.distanceFromColour(1, along, colours::marked) < 20);  // a line, also in the other panel
 
     bench.trigger("toolDrag");
-    edits::setPinned(bench.document(), {27}, true);
     bench.stroke(0, {bench.place(0, 31), bench.place(0, 31) + QPoint(0, -160)});
     bench.document().highlight().set({});
-    const double now = (bench.position(1, 31) - bench.position(1, 27)).norm();
-    QVERIFY(now > 4.01);
-    QTRY_VERIFY2(readout(bench).contains(figure(now)), qPrintable(readout(bench)));
-
     bench.trigger("addPanel");
     bench.settle();
     const QPointF middleOfLine = (bench.view(2).viewPosition(27) + bench.view(2).viewPosition(31)) / 2;
@@ -167,7 +161,6 @@ class WindowExact : public QObject {
     auto* positions = bench.find<QTableWidget>("elementPositions");
     QCOMPARE(positions->rowCount(), 3);  // at rest, left, right
     QCOMPARE(positions->columnCount(), 3);
-    QCOMPARE(positions->item(2, 1)->text(), QStringLiteral("4"));
     QCOMPARE(bench.find<QTableWidget>("elementNeighbours")->rowCount(), 4);
     // A selection from elsewhere is also shown if it is one element.
     bench.document().selection().set({0});

@@ -39,8 +39,6 @@ struct DragBench : Workbench {
   ViolationLine& line(int panel) { return *window.findChild<ViolationLine*>(QStringLiteral("violation%1").arg(panel)); }
 };
 
-QString rounded(double value) { return QLocale().toString(value, 'g', 2); }
-
 }  // namespace
 
 class WindowFigures : public QObject {
@@ -52,7 +50,7 @@ class WindowFigures : public QObject {
     QSettings().clear();
   }
 
-  /// During the drag as at rest: of all links, and the same figure in sentence, legend and tooltip.
+  /// During the drag as at rest: of all links, and the same figures in sentence and legend.
   void aDragAndItsEndAreMeasuredAlike() {
     DragBench bench;
     bench.drag({-30, -10, 0});
@@ -62,10 +60,6 @@ class WindowFigures : public QObject {
       QVERIFY(violation.is_whole);
       QCOMPARE(violation.links, std::uint64_t{bench.document().mesh()->link_count()});
       during << bench.line(panel).sentence();
-      if (violation.fraction > 0) {
-        QVERIFY2(during.back().contains(QStringLiteral("worst %1 ×").arg(rounded(violation.max))),
-                 qPrintable(during.back()));
-      }
     }
     const double worst = std::max(bench.violation(0).max, bench.violation(1).max);
     QVERIFY(worst > 0.1);
@@ -109,11 +103,8 @@ class WindowFigures : public QObject {
       bench.drag({-far, 0, 0});
       for (int panel = 0; panel < 4; ++panel) {
         const auto* number = bench.line(panel).findChild<QLabel*>(QStringLiteral("number"));
-        const double share = bench.violation(panel).fraction;
         QVERIFY(number->isVisible() && number->fontInfo().pixelSize() >= 48);
         QVERIFY(number->fontMetrics().horizontalAdvance(number->text()) <= number->width());
-        QCOMPARE(number->text(), share > 0 && share < 0.01 ? QStringLiteral("< 1 %")
-                                                           : QStringLiteral("%1 %").arg(std::lround(100 * share)));
         QVERIFY(bench.window.panel(panel).rect().contains(bench.line(panel).geometry()));
       }
       QCOMPARE(bench.line(0).findChild<QLabel*>(QStringLiteral("number"))->width(),

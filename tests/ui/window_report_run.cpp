@@ -4,7 +4,6 @@
 
 #include "fair_timer.h"
 #include "files/results/results_json.h"
-#include "report/table/format.h"
 #include "report_bench.h"
 
 namespace chainmail::window_report_run {
@@ -68,16 +67,6 @@ class WindowReportRun : public QObject {
     bench.run();
     QCOMPARE(bench.find<QComboBox>("reportDrag")->currentText(), QStringLiteral("my last drag"));
     QVERIFY(bench.find<QLabel>("reportHeading")->text().endsWith(QStringLiteral("%1 moves").arg(commands.size() - 1)));
-
-    report::Case object{"", "", bench.document().mesh(), {}, {}, {}, {{"", "", commands}}};
-    report::CompareOptions options;
-    options.algorithms = {Algorithm::generalized};
-    options.sweeps = {0};
-    options.repetitions = 1;
-    const double expected = *report::compare({object}, options).rows[0][report::figures::violation_max];
-    QVERIFY(expected > 0);
-    QCOMPARE(bench.cell(QStringLiteral("Generalized"), violationColumn),
-             QString::fromStdString(report::figure(expected)));
   }
 
   void cancelKeepsTheFinishedDrags() {
