@@ -111,6 +111,7 @@ void write_cases(const CompareArguments& arguments) {
   OutputFolder folder(*arguments.output);
   const auto cases = report::peer_cases_of_suite(sample_organs());
   std::vector<OutputFile> files;
+  files.reserve(cases.size());
   for (const report::PeerCase& one : cases) {
     files.push_back({one.name + ".json", [&one](std::ostream& out) { write_json(out, one); }});
   }

@@ -221,6 +221,7 @@ std::vector<ActionRow> PictureActions::subjectRows() {
 
 std::vector<ActionRow> PictureActions::scaleRows() {
   std::vector<ActionRow> rows;
+  rows.reserve(std::size(scales) + 1);
   for (const int times : scales) {
     rows.emplace_back(
         QStringLiteral("pictureScale%1").arg(times), QStringLiteral("&%1 ×").arg(times), "", "",

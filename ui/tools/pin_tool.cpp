@@ -31,6 +31,7 @@ PinLayers::PinLayers(Document& document, QObject* parent) : QObject(parent), doc
 
 void PinLayers::fill(Actions& actions) {
   std::vector<ActionRow> rows;
+  rows.reserve(std::size(object_sides) + 2);
   for (const ObjectSide& side : object_sides) {
     rows.push_back(rowOf(&side));
   }

@@ -135,6 +135,7 @@ void addSides(Actions& actions, const Document& document, PanelArea& area) {
                                                  : "Not available: this object is in 2D and has only one view";
   });
   std::vector<ActionRow> rows;
+  rows.reserve(std::size(axisViews));
   for (const AxisView& side : axisViews) {
     rows.emplace_back(
         side.name, "From " + endOf(side), "", side.key, "All panels show the object from " + endOf(side),
