@@ -58,7 +58,7 @@ struct SetSoftness {
 /// it.
 struct SetRelaxation {
   bool on = false;
-  double step = 1;
+  double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
   bool anew = false;  // all elements begin again, even if it was on
 
@@ -69,7 +69,7 @@ struct SetRelaxation {
 struct Relax {
   static constexpr std::string_view name = "relax";
   std::uint32_t sweeps = 1;
-  double step = 1;
+  double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
   double until = 0;  // residual to reach: see parameters::relax_until. 0: none
 };
@@ -103,7 +103,7 @@ struct Relaxed {
   static constexpr std::array<std::string_view, 3> starts{"goes on", "awake", "asleep"};
 
   RelaxationScheme scheme = RelaxationScheme::mean;
-  double step = 1;
+  double step = parameters::relax_step.default_value;
   /// What happened before: nothing, all elements woke, or none was awake any more, after undo.
   Start start = Start::goes_on;
   std::shared_ptr<const SliceCounts> counts;

@@ -25,11 +25,12 @@ bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
 
 /// Options of relaxation that runs at once.
 struct RelaxOptions {
-  double step = 1;  // share of the way that an element moves per sweep: above 0, to 1
+  double step =
+      parameters::relax_step.default_value;  // share of the way that an element moves per sweep: above 0, to 1
   RelaxationScheme scheme = RelaxationScheme::mean;
   /// With the scheme `equilibrium`: the residual at which it ends, see EquilibriumCertificate; 0 to 1. With 0, all
   /// iterations run.
-  double until = 1e-3;
+  double until = parameters::relax_until.default_value;
 };
 
 /// Deforms one object with one algorithm: a body, the method that answers its moves, and relaxation. The algorithm may

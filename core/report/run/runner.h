@@ -31,7 +31,7 @@ struct Relaxing {
 struct RunOptions {
   /// Scheme of the sweeps.
   RelaxationScheme scheme = RelaxationScheme::mean;
-  double relax_step = 1;
+  double relax_step = parameters::relax_step.default_value;
   /// Precision of the contestants. The references are always in double.
   Precision precision = Precision::single_precision;
   Clocks clocks = machine_clocks();  // of everything but passes, which measure themselves
