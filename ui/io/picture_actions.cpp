@@ -25,8 +25,6 @@
 namespace chainmail {
 namespace {
 
-constexpr int leastPixels = 100;
-constexpr int leastMillimetres = 10, mostMillimetres = 2'000;
 constexpr int leastDpi = 36, mostDpi = 1'200;
 
 constexpr std::array scales{1, 2, 4};
@@ -55,9 +53,8 @@ PictureSize PictureSize::remembered(const QString& key) {
   PictureSize size;
   size.inMillimetres = settings.value(key + QStringLiteral("/millimetres"), size.inMillimetres).toBool();
   const double width = settings.value(key + QStringLiteral("/width"), size.width).toDouble();
-  size.width = width == 0           ? 0
-               : size.inMillimetres ? std::clamp<double>(width, leastMillimetres, mostMillimetres)
-                                    : std::clamp<double>(width, leastPixels, PictureSize::mostPixels);
+  const auto [least, most] = widths(size.inMillimetres);
+  size.width = width == 0 ? 0 : std::clamp(width, least, most);
   size.dpi = std::clamp(settings.value(key + QStringLiteral("/dpi"), size.dpi).toInt(), leastDpi, mostDpi);
   return size;
 }
@@ -141,8 +138,8 @@ void PictureSizeDialog::takeUnit() {
 
 void PictureSizeDialog::setUnit(bool inMillimetres) {
   width_->setDecimals(inMillimetres ? 1 : 0);
-  width_->setRange(inMillimetres ? leastMillimetres : leastPixels,
-                   inMillimetres ? mostMillimetres : PictureSize::mostPixels);
+  const auto [least, most] = PictureSize::widths(inMillimetres);
+  width_->setRange(least, most);
 }
 
 void PictureSizeDialog::describe() {

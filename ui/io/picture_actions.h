@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QSize>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "common/jobs.h"
@@ -23,13 +24,11 @@ struct ActionRow;
 
 /// The size of a picture that the user has chosen: a width in pixels or millimetres, and dots per inch for print.
 struct PictureSize {
-  static constexpr int usualDpi = 96;        // of a screen
   static constexpr int mostPixels = 12'000;  // a poster of A0 with 300 dpi has 9,933
-  static constexpr double millimetresPerInch = 25.4;
 
   double width = 0;  // 0: as on the screen
   bool inMillimetres = false;
-  int dpi = usualDpi;
+  int dpi = screenDpi;
 
   bool asOnScreen() const { return width == 0; }
   /// Width in pixels, at most mostPixels: a wide print gets fewer dots per inch.
@@ -40,6 +39,10 @@ struct PictureSize {
   double millimetres() const { return inMillimetres ? width : width * millimetresPerInch / dpi; }
   /// What a file says, so that the picture has its width in millimetres when it is printed.
   double dotsPerMetre() const { return std::min(dpi * 1000 / millimetresPerInch, mostPixels * 1000 / millimetres()); }
+  /// Shortest and longest width, in the unit.
+  static std::pair<double, double> widths(bool inMillimetres) {
+    return inMillimetres ? std::pair(10.0, 2'000.0) : std::pair(100.0, double(mostPixels));
+  }
   /// Returns the size in words, such as '160 mm at 300 dpi' or 'as on the screen'.
   QString inWords() const;
   bool operator==(const PictureSize&) const = default;

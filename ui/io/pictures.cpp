@@ -19,9 +19,7 @@
 namespace chainmail {
 namespace {
 
-constexpr int dotsPerInch = 96;  // logical pixels
-constexpr double pointsPerPixel = 72.0 / dotsPerInch;
-constexpr double millimetresPerInch = 25.4;
+constexpr double pointsPerPixel = 72.0 / screenDpi;
 
 /// Throws Error if there is no memory for the picture.
 QImage emptyPicture(QSize size, double pixelRatio) {
@@ -102,14 +100,14 @@ void drawPanels(QPainter& painter, PanelArea& area, const QColor& ground, std::o
 
 /// Returns the width on paper (mm).
 double millimetresOf(const Drawing& drawing) {
-  return drawing.millimetres > 0 ? drawing.millimetres : drawing.size.width() * millimetresPerInch / dotsPerInch;
+  return drawing.millimetres > 0 ? drawing.millimetres : drawing.size.width() * millimetresPerInch / screenDpi;
 }
 
 QByteArray asSvg(const Drawing& drawing) {
   QBuffer buffer;
   QSvgGenerator svg;
   svg.setOutputDevice(&buffer);
-  svg.setResolution(dotsPerInch);
+  svg.setResolution(screenDpi);
   svg.setSize(drawing.size);
   svg.setViewBox(QRect(QPoint(), drawing.size));
   svg.setTitle(drawing.title);
@@ -137,8 +135,8 @@ QByteArray asPdf(const Drawing& drawing) {
   {
     QPdfWriter pdf(&buffer);
     pdf.setTitle(drawing.title);
-    pdf.setResolution(dotsPerInch);
-    const double larger = millimetresOf(drawing) / millimetresPerInch * dotsPerInch / drawing.size.width();
+    pdf.setResolution(screenDpi);
+    const double larger = millimetresOf(drawing) / millimetresPerInch * screenDpi / drawing.size.width();
     pdf.setPageLayout(
         {QPageSize(QSizeF(drawing.size) * larger * pointsPerPixel, QPageSize::Point), QPageLayout::Portrait, {}});
     QPainter painter(&pdf);

@@ -12,6 +12,9 @@ class Panel;
 class PanelArea;
 class View;
 
+inline constexpr int screenDpi = 96;  // of logical pixels
+inline constexpr double millimetresPerInch = 25.4;
+
 /// Returns a picture of a widget with `scale` times as many pixels per side as on the screen. Lines and text are drawn
 /// again, so they are sharp. A transparent picture has no background. Throws Error if the picture is too large for the
 /// memory or the graphics card.

@@ -62,7 +62,7 @@ void VolumeBar::makeFields() {
   every_->setRange(0, 64);
   every_->setSpecialValueText(QStringLiteral("auto"));
   stiff_->setObjectName(QStringLiteral("volumeStiff"));
-  stiff_->setChecked(true);
+  stiff_->setChecked(VoxelOptions().stiff_where_dense);
   slider_->setToolTip(QStringLiteral("Voxels of this density or more become elements"));
   threshold_->setToolTip(slider_->toolTip() +
                          QStringLiteral(". The default separates the densities best (Otsu's method)"));
