@@ -75,10 +75,9 @@ Command add_calibrate(CLI::App& root) {
       [](const std::string& where, const std::string& name) { return algorithm_of(where, name, algorithms()); });
   add_relaxation(options, false, how.scheme);
   add_energy(options, link_energy, arguments->energy);
-  options.add("--drags", "N", "number of drags to fit [4]", how.drags, count_from(1));
-  options.add("--seed", "S", "random seed of the drags [1]", how.seed, count_from(0));
-  options.add("--evaluations", "N", "largest number of evaluations; each runs all drags [200]", how.evaluations,
-              count_from(1));
+  options.add_numbers(how, {"drags"});
+  options.add("--seed", "S", help_of("random seed of the drags", double(how.seed)), how.seed, count_from(0));
+  options.add_numbers(how, {"evaluations"});
   options.add("--name", "NAME", "name of the preset [the mesh and Poisson's ratio]", arguments->name);
   options.add("-o", "FILE", "write the softness as a preset (JSON)", arguments->preset);
   options.add("--json", "FILE", "write softness, sweeps and residuals as JSON", arguments->json);

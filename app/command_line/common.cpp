@@ -46,9 +46,9 @@ double parse_number_of(const std::string& where, std::string_view text) {
   return *number;
 }
 
-std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest) {
-  constexpr std::uint32_t highest = 1'000'000'000;
-  return [lowest](const std::string& where, const std::string& text) {
+std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest,
+                                                                                           std::uint32_t highest) {
+  return [=](const std::string& where, const std::string& text) {
     const auto number = parse_count(text);
     require(number && *number >= lowest && *number <= highest, where,
             in_quotes(text) + " is not a whole number in range",
@@ -90,10 +90,10 @@ void check_option(const Parameter& parameter, double value) {
   error_at(option_of(parameter), [&] { check(parameter, value); });
 }
 
-std::string help_of(const Parameter& parameter) {
-  std::string help = std::string(parameter.help) + " [";
-  append_number(help, parameter.default_value);
-  return help + "]";
+std::string help_of(std::string_view help, double default_value) {
+  std::string text = std::string(help) + " [";
+  append_number(text, default_value);
+  return text + "]";
 }
 
 // Options

@@ -96,8 +96,9 @@ std::vector<std::string_view> split(std::string_view text, char mark = ',');
 std::vector<std::string> words_of(const std::string& where, const std::string& list);
 /// Returns the finite number in `text`. `where` is its option, for error messages.
 double parse_number_of(const std::string& where, std::string_view text);
-/// Returns a function that parses a whole number from `lowest` to 10^9.
-std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(std::uint32_t lowest);
+/// Returns a function that parses a whole number in these limits.
+std::function<std::uint32_t(const std::string& where, const std::string& text)> count_from(
+    std::uint32_t lowest, std::uint32_t highest = std::uint32_t(parameters::highest_count));
 /// Returns a function that parses a number in the range of a parameter.
 std::function<double(const std::string& where, const std::string& text)> number_in(const Parameter& parameter);
 /// Returns the numbers that a text gives for a member of a described struct; those of an array are separated by x, or
@@ -107,8 +108,8 @@ std::vector<double> numbers_of(const MemberInfo& member, const std::string& wher
 std::string option_of(const Parameter& parameter);
 /// Throws Error, with the option of the parameter, if the value is out of range.
 void check_option(const Parameter& parameter, double value);
-/// Returns the help of a parameter, with its default.
-std::string help_of(const Parameter& parameter);
+/// Returns the help of a number, with its default.
+std::string help_of(std::string_view help, double default_value);
 
 /// Adds an option with one value, or a positional argument. Values are stored as text, so that our code does all checks
 /// and writes all messages.
@@ -137,13 +138,15 @@ class Options {
   /// Adds an option for a number of the parameter table, with its default in the help.
   template <class Value>
   CLI::Option* add(const Parameter& parameter, Value& value) {
-    return add(option_of(parameter), "NUMBER", help_of(parameter), value, number_in(parameter));
+    return add(option_of(parameter), "NUMBER", help_of(parameter.help, parameter.default_value), value,
+               number_in(parameter));
   }
   /// Adds an option for a number, or the numbers along the axes, of a described struct.
   template <class Struct>
   void add(const Member<Struct>& member, Struct& all) {
-    const CLI::Option* option = add_value(*app_, option_of(*member.number), member.count == 1 ? "NUMBER" : "N|NxN[xN]",
-                                          help_of(*member.number));
+    const char* type = member.count > 1 ? "N|NxN[xN]" : member.is_whole ? "N" : "NUMBER";
+    const CLI::Option* option =
+        add_value(*app_, option_of(*member.number), type, help_of(member.help, member.get(all, 0)));
     readers_.push_back([=, &member, &all] {
       const auto text = value_of(option);
       for (std::size_t i = 0; text && i < member.count; ++i) {
@@ -167,7 +170,7 @@ class Options {
   template <class Struct>
   void add_numbers(Struct& all, const std::vector<std::string_view>& keys = {}) {
     for (const Member<Struct>& member : members_of<Struct>) {
-      if (member.number != nullptr && (keys.empty() || std::ranges::count(keys, member.key) > 0)) {
+      if (member.number && (keys.empty() || std::ranges::count(keys, member.key) > 0)) {
         add(member, all);
       }
     }

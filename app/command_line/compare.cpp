@@ -61,7 +61,7 @@ std::string about_limits() {
 
 /// Reads the relaxation after each move: numbers of sweeps, and whether the equilibrium is one of the choices.
 void read_relax(const CLI::Option* option, report::CompareOptions& result) {
-  constexpr std::uint32_t max_sweeps = 1'000'000;
+  constexpr auto max_sweeps = std::uint32_t(parameters::relax_sweeps.highest);
   const auto list = value_of(option);
   if (!list) {
     return;
@@ -75,7 +75,7 @@ void read_relax(const CLI::Option* option, report::CompareOptions& result) {
     }
     const auto count = parse_count(word);
     require(count && *count <= max_sweeps, "--relax", in_quotes(word) + " is not a number of sweeps",
-            "write whole numbers up to 1000000, or equilibrium, separated by commas");
+            "write whole numbers up to " + std::to_string(max_sweeps) + ", or equilibrium, separated by commas");
     result.sweeps.push_back(static_cast<int>(*count));
   }
 }
@@ -275,13 +275,6 @@ void group(CLI::App& app, const std::string& title, const std::vector<std::strin
 const std::vector<std::string> only_physics{"--handles",  "--grow",       "--calibrated",   "--reference",
                                             "--material", "--gent-limit", "--fung-exponent"};
 
-std::size_t handles_of(const std::string& where, const std::string& text) {
-  const auto count = parse_count(text);
-  require(count && *count >= 1 && *count <= report::max_handles, where, in_quotes(text) + " is no number of handles",
-          "use 1 to " + std::to_string(report::max_handles));
-  return *count;
-}
-
 /// Returns the value of --relax that stands for the defaults of a comparison.
 std::string relax_in_words(const report::CompareOptions& options) {
   std::string text;
@@ -306,7 +299,9 @@ void add_contest(Options& options, CompareArguments& arguments) {
   options.add(parameters::relax_step, how.relax_step);
   add_precision(options, how.precision);
   options.add("--repetitions", "N",
-              "runs of each drag [as many as fit into 4 s, at least 3; physics: 1.5 s; --quick: 0.3 s]",
+              "runs of each drag [as many as fit into " + report::figure(report::CompareOptions().seconds) +
+                  " s, at least 3; physics: " + report::figure(how.seconds) +
+                  " s; --quick: " + report::figure(quick_seconds) + " s]",
               how.repetitions, count_from(1));
   options.app().add_flag("--quick")->description(
       "a first answer: one drag, few repetitions, and nobody who takes long, unless --algorithms names them");
@@ -321,7 +316,7 @@ void add_physics(Options& options, CompareArguments& arguments) {
               "answer changes by less than 2 % [same-cells]",
               arguments.refined);
   options.add("--handles", "N", "number of handles of each object, 1 to 3 [3; with MESH or --quick: 1]",
-              arguments.handles, handles_of);
+              arguments.handles, count_from(1, report::max_handles));
   options.add("--grow", "SECONDS",
               "time that each contestant may use on a growing bar and a growing sheet; 0: off [1; with MESH or "
               "--quick: 0]",

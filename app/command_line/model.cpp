@@ -126,7 +126,7 @@ void add_strain_laws(Options& options, ElasticOptions& elastic, StrainLawArgumen
 
 void add_elastic(Options& options, ElasticOptions& elastic, StrainLawArguments& arguments) {
   for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
-    if (member.number != nullptr) {
+    if (member.number) {
       options.add(member, elastic);
     } else {
       add_law(options, joined_words(names_of(laws_by_name()), "|"),
@@ -143,12 +143,12 @@ std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const
        words_of("--material", arguments.materials.value_or(name(StrainLaw::Kind::neo_hookean)))) {
     laws.push_back(elastic.law);
     laws.back().kind = chosen("--material", word, laws_by_name());
-    const Parameter* number = number_of(laws.back().kind);
-    error_at(number == nullptr ? "--material" : option_of(*number), [&] { check(laws.back(), elastic.material); });
+    const auto number = number_of(laws.back().kind);
+    error_at(number ? option_of(*number) : "--material", [&] { check(laws.back(), elastic.material); });
   }
   for (const StrainLaw::Kind kind : strain_laws) {
-    const Parameter* number = number_of(kind);
-    if (number != nullptr && arguments.app->count(option_of(*number)) > 0) {
+    const auto number = number_of(kind);
+    if (number && arguments.app->count(option_of(*number)) > 0) {
       require(std::ranges::count(laws, kind, &StrainLaw::kind) > 0, option_of(*number),
               "the material '" + name(kind) + "' does not take part", "add --material " + name(kind));
     }

@@ -67,9 +67,11 @@ Command add_ramp(CLI::App& root, const std::string& command_line) {
   report::RampOptions& how = arguments->how;
   how.largest = largest_for_memory(how.largest);
   add_algorithms(options, "algorithms to run: see deform --help [all]", algorithms, how.algorithms);
-  options.add("--seed", "N", "random seed of the drags [1]", how.seed, count_from(0));
+  options.add("--seed", "N", help_of("random seed of the drags", double(how.seed)), how.seed, count_from(0));
   options.add("--budget", "SECONDS", "time per pass [1/60]", how.budget, parse_number_of);
-  options.add("--largest", "ELEMENTS", "largest number of elements in a grid [4000000, or as many as fit into memory]",
+  options.add("--largest", "ELEMENTS",
+              "largest number of elements in a grid [" + std::to_string(report::RampOptions().largest) +
+                  ", or as many as fit into memory]",
               how.largest, count_from(1));
   add_precision(options, how.precision);
   for (const Member<LinkSoftness>& member : std::span(members_of<LinkSoftness>).first(region_numbers)) {

@@ -299,22 +299,12 @@ py::dict result_of(const CalibrationResult& found, const Results& results) {
                   py::arg("json") = json.str());
 }
 
-void check_at_least(int lowest, const char* name, int value) {
-  if (value < lowest) {
-    throw Error(name, "it is below " + std::to_string(lowest), "use " + std::to_string(lowest) + " or more");
-  }
-}
-
 py::dict calibrate(const Used<Object>& object, Algorithm method, std::uint64_t seed, int drags, int held_out,
                    int evaluations, int most_sweeps, RelaxationScheme scheme, const Progress* job,
                    const py::object& progress) {
   if constexpr (!has_calibrate) {
     throw Error("calibrate", "the library was built without NLopt", "install it, and build it again");
   } else {
-    check_at_least(1, "drags", drags);
-    check_at_least(1, "held_out", held_out);
-    check_at_least(1, "evaluations", evaluations);
-    check_at_least(0, "most_sweeps", most_sweeps);
     const Body& body = object->body();
     const CalibrationOptions options{.elastic = body.elastic(),
                                      .pins = {body.pins().begin(), body.pins().end()},

@@ -54,7 +54,7 @@ const char* name_of(const MemberInfo& member) { return member.key == "lattice" ?
 std::string help_of(const MemberInfo& member) {
   std::string help = std::string(member.help) + ". ";
   help.front() = char(std::toupper(static_cast<unsigned char>(help.front())));
-  if (member.number != nullptr) {
+  if (member.number) {
     return help + "Range: " + range_of(*member.number) + " (" + std::string(member.number->unit) + ").";
   }
   for (const std::string_view name : member.names) {

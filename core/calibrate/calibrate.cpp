@@ -247,10 +247,7 @@ CalibrationOptions checked(const MeshPointer& mesh, CalibrationOptions options) 
   if (!info(options.algorithm).uses_softness()) {
     throw Error("algorithm", "it has no softness to calibrate", "choose one of the ChainMail family");
   }
-  if (options.drags < 1 || options.evaluations < 1) {
-    throw Error(options.drags < 1 ? "drags" : "evaluations", "it is below 1", "use 1 or more");
-  }
-  options.held_out = std::max(0, options.held_out);
+  check_members(options);
   std::ranges::sort(options.pins);
   options.pins.erase(std::unique(options.pins.begin(), options.pins.end()), options.pins.end());
   if (options.pins.empty()) {

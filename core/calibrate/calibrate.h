@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "body/softness.h"
 #include "elastic/material.h"
 #include "mesh/cuts.h"
+#include "mesh/described.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "solver/deformer.h"
@@ -22,14 +24,22 @@ struct CalibrationOptions {
   Algorithm algorithm = Algorithm::natural_queue;  // of the ChainMail family
   std::uint64_t seed = 1;                          // random seed of the drags
   int drags = 4;
-  int held_out = 4;                  // number of drags that only test the result; they grab other elements if possible
-  int evaluations = 200;             // each evaluation runs all drags
-  int max_sweeps = 100;              // largest number of sweeps tried, of 0, 1, 3, 10, 30 and 100
+  int held_out = 4;  // they grab other elements if possible
+  int evaluations = 200;
+  int max_sweeps = 100;              // of 0, 1, 3, 10, 30 and 100
   std::vector<ElementId> not_these;  // elements that no drag grabs, in any order
   RelaxationScheme scheme = RelaxationScheme::equilibrium;
   EnergyKind energy = link_energy;
   StrainLaw law = {};  // of the reference solution
 };
+
+template <>
+inline constexpr std::array members_of<CalibrationOptions>{
+    number<&CalibrationOptions::drags>("drags", "Drags", "number of drags to fit", 1),
+    number<&CalibrationOptions::held_out>("held_out", "Held-out drags", "number of drags that only test the result", 0),
+    number<&CalibrationOptions::evaluations>("evaluations", "Evaluations",
+                                             "largest number of evaluations; each runs all drags", 1),
+    number<&CalibrationOptions::max_sweeps>("most_sweeps", "Sweeps", "largest number of sweeps tried", 0)};
 
 /// Distance of the elements from the reference solution at the end of a drag.
 struct Residual {

@@ -35,8 +35,8 @@ std::string label(const StrainLaw& law) {
 
 /// Beyond its bound, the energy of a material that is compressed to nothing would fall without limit.
 void check(const StrainLaw& law, const Material& material) {
-  const Parameter* number = number_of(law.kind);
-  if (number == nullptr) {
+  const auto number = number_of(law.kind);
+  if (!number) {
     return;
   }
   const bool is_gent = law.kind == StrainLaw::Kind::gent;

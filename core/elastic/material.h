@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,11 +36,11 @@ inline constexpr std::array<std::string_view, strain_laws.size()> strain_law_nam
 inline constexpr std::array<std::string_view, strain_laws.size()> strain_law_labels{"Neo-Hookean", "Gent", "Fung"};
 /// Returns `neo-hookean`, `gent` or `fung`.
 std::string name(StrainLaw::Kind kind);
-/// Returns the number that only this law has; null if it has none.
-constexpr const Parameter* number_of(StrainLaw::Kind kind) {
-  return kind == StrainLaw::Kind::gent   ? &parameters::gent_limit
-         : kind == StrainLaw::Kind::fung ? &parameters::fung_exponent
-                                         : nullptr;
+/// Returns the number that only this law has; nothing if it has none.
+constexpr std::optional<Parameter> number_of(StrainLaw::Kind kind) {
+  return kind == StrainLaw::Kind::gent   ? std::optional(parameters::gent_limit)
+         : kind == StrainLaw::Kind::fung ? std::optional(parameters::fung_exponent)
+                                         : std::nullopt;
 }
 /// Returns a description for readers, with the parameter: `Gent (limit 2)`.
 std::string label(const StrainLaw& law);
@@ -82,9 +83,9 @@ inline constexpr std::array members_of<ElasticOptions>{
 
 /// Returns true for the numbers of single laws, and for those that only surfaces in space have.
 constexpr bool is_of_law(const MemberInfo& member) {
-  return member.number == &parameters::gent_limit || member.number == &parameters::fung_exponent;
+  return member.number == parameters::gent_limit || member.number == parameters::fung_exponent;
 }
-constexpr bool is_of_surfaces(const MemberInfo& member) { return member.number == &parameters::thickness; }
+constexpr bool is_of_surfaces(const MemberInfo& member) { return member.number == parameters::thickness; }
 
 /// Throws Error, with the name of the parameter, if one of the options is out of range or the law does not exist for
 /// the material.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -15,7 +16,7 @@ namespace chainmail {
 struct MemberInfo {
   std::string_view key;                          // in files and in Python
   std::string_view help;                         // one sentence without a full stop
-  const Parameter* number = nullptr;             // of a number: its limits
+  std::optional<Parameter> number = {};          // of a number: its limits
   std::span<const std::string_view> names = {};  // of a choice: its names, in the order of the constants
   std::size_t count = 1;                         // of the numbers, if the member is an array
   bool is_whole = false;                         // a whole number
@@ -25,7 +26,7 @@ struct MemberInfo {
   std::span<const std::string_view> labels = {};  // of a choice: its names in the window
 };
 
-constexpr bool is_yes_or_no(const MemberInfo& member) { return member.number == nullptr && member.names.empty(); }
+constexpr bool is_yes_or_no(const MemberInfo& member) { return !member.number && member.names.empty(); }
 
 /// A member that is read and written as numbers: a choice by its index, yes as 1, and item `i` of an array.
 template <class Struct>
@@ -85,7 +86,13 @@ constexpr auto member(MemberInfo info) {
 template <auto... Path>
 constexpr auto number(std::string_view key, const Parameter& parameter) {
   return described::member<Path...>(
-      {.key = key, .help = parameter.help, .number = &parameter, .label = parameter.label});
+      {.key = key, .help = parameter.help, .number = parameter, .label = parameter.label});
+}
+/// The same for a number that is not in the table of parameters: no slider shows it, and its default is in the struct.
+template <auto... Path>
+constexpr auto number(std::string_view key, std::string_view label, std::string_view help, double lowest,
+                      double highest = parameters::highest_count) {
+  return number<Path...>(key, Parameter{key, label, {}, 0, lowest, highest, highest, 1, 0, help});
 }
 template <auto... Path>
 constexpr auto choice(std::string_view key, std::span<const std::string_view> names, std::string_view help) {
@@ -121,7 +128,7 @@ constexpr Member<Struct> left_out_by_default(Member<Struct> member) {
 template <class Struct>
 void check_members(const Struct& all) {
   for (const Member<Struct>& member : members_of<Struct>) {
-    for (std::size_t i = 0; member.number != nullptr && i < member.count; ++i) {
+    for (std::size_t i = 0; member.number && i < member.count; ++i) {
       check(*member.number, member.get(all, i));
     }
   }

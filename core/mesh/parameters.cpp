@@ -8,11 +8,11 @@
 namespace chainmail {
 namespace {
 
-/// Returns the shortest text that reads back as the same number; from 0.0001 to below a billion without an exponent.
+/// Returns the shortest text that reads back as the same number; from 0.0001 to a billion without an exponent.
 std::string shortest_digits(double number) {
   std::array<char, 32> text{};
   char* const end = text.data() + text.size();
-  return {text.data(), number >= 1e-4 && number < 1e9
+  return {text.data(), number >= 1e-4 && number <= 1e9
                            ? std::to_chars(text.data(), end, number, std::chars_format::fixed).ptr
                            : std::to_chars(text.data(), end, number).ptr};
 }

@@ -17,6 +17,8 @@ struct Parameter {
   double step;             // one click
   int decimals;            // in the window
   std::string_view help;
+
+  bool operator==(const Parameter&) const = default;
 };
 
 /// The table. To add a parameter, add an entry here; use it as the default of the value, and in the description of the
@@ -27,6 +29,8 @@ namespace parameters {
 inline constexpr double no_highest = std::numeric_limits<double>::max();
 /// Lower limit of numbers that must be above 0.
 inline constexpr double above_zero = std::numeric_limits<double>::min();
+/// Upper limit of counts that have no other.
+inline constexpr double highest_count = 1e9;
 /// Upper limit of numbers that must be below 0.5: the largest double below it.
 inline constexpr double below_half = 0.5 - std::numeric_limits<double>::epsilon() / 4;
 

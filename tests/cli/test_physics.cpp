@@ -201,8 +201,8 @@ void PhysicsCommandTest::wrong_usage_data() {
   const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
   row("compare cloth.obj --against chance -o out", "--against: 'chance' is not known; use exact or physics");
   row("compare cloth.obj --grow 3 -o out", "--grow: it works only with --against physics; add --against physics");
-  row("compare --against physics --handles 4 -o out", "--handles: '4' is no number of handles; use 1 to 3");
-  row("compare --against physics --handles 0 -o out", "--handles: '0' is no number of handles; use 1 to 3");
+  row("compare --against physics --handles 4 -o out", "--handles: '4' is not a whole number in range; use 1 to 3");
+  row("compare --against physics --handles 0 -o out", "--handles: '0' is not a whole number in range; use 1 to 3");
   row("compare --pins top -o out", "--pins: the built-in objects have their own pins; ");
   row("compare cloth.obj --against physics --pins roof -o out", "--pins: 'roof' is not an element's id; ");
   row("compare cloth.obj --against physics --pins 3,25 -o out", "--pins: cloth.obj has no element 25; ");

@@ -79,9 +79,9 @@ void RampCommandTest::wrong_arguments_data() {
   row("--algorithms best", "--algorithms: 'best' is not known; use generalized, ");
   row("--algorithms spiral,spiral", "--algorithms: 'spiral' is given twice; ");
   row("--seed -1", "--seed: '-1' ");
-  row("--budget 0", "--budget: it is not a number above 0; ");
-  row("--largest 15", "--largest: no grid has so many elements; ");
-  row("--largest 20000001", "--largest: no grid has so many elements; ");
+  row("--budget 0", "--budget: Time of a pass 0 is out of range; use a number above 0");
+  row("--largest 15", "--largest: Largest grid 15 is out of range; use 16 to 20000000");
+  row("--largest 20000001", "--largest: Largest grid 20000001 is out of range; ");
   row("--json none/a.json", "none/a.json: ");
   row("--json - --csv -", "standard output: ");
   row("grid.dat", "grid.dat: unexpected argument; ");

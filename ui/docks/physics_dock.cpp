@@ -69,7 +69,7 @@ QLayout* PhysicsDock::makePins(const Actions& actions) {
 /// Hides what the law, the shape or the space of the object has no use for.
 void PhysicsDock::showElastic() {
   const Mesh& mesh = *document_.mesh();
-  const Parameter* ofLaw = number_of(document_.elastic().law.kind);
+  const auto ofLaw = number_of(document_.elastic().law.kind);
   rows_.show(
       [&](const MemberInfo& member) {
         return is_of_surfaces(member) ? is_surface_in_space(mesh) : !is_of_law(member) || member.number == ofLaw;

@@ -157,7 +157,7 @@ Result read_peer(const std::filesystem::path& path, const std::string& content,
 }  // namespace
 
 bool is_in_cases(const MemberInfo& member) {
-  return member.number == &parameters::poisson || member.key == "law" || is_of_law(member);
+  return member.number == parameters::poisson || member.key == "law" || is_of_law(member);
 }
 
 void write_json(std::ostream& out, const report::PeerCase& object) {
@@ -166,12 +166,7 @@ void write_json(std::ostream& out, const report::PeerCase& object) {
             {"material", Json::object()},
             {"pins", object.pins},
             {"handle", object.handle}};
-  for (const Member<ElasticOptions>& member : members_of<ElasticOptions>) {
-    if (is_in_cases(member)) {
-      json["material"][std::string(member.key)] =
-          json_of(member, [&](std::size_t i) { return member.get(object.elastic, i); });
-    }
-  }
+  add_members(json["material"], object.elastic, is_in_cases);
   if (object.reference_change) {
     json["reference_change"] = *object.reference_change;
   }

@@ -19,12 +19,12 @@ Members optional_softness() {
   const Json turned = object({{"kind", one_of(axes_kinds)}, rotation});
   const Json found = object({{"kind", one_of({axes_kinds[0], axes_kinds[1]})}});  // without those that are given
   const Json axes = any_of({turned, found}, "axes along which valid regions lie");
-  return joined({softness(region_numbers), {{"energy", energy()}, {"frame", axes}}});
+  return joined({described<LinkSoftness>(is_optional), {{"energy", energy()}, {"frame", axes}}});
 }
 
 Json preset() {
   const Json name = with(non_empty_text("one line", limits::preset_name_bytes), "pattern", "^[^ ](.*[^ ])?$");
-  const Json one = object(joined({{{"name", name}}, region()}), softness(region_numbers));
+  const Json one = object(joined({{{"name", name}}, region()}), described<LinkSoftness>(is_optional));
   return object({{"version", one_of(Json::array({presets_version}))}, {"presets", array_of(one)}});
 }
 
@@ -140,21 +140,21 @@ Json lesson() {
 
 Json session() {
   const Member own{"own", array_of(number(), "both ends and the numbers of each link with its own softness")};
-  const Json all =
-      object({{"format", {{"const", "chainmail session"}}},
-              {"version", {{"const", session_version}}},
-              {"name", text("name of the object")},
-              {"mesh", mesh()},
-              {"cuts", ids("both ends of each cut link")},
-              {"pins", ids("ids of the pinned elements")},
-              {"softness", object(joined({region(), {own}}), optional_softness())},
-              {"relaxation", object(described<commands::SetRelaxation>(), described<commands::SetRelaxation>(true))},
-              {"panels", array_of(panel(), {}, 1, limits::session_panels)},
-              {"ui", about("state of the window: only the workbench reads it", {{"type", "object"}})}},
-             {{"elastic", object(described<ElasticOptions>(), described<ElasticOptions>(true))},
-              {"moves", moves()},
-              {"moves_done", count("number of moves that are done; the others can be redone")},
-              {"lesson", lesson()}});
+  const Json all = object(
+      {{"format", {{"const", "chainmail session"}}},
+       {"version", {{"const", session_version}}},
+       {"name", text("name of the object")},
+       {"mesh", mesh()},
+       {"cuts", ids("both ends of each cut link")},
+       {"pins", ids("ids of the pinned elements")},
+       {"softness", object(joined({region(), {own}}), optional_softness())},
+       {"relaxation", object(described<commands::SetRelaxation>(), described<commands::SetRelaxation>(is_optional))},
+       {"panels", array_of(panel(), {}, 1, limits::session_panels)},
+       {"ui", about("state of the window: only the workbench reads it", {{"type", "object"}})}},
+      {{"elastic", object(described<ElasticOptions>(), described<ElasticOptions>(is_optional))},
+       {"moves", moves()},
+       {"moves_done", count("number of moves that are done; the others can be redone")},
+       {"lesson", lesson()}});
   return with(all, "dependencies", {{"moves", Json::array({"moves_done"})}});
 }
 

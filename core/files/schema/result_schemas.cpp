@@ -2,6 +2,7 @@
 #include "files/results/json_kind.h"
 #include "files/results/peer_json.h"
 #include "files/schema/schemas.h"
+#include "report/run/ramp.h"
 #include "report/table/results.h"
 
 namespace chainmail::schema {
@@ -95,16 +96,10 @@ Json different_ids(std::string_view help, std::uint64_t least, std::uint64_t mos
 }
 
 Member peer_case() {
-  Members material;
-  for (const MemberInfo& member : members_of<ElasticOptions>) {
-    if (is_in_cases(member)) {
-      material.emplace_back(member.key, schema_of(member));
-    }
-  }
   return of_kind(
       json_kinds::peer_case, "A case of chainmail compare --cases, for other solvers",
       joined({named,
-              {{"material", object(material)},
+              {{"material", object(described<ElasticOptions>(is_in_cases))},
                {"pins", different_ids("elements that stay at rest", 0)},
                {"handle", different_ids("elements that the moves place", 1)},
                {"positions", points("rest position of each element (mesh units); z is constant in a plane")},
@@ -166,12 +161,8 @@ Json options() {
       {"energy", energy()},
       {"evaluations", count("number of evaluations of a calibration")},
       {"seed", count("random seed of the drags")},
-      {"budget", about("time for a pass (s)", {{"type", "number"}, {"exclusiveMinimum", 0}})},
-      {"drags", from_one("number of drags at each size")},
-      {"moves", from_one("number of moves in a drag")},
-      {"largest", count("largest number of elements in a grid")},
       {"seconds", from_zero("duration (s)")}};
-  return object({}, joined({region(), others}), "those of this kind of report");
+  return object({}, joined({region(), others, described<RampOptions>()}), "those of this kind of report");
 }
 
 Json drag() {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -111,25 +110,21 @@ inline Member rotate(std::string_view help) {
 /// A number, and a member of a described struct.
 Json schema_of(const Parameter& number);
 Json schema_of(const MemberInfo& member);
-/// The members of a described struct that must be there, or those that may be absent.
+inline bool is_required(const MemberInfo& member) { return !member.may_be_absent; }
+inline bool is_optional(const MemberInfo& member) { return member.may_be_absent; }
+/// The members of a described struct that are chosen.
 template <class Struct>
-Members described(bool may_be_absent = false) {
+Members described(bool (*is_chosen)(const MemberInfo&) = is_required) {
   Members members;
   for (const MemberInfo& member : members_of<Struct>) {
-    if (member.may_be_absent == may_be_absent) {
+    if (is_chosen(member)) {
       members.emplace_back(member.key, schema_of(member));
     }
   }
   return members;
 }
-/// The numbers of a softness from index `first` to before `end`; the first decide on valid regions.
-inline Members softness(std::size_t first = 0, std::size_t end = softness_numbers.size()) {
-  Members members;
-  for (const auto& [parameter, value] : std::span(softness_numbers).subspan(first, end - first)) {
-    members.emplace_back(parameter->name, schema_of(*parameter));
-  }
-  return members;
-}
-inline Members region() { return softness(0, region_numbers); }
+/// The numbers of a softness: those of valid regions, which files always have, and those of the energy.
+inline Members region() { return described<LinkSoftness>(); }
+inline Members softness() { return joined({region(), described<LinkSoftness>(is_optional)}); }
 
 }  // namespace chainmail::schema

@@ -25,11 +25,12 @@ std::vector<std::string> keys_of() {
   return keys;
 }
 
-/// Adds the members of a described struct to an object.
+/// Adds the members of a described struct to an object: all, or those that are chosen.
 template <class Struct>
-void add_members(nlohmann::ordered_json& object, const Struct& all) {
+void add_members(nlohmann::ordered_json& object, const Struct& all, bool (*is_chosen)(const MemberInfo&) = nullptr) {
   for (const Member<Struct>& member : members_of<Struct>) {
-    if (!member.is_left_out || member.get(all, 0) != member.get(Struct(), 0)) {
+    if ((is_chosen == nullptr || is_chosen(member)) &&
+        (!member.is_left_out || member.get(all, 0) != member.get(Struct(), 0))) {
       object[std::string(member.key)] = json_of(member, [&](std::size_t i) { return member.get(all, i); });
     }
   }

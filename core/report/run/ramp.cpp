@@ -165,24 +165,13 @@ std::uint32_t width_of(const ObjectInfo& grid) { return std::uint32_t(std::lroun
 Results ramp(const RampOptions& options, const Progress& progress) { return RampRun(options, progress).run(); }
 
 void check(const RampOptions& options) {
-  constexpr std::uint64_t smallest_grid = 16;
-  const auto check_range = [](const char* name, bool is_in_range, const char* problem, const char* what_to_do) {
-    if (!is_in_range) {
-      throw Error(name, problem, what_to_do);
-    }
-  };
   for (const Algorithm algorithm : options.algorithms) {
     if (info(algorithm).family() != Family::chainmail) {
       throw Error("method '" + std::string(info(algorithm).offered_name()) + "'", "it is not of the ChainMail family",
                   "use one that is");
     }
   }
-  check_range("budget", options.budget > 0 && std::isfinite(options.budget), "it is not a number above 0",
-              "use a number of seconds, such as 1 / 60");
-  check_range("largest", options.largest >= smallest_grid && options.largest <= element_limit,
-              "no grid has so many elements", "use 16 to 20000000");
-  check_range("drags", options.drags >= 1, "it is below 1", "use 1 or more");
-  check_range("moves", options.moves >= 1, "it is below 1", "use 1 or more");
+  check_members(options);
   chainmail::check(options.softness);
 }
 

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "mesh/described.h"
+#include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "report/run/clocks.h"
 #include "report/table/results.h"
 #include "solver/deformer.h"
 
-namespace chainmail::report {
+namespace chainmail {
+namespace report {
 
 struct RampOptions {
   std::vector<Algorithm> algorithms;  // in the order of the table; empty: the ChainMail family
@@ -22,6 +26,19 @@ struct RampOptions {
   int moves = 30;                     // number of moves per drag
   Clocks clocks = machine_clocks();
 };
+
+}  // namespace report
+
+template <>
+inline constexpr std::array members_of<report::RampOptions>{
+    number<&report::RampOptions::budget>("budget", "Time of a pass", "time for a pass (s)", parameters::above_zero,
+                                         parameters::no_highest),
+    number<&report::RampOptions::drags>("drags", "Drags", "number of drags at each size", 1),
+    number<&report::RampOptions::moves>("moves", "Moves", "number of moves in a drag", 1),
+    number<&report::RampOptions::largest>("largest", "Largest grid", "largest number of elements in a grid", 16,
+                                          element_limit)};
+
+namespace report {
 
 /// Throws Error if a number is out of its range, or an algorithm is not of the ChainMail family.
 void check(const RampOptions& options);
@@ -85,4 +102,5 @@ class RampRace {
   std::vector<Row> rows_;  // of this size
 };
 
-}  // namespace chainmail::report
+}  // namespace report
+}  // namespace chainmail

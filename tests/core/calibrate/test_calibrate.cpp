@@ -336,6 +336,8 @@ void CalibrateTest::what_makes_no_sense_is_refused() {
   QVERIFY(refused("young", [](auto& options) { options.elastic.material.young = 0; }));
   QVERIFY(refused("drags", [](auto& options) { options.drags = 0; }));
   QVERIFY(refused("evaluations", [](auto& options) { options.evaluations = 0; }));
+  QVERIFY(refused("held_out", [](auto& options) { options.held_out = -1; }));
+  QVERIFY(refused("most_sweeps", [](auto& options) { options.max_sweeps = -1; }));
   QVERIFY(refused("algorithm", [](auto& options) { options.algorithm = Algorithm::linear_fem; }));
 }
 
