@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/formats/vtk_cells.h"
+#include "files/text/limits.h"
 #include "files/text/number_type.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
@@ -401,11 +402,10 @@ void VtkReader::add_grid_points() {
   if (kind_ == "RECTILINEAR_GRID" && std::ranges::any_of(axes_, [](const auto& axis) { return axis.empty(); })) {
     cursor_.fail("the coordinates of an axis are missing", "give X_COORDINATES, Y_COORDINATES and Z_COORDINATES");
   }
-  static constexpr std::uint64_t max_without_values = 100'000;
-  if (grid_[0] * grid_[1] * grid_[2] > std::max<std::uint64_t>(max_without_values, cursor_.size())) {
-    cursor_.fail(
-        "it has fewer bytes than its grid has points, which are more than " + std::to_string(max_without_values),
-        "use a smaller grid, or save it as an unstructured grid");
+  if (grid_[0] * grid_[1] * grid_[2] > std::max<std::uint64_t>(limits::points_without_values, cursor_.size())) {
+    cursor_.fail("it has fewer bytes than its grid has points, which are more than " +
+                     std::to_string(limits::points_without_values),
+                 "use a smaller grid, or save it as an unstructured grid");
   }
   const auto place = [&](std::size_t axis, std::uint64_t i) {
     const auto& own = axes_[axis];

@@ -15,7 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t deepest = 16;  // levels of arrays and objects: protects memory and stack; our formats need 6
 constexpr std::size_t piece = std::size_t{1} << 18;  // bytes between two progress reports: a few milliseconds
 
 /// Passes a text to a stream in pieces. Between pieces it reports progress and can be cancelled.
@@ -112,7 +111,7 @@ class JsonScanner {
     return true;
   }
   bool open(Json container) {
-    if (depth_++ == deepest) {
+    if (depth_++ == limits::json_levels) {
       fail(where_, "it is nested too deeply");
     }
     const bool is_array = container.is_array();

@@ -26,13 +26,16 @@ inline constexpr std::size_t preset_name_bytes = 60;  // of a preset of softness
 /// Long arrays of numbers in sessions and recorded moves do not count.
 inline constexpr std::size_t json_values = 10'000'000;
 inline constexpr std::size_t values_of_container = 4, values_of_key = 5;
-inline constexpr std::size_t presets = 1000;             // of softness, in one file
+inline constexpr std::size_t json_levels = 16;  // of arrays and objects: protects memory and stack; our formats need 6
+inline constexpr std::size_t presets = 1000;    // of softness, in one file
 inline constexpr std::size_t session_panels = 16;        // of a session
 inline constexpr std::size_t session_moves = 1'000'000;  // with the links and elements that they name
 inline constexpr std::size_t moves = 10'000'000;         // in a file
 /// Elements, links and triangles of all meshes after splits of recorded moves: each split keeps a mesh of its own.
 inline constexpr std::uint64_t split_parts = 100'000'000;
 inline constexpr std::size_t lesson_steps = 1000;  // of a lesson
+/// Points of a grid in VTK that states none, if the file has fewer bytes.
+inline constexpr std::uint64_t points_without_values = 100'000;
 
 // Volumes
 /// Largest number of voxels of a file. Larger volumes are refused.
