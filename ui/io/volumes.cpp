@@ -105,13 +105,9 @@ void VolumeBar::ask(const QString& name, std::shared_ptr<const OpenedVolume> vol
 }
 
 VoxelOptions VolumeBar::options() const {
-  VoxelOptions options;
-  options.threshold = threshold_->value();
-  if (every_->value() > 0) {
-    options.every = std::uint32_t(every_->value());
-  }
-  options.stiff_where_dense = stiff_->isChecked();
-  return options;
+  return {.threshold = threshold_->value(),
+          .every = every_->value() > 0 ? std::optional(std::uint32_t(every_->value())) : std::nullopt,
+          .stiff_where_dense = stiff_->isChecked()};
 }
 
 void VolumeBar::describe() {

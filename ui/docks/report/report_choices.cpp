@@ -124,9 +124,10 @@ void ReportChoices::describeAll() {
            QStringLiteral("Drags to compare on, from rest"));
   describe(sweeps_, "reportSweeps", QStringLiteral("Relaxation after each move"),
            QStringLiteral(
-               "Each algorithm without relaxation, with 10 sweeps after each move, or both.\n"
+               "Each algorithm without relaxation, with %1 sweeps after each move, or both.\n"
                "Scheme and step are those of the Relaxation dock; the scheme is mean if it is the equilibrium there.\n"
-               "With equilibrium, Natural Queue and Exact also relax to the equilibrium after each move."));
+               "With equilibrium, Natural Queue and Exact also relax to the equilibrium after each move.")
+               .arg(sweepsPerMove));
   sweeps_->addItems({QStringLiteral("off"), QStringLiteral("%1 sweeps").arg(sweepsPerMove),
                      QStringLiteral("off and %1 sweeps").arg(sweepsPerMove),
                      QStringLiteral("off, %1 sweeps and equilibrium").arg(sweepsPerMove)});
