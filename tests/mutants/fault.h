@@ -8,8 +8,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <exception>
 #include <type_traits>
+#include <utility>
 
 // A fault may look wrong to the optimiser, too. That must not end the build.
 #ifndef __clang__
@@ -46,6 +49,35 @@ inline bool chainmail_fault(int number) {
   }
   return chainmail_active_fault == number;
 }
+
+/// True if the fault is switched on and its place was executed before.
+inline bool chainmail_fault_again(int number) {
+  static std::atomic<bool> was_here = false;
+  return chainmail_fault(number) && was_here.exchange(true);
+}
+
+/// Carries out a check at once; if the fault is switched on, at the end of the block, unless that ends by an exception.
+template <class Check>
+class ChainmailLate {
+ public:
+  ChainmailLate(int number, Check check) : check_(std::move(check)), is_late_(chainmail_fault(number)) {
+    if (!is_late_) {
+      check_();
+    }
+  }
+  ChainmailLate(const ChainmailLate&) = delete;
+  ChainmailLate& operator=(const ChainmailLate&) = delete;
+  ~ChainmailLate() noexcept(false) {
+    if (is_late_ && std::uncaught_exceptions() == exceptions_) {
+      check_();
+    }
+  }
+
+ private:
+  Check check_;
+  bool is_late_;
+  int exceptions_ = std::uncaught_exceptions();
+};
 
 /// Returns the first value, or the second one if the fault is switched on. Compiles only if both have one type.
 template <class T>

@@ -34,6 +34,7 @@ STATE = re.compile(
     r"|[\w:()\[\].>-]*?\b(?:reset|clear|forget|invalidate|drop|discard|abandon|cancel|end|erase|remove|refresh|update"
     r"|stop|release|wake|fall_asleep)\w*\("
     r"|[\w.>-]+_(?:[.>-]\w+)* = (?:@@|[\w:]+@@|[\w:]+\(\)|nullptr|std::nullopt|true|false|0)$")
+RESET = re.compile(STATE.pattern + r"|[\w.>-]+_ = ")  # what a second event finds as the first one left it
 COPY = re.compile(r"[\w\])>_]+(?:\.|->)[\w.\[\]>-]+ = ")
 CHECK = re.compile(r" [!=]= |[Rr]evision|made_for|seen_|outdated|stale")
 OPTION = re.compile(
@@ -43,6 +44,11 @@ SIMPLE = re.compile(r"[\w.:>\[\]-]+(?:\(\))?$")
 NAME = re.compile(r"(?!this\b|true\b|false\b|nullptr\b|\d)[\w.>-]+(?:\(\))?$|std::move\(\w+\)$")
 INITIALISER = re.compile(
     r"(?:^\s+(?:: )?|\) : |, )(\w+_)\(((?:std::move\()?[\w.>-]+\)?)\)(?=,| \{|\s*@@)", re.MULTILINE)
+WORD = re.compile(r"\w+|[^\w\s]")
+# A name of one boolean, or of a member of a struct of them.
+FLAG = re.compile(r"\w+_$|(?P<owner>\w+)(?:\.|->)\w+$")
+FUNCTION = re.compile(r"\)(?: const| noexcept| override)* \{\n(?=  \S)")
+REFUSAL = re.compile(r"  ((?:check|refuse)\w*\([^;]*\);|if \([^{}]*\) \{\n    throw [^;]*;\n  \})\n")
 SYMMETRIC = ("min", "max", "swap", "hypot", "fuzzyCompare", "isApprox", "equal")
 
 # In a file, the text from `start` to `end` becomes `text`, where @FAULT@ stands for the number of the fault.
@@ -138,6 +144,54 @@ def removal(source, span):
         yield source.skipped(next(kind for kind, pattern in kinds if pattern.match(code)), span)
 
 
+def again(source, span):
+    """Skips a reset from the second time on."""
+    if span.form == "statement" and RESET.match(source.code[span.start:span.end]):
+        statement = source.text[span.start:span.end]
+        text = f"if (!chainmail_fault_again(@FAULT@)) {{ {statement}; }}"
+        before = source.one_line(span.start, span.end)
+        yield source.fault("again", span.start, span.end, text, before, "(skipped the second time)")
+
+
+def are_alike(one, other):
+    """True if two statements have the same words, except one word in place of another."""
+    words, others = WORD.findall(one), WORD.findall(other)
+    pairs = set(zip(words, others))
+    return (len(words) == len(others) and sum(a != b for a, b in pairs) == 1
+            and any(a == b and a[0].isalpha() for a, b in pairs))
+
+
+def homes(source):
+    """Skips one of two statements that do the same for two members or two panels."""
+    ranges = [one for one in source_text.simple_statements(source.code)
+              if source_text.CALL_OR_ASSIGNMENT.match(source.code[slice(*one)])]
+    for one, other in zip(ranges, ranges[1:]):
+        if (source.code[one[1]:other[0]].strip() == ";"
+                and are_alike(source.plain[slice(*one)], source.plain[slice(*other)])):
+            for start, end in one, other:
+                yield source.skipped("home", source_text.Span("statement", start, end))
+
+
+def implications(source):
+    """Lets another boolean of the same owner imply the one of a condition."""
+    flags = [(span, match) for span in source_text.conditions(source.code)
+             if span.form == "condition" and (match := FLAG.match(source.code[span.start:span.end]))]
+    for (one, match), (other, neighbour) in [*zip(flags, flags[1:]), *zip(flags[1:], flags)]:
+        if match["owner"] == neighbour["owner"] and match.group() != neighbour.group():
+            yield source.changed("implication", one, one.end, one.end, f" || {neighbour.group()}")
+
+
+def late_refusals(source):
+    """Moves a check at the start of a function behind its work."""
+    for function in FUNCTION.finditer(source.code):
+        at = function.end()
+        while refusal := REFUSAL.match(source.code, at):
+            start, at = refusal.start(1), refusal.end()
+            text = f"const ChainmailLate late_@FAULT@(@FAULT@, [&] {{ {source.text[start:refusal.end(1)]} }});"
+            before = source.one_line(start, refusal.end(1))
+            yield source.fault("refusal", start, refusal.end(1), text, before, "(at the end) " + before)
+
+
 def swaps(source, elements):
     """Lets two neighbours of a list change places."""
     if elements.before in SYMMETRIC:
@@ -184,8 +238,10 @@ def faults_of(path, text):
     source, found = Source(path, text), []
     for span in source_text.spans(source.code):
         if not PASSED_OVER.search(source.code, span.start, span.end):
-            for proposals in (operators, numbers, negation, terms, check, removal):
+            for proposals in (operators, numbers, negation, terms, check, removal, again):
                 found += proposals(source, span)
     for elements in source_text.lists(source.code):
         found += [*swaps(source, elements), *members(source, elements)]
-    return found + list(initialisers(source)) + list(options(source))
+    for proposals in (initialisers, options, homes, implications, late_refusals):
+        found += proposals(source)
+    return found
