@@ -10,6 +10,64 @@
 
 namespace chainmail::test {
 
+/// Returns a split that puts an element into the first triangle of a surface.
+inline SplitPointer split_of_first_triangle(const MeshPointer& mesh) {
+  auto corners = mesh->triangles[0];
+  const ElementId inside = mesh->element_count();
+  const auto [a, b, c] = corners;
+  std::ranges::sort(corners);
+  return make_split(mesh, {{{corners, {0.25, 0.5}}}, {0}, {{a, b, inside}, {b, c, inside}, {c, a, inside}}, {}, {}});
+}
+
+/// Returns commands of all kinds for an object of 16 elements or more, in which element 0 has links. Some do not fit it
+/// and are refused. The state 0 must be kept.
+inline std::vector<Command> every_command(const MeshPointer& mesh, const MeshPointer& other,
+                                          const SplitPointer& split) {
+  using namespace commands;
+  const Point by(mesh->has_axis(0) ? 0.4 : 0, mesh->has_axis(1) ? -0.3 : 0, 0);
+  const auto slices = std::make_shared<SliceCounts>(1);
+  slices->note(0, Algorithm::natural_queue, 2);
+  const EntryId first = mesh->first_entry[0], end = mesh->first_entry[1];
+  const std::vector<LinkId> of_first(mesh->entry_link.begin() + first, mesh->entry_link.begin() + end);
+  PositionRuns some{false, {4, 6}, std::vector<double>(2 * std::size_t(mesh->space_dimension), 1.25)};
+  ElasticOptions soft;
+  soft.material.young *= 2;
+  std::vector<Command> all{
+      Grab{5},
+      Grab{std::vector<ElementId>{5, 6, 9}},
+      Drag{mesh->rest_position(5) + 3 * by},
+      Drag{by, {}, true},
+      Drag{by, {Point(0, 0, 1), 20}, true},
+      Drag{by, {Point(0, 0, -1), 20}, true},
+      Release{},
+      SetSoftness{Softness{{0.9, 1.1, 0.05}, {{of_first[0], {1, 1, 0}}}}},
+      SetSoftness{Softness{{0.7, 1.3, 0.2}, {}, link_energy, {AxesKind::given, Point(0, 0, 0.5)}}},
+      SetRelaxation{true, 0.5, RelaxationScheme::link},
+      Relaxed{RelaxationScheme::mean, 1, Relaxed::Start::awake, slices},
+      Cut{of_first},
+      Cut{{mesh->entry_link[mesh->first_entry[5]]}},
+      Uncut{of_first},
+      Pin{{3}},
+      Pin{{5}},
+      Unpin{{mesh->element_count() - 1}},
+      Reset{},
+      ReplaceMesh{other},
+      SetPositions{std::make_shared<const Snapshot>(snapshot_of(some, *mesh, Precision::double_precision))},
+      KeepState{1},
+      RestoreState{0},
+      RestoreState{1},
+      DropState{0},
+      SetElastic{soft},
+      commands::Split{split}};
+  for (const RelaxationSchemeInfo& scheme : relaxation_schemes) {
+    all.emplace_back(Relax{3, 1, scheme.scheme});
+  }
+  for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact, Algorithm::linear_fem}) {
+    all.emplace_back(SetAlgorithm{algorithm});
+  }
+  return all;
+}
+
 /// Draws commands of all kinds. Some do not fit the object and are refused.
 class AnyCommand {
  public:

@@ -1,7 +1,9 @@
 #include <QtTest>
 #include <cstdlib>
+#include <set>
 
 #include "core/any_command.h"
+#include "core/invariants.h"
 #include "core/simulations.h"
 #include "mesh/error.h"
 #include "program.h"
@@ -38,6 +40,41 @@ bool same_settings(const Simulation& a, const Simulation& b) {
          a.statistics().algorithm == b.statistics().algorithm;
 }
 
+/// An object, held and deformed, with a pin, a cut and its state at rest kept as state 0.
+struct Deformed {
+  Deformed(const MeshPointer& mesh, Algorithm algorithm)
+      : simulation(mesh, algorithm, Precision::double_precision), followed(simulation) {
+    const LinkId last = mesh->link_count() - 1;
+    for (const Command& command : std::initializer_list<Command>{
+             commands::KeepState{0}, commands::Pin{{mesh->element_count() - 1}}, commands::Cut{{last}},
+             commands::Grab{5}, commands::Drag{Point(0.5, 0.25, 0), {}, true}}) {
+      flaw += followed.apply(command);
+    }
+  }
+  Simulation simulation;
+  FollowedSimulation followed;
+  std::string flaw;
+};
+
+/// Carries out two commands, then undoes both, redoes the last one, and undoes everything. Returns what is wrong.
+std::string flaw_of_pair(Deformed& object, const Command& first, const Command& second) {
+  constexpr commands::StateId before_first = 10, before_second = 11;
+  Simulation& simulation = object.simulation;
+  const ObjectFacts initial(simulation);
+  carry_out(simulation, commands::KeepState{before_first});
+  std::string flaw = object.flaw + object.followed.apply(first);
+  const ObjectFacts between(simulation);
+  carry_out(simulation, commands::KeepState{before_second});
+  flaw += object.followed.apply(second);
+  const ObjectFacts last(simulation);
+  exchange(simulation, before_second);
+  flaw += difference(ObjectFacts(simulation), between);
+  exchange(simulation, before_second);
+  flaw += difference(ObjectFacts(simulation), last);
+  carry_out(simulation, commands::RestoreState{before_first});
+  return flaw + difference(ObjectFacts(simulation), initial);
+}
+
 }  // namespace
 
 /// A simulation that goes through a long random life does the same as a new one that continues from its state.
@@ -46,6 +83,7 @@ class SimulationLifeTest : public QObject {
 
  private slots:
   void it_goes_on_as_a_new_one();
+  void after_any_two_commands_it_is_what_they_say();
 };
 
 void SimulationLifeTest::it_goes_on_as_a_new_one() {
@@ -73,6 +111,27 @@ void SimulationLifeTest::it_goes_on_as_a_new_one() {
       QVERIFY(lived.statistics().passes == passes ||
               fresh.statistics().last_pass.moved == lived.statistics().last_pass.moved);
     }
+  }
+}
+
+void SimulationLifeTest::after_any_two_commands_it_is_what_they_say() {
+  const MeshPointer surface = jittered_triangles(4, 4, 3), solid = make_mesh(MeshKind::tetra, {3, 3, 2});
+  const SplitPointer split = split_of_first_triangle(surface);
+  for (const auto& [mesh, other] : {std::pair(surface, solid), std::pair(solid, surface)}) {
+    const std::vector<Command> all = every_command(mesh, other, split);
+    std::set<std::size_t> kinds;
+    for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
+      for (std::size_t i = 0; i < all.size() * all.size(); ++i) {
+        const std::size_t first = i / all.size(), second = i % all.size();
+        Deformed object(mesh, algorithm);
+        const std::string flaw = flaw_of_pair(object, all[first], all[second]);
+        QVERIFY2(flaw.empty(), (std::string(info(algorithm).name) + ", commands " + std::to_string(first) + " and " +
+                                std::to_string(second) + ": " + flaw)
+                                   .c_str());
+        kinds.insert(all[first].index());
+      }
+    }
+    QCOMPARE(kinds.size(), std::variant_size_v<Command>);  // a new command has its place in every_command()
   }
 }
 
