@@ -118,10 +118,11 @@ class Deformer {
   };
   /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or `most` have run. The scheme
   /// `equilibrium` runs iterations for the whole object instead, until the residual is small, and moves the elements
-  /// once, at the end. What is held, and pins, stay; each element stays in the valid regions of its neighbours. Does
-  /// nothing for methods of elasticity, whose answers are equilibria. `after_slice`, if given, is called after elements
-  /// have moved, see relaxed(). Throws Error for options out of their range or a number below 0, and if pins contradict
-  /// each other and the scheme is `equilibrium`; and Cancelled, which keeps the positions that sweeps have reached.
+  /// once, at the end. What is held, and pins, stay, but `equilibrium` moves what is held to where the pins allow it.
+  /// Each element stays in the valid regions of its neighbours. Does nothing for methods of elasticity, whose answers
+  /// are equilibria. `after_slice`, if given, is called after elements have moved, see relaxed(). Throws Error for
+  /// options out of their range or a number below 0, and if pins contradict each other and the scheme is `equilibrium`;
+  /// and Cancelled, which keeps the positions that sweeps have reached.
   Relaxed relax(int most, const RelaxOptions& options = {}, const std::function<void()>& after_slice = {});
 
   // Relaxation in slices, for idle time.

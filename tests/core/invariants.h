@@ -138,7 +138,8 @@ class FollowedSimulation {
   std::string apply(const Command& command) {
     const ObjectFacts before(simulation_);
     const Algorithm algorithm_before = simulation_.statistics().algorithm;
-    const bool was_valid = before.largest_excess({}) <= rounding, must_refuse = is_refused(command);
+    const bool must_refuse = is_refused(command);
+    was_valid_ = before.largest_excess({}) <= rounding;
     expected_ = before;
     free_.clear();
     try {
@@ -157,7 +158,7 @@ class FollowedSimulation {
     if (!std::ranges::equal(simulation_.grabbed(), held_)) {
       return "handle";
     }
-    return rules(command, after, was_valid);
+    return rules(command, after);
   }
 
  private:
@@ -172,14 +173,14 @@ class FollowedSimulation {
                                                                : difference(ObjectFacts(simulation_), before);
   }
   /// Rules that are not about single commands.
-  std::string rules(const Command& command, const ObjectFacts& after, bool was_valid) const {
+  std::string rules(const Command& command, const ObjectFacts& after) const {
     if (count_parts(*after.mesh, simulation_.body().cuts()) != LinkedParts(*after.mesh, after.cuts).count()) {
       return "number of parts";
     }
     const AlgorithmInfo& algorithm = info(simulation_.statistics().algorithm);
     const bool drags = is_one_of<commands::Drag>(command);
     const bool relaxes = is_one_of<commands::Relax, commands::Relaxed>(command) && algorithm.relaxes();
-    if (((drags && algorithm.holds_links) || (relaxes && was_valid)) && after.largest_excess(held_) > rounding) {
+    if (((drags && algorithm.holds_links) || (relaxes && was_valid_)) && after.largest_excess(held_) > rounding) {
       return "a link outside its region by " + std::to_string(after.largest_excess(held_));
     }
     return simulation_.valid() && after.largest_excess({}) > 1e-6 ? "said to be valid" : "";
@@ -249,7 +250,12 @@ class FollowedSimulation {
     answer();
   }
   void expect(const commands::SetRelaxation&) {}
-  void expect(const commands::Relax&) { free_all(); }
+  void expect(const commands::Relax& command) {
+    free_all();
+    if (command.scheme == RelaxationScheme::equilibrium && !was_valid_) {  // the handle may contradict the pins
+      free_.insert(held_.begin(), held_.end());
+    }
+  }
   void expect(const commands::Relaxed&) { free_all(); }
   void expect(const commands::SetElastic&) { answer(); }
   void expect(const commands::SetAlgorithm& command) {
@@ -339,6 +345,7 @@ class FollowedSimulation {
 
   Simulation& simulation_;
   ObjectFacts expected_;
+  bool was_valid_ = true;     // all links, before the command
   std::set<ElementId> free_;  // may have moved anywhere
   std::set<ElementId> held_;
   std::map<ElementId, Point> start_;  // where the held elements were grabbed
