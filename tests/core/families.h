@@ -132,4 +132,43 @@ inline std::vector<MeshFamily> families() {
   };
 }
 
+inline MeshPointer mesh_of(std::vector<Point> rest, std::vector<std::array<ElementId, 2>> links,
+                           std::optional<int> space = {}) {
+  MeshParts parts;
+  parts.rest = std::move(rest);
+  parts.links = std::move(links);
+  parts.space_dimension = space;
+  return build_mesh(std::move(parts));
+}
+
+/// A plane of triangles in no order: some are there twice, some also from behind, and their corners begin anywhere.
+inline MeshPointer repeated_triangles() {
+  const MeshPointer plane = jittered_triangles(4, 4, 5);
+  MeshParts parts = placed(*plane, [](const Point& p) { return p; });
+  for (std::size_t i = plane->triangles.size(); i-- > 0;) {
+    const auto [a, b, c] = plane->triangles[i * 7 % plane->triangles.size()];
+    add_triangle(parts, b, c, a);
+    if (i % 3 == 0) {
+      add_triangle(parts, c, b, a);
+    }
+  }
+  return build_mesh(std::move(parts));
+}
+
+/// Meshes that files may contain, but that nobody draws.
+inline std::vector<MeshFamily> degenerate_families() {
+  return {
+      {"one element", mesh_of({{1, 2, 0}}, {})},
+      {"one element in 3D", mesh_of({{1, 2, 3}}, {}, 3)},
+      {"one link", mesh_of({{0, 0, 0}, {2, 0, 0}}, {{0, 1}})},
+      {"one link in 3D", mesh_of({{0, 0, 0}, {-1, 2, 0.5}}, {{0, 1}}, 3)},
+      {"links of length 0",
+       mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}})},
+      {"all elements at one point", mesh_of({{1, 1, 0}, {1, 1, 0}, {1, 1, 0}}, {{0, 1}, {1, 2}}, 2)},
+      {"coincident elements without a link",
+       mesh_of({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 0, 0}, {0, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}})},
+      {"repeated triangles", repeated_triangles()},
+  };
+}
+
 }  // namespace chainmail::test

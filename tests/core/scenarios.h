@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <ostream>
 #include <vector>
 
@@ -61,8 +64,13 @@ inline rc::Gen<Precision> any_precision() {
   return rc::gen::element(Precision::single_precision, Precision::double_precision);
 }
 
+/// Draws a mesh, also a degenerate one.
 inline const MeshFamily& draw_family() {
-  static const std::vector<MeshFamily> all = families();
+  static const std::vector<MeshFamily> all = [] {
+    std::vector<MeshFamily> both = families();
+    std::ranges::move(degenerate_families(), std::back_inserter(both));
+    return both;
+  }();
   const MeshFamily& family = all[*rc::gen::inRange<std::size_t>(0, all.size())];
   RC_LOG() << "mesh: " << family.name << '\n';
   return family;
@@ -78,17 +86,33 @@ inline MeshPointer draw_grid() {
   return grids[*rc::gen::inRange<std::size_t>(0, grids.size())];
 }
 
+/// Draws links, the same one perhaps twice; none if there are none.
+inline std::vector<LinkId> draw_links(const Mesh& mesh) {
+  return mesh.link_count() == 0
+             ? std::vector<LinkId>()
+             : *rc::gen::container<std::vector<LinkId>>(rc::gen::inRange<LinkId>(0, mesh.link_count()));
+}
+/// Returns one link, chosen by any number; none if there are none.
+inline std::vector<LinkId> one_link(const Mesh& mesh, std::uint32_t which) {
+  return mesh.link_count() == 0 ? std::vector<LinkId>() : std::vector<LinkId>{which % mesh.link_count()};
+}
+
 /// Draws a softness for all links, and others for some of them.
 inline Softness draw_softness(const Mesh& mesh) {
   Softness softness{*any_link_softness(), {}};
-  const auto some = *rc::gen::container<std::vector<std::pair<LinkId, LinkSoftness>>>(
-      rc::gen::pair(rc::gen::inRange<LinkId>(0, mesh.link_count()), any_link_softness()));
-  softness.links = {some.begin(), some.end()};
+  for (const LinkId link : draw_links(mesh)) {
+    softness.links.set(link, *any_link_softness());
+  }
   return softness;
 }
 
-inline std::vector<LinkId> draw_links(const Mesh& mesh) {
-  return *rc::gen::container<std::vector<LinkId>>(rc::gen::inRange<LinkId>(0, mesh.link_count()));
+/// Draws elements to pin; sometimes all.
+inline std::vector<ElementId> draw_pins(const Mesh& mesh) {
+  std::vector<ElementId> all(mesh.element_count());
+  std::iota(all.begin(), all.end(), 0);
+  return *rc::gen::inRange(0, 8) == 0
+             ? all
+             : *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh.element_count()));
 }
 
 }  // namespace test

@@ -30,8 +30,7 @@ void PinsTest::pins_stay() {
     const auto& mesh = draw_family().mesh;
     const auto algorithm = *rc::gen::elementOf(algorithms_for(*mesh));
     Simulation simulation(mesh, algorithm.algorithm, *any_precision());
-    const auto pins =
-        *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
+    const auto pins = draw_pins(*mesh);
     carry_out(simulation, commands::Pin{pins});
     carry_out(simulation,
               commands::SetRelaxation{false, 1, *rc::gen::element(RelaxationScheme::mean, RelaxationScheme::link)});

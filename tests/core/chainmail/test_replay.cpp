@@ -22,13 +22,13 @@ class Drag {
         solver_(std::make_unique<Deformer>(mesh_, algorithm, precision)) {}
 
   void happen(Event event, std::uint32_t which, const Point& by) {
-    const LinkId link = which % mesh_->link_count();
+    const auto link = one_link(*mesh_, which);
     const ElementId element = which % mesh_->element_count();
     switch (event) {
       case Event::cut:
-        return solver_->body().cut(std::span(&link, 1));
+        return solver_->body().cut(link);
       case Event::uncut:
-        return solver_->body().uncut(std::span(&link, 1));
+        return solver_->body().uncut(link);
       case Event::pin:
         return element == hand_ ? solver_->body().reset() : solver_->body().pin(std::span(&element, 1));
       case Event::unpin:

@@ -73,8 +73,7 @@ void TautTest::exact_holds_every_link_between_pins() {
     const auto solver = std::make_unique<Deformer>(mesh, Algorithm::exact, Precision::double_precision);
     const Softness softness = draw_softness(*mesh);
     solver->body().set_softness(softness);
-    const auto pins =
-        *rc::gen::container<std::vector<ElementId>>(rc::gen::inRange<ElementId>(0, mesh->element_count()));
+    const auto pins = draw_pins(*mesh);
     solver->body().pin(pins);
     for (const DragStep& drag_step : *any_drag_steps(80)) {
       const ElementId element = drag_step.of(*mesh);

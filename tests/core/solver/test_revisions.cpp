@@ -67,24 +67,27 @@ class LongLife {
 
   void happen(Event event, std::uint32_t which) {
     Body& body = solver_.body();
-    const LinkId link = which % mesh_->link_count();
+    const auto link = one_link(*mesh_, which);
     const ElementId element = which % mesh_->element_count();
     switch (event) {
       case Event::other_handle:
         grab(which);
         break;
       case Event::cut:
-        return body.cut(std::span(&link, 1));
+        return body.cut(link);
       case Event::uncut:
-        return body.uncut(std::span(&link, 1));
+        return body.uncut(link);
       case Event::pin:
         return std::ranges::count(handle_, element) != 0 ? void() : body.pin(std::span(&element, 1));
       case Event::unpin:
         return body.unpin(std::span(&element, 1));
       case Event::soften:
         return soften({LinkSoftness{1 - which % 5 / 8.0, 1 + which % 8 / 4.0, which % 3 / 10.0}, {}});
-      case Event::soften_links:
-        return soften({body.softness().global, {{link, LinkSoftness{0.5, 2, 0.5}}}});
+      case Event::soften_links: {
+        Softness next{body.softness().global, {}};
+        next.links.set(link, {0.5, 2, 0.5});
+        return soften(next);
+      }
       case Event::change_energy: {
         Softness next = body.softness();
         next.energy = EnergyKind(which % 3);
@@ -93,9 +96,11 @@ class LongLife {
       }
       case Event::change_energy_of_links: {
         Softness next = body.softness();
-        LinkSoftness own = next.of(link);
-        own.lateral = which % 3 / 2.0;
-        next.links.set(link, own);
+        for (const LinkId one : link) {
+          LinkSoftness own = next.of(one);
+          own.lateral = which % 3 / 2.0;
+          next.links.set(one, own);
+        }
         return soften(next);
       }
       case Event::harden_material:
