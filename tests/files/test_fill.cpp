@@ -1,10 +1,10 @@
-#include <Eigen/Geometry>
 #include <QtTest>
 #include <cmath>
 #include <limits>
 
 #include "files/mesh/fill.h"
 #include "files/support.h"
+#include "files/volume_of.h"
 #include "program.h"
 
 namespace chainmail::test_fill {
@@ -44,13 +44,9 @@ void FillTest::a_closed_surface_becomes_a_volume() {
   const auto surface = obj(octahedron(8));
   const auto filled = fill(*surface, 1);
   double volume = 0;
-  for (const auto& [a, b, c, d] : filled->tetrahedra) {
-    const Point from = filled->rest_position(a);
-    const double one =
-        (filled->rest_position(b) - from).cross(filled->rest_position(c) - from).dot(filled->rest_position(d) - from) /
-        6;
-    QVERIFY(one > 0);
-    volume += one;
+  for (const auto& cell : filled->tetrahedra) {
+    QVERIFY(volume_of_cell(*filled, cell) > 0);
+    volume += volume_of_cell(*filled, cell);
   }
   QVERIFY(std::abs(volume - 36) < 1e-9);  // volume 4/3 r³; rounding of sums of some hundred doubles
   for (ElementId e = 0; e < surface->element_count(); ++e) {

@@ -21,12 +21,13 @@ MeshPointer sample(const char* name) {
   return open_mesh(sourceFile(("meshes/" + std::string(name)).c_str()).toStdString()).mesh;
 }
 
+/// Returns the volume inside closed faces; below 0 if they look inward.
 double volume_in(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     sum += mesh.rest_position(a).dot(mesh.rest_position(b).cross(mesh.rest_position(c))) / 6;
   }
-  return std::abs(sum);
+  return sum;
 }
 
 bool has_element_at(const Mesh& mesh, const Point& position) {

@@ -83,13 +83,17 @@ class CameraTest : public QObject {
   void aPlaneOfAnyTwoAxesIsSeenFlat_data() {
     QTest::addColumn<int>("first");
     QTest::addColumn<int>("second");
-    QTest::newRow("xy") << 0 << 1;
-    QTest::newRow("xz") << 0 << 2;
-    QTest::newRow("yz") << 1 << 2;
+    QTest::addColumn<float>("right");  // 1 or -1: where the larger coordinates are
+    QTest::addColumn<float>("up");
+    QTest::newRow("xy") << 0 << 1 << 1.F << 1.F;
+    QTest::newRow("xz, from above") << 0 << 2 << 1.F << -1.F;
+    QTest::newRow("yz, from the side") << 1 << 2 << -1.F << 1.F;
   }
   void aPlaneOfAnyTwoAxesIsSeenFlat() {
     QFETCH(int, first);
     QFETCH(int, second);
+    QFETCH(float, right);
+    QFETCH(float, up);
     const QSizeF view(640, 480);
     Point far = Point::Zero();
     far[first] = 4;
@@ -99,8 +103,8 @@ class CameraTest : public QObject {
     const QMatrix4x4 matrix = camera.toClip(view) * camera.toView();
     const QVector3D corner = matrix.map(QVector3D(0, 0, 0)),
                     opposite = matrix.map(QVector3D(far.x(), far.y(), far.z()));
-    QVERIFY(std::abs(corner.x() - opposite.x()) > 0.5F);
-    QVERIFY(std::abs(corner.y() - opposite.y()) > 0.5F);
+    QVERIFY(right * (opposite.x() - corner.x()) > 0.5F);
+    QVERIFY(up * (opposite.y() - corner.y()) > 0.5F);
     for (const QVector3D& place : {corner, opposite}) {
       QVERIFY(std::abs(place.x()) < 1 && std::abs(place.y()) < 1);
     }

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <QtTest>
 #include <map>
@@ -36,21 +37,36 @@ double volume_of(const Mesh& mesh) {
   return sum;
 }
 
+/// Returns the area of triangles in the plane; those that are clockwise count as negative.
+double facing(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point from = mesh.rest_position(a);
+    sum += (mesh.rest_position(b) - from).cross(mesh.rest_position(c) - from).z() / 2;
+  }
+  return sum;
+}
+
+/// Returns the edges from the first corner of a cell, as columns.
+Eigen::Matrix3d edges_of(const Mesh& mesh, const std::array<ElementId, 4>& cell) {
+  Eigen::Matrix3d edges;
+  for (int i = 0; i < 3; ++i) {
+    edges.col(i) = mesh.rest_position(cell[std::size_t(i) + 1]) - mesh.rest_position(cell[0]);
+  }
+  return edges;
+}
+
 /// The least ratio of volume to the cube of the longest edge, and the number of different ratios.
 std::pair<double, std::size_t> quality_of(const Mesh& mesh) {
   double least = 1;
   std::map<long, int> different;
   for (const auto& cell : mesh.tetrahedra) {
-    Eigen::Matrix3d edges;
     double longest = 0;
-    for (int i = 0; i < 3; ++i) {
-      edges.col(i) = mesh.rest_position(cell[std::size_t(i) + 1]) - mesh.rest_position(cell[0]);
-    }
     for (const auto& [a, b] : tetrahedron_edges) {
       const Point edge = mesh.rest_position(cell[std::size_t(a)]) - mesh.rest_position(cell[std::size_t(b)]);
       longest = std::max(longest, edge.norm());
     }
-    const double ratio = std::abs(edges.determinant()) / 6 / (longest * longest * longest);
+    const double ratio = std::abs(edges_of(mesh, cell).determinant()) / 6 / (longest * longest * longest);
     least = std::min(least, ratio);
     ++different[std::lround(1e9 * ratio)];
   }
@@ -87,7 +103,12 @@ void RefineTest::old_elements_keep_their_ids() {
 void RefineTest::the_volume_is_kept() {
   for (const MeshPointer& mesh : objects()) {
     const Refinement finer = refine(*mesh), finest = refine(*finer.mesh);
-    QVERIFY(std::abs(volume_of(*finest.mesh) / volume_of(*mesh) - 1) < 1e-12);  // and no cell is inverted
+    QVERIFY(std::abs(volume_of(*finest.mesh) / volume_of(*mesh) - 1) < 1e-12);
+    QVERIFY(std::abs(facing(*finest.mesh) - facing(*mesh)) < 1e-12);
+    for (std::size_t i = 0; i < finer.mesh->tetrahedra.size(); ++i) {  // no cell is inverted
+      const double part = edges_of(*finer.mesh, finer.mesh->tetrahedra[i]).determinant();
+      QVERIFY(std::abs(8 * part / edges_of(*mesh, mesh->tetrahedra[i / 8]).determinant() - 1) < 1e-9);
+    }
   }
 }
 

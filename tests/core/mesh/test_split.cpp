@@ -76,15 +76,24 @@ SplitPointer split_of(const MeshPointer& mesh, const Stroke& stroke) {
 /// Returns a line across a mesh, at an offset from its middle (pixels).
 Stroke line_across(double offset) { return {{-100, 45 + offset}, {300, 55 + offset}}; }
 
-double area(const Mesh& mesh, const std::array<ElementId, 3>& t) {
+/// Returns a vector as long as the area, to the side on which the corners are counterclockwise.
+Point facing(const Mesh& mesh, const std::array<ElementId, 3>& t) {
   const Point a = mesh.rest_position(t[0]);
-  return (mesh.rest_position(t[1]) - a).cross(mesh.rest_position(t[2]) - a).norm() / 2;
+  return (mesh.rest_position(t[1]) - a).cross(mesh.rest_position(t[2]) - a) / 2;
 }
+double area(const Mesh& mesh, const std::array<ElementId, 3>& t) { return facing(mesh, t).norm(); }
 
 double total_area(const Mesh& mesh) {
   double sum = 0;
   for (const auto& triangle : mesh.triangles) {
     sum += area(mesh, triangle);
+  }
+  return sum;
+}
+Point total_facing(const Mesh& mesh) {
+  Point sum = Point::Zero();
+  for (const auto& triangle : mesh.triangles) {
+    sum += facing(mesh, triangle);
   }
   return sum;
 }
@@ -116,6 +125,9 @@ std::string flaw_of(const Split& split) {
   }
   if (std::abs(total_area(after) - total_area(before)) > 1e-12 * total_area(before)) {
     return "the area has changed";
+  }
+  if ((total_facing(after) - total_facing(before)).norm() > 1e-12 * total_area(before)) {
+    return "triangles were turned over";
   }
   // Each of a few strokes through the same triangle may take its share.
   if (least_area(after) < 1e-6 * least_area(before)) {
