@@ -39,6 +39,8 @@ std::string name_of(const CalibrateArguments& arguments, const std::filesystem::
 }
 
 void calibrate_file(CalibrateArguments& arguments) {
+  arguments.mesh->options.read();
+  check_outputs({arguments.mesh->path()}, {arguments.preset, arguments.json});
   const MeshPointer mesh = open_mesh(*arguments.mesh).mesh;
   const std::filesystem::path path = arguments.mesh->path();
   const std::string object = printable(path.filename().string());

@@ -260,6 +260,21 @@ CLI::Option* add_mesh_target(CLI::App& app, const std::string& name) {
   return add_value(app, name, "FILE", "output file: " + mesh_endings(FormatUse::write))->required();
 }
 
+void check_outputs(const std::vector<std::string>& read, const std::vector<std::optional<std::string>>& paths) {
+  Outputs outputs;
+  std::ranges::for_each(read, [&](const std::string& input) { outputs.keep(input); });
+  for (const auto& path : paths) {
+    if (path) {
+      outputs.add(*path, [](std::ostream&) {});  // is never put in place
+    }
+  }
+}
+
+void check_mesh_output(const std::string& read, const std::string& target, const std::optional<std::string>& other) {
+  mesh_format(target, FormatUse::write);
+  check_outputs({read}, {target, other});
+}
+
 void add_mesh_file(Outputs& outputs, const std::string& read, const std::string& target, const MeshPointer& mesh,
                    const OwnSoftness& softness) {
   const MeshFormat& format = mesh_format(target, FormatUse::write);

@@ -239,6 +239,11 @@ void say_note(const std::string& words);
 CLI::Option* add_mesh_target(CLI::App& app, const std::string& name = "-o");
 /// Prints the flaws of a file on standard error, because the result may have other ids or fewer elements.
 void say_flaws(const OpenedMesh& opened);
+/// Throws Error if one of these files cannot be written, or is one of those that are read. Call this before any work.
+void check_outputs(const std::vector<std::string>& read, const std::vector<std::optional<std::string>>& paths);
+/// The same for the file of a mesh, which also needs a known ending, and another file.
+void check_mesh_output(const std::string& read, const std::string& target,
+                       const std::optional<std::string>& other = {});
 /// Adds a mesh file at rest to the outputs. The file that was read is protected.
 void add_mesh_file(Outputs& outputs, const std::string& read, const std::string& target, const MeshPointer& mesh,
                    const OwnSoftness& softness = {});

@@ -378,7 +378,7 @@ void compare(CompareArguments& arguments) {
     refuse_without("--against physics", arguments, only_physics);
   }
   complete(arguments);
-  OutputFolder folder(*arguments.output);
+  OutputFolder folder(*arguments.output, report_files);
   const std::vector<report::Case> cases = cases_of(arguments);
   report::Results results = watched("comparing", {}, [&](const Progress& progress) {
     return arguments.against_physics ? report::compare_with_physics(cases, arguments.how, progress)

@@ -26,12 +26,15 @@ struct CompareArguments {
   bool is_quick() const { return options.has("--quick"); }
 };
 
+/// The files of every report; it also has plots.
+inline const std::vector<std::string> report_files{"report.html", "report.json", "report.csv"};
+
 /// A folder for results. It is created if it is missing, and removed again if the results are not written.
 class OutputFolder {
  public:
-  /// Throws Error if the folder cannot be created, so that a wrong name is found before any long work. Does not create
-  /// it yet.
-  explicit OutputFolder(std::filesystem::path path);
+  /// Throws Error if the folder cannot be created, or if one of these files cannot be written into it, so that a wrong
+  /// name is found before any long work. Does not create it yet.
+  explicit OutputFolder(std::filesystem::path path, const std::vector<std::string>& files = {});
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   /// Removes the folders that were created, unless the files were written.

@@ -80,7 +80,7 @@ void run_suite(const CompareArguments& arguments) {
     options.calibrate = calibrator_for_reports(RelaxationScheme::mean);
   }
   const std::vector<std::string> experiments = experiments_of(arguments);
-  OutputFolder folder(*arguments.output);
+  OutputFolder folder(*arguments.output, report_files);
   if (needs_organ(experiments)) {
     options.organs = sample_organs();
   }
@@ -96,7 +96,7 @@ void merge_suites(const CompareArguments& arguments) {
   const std::vector<std::string> reports = arguments.meshes->results();
   require(!reports.empty(), "--merge", "the files are missing", "name the report.json of each part");
   add_bullet();
-  OutputFolder folder(*arguments.output);
+  OutputFolder folder(*arguments.output, report_files);
   std::vector<report::Results> parts;
   for (const std::string& file : reports) {
     const report::Results& part = parts.emplace_back(read_results(file));

@@ -11,7 +11,7 @@ Command add_convert(CLI::App& root) {
   const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail convert liver.msh -o liver.vtu");
   return {app, [mesh, target] {
-            mesh_format(*value_of(target), FormatUse::write);
+            check_mesh_output(mesh->path(), *value_of(target));
             const OpenedMesh opened = open_mesh(*mesh);
             say_flaws(opened);
             write_mesh_file(mesh->path(), *value_of(target), opened.mesh, opened.softness);
@@ -28,7 +28,7 @@ Command add_fill(CLI::App& root) {
   app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
   return {app, [=] {
             const std::string path = *value_of(mesh), name = shown(path);
-            mesh_format(*value_of(target), FormatUse::write);
+            check_mesh_output(path, *value_of(target));
             const OpenedMesh surface = open_mesh(path);
             say_flaws(surface);
             const auto length = value_of(edge);
@@ -53,10 +53,10 @@ Command add_simplify(CLI::App& root) {
       "closed; elements at the border of an open one stay where they are. Simplify before you fill.\n\n"
       "Example:\n  chainmail simplify scan.ply --elements 3000 -o coarse.ply");
   return {app, [=] {
-            mesh_format(*value_of(target), FormatUse::write);
+            const std::string path = mesh->path(), name = shown(path);
+            check_mesh_output(path, *value_of(target));
             const OpenedMesh opened = open_mesh(*mesh);
             say_flaws(opened);
-            const std::string path = mesh->path(), name = shown(path);
             write_mesh_file(
                 path, *value_of(target),
                 watched("simplifying " + name, {{"elements", "--elements"}, {"surface", name}},

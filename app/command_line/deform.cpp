@@ -65,19 +65,24 @@ void write_positions(std::ostream& out, const std::string& path, const Body& bod
   write_mesh(out, format, {body.mesh(), body.cuts(), body.positions(), body.softness()});
 }
 
+std::vector<std::string> inputs_of(const DeformArguments& arguments) {
+  std::vector<std::string> inputs{arguments.mesh->path()};
+  for (const auto& input : {arguments.softness, arguments.script}) {
+    inputs.insert(inputs.end(), input ? 1 : 0, input.value_or(""));
+  }
+  return inputs;
+}
+
 void write_results(const DeformArguments& arguments, Deformation& deformation) {
   const DeformSummary summary = deformation.summary();
-  std::vector<std::string> read{arguments.mesh->path()};
-  for (const auto& input : {arguments.softness, arguments.script}) {
-    read.insert(read.end(), input ? 1 : 0, input.value_or(""));
-  }
   write_outputs(
-      read, {{arguments.positions,
-              [&](std::ostream& out) { write_positions(out, *arguments.positions, deformation.simulation().body()); }},
-             {arguments.trace, [&](std::ostream& out) { write_trace_csv(out, deformation.traces()); }},
-             {arguments.json, [&](std::ostream& out) { write_json(out, summary); }},
-             {arguments.positions || arguments.trace || arguments.json ? std::nullopt : standard_output,
-              [&](std::ostream& out) { write_text(out, summary); }}});
+      inputs_of(arguments),
+      {{arguments.positions,
+        [&](std::ostream& out) { write_positions(out, *arguments.positions, deformation.simulation().body()); }},
+       {arguments.trace, [&](std::ostream& out) { write_trace_csv(out, deformation.traces()); }},
+       {arguments.json, [&](std::ostream& out) { write_json(out, summary); }},
+       {arguments.positions || arguments.trace || arguments.json ? std::nullopt : standard_output,
+        [&](std::ostream& out) { write_text(out, summary); }}});
   std::ranges::for_each(notes_of(summary), say_note);
 }
 
@@ -97,6 +102,7 @@ void complete(DeformArguments& arguments) {
   if (arguments.positions) {
     positions_format(*arguments.positions);
   }
+  check_outputs(inputs_of(arguments), {arguments.positions, arguments.trace, arguments.json});
 }
 
 /// Returns the softness of all links, and of those that have their own by their file or by that of the mesh.

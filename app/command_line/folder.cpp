@@ -38,7 +38,7 @@ std::set<std::string> plots_in(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+OutputFolder::OutputFolder(fs::path path, const std::vector<std::string>& files) : path_(std::move(path)) {
   require(!path_.empty(), "-o", "the folder's name is empty", "use the name of a folder");
   std::error_code error;
   fs::path there = path_;
@@ -49,6 +49,9 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   errno = 0;
   if (access(there.c_str(), W_OK | X_OK) != 0) {
     throw Error("-o", shown(there) + " cannot be written to (" + system_reason() + ")", "check its permissions");
+  }
+  for (const std::string& file : there == path_ ? files : std::vector<std::string>()) {
+    check_outputs({}, {path_ / file});
   }
 }
 
@@ -88,9 +91,9 @@ void OutputFolder::write(std::vector<OutputFile> files, const std::vector<std::s
 
 void OutputFolder::write_report(const report::Results& results, const std::vector<std::string>& read) {
   const auto plots = plots_of(results);
-  std::vector<OutputFile> files{{"report.html", [&](std::ostream& out) { write_html(out, results); }},
-                                {"report.json", [&](std::ostream& out) { write_json(out, results); }},
-                                {"report.csv", [&](std::ostream& out) { write_csv(out, results); }}};
+  std::vector<OutputFile> files{{report_files[0], [&](std::ostream& out) { write_html(out, results); }},
+                                {report_files[1], [&](std::ostream& out) { write_json(out, results); }},
+                                {report_files[2], [&](std::ostream& out) { write_csv(out, results); }}};
   for (const report::PlotFile& one : plots) {
     files.push_back({one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); }});
   }

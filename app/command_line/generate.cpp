@@ -37,6 +37,7 @@ void generate_to_file(GenerateArguments& arguments) {
   read_kind_and_size(arguments);
   const std::string path = *value_of(arguments.output), named = path == "-" ? "standard_output.dat" : path;
   const MeshFormat& format = mesh_format(named, FormatUse::write);
+  check_outputs({}, {path});
   const MeshPointer mesh =
       watched("generating a mesh", {{"size", "SIZE"}, {"spacing", "--spacing"}, {"space dimension", "--space"}},
               [&](const Progress& progress) { return generate(arguments.recipe, progress); });

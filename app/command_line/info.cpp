@@ -33,8 +33,9 @@ Command add_info(CLI::App& root) {
   const CLI::Option* json = add_value(*app, "--json", "FILE", "write JSON to this file instead");
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
-            const MeshSummary summary = summarize(contents_of(*mesh));
             const auto path = value_of(json);
+            check_outputs({mesh->path()}, {path});
+            const MeshSummary summary = summarize(contents_of(*mesh));
             write_outputs({mesh->path()}, {{path, [&](std::ostream& out) { write_json(out, summary); }},
                                            {path ? std::nullopt : standard_output,
                                             [&](std::ostream& out) { write_text(out, summary); }}});

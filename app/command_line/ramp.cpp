@@ -38,19 +38,14 @@ std::uint64_t largest_for_memory(std::uint64_t limit) {
 void run_ramp(RampArguments& arguments) {
   arguments.options.read();
   in_options({{"budget", "--budget"}, {"largest", "--largest"}}, [&] { check(arguments.how); });
+  check_outputs({}, {arguments.json, arguments.csv, arguments.svg});
   report::Results result;
-  std::vector<OutputFile> files{
+  const std::vector<OutputFile> files{
       {arguments.json, [&](std::ostream& out) { write_json(out, result); }},
       {arguments.csv, [&](std::ostream& out) { write_csv(out, result); }},
       {arguments.svg, [&](std::ostream& out) { write_svg(out, ramp_plot(result), report::file_ink); }},
       {free_output({arguments.json, arguments.csv, arguments.svg}),
        [&](std::ostream& out) { write_text(out, result); }}};
-  {  // if an output cannot be written, this fails before minutes of work
-    std::vector<OutputFile> trial = files;
-    std::ranges::for_each(trial, [](OutputFile& file) { file.writer = [](std::ostream&) {}; });
-    Outputs outputs;
-    add_files(outputs, trial);
-  }
   // The share does not count, because a ramp may end long before the largest grid.
   result = watched("running grids", {},
                    [&](const Progress& progress) { return report::ramp(arguments.how, progress.part(0, 0)); });

@@ -19,7 +19,7 @@ RepairOptions options_of(const Options& options, double tolerance) {
 
 void repair_file(const MeshArguments& mesh, double& tolerance, const std::string& target,
                  const std::optional<std::string>& json) {
-  mesh_format(target, FormatUse::write);
+  check_mesh_output(mesh.path(), target, json);
   const OpenedMesh opened = open_mesh(mesh);
   say_flaws(opened);
   require(!mesh.options.has("--holes") || !opened.mesh->has_cells(), "--holes",

@@ -9,7 +9,7 @@ namespace chainmail::test_outputs {
 
 using namespace chainmail::test;
 
-/// Tests the outputs of `chainmail deform`. It writes all of them or none.
+/// Tests the outputs of the subcommands: they are checked before any work, and all are written or none.
 class OutputsCommandTest : public QObject {
   Q_OBJECT
 
@@ -24,6 +24,8 @@ class OutputsCommandTest : public QObject {
   void a_dash_is_standard_output();
   void one_failing_output_leaves_all();
   void what_was_read_is_not_replaced();
+  void an_output_is_refused_before_any_work_data();
+  void an_output_is_refused_before_any_work();
   void a_full_device_is_status_1();
   void a_signal_leaves_no_temporary_folder();
 
@@ -129,6 +131,49 @@ void OutputsCommandTest::one_failing_output_leaves_all() {
     QCOMPARE(program_->read("a.csv"), QByteArray("old"));
     QCOMPARE(program_->files(), before);
   }
+}
+
+void OutputsCommandTest::an_output_is_refused_before_any_work_data() {
+  QTest::addColumn<QString>("where");
+  const auto row = [](const QByteArray& line, const char* where) { QTest::newRow(line) << where; };
+  constexpr const char* unknown = "a.xyz: the ending .xyz is not known; ";
+  constexpr const char* no_folder = "none/a.obj: its folder does not exist; ";
+  constexpr const char* is_input = "bad.obj: it is an input, and this output would replace it; ";
+  for (const QByteArray command : {"convert", "fill", "repair", "simplify --elements 9"}) {
+    row(command + " none.obj -o a.xyz", unknown);
+    row(command + " none.obj -o none/a.obj", no_folder);
+    row(command + " bad.obj -o bad.obj", is_input);
+  }
+  row("generate grid 100000x100000 -o a.xyz", unknown);  // more elements than a mesh may have
+  row("generate grid 100000x100000 -o none/a.obj", no_folder);
+  row("deform none.obj --algorithm exact --positions a.xyz", "--positions a.xyz: the ending .xyz is not known; ");
+  for (const QByteArray line :
+       {"repair none.obj -o a.obj --json", "info none.obj --json", "deform none.obj --algorithm exact --positions",
+        "deform none.obj --algorithm exact --trace", "deform none.obj --algorithm exact --json",
+        "calibrate none.obj -o", "calibrate none.obj --json", "ramp --json", "ramp --csv", "ramp --svg"}) {
+    row(line + " none/a.obj", no_folder);
+  }
+  for (const QByteArray line :
+       {"repair bad.obj -o a.obj --json", "info bad.obj --json", "deform bad.obj --algorithm exact --positions",
+        "deform cloth.obj --algorithm exact --softness bad.obj --trace",
+        "deform cloth.obj --algorithm exact --script bad.obj --json", "calibrate bad.obj -o"}) {
+    row(line + " bad.obj", is_input);
+  }
+  for (const QByteArray line : {"compare", "compare none.obj", "compare --against physics", "compare --suite",
+                                "compare --merge none.json", "compare --cases"}) {
+    row(line + " -o bad.obj", "-o: bad.obj is not a folder; ");
+    if (!line.endsWith("--cases")) {
+      row(line + " -o report", "report/report.csv: it is a folder; ");
+    }
+  }
+}
+
+/// The input does not exist or is not what it should be, which is found by work.
+void OutputsCommandTest::an_output_is_refused_before_any_work() {
+  QFETCH(QString, where);
+  program_->write("bad.obj", "0 2 1 3");
+  QVERIFY(QDir(program_->path(".")).mkpath("report/report.csv"));
+  check_refused(*program_, QTest::currentDataTag(), where);
 }
 
 void OutputsCommandTest::a_full_device_is_status_1() {
