@@ -19,6 +19,8 @@ class ConvertCommandTest : public QObject {
   void a_volume_is_taken_as_asked();
   void a_surface_is_simplified();
   void a_mesh_is_repaired();
+  void a_repair_alone_makes_no_other_data();
+  void a_repair_alone_makes_no_other();
   void what_a_format_does_not_hold_is_said();
   void the_file_that_was_read_is_not_replaced_data();
   void the_file_that_was_read_is_not_replaced();
@@ -34,6 +36,12 @@ const QByteArray tetrahedron = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n3 0 2 1\
 const QByteArray broken =
     "OFF\n11 11 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n0 0 0\n7 7 7\n3 3 0\n"
     "3 0 2 1\n3 8 3 2\n3 0 1 5\n3 8 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n3 1 2 10\n";
+
+/// Two tetrahedra with a common side, whose three corners are duplicates, and a loose point. The lower one lies on the
+/// wrong side of its first three corners.
+const QByteArray broken_solid =
+    "MeshVersionFormatted 2 Dimension 3 Vertices 9 0 0 0 1 1 0 0 1 0 1 0 1 0 0 1 1 0 0 0 1 0 0 -1 1 1 0 0 1 0 1 0 1 "
+    "5 5 5 1 Tetrahedra 2 1 2 3 4 1 5 7 8 6 1 End";
 
 const QByteArray volume =
     "ObjectType = Image\nNDims = 3\nDimSize = 4 1 1\nElementType = MET_UCHAR\nElementDataFile = "
@@ -107,6 +115,43 @@ void ConvertCommandTest::a_mesh_is_repaired() {
                                           {"inverted_cells", 0}}));
   QCOMPARE(program.json("a.json")["before"].toObject()["elements"].toInt(), 11);
   QCOMPARE(program.json("a.json")["after"].toObject()["elements"].toInt(), 9);
+}
+
+void ConvertCommandTest::a_repair_alone_makes_no_other_data() {
+  QTest::addColumn<QStringList>("mended");  // keys of the defects that are gone
+  QTest::addColumn<int>("elements");
+  const auto row = [](const char* line, const QStringList& mended, int elements) {
+    QTest::newRow(line) << mended << elements;
+  };
+  row("a.off --weld", {"duplicate_vertices"}, 10);
+  row("a.off --loose", {"loose_points"}, 10);
+  row("a.off --holes", {"holes", "hole_edges"}, 11);
+  row("a.off --cells", {}, 11);
+  row("a.off --weld --holes", {"duplicate_vertices", "holes", "hole_edges"}, 10);
+  row("a.off --loose --cells", {"loose_points"}, 10);
+  row("a.mesh --weld", {"duplicate_vertices"}, 6);
+  row("a.mesh --loose", {"loose_points"}, 8);
+  row("a.mesh --cells", {"inverted_cells"}, 9);
+  row("a.mesh --loose --cells", {"loose_points", "inverted_cells"}, 8);
+}
+
+void ConvertCommandTest::a_repair_alone_makes_no_other() {
+  QFETCH(QStringList, mended);
+  QFETCH(int, elements);
+  const Program program;
+  program.write("a.off", broken);
+  program.write("a.mesh", broken_solid);
+  const auto outcome = program.run("repair -o b.vtu --json a.json " + QByteArray(QTest::currentDataTag()));
+  QVERIFY2(outcome.code == 0, outcome.error);
+  const QJsonObject json = program.json("a.json"), after = json["after"].toObject();
+  QJsonObject expected = json["before"].toObject()["defects"].toObject();
+  for (const QString& defect : mended) {
+    QVERIFY(expected[defect].toInt() > 0);
+    expected[defect] = 0;
+  }
+  QCOMPARE(after["defects"].toObject(), expected);
+  QCOMPARE(after["elements"].toInt(), elements);
+  QCOMPARE(int(read_mesh(program.path("b.vtu").toStdString())->element_count()), elements);
 }
 
 void ConvertCommandTest::what_a_format_does_not_hold_is_said() {
