@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "body/body_view.h"
 #include "core/families.h"
 #include "equilibrium/link_energy.h"
 #include "measure/neighbour_regions.h"
@@ -46,6 +47,14 @@ std::unique_ptr<Deformer> at(const MeshPointer& mesh, const std::vector<double>&
   auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
   solver->body().set_positions(positions);
   return solver;
+}
+
+/// Two elements at one position, and a third 8 away: the mean rest length is 4.
+MeshPointer with_link_without_length() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {0, 0, 0}, {8, 0, 0}};
+  parts.links = {{0, 1}, {1, 2}};
+  return build_mesh(std::move(parts));
 }
 
 bool close(double value, double expected) { return std::abs(value - expected) <= rounding; }
@@ -181,13 +190,12 @@ void ViolationTest::what_is_no_number_is_violated() {
 }
 
 void ViolationTest::of_a_link_without_length() {
-  // Two elements at one position, and a third 2 away: the mean rest length is 1.
-  MeshParts parts;
-  parts.rest = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}};
-  parts.links = {{0, 1}, {1, 2}};
-  const auto mesh = build_mesh(std::move(parts));
-  const auto solver = at(mesh, {0, 0.5, 2.5});
-  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.5));
+  const auto mesh = with_link_without_length();
+  const auto solver = at(mesh, {0, 0.5, 8.5});
+  QVERIFY(close(link_violation(*mesh, {}, solver->body().positions(), 0), 0.5 / 4));
+  QCOMPARE(measure_violation(*mesh, {}, solver->body().cuts(), solver->body().positions()).max, 0.5 / 4);
+  const double zero = 0, half = 0.5;
+  QCOMPARE(candidate_violation(*mesh, 1, &half, 0, &zero, Region<double, 1>{{0}, {0}}), 0.5 / 4);
 }
 
 void ViolationTest::counts_from_1e_4_on() {
@@ -252,16 +260,19 @@ void ViolationTest::corotated_energy_by_hand() {
 }
 
 void ViolationTest::weights_of_a_link_without_length() {
-  // Two elements at one position, and a third 2 away: the mean rest length is 1.
-  MeshParts parts;
-  parts.rest = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}};
-  parts.links = {{0, 1}, {1, 2}};
-  const auto mesh = build_mesh(std::move(parts));
+  const auto mesh = with_link_without_length();
   const Softness softness{{0.8, 1.2, 0.1, 0.25, 3, -2}, {}};
   QCOMPARE(link_weights(*mesh, softness, 0).axial, 0.0);
-  QCOMPARE(link_weights(*mesh, softness, 0).lateral, 0.75);
-  QCOMPARE(link_weights(*mesh, softness, 1).axial, 0.75);
-  QCOMPARE(link_weights(*mesh, softness, 1).lateral, 0.1875);
+  QCOMPARE(link_weights(*mesh, softness, 0).lateral, 3 / 16.0 / 4);
+  QCOMPARE(link_weights(*mesh, softness, 1).axial, 3 / 64.0);
+  QCOMPARE(link_weights(*mesh, softness, 1).lateral, 3 / 64.0 / 4);
+  // The first link is pulled to 2, the second shortened by 1.
+  const auto solver = at(mesh, {0, 2, 9});
+  for (const EnergyKind kind : {EnergyKind::axial, EnergyKind::corotated}) {
+    const double energy =
+        elastic_energy(*mesh, {softness.global, {}, kind}, solver->body().cuts(), solver->body().positions());
+    QVERIFY(close(energy, (4 * 3 / 64.0 + (3 + 0.75) / 64.0) / 2));
+  }
 }
 
 void ViolationTest::displacement_by_hand() {
