@@ -254,8 +254,23 @@ void WorldTest::divided_cells_share_their_sides() {
 }
 
 void WorldTest::strips_face_one_way() {
-  // The first triangle of the file looks inward, so all do.
-  QVERIFY(is_close(enclosed_by(*open_mesh(world("strip.vtk")).mesh), -1.0 / 6));
+  struct Strip {
+    const char* file;
+    double volume;  // with the sign that the corners of the first triangle give it
+    Point area;     // sum of the areas as vectors
+  };
+  for (const auto& [file, volume, area] :
+       {Strip{"strip.vtk", -1.0 / 6, Point::Zero()}, Strip{"strips.vtp", -1.0 / 6, Point::Zero()},
+        Strip{"strips.ply", 0, Point(0, 0, -1.5)}}) {
+    const auto mesh = open_mesh(world(file)).mesh;
+    Point sum = Point::Zero();
+    for (const auto& [a, b, c] : mesh->triangles) {
+      const Point at = mesh->rest_position(a);
+      sum += (mesh->rest_position(b) - at).cross(mesh->rest_position(c) - at) / 2;
+    }
+    QVERIFY2(is_close(enclosed_by(*mesh), volume), file);
+    QVERIFY2((sum - area).norm() < 1e-12, file);
+  }
 }
 
 void WorldTest::mirrored_cells_are_positive() {
