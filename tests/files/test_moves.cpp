@@ -1,5 +1,6 @@
 #include <QTemporaryDir>
 #include <QtTest>
+#include <cmath>
 #include <ctime>
 
 #include "core/allocations.h"
@@ -22,6 +23,7 @@ class MovesTest : public QObject {
   void a_handle_of_many_is_read();
   void what_is_written_reads_back();
   void splits_are_written_and_read();
+  void what_is_known_of_the_object_follows_a_split();
   void splits_that_do_not_fit_are_refused_data();
   void splits_that_do_not_fit_are_refused();
   void a_drag_after_a_split_needs_a_grab();
@@ -173,6 +175,31 @@ void MovesTest::splits_are_written_and_read() {
   QCOMPARE(twice.str(), out.str());
 }
 
+/// A rectangle of 2 by 1 with copies of two opposite corners: its spreads are 6 and 1.5, mixed 1.
+void MovesTest::what_is_known_of_the_object_follows_a_split() {
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+  parts.triangles = {{0, 1, 2}, {0, 2, 3}};
+  add_links_along_edges(parts);
+  const MeshPointer mesh = build_mesh(std::move(parts));
+  const std::string softness =
+      R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "object"}})";
+  const std::string split =
+      R"({"do": "split", "elements": [[0, 0, 0, 0, 0], [2, 2, 2, 0, 0]], "removed": [1], "triangles": [[4, 5, 3]]})";
+  const auto read = [&](const std::string& commands) {
+    return read_moves(with_commands(commands), std::filesystem::path("m.json"), mesh);
+  };
+  const auto moves = read(softness + ", " + split + ", " + softness);
+  const auto axes = [&](std::size_t i) { return std::get<commands::SetSoftness>(moves[i]).softness->axes; };
+  QVERIFY(axes(0).kind() == AxesKind::object && axes(2).kind() == AxesKind::object);
+  QCOMPARE(axes(0).rotation(), Point(0, 0, 0));
+  QVERIFY((axes(2).rotation() - Point(0, 0, std::atan2(2 * 1, 6 - 1.5) / 2)).norm() < 1e-12);
+  // The copy of a pinned element is pinned.
+  const std::string pin = R"({"do": "pin", "elements": [0]}, )", grab = R"(, {"do": "grab", "element": )";
+  QVERIFY(error_of([&] { read(pin + split + grab + "4}"); }).startsWith("m.json: command 2: element 4 is pinned "));
+  QCOMPARE(error_of([&] { read(pin + split + grab + "5}"); }), QString());
+}
+
 void MovesTest::splits_that_do_not_fit_are_refused_data() {
   QTest::addColumn<QString>("command");
   QTest::addColumn<QString>("sentence");
@@ -202,7 +229,6 @@ void MovesTest::splits_that_do_not_fit_are_refused() {
   QVERIFY2(error.startsWith(sentence), qPrintable(error));
 }
 
-/// A simulation would refuse it, too: the handle was of the object before.
 /// Each split keeps a mesh: what counts are the elements, links and triangles of all of them.
 void MovesTest::many_splits_are_refused_before_they_take_memory() {
   const auto mesh = made(MeshKind::cloth, {300, 300, 1});
@@ -223,6 +249,7 @@ void MovesTest::many_splits_are_refused_before_they_take_memory() {
   QVERIFY(max_bytes_held - before < 1'000'000);
 }
 
+/// A simulation would refuse it, too: the handle was of the object before.
 void MovesTest::a_drag_after_a_split_needs_a_grab() {
   const std::string split =
       R"({"do": "split", "elements": [[0, 0, 0, 0, 0], [2, 2, 2, 0, 0]], "removed": [1], "triangles": [[4, 5, 3]]})";
