@@ -1,7 +1,11 @@
+#include <Eigen/Geometry>
 #include <QtTest>
+#include <algorithm>
+#include <numbers>
 
 #include "core/simulations.h"
 #include "equilibrium/link_energy.h"
+#include "mesh/layers.h"
 #include "mesh/parts.h"
 #include "program.h"
 
@@ -21,6 +25,8 @@ class SimulationTest : public QObject {
   void after_release_a_drag_has_nothing_to_move();
   void new_softness_acts_at_once_under_load();
   void new_softness_at_rest_moves_nothing();
+  void a_turned_handle_stays_whatever_is_set_data();
+  void a_turned_handle_stays_whatever_is_set();
   void the_algorithm_may_change_midway();
   void cut_and_uncut();
   void reset_keeps_cuts_and_softness();
@@ -112,6 +118,61 @@ void SimulationTest::new_softness_at_rest_moves_nothing() {
   carry_out(simulation, commands::SetSoftness{{{1, 1, 0}, {}}});
   QVERIFY(same_bits(before, positions_of(simulation)));
   QVERIFY(simulation.softness() == (Softness{{1, 1, 0}, {}}));
+}
+
+void SimulationTest::a_turned_handle_stays_whatever_is_set_data() {
+  QTest::addColumn<Algorithm>("algorithm");
+  QTest::newRow("ChainMail") << Algorithm::natural_queue;
+  QTest::newRow("elasticity") << Algorithm::linear_fem;
+}
+
+/// A side of a solid is turned by 60° and held while everything else is set, and then in another simulation. Only the
+/// equilibrium may move what is held, to make the links around it valid.
+void SimulationTest::a_turned_handle_stays_whatever_is_set() {
+  QFETCH(Algorithm, algorithm);
+  const auto mesh = make_mesh(MeshKind::tetra, {4, 3, 3});
+  const std::vector<ElementId> handle = layer(*mesh, *find_side("right"));
+  const Point by(0.5, -0.25, 0.125), pivot(3, 1, 1);
+  Simulation simulation(mesh, algorithm, Precision::double_precision);
+  carry_out(simulation, commands::Pin{layer(*mesh, *find_side("left"))});
+  carry_out(simulation, commands::Grab{handle});
+  carry_out(simulation, commands::Drag{by, {Point(1, 2, 2), 60}, true});
+  const Eigen::AngleAxisd turn(std::numbers::pi / 3, Point(1, 2, 2) / 3);
+  const auto stays = [&](const Simulation& one) {
+    return std::ranges::all_of(handle, [&](ElementId e) {
+      return (position_of(one, e) - (pivot + by + turn * (mesh->rest_position(e) - pivot))).norm() < 1e-12;
+    });
+  };
+  QVERIFY(stays(simulation));
+  const Softness soft{{0.5, 1.5, 0.25}, {}};
+  const Algorithm other = algorithm == Algorithm::linear_fem ? Algorithm::natural_queue : Algorithm::linear_fem;
+  const std::vector<Command> commands{
+      commands::SetSoftness{soft},
+      commands::SetSoftness{{soft.global, {{0, {1, 1, 0}}}, EnergyKind::material}},
+      commands::SetSoftness{{soft.global, {}, standard_energy, {AxesKind::given, Point(0.1, 0.2, 0.3)}}},
+      commands::SetElastic{{{2, 0.25}}},
+      commands::SetAlgorithm{other},
+      commands::SetElastic{{{3, 0.4}}},
+      commands::SetSoftness{},
+      commands::Cut{{0, 1}},
+      commands::Uncut{{0, 1}},
+      commands::Pin{{1}},
+      commands::Unpin{{1}},
+      commands::Relax{3},
+      commands::SetRelaxation{true}};
+  for (const Command& command : commands) {
+    carry_out(simulation, command);
+    QVERIFY2(stays(simulation), qPrintable(QString("command of kind %1").arg(command.index())));
+  }
+  for (int slice = 0; slice < 3; ++slice) {
+    simulation.continue_relaxation();
+  }
+  QVERIFY(stays(simulation));
+  Simulation heir(mesh, algorithm, Precision::double_precision);
+  heir.take(simulation.hand_over(), algorithm);
+  carry_out(heir, commands::SetSoftness{soft});
+  carry_out(heir, commands::SetElastic{{{2, 0.25}}});
+  QVERIFY(stays(heir));
 }
 
 void SimulationTest::the_algorithm_may_change_midway() {
