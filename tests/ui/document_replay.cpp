@@ -4,7 +4,9 @@
 #include <QTest>
 
 #include "document/edits.h"
+#include "document/lesson_player.h"
 #include "document_bench.h"
+#include "files/session/session.h"
 #include "mesh/generate.h"
 #include "program.h"
 
@@ -39,6 +41,7 @@ class DocumentReplayTest : public QObject {
   void a_replay_gives_identical_bits();
   void a_drag_continues_from_an_earlier_position();
   void a_move_goes_to_idle_solvers_at_once();
+  void a_step_of_a_lesson_ends_after_its_relaxation();
 
  private:
   const MeshPointer mesh_ = generate({MeshKind::grid, {9, 7, 1}, 1, {}});
@@ -107,6 +110,70 @@ void DocumentReplayTest::a_move_goes_to_idle_solvers_at_once() {
   QCOMPARE(position_of(document, 1, 31), Point(4, 6, 0));
   QCOMPARE(history.length(), recorded + 1);
   document.handle().release();
+}
+
+/// The last command of each step relaxes. Each panel has the state of a simulation of its own after the step's
+/// commands.
+void DocumentReplayTest::a_step_of_a_lesson_ends_after_its_relaxation() {
+  constexpr std::array algorithms{Algorithm::natural_queue, Algorithm::exact};
+  const auto slices = std::make_shared<commands::SliceCounts>(algorithms.size());
+  slices->note(0, algorithms[0], 4);
+  slices->note(1, algorithms[1], 7);
+  const auto session = std::make_shared<Session>();
+  session->mesh = mesh_;
+  session->softness = std::make_shared<const Softness>();
+  for (const Algorithm algorithm : algorithms) {
+    session->panels.push_back({algorithm, Precision::single_precision, {}});
+  }
+  session->moves = {commands::Pin{{0, 9}},
+                    commands::Grab{31},
+                    commands::Drag{{1.5, 2, 0}, {}, true},
+                    commands::Relax{5},
+                    commands::Drag{{3, 1, 0}, {}, true},
+                    commands::Release{},
+                    commands::Relax{20, 1, RelaxationScheme::equilibrium},
+                    commands::Grab{62},
+                    commands::Drag{{-1, 2, 0}, {}, true},
+                    commands::Relaxed{RelaxationScheme::link, 0.5, commands::Relaxed::Start::awake, slices}};
+  session->lesson = {"a", {{"rest", "b", 0}, {"held", "c", 4}, {"released", "d", 7}, {"idle", "e", 10}}};
+  const auto shapes_after = [&](std::size_t moves) {
+    Shapes shapes;
+    for (std::size_t panel = 0; panel < algorithms.size(); ++panel) {
+      Simulation simulation(mesh_, algorithms[panel], Precision::single_precision);
+      for (Command command : std::span(session->moves).first(moves)) {
+        if (auto* relaxed = std::get_if<commands::Relaxed>(&command)) {
+          relaxed->panel = panel;
+        }
+        simulation.apply(command);
+      }
+      std::vector<double> positions(mesh_->rest.size());
+      simulation.body().copy_positions(std::span(positions));
+      shapes.emplace_back(positions.begin(), positions.end());
+    }
+    return shapes;
+  };
+  Document document(mesh_, QStringLiteral("sheet"));
+  Propagation propagation(document);
+  LessonPlayer player(document, propagation);
+  edits::restore(document, session, {}, QStringLiteral("open"));
+  const auto shows = [&](std::size_t step) {
+    return QTest::qWaitFor([&] { return !player.plays() && document.solvers().settled(); }, longest_wait) &&
+           player.step() == step && shapes_of(document) == shapes_after(player.lesson().steps[step].until);
+  };
+  for (std::size_t step = 1; step < 4; ++step) {
+    QVERIFY(shapes_after(player.lesson().steps[step].until - 1) != shapes_after(player.lesson().steps[step].until));
+    player.next();  // plays the step
+    QVERIFY2(shows(step), qPrintable(QStringLiteral("played, step %1").arg(step)));
+  }
+  for (std::size_t step = 3; step-- > 0;) {
+    player.back();
+    QVERIFY2(shows(step), qPrintable(QStringLiteral("back to step %1").arg(step)));
+  }
+  for (std::size_t step = 1; step < 4; ++step) {
+    player.next();
+    player.next();  // goes to its end at once
+    QVERIFY2(shows(step), qPrintable(QStringLiteral("skipped, step %1").arg(step)));
+  }
 }
 
 CHAINMAIL_TEST(DocumentReplayTest)
