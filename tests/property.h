@@ -30,6 +30,28 @@ inline rc::detail::TestParams drawn_parameters() {
 /// Drawn before main: later, a thread of Qt Test reads the environment.
 inline const rc::detail::TestParams drawn_once = drawn_parameters();
 
+/// Checks a property on inputs that these parameters draw, and prints the result. `inputs` describes them.
+template <class Property>
+bool check_with(const rc::detail::TestParams& parameters, const std::string& sentence, const Property& property,
+                const std::string& inputs) {
+  // RapidCheck's own listener prints how to repeat a single input, but our tests cannot do that.
+  rc::detail::TestListenerAdapter silent;
+  const auto result =
+      rc::detail::checkTestable(property, rc::detail::TestMetadata{sentence, sentence}, parameters, silent);
+  std::cerr << "- " << sentence << " (" << inputs << ")\n";
+  rc::detail::printResultMessage(result, std::cerr);
+  std::cerr << std::endl;
+  return result.template is<rc::detail::SuccessResult>();
+}
+
+/// Checks once what draws nothing, but uses RC_ASSERT.
+template <class Property>
+bool check_once(const std::string& sentence, const Property& property) {
+  rc::detail::TestParams once;
+  once.maxSuccess = 1;
+  return check_with(once, sentence, property, "once");
+}
+
 /// Checks a property, which uses RC_ASSERT, on random inputs: on the same 50 in every run, then on 50 new ones. The
 /// line above a result shows how to repeat the new ones. CHAINMAIL_EXPLORE=40 draws 40 times as many new ones, as the
 /// long run does. `inputs`: fewer than 50, for inputs that take long.
@@ -45,20 +67,8 @@ bool check_property(const std::string& sentence, const Property& property, int i
   }
   const std::string repeat = "explored inputs, repeated by RC_PARAMS=\"seed=" + std::to_string(explored.seed) +
                              " max_success=" + std::to_string(explored.maxSuccess) + "\"";
-  // RapidCheck's own listener prints how to repeat a single input, but our tests cannot do that.
-  rc::detail::TestListenerAdapter silent;
-  for (const auto& [parameters, inputs] :
-       {std::pair(fixed, std::string("inputs of every run")), std::pair(explored, repeat)}) {
-    const auto result =
-        rc::detail::checkTestable(property, rc::detail::TestMetadata{sentence, sentence}, parameters, silent);
-    std::cerr << "- " << sentence << " (" << inputs << ")\n";
-    rc::detail::printResultMessage(result, std::cerr);
-    std::cerr << std::endl;
-    if (!result.template is<rc::detail::SuccessResult>()) {
-      return false;
-    }
-  }
-  return true;
+  return check_with(fixed, sentence, property, "inputs of every run") &&
+         check_with(explored, sentence, property, repeat);
 }
 
 }  // namespace chainmail::test

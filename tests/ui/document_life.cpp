@@ -10,7 +10,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "core/families.h"
+#include "core/invariants.h"
 #include "document/document.h"
 #include "document/edits.h"
 #include "document/element_facts.h"
@@ -220,10 +220,63 @@ bool answers_again(Kind kind) {
          kind == Kind::change_material;
 }
 
+/// What the solver of a panel has.
+struct PanelFacts {
+  explicit PanelFacts(const Simulation& now) : object(now), statistics(now.statistics()) {}
+
+  ObjectFacts object;
+  Statistics statistics;
+};
+
+PanelFacts facts_of(Document& document, int panel) {
+  std::promise<PanelFacts> answer;
+  document.solvers().ask(panel, [&](const Simulation& now) { answer.set_value(PanelFacts(now)); });
+  return answer.get_future().get();
+}
+
+/// A move of a handle in a drag.
+struct Motion {
+  std::vector<ElementId> elements;
+  Point by = Point::Zero();
+  double degrees = 0;  // about z
+};
+
+/// Returns what cannot be right with an object in a panel. `motion`: of the drag that was just done, if it was one.
+std::string flaw_of(const Document& document, int panel, const ObjectFacts& facts, const Motion* motion) {
+  const AlgorithmInfo& algorithm = info(document.algorithm(panel));
+  constexpr double rounding = 1e-3;  // of positions in single precision (mesh units)
+  if (facts.mesh != document.mesh() || !std::ranges::equal(facts.pins, document.pins())) {
+    return facts.mesh == document.mesh() ? "pins" : "mesh";
+  }
+  if (document.parts() != LinkedParts(*facts.mesh, facts.cuts).count()) {
+    return "parts";
+  }
+  // Turned axes of an object in space are not about z.
+  const bool holds = motion != nullptr && algorithm.holds_links && !facts.softness->axes.is_turned();
+  return holds && facts.largest_excess({motion->elements.begin(), motion->elements.end()}) > rounding
+             ? "a link outside its region"
+             : "";
+}
+
+/// Returns true if the elements of a drag are where its motion takes them.
+bool has_arrived(const Motion& motion, const ObjectFacts& before, const ObjectFacts& after) {
+  std::vector<ElementId> moved = motion.elements;
+  std::erase_if(moved, [&](ElementId e) { return before.pins.contains(e); });
+  Point pivot = Point::Zero();
+  for (const ElementId e : moved) {
+    pivot += before.positions[e] / double(moved.size());
+  }
+  return std::ranges::all_of(moved, [&](ElementId e) {
+    const Point to = pivot + motion.by + turned_about_z(before.positions[e] - pivot, motion.degrees);
+    return (after.positions[e] - to).norm() <= 1e-4;
+  });
+}
+
 /// A document, and what it looked like after each step that it can undo.
 class Life {
  public:
-  Life() : document_(std::make_unique<Document>(meshes()[0], QStringLiteral("first"))) {
+  explicit Life(const MeshPointer& mesh = meshes()[0])
+      : document_(std::make_unique<Document>(mesh, QStringLiteral("first"))) {
     remember(observed(*document_));
   }
 
@@ -236,11 +289,15 @@ class Life {
     }
   }
 
-  void act(const Action& action) {
-    const DocumentState before = observed(*document_);
+  /// Carries out an action. With `compares`, a document that is made from the session does so, too.
+  void act(const Action& action, bool compares = true) {
     Prefix prefix;
-    auto fresh = renewed(prefix);
-    check(observed(*fresh, prefix), before, "made from the session");
+    std::unique_ptr<Document> fresh;
+    if (compares || action.kind == Kind::restart) {
+      const DocumentState before = observed(*document_);
+      fresh = renewed(prefix);
+      check(observed(*fresh, prefix), before, "made from the session");
+    }
     if (action.kind == Kind::undo || action.kind == Kind::redo) {
       return travel(action.kind == Kind::undo);
     }
@@ -251,9 +308,11 @@ class Life {
     }
     forget_undone();
     const auto step = step_of(action);
-    const QStringList said = carried_out(*document_, step, 0);
+    const Asked asked(*this, action);
+    const QStringList said = carried_out(*document_, step, 0, compares);
     const DocumentState after = observed(*document_);
-    if (action.kind != Kind::relax) {  // sweeps in idle time: their number differs
+    asked.check();
+    if (compares && action.kind != Kind::relax) {  // sweeps in idle time: their number differs
       RC_ASSERT(carried_out(*fresh, step, prefix.in(fresh->moves().history())).isEmpty() == said.isEmpty());
       check(observed(*fresh, prefix), after, "after the same step", !answers_again(action.kind));
     }
@@ -261,6 +320,18 @@ class Life {
       states_.clear();
     }
     remember(after);
+  }
+
+  /// Undoes everything, and does it again.
+  void travel_through() {
+    document_->handle().end();
+    const int done = document_->undoStack().index();
+    while (document_->undoStack().canUndo()) {
+      travel(true);
+    }
+    while (document_->undoStack().index() < done) {
+      travel(false);
+    }
   }
 
  private:
@@ -292,7 +363,8 @@ class Life {
     return fresh;
   }
 
-  static QStringList carried_out(Document& document, const Step& step, std::size_t skip) {
+  /// Returns what the document said. With `frames`, that includes refusals by the solvers, which come with frames.
+  static QStringList carried_out(Document& document, const Step& step, std::size_t skip, bool frames = true) {
     QStringList said;
     QObject context;
     const auto listen = [&](const QString& sentence) { said << sentence; };
@@ -300,7 +372,7 @@ class Life {
     QObject::connect(&document, &Document::noticed, &context, listen);
     QObject::connect(&document, &Document::unpinned, &context, [&](int panel) { said << QString::number(panel); });
     step(document, skip);
-    RC_ASSERT(has_done_all(document, true));  // a refusal comes with a frame
+    RC_ASSERT(has_done_all(document, frames));
     return said;
   }
 
@@ -343,8 +415,25 @@ class Life {
     states_ = std::move(kept);
   }
 
+  /// What an action asks for, by its own numbers.
+  class Asked {
+   public:
+    Asked(const Life& life, const Action& action);
+    /// Call this after the action.
+    void check() const;
+
+   private:
+    void check_panel(int panel) const;
+
+    Document& document_;
+    Action action_;
+    Motion motion_;
+    std::vector<PanelFacts> before_;  // one for each panel
+  };
+
   Step step_of(const Action& action) const;
-  Step drag_of(std::vector<ElementId> elements, const Action& action) const;
+  Motion motion_of(const Action& action) const;
+  Step drag_of(const Action& action) const;
   // Each returns the step of an action of its kinds, and none for others.
   Step handle_step(const Action& action) const;
   Step object_step(const Action& action) const;
@@ -357,18 +446,29 @@ class Life {
   std::map<const QUndoCommand*, DocumentState> states_;  // by the last step that was done; null: before the first one
 };
 
-Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) const {
+Motion Life::motion_of(const Action& action) const {
   const Mesh& mesh = *document_->mesh();
-  Point by = Point::Zero();
-  by[mesh.axes[0]] = action.x / 8.0;
-  if (mesh.space_dimension > 1) {
-    by[mesh.axes[1]] = action.y / 8.0;
+  const ElementId count = mesh.element_count(), element = action.which % count;
+  Motion motion{{element}};
+  if (action.kind == Kind::drag_many) {
+    motion.elements.push_back((element + 1 + action.how % 3) % count);
   }
-  const bool turns = elements.size() > 1 && mesh.space_dimension > 1 && action.how % 3 == 0;
-  const Rotation rotation = turns ? Rotation{Point(0, 0, 1), 15} : Rotation();
+  motion.by[mesh.axes[0]] = action.x / 8.0;
+  if (mesh.space_dimension > 1) {
+    motion.by[mesh.axes[1]] = action.y / 8.0;
+  }
+  const bool turns = motion.elements.size() > 1 && mesh.space_dimension > 1 && action.how % 3 == 0;
+  motion.degrees = turns ? 15 : 0;
+  return motion;
+}
+
+Life::Step Life::drag_of(const Action& action) const {
+  const Motion motion = motion_of(action);
+  const Point by = motion.by;
+  const Rotation rotation = motion.degrees != 0 ? Rotation{Point(0, 0, 1), motion.degrees} : Rotation();
   const Kind kind = action.kind;
   return [=](Document& document, std::size_t) {
-    document.handle().grab(elements);
+    document.handle().grab(motion.elements);
     document.handle().dragBy(by / 2);
     RC_ASSERT(has_done_all(document));
     document.handle().dragBy(by, rotation);
@@ -382,14 +482,13 @@ Life::Step Life::drag_of(std::vector<ElementId> elements, const Action& action) 
 }
 
 Life::Step Life::handle_step(const Action& action) const {
-  const ElementId count = document_->mesh()->element_count(), element = action.which % count;
+  const ElementId element = action.which % document_->mesh()->element_count();
   switch (action.kind) {
     case Kind::drag:
     case Kind::drag_and_keep:
     case Kind::cancel_drag:
-      return drag_of({element}, action);
     case Kind::drag_many:
-      return drag_of({element, (element + 1 + action.how % 3) % count}, action);
+      return drag_of(action);
     case Kind::select:
       return [=](Document& d, std::size_t) { d.selection().set({element}); };
     default:
@@ -558,6 +657,80 @@ Life::Step Life::step_of(const Action& action) const {
   RC_FAIL("a kind without a step");
 }
 
+Life::Asked::Asked(const Life& life, const Action& action)
+    : document_(*life.document_), action_(action), motion_(life.motion_of(action)) {
+  for (int panel = 0; panel < document_.panels(); ++panel) {
+    before_.push_back(facts_of(document_, panel));
+  }
+}
+
+void Life::Asked::check() const {
+  const int before = int(before_.size()), step = action_.kind == Kind::add_panel      ? 1
+                                                 : action_.kind == Kind::remove_panel ? -1
+                                                                                      : 0;
+  if (action_.kind != Kind::reload) {
+    RC_ASSERT(document_.panels() == std::clamp(before + step, Document::minPanels, Document::maxPanels));
+  }
+  if (action_.kind == Kind::select) {
+    RC_ASSERT(document_.selection().elements() ==
+              std::vector<ElementId>{action_.which % document_.mesh()->element_count()});
+  }
+  if (action_.kind == Kind::replace_mesh) {
+    RC_ASSERT(document_.mesh() == meshes()[action_.which % meshes().size()]);
+  }
+  if (action_.kind == Kind::pin || action_.kind == Kind::unpin) {
+    RC_ASSERT(isPinned(document_, action_.which % document_.mesh()->element_count()) == (action_.kind == Kind::pin));
+  }
+  for (int panel = 0; panel < std::min(before, document_.panels()); ++panel) {
+    check_panel(panel);
+  }
+}
+
+void Life::Asked::check_panel(int panel) const {
+  const PanelFacts &was = before_[std::size_t(panel)], now = facts_of(document_, panel);
+  const ObjectFacts &before = was.object, &after = now.object;
+  const bool drags =
+      action_.kind == Kind::drag || action_.kind == Kind::drag_many || action_.kind == Kind::drag_and_keep;
+  // Exact may stop on the way, and says so only while it holds the handle.
+  const bool may_stop = action_.kind == Kind::drag_and_keep ? now.statistics.last_pass.stopped
+                                                            : info(document_.algorithm(panel)).holds_links &&
+                                                                  (!before.pins.empty() || motion_.degrees != 0);
+  // A drag is two passes, unless it is refused.
+  const bool has_answer = drags && now.statistics.passes == was.statistics.passes + 2 && now.statistics.remark.empty();
+  RC_LOG() << "panel " << panel << ", " << info(document_.algorithm(panel)).name << ", " << action_ << '\n';
+  RC_ASSERT(flaw_of(document_, panel, after, has_answer ? &motion_ : nullptr) == std::string());
+  RC_ASSERT(!has_answer || may_stop || has_arrived(motion_, before, after));
+  if (action_.kind == Kind::cut) {
+    std::set<Ends> cuts = before.cuts;
+    for (const std::uint32_t link : {action_.which, action_.how}) {
+      cuts.insert(before.mesh->links[link % before.mesh->link_count()]);
+    }
+    RC_ASSERT(after.cuts == cuts);
+  }
+  if (action_.kind == Kind::split && can_split(*before.mesh)) {
+    RC_ASSERT(after.mesh->element_count() == before.mesh->element_count() + 1);
+    RC_ASSERT(after.mesh->link_count() == before.mesh->link_count() + 3);
+  }
+  const bool only_looks = action_.kind == Kind::cut || action_.kind == Kind::pin || action_.kind == Kind::select ||
+                          action_.kind == Kind::set_relaxation || action_.kind == Kind::unpin;
+  for (ElementId e = 0; only_looks && e < before.positions.size(); ++e) {
+    RC_ASSERT(after.positions[e] == before.positions[e]);
+  }
+}
+
+/// Returns the kinds in an order in which each comes after each, also after itself.
+std::vector<Kind> each_after_each() {
+  std::vector<Kind> order;
+  for (int i = 0; i < int(Kind::count); ++i) {
+    order.push_back(Kind(i));
+    for (int k = i + 1; k < int(Kind::count); ++k) {
+      order.insert(order.end(), {Kind(i), Kind(k)});
+    }
+  }
+  order.push_back(order.front());
+  return order;
+}
+
 }  // namespace
 
 class DocumentLifeTest : public QObject {
@@ -565,6 +738,7 @@ class DocumentLifeTest : public QObject {
 
  private slots:
   void it_is_always_what_its_session_holds();
+  void after_any_two_steps_it_is_what_they_say();
 };
 
 void DocumentLifeTest::it_is_always_what_its_session_holds() {
@@ -577,6 +751,21 @@ void DocumentLifeTest::it_is_always_what_its_session_holds() {
   };
   constexpr int lives = 10;  // twice, of 50 steps on average
   QVERIFY(check_property("a document is always what its session holds", holds, lives));
+}
+
+void DocumentLifeTest::after_any_two_steps_it_is_what_they_say() {
+  const auto order = each_after_each();
+  QCOMPARE(order.size(), std::size_t(Kind::count) * std::size_t(Kind::count) + 1);
+  for (const std::uint32_t object : {0U, 3U}) {  // a surface and a solid
+    QVERIFY(check_once("every step may come after every other", [&] {
+      Life life(meshes()[object]);
+      for (std::uint32_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t which = order[i] == Kind::replace_mesh ? object : 7 * i % 1000;
+        life.act({order[i], which, 11 * i % 1000, int(5 * i % 25) - 12, int(9 * i % 25) - 12}, false);
+      }
+      life.travel_through();
+    }));
+  }
 }
 
 CHAINMAIL_TEST(DocumentLifeTest)
