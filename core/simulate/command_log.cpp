@@ -14,9 +14,8 @@ using Start = commands::Relaxed::Start;
 /// which only a command that makes it go on must know.
 void CommandLog::send(const Command& command) {
   using namespace commands;
-  if (repeats_ && !is_one_of<KeepState, DropState>(command)) {
-    repeats_ = false;
-    send_to_all(relaxation_, nullptr);
+  if (!is_one_of<KeepState, DropState>(command)) {
+    end_repetition();
   }
   const bool is_setting = is_one_of<SetAlgorithm, SetElastic, DropState>(command);
   const bool moves_nothing = is_one_of<KeepState, SetRelaxation>(command);
@@ -28,6 +27,12 @@ void CommandLog::send(const Command& command) {
   send_to_all(command, counts);
   history_.note(command);
   follow(command);
+}
+
+void CommandLog::end_repetition() {
+  if (std::exchange(repeats_, false)) {
+    send_to_all(relaxation_, nullptr);
+  }
 }
 
 void CommandLog::follow(const Command& command) {
@@ -111,6 +116,11 @@ void CommandLog::replay(const Command& command) {
   repeats_ = repeats_ || is_one_of<commands::Relaxed>(command);
   send_to_all(command, relaxation_.on ? new_counts() : nullptr);
   follow(command);
+}
+
+void CommandLog::end_replay() {
+  flush();
+  end_repetition();
 }
 
 void CommandLog::add(SolverThread& solver) {

@@ -26,6 +26,9 @@ class CommandLog {
   void post_to(SolverThread& solver, const Command& command);
   /// Sends a command to all solvers without recording it: it is already recorded, or must not be.
   void replay(const Command& command);
+  /// Lets all solvers relax as was set last, after they have repeated recorded relaxation. Call this before a replay
+  /// begins again.
+  void end_replay();
   /// Returns the recorded commands.
   MoveHistory& history() { return history_; }
   const MoveHistory& history() const { return history_; }
@@ -48,6 +51,7 @@ class CommandLog {
   std::shared_ptr<commands::SliceCounts> new_counts() const;
   std::shared_ptr<commands::SliceCounts> record_relaxation();
   void follow(const Command& command);
+  void end_repetition();
 
   std::vector<SolverThread*> solvers_;
   std::function<void(const Command&)> posted_;

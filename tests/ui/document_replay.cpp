@@ -112,8 +112,8 @@ void DocumentReplayTest::a_move_goes_to_idle_solvers_at_once() {
   document.handle().release();
 }
 
-/// The last command of each step relaxes. Each panel has the state of a simulation of its own after the step's
-/// commands.
+/// The last command of each step relaxes. What was relaxed in idle time must not go on when a replay begins again. Each
+/// panel has the state of a simulation of its own after the commands of the step.
 void DocumentReplayTest::a_step_of_a_lesson_ends_after_its_relaxation() {
   constexpr std::array algorithms{Algorithm::natural_queue, Algorithm::exact};
   const auto slices = std::make_shared<commands::SliceCounts>(algorithms.size());
@@ -126,16 +126,21 @@ void DocumentReplayTest::a_step_of_a_lesson_ends_after_its_relaxation() {
     session->panels.push_back({algorithm, Precision::single_precision, {}});
   }
   session->moves = {commands::Pin{{0, 9}},
-                    commands::Grab{31},
-                    commands::Drag{{1.5, 2, 0}, {}, true},
-                    commands::Relax{5},
-                    commands::Drag{{3, 1, 0}, {}, true},
+                    commands::Grab{44},
+                    commands::Drag{{1, -2, 0}, {}, true},
+                    commands::Grab{60},
+                    commands::Drag{{1, 1.5, 0}, {}, true},
+                    commands::Relax{1},
+                    commands::Drag{{1.2, 0.5, 0}, {}, true},
                     commands::Release{},
                     commands::Relax{20, 1, RelaxationScheme::equilibrium},
                     commands::Grab{62},
                     commands::Drag{{-1, 2, 0}, {}, true},
                     commands::Relaxed{RelaxationScheme::link, 0.5, commands::Relaxed::Start::awake, slices}};
-  session->lesson = {"a", {{"rest", "b", 0}, {"held", "c", 4}, {"released", "d", 7}, {"idle", "e", 10}}};
+  session->lesson.title = "a";
+  for (const std::size_t until : {0U, 6U, 9U, 12U}) {
+    session->lesson.steps.push_back({"b", "c", until, {}, {}, {}, {}, {}, {}});
+  }
   const auto shapes_after = [&](std::size_t moves) {
     Shapes shapes;
     for (std::size_t panel = 0; panel < algorithms.size(); ++panel) {

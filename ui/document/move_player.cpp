@@ -165,6 +165,7 @@ void MovePlayer::load(const std::shared_ptr<const std::vector<Command>>& moves, 
   const MeshPointer first = document_.unsplitMesh();
   replaceSplit(edit, {}, first);
   edit.carryOut = [this, moves, first] {
+    document_.solvers().log().end_replay();
     goToBeginning(first);
     document_.solvers().log().history().load(*moves);
     replayed_.isCurrent = true;
@@ -249,6 +250,7 @@ void MovePlayer::travel(std::size_t position, const MeshPointer& first) {
   if (!replayed_.isCurrent || position < at) {
     const auto after = replayed_.waypoints.upper_bound(position);
     at = after == replayed_.waypoints.begin() ? 0 : std::prev(after)->first;
+    document_.solvers().log().end_replay();
     after == replayed_.waypoints.begin()
         ? goToBeginning(first)
         : document_.solvers().log().replay(commands::RestoreState{std::prev(after)->second});
