@@ -498,7 +498,7 @@ Life::Step Life::handle_step(const Action& action) const {
 
 void cut(Document& document, std::vector<LinkId> links) {
   std::ranges::sort(links);
-  links.erase(std::ranges::unique(links).begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
   std::erase_if(links, [&document](LinkId one) { return document.cuts().is_cut(one); });
   edits::cut(document, links);
 }
