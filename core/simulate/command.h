@@ -22,12 +22,12 @@
 namespace chainmail {
 
 /// Commands: every change of a simulation is one. Commands are values: they can be recorded, sent to several
-/// simulations and replayed. Those with a name can be in files: see files/session/moves.h.
+/// simulations and replayed. Those with a name, and help for schemas, can be in files: see files/session/moves.h.
 namespace commands {
 
 /// Grabs an element, or many that move as one rigid body; nothing moves yet.
 struct Grab {
-  static constexpr std::string_view name = "grab";
+  static constexpr std::string_view name = "grab", help = "grabs one element, or several as a rigid body";
   Grab(ElementId element = 0) : elements{element} {}
   explicit Grab(std::vector<ElementId> grabbed) : elements(std::move(grabbed)) {}
 
@@ -35,7 +35,7 @@ struct Grab {
 };
 /// Moves the handle: one pass.
 struct Drag {
-  static constexpr std::string_view name = "drag";
+  static constexpr std::string_view name = "drag", help = "moves the handle in one pass";
   /// Of its pivot, which is the mean of the grabbed positions (mesh units): a position, or, if `relative`, a
   /// displacement from where it was grabbed.
   Point target = Point::Zero();
@@ -44,11 +44,11 @@ struct Drag {
 };
 /// Releases the handle.
 struct Release {
-  static constexpr std::string_view name = "release";
+  static constexpr std::string_view name = "release", help = "releases the handle";
 };
 /// Sets the softness. It is shared, so that the command does not copy the softness of single links.
 struct SetSoftness {
-  static constexpr std::string_view name = "softness";
+  static constexpr std::string_view name = "softness", help = "replaces the softness of all links";
   SetSoftness(std::shared_ptr<const Softness> set = std::make_shared<const Softness>()) : softness(std::move(set)) {}
   explicit SetSoftness(Softness set) : SetSoftness(std::make_shared<const Softness>(std::move(set))) {}
 
@@ -67,7 +67,7 @@ struct SetRelaxation {
 /// Runs up to this many sweeps of relaxation at once, even if relaxation is off. The scheme `equilibrium` runs
 /// iterations, and ends earlier if it reaches a residual.
 struct Relax {
-  static constexpr std::string_view name = "relax";
+  static constexpr std::string_view name = "relax", help = "relaxes the object";
   std::uint32_t sweeps = 1;
   double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
@@ -98,7 +98,7 @@ class SliceCounts {
 /// What relaxation did in idle time since the command before. It is recorded, and repeats that when it is carried out:
 /// to the bit, if everything before it is repeated, too.
 struct Relaxed {
-  static constexpr std::string_view name = "relaxed";
+  static constexpr std::string_view name = "relaxed", help = "what relaxation did in idle time";
   enum class Start { goes_on, awake, asleep };
   static constexpr std::array<std::string_view, 3> starts{"goes on", "awake", "asleep"};
 
@@ -117,25 +117,25 @@ struct SetAlgorithm {
   Algorithm algorithm = Algorithm::natural_queue;
 };
 struct Cut {
-  static constexpr std::string_view name = "cut";
+  static constexpr std::string_view name = "cut", help = "cuts links";
   std::vector<LinkId> links;
 };
 struct Uncut {
-  static constexpr std::string_view name = "uncut";
+  static constexpr std::string_view name = "uncut", help = "joins cut links again";
   std::vector<LinkId> links;
 };
 /// Pins elements at their current positions. Grabbed elements cannot be pinned.
 struct Pin {
-  static constexpr std::string_view name = "pin";
+  static constexpr std::string_view name = "pin", help = "pins elements";
   std::vector<ElementId> elements;
 };
 struct Unpin {
-  static constexpr std::string_view name = "unpin";
+  static constexpr std::string_view name = "unpin", help = "unpins elements";
   std::vector<ElementId> elements;
 };
 /// Moves all elements to rest. Cuts, pins and softness stay.
 struct Reset {
-  static constexpr std::string_view name = "reset";
+  static constexpr std::string_view name = "reset", help = "returns to rest";
 };
 /// Replaces the object by another one at rest, without cuts and pins. If the algorithm does not support the new mesh,
 /// Natural Queue replaces it. The softness of single links is dropped; the global softness stays.
@@ -145,7 +145,7 @@ struct ReplaceMesh {
 /// Splits faces of the object along a stroke. Its positions, cuts, pins and softness go over to the new elements and
 /// links. The object must have the mesh before the split.
 struct Split {
-  static constexpr std::string_view name = "split";
+  static constexpr std::string_view name = "split", help = "divides faces, and appends elements";
   SplitPointer split;
 };
 

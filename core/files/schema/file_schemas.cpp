@@ -1,6 +1,5 @@
-#include "body/region_axes.h"
 #include "elastic/material.h"
-#include "files/schema/schemas.h"
+#include "files/schema/command_schemas.h"
 #include "files/session/lesson.h"
 #include "files/session/moves.h"
 #include "files/session/session.h"
@@ -11,80 +10,15 @@
 namespace chainmail::schema {
 namespace {
 
-constexpr std::string_view rotation_vector = "axis times the angle (radians)";
-
-/// The members of a softness that may be left out.
-Members optional_softness() {
-  const Member rotation{"rotation", point(rotation_vector)};
-  const Json turned = object({{"kind", one_of(axes_kinds)}, rotation});
-  const Json found = object({{"kind", one_of({axes_kinds[0], axes_kinds[1]})}});  // without those that are given
-  const Json axes = any_of({turned, found}, "axes along which valid regions lie");
-  return joined({described<LinkSoftness>(is_optional), {{"energy", energy()}, {"frame", axes}}});
-}
-
 Json preset() {
   const Json name = with(non_empty_text("one line", limits::preset_name_bytes), "pattern", "^[^ ](.*[^ ])?$");
   const Json one = object(joined({{{"name", name}}, region()}), described<LinkSoftness>(is_optional));
   return object({{"version", one_of(Json::array({presets_version}))}, {"presets", array_of(one)}});
 }
 
-Json command(std::string_view name, std::string_view help, const Members& required = {}, const Members& optional = {}) {
-  return object(joined({{{"do", {{"const", name}}}}, required}), optional, help);
-}
-
-/// Commands of the handle. Those with the same name have members that go together.
-Json handle_commands() {
-  const Member target{"target", point("target of the handle's pivot (mesh units)")};
-  const Member by{"by", point("displacement of the pivot since it was grabbed (mesh units)")};
-  const Member turn = rotate("rotation since it was grabbed");
-  return any_of(
-      {command(commands::Grab::name, "grabs one element", {{"element", id()}}),
-       command(commands::Grab::name, "grabs several elements as a rigid body", {{"elements", array_of(id(), {}, 1)}}),
-       command(commands::Drag::name, "moves the handle in one pass", {target}, {turn}),
-       command(commands::Drag::name, "moves the handle in one pass", {by}, {turn}),
-       command(commands::Drag::name, "rotates the handle in one pass", {turn}),
-       command(commands::Release::name, "releases the handle")});
-}
-
-Json relaxation_commands() {
-  const Member step{"step", schema_of(parameters::relax_step)};
-  const Members sweeps = described<commands::Relax>();
-  const Members to_equilibrium{{"scheme", {{"const", info(RelaxationScheme::equilibrium).name}}},
-                               {"until", schema_of(parameters::relax_until)}};
-  const Members panels{
-      {"panels", array_of(text(), "algorithm of each panel", 1, limits::session_panels)},
-      {"slices", array_of(id(), "iterations, or sweeps of up to 20,000 elements", 1, limits::session_panels)}};
-  return any_of({command(commands::Relax::name, "relaxes the object", sweeps, {step, {"scheme", scheme()}}),
-                 command(commands::Relax::name, "relaxes the object to the equilibrium",
-                         joined({sweeps, to_equilibrium}), {step}),
-                 command(commands::Relaxed::name, "what relaxation did in idle time",
-                         joined({described<commands::Relaxed>(), panels}))});
-}
-
-Json object_commands() {
-  const Members links{{"links", array_of(array_of(id(), "both ends", 2, 2))}}, elements{{"elements", ids()}};
-  const Json short_row = numbers(2 + region_numbers, "both ends, " + softness_names(", ", 0, region_numbers));
-  const Json long_row = numbers(2 + softness_numbers.size(), "both ends, " + softness_names(", "));
-  const Member own{"links", any_of({array_of(short_row), array_of(long_row)}, "softness of single links")};
-  const Json place = array_of({id(), id(), id(), number(), number()},
-                              "a, b, c, s, t: the element is at a + s (b - a) + t (c - a) at rest", 5, 5);
-  const Members split{{"removed", ids("indices of the triangles that go")},
-                      {"triangles", array_of(array_of(id(), {}, 3, 3), "corners of the new triangles")},
-                      {"removed_polygons", ids("indices of the polygons that go")},
-                      {"polygons", ids("the new polygons: a count, then as many ids, for each")}};
-  return any_of(
-      {command(commands::Cut::name, "cuts links", links),
-       command(commands::Uncut::name, "joins cut links again", links), command(commands::Pin::name, {}, elements),
-       command(commands::Unpin::name, {}, elements),
-       command(commands::SetSoftness::name, "replaces that of all links", region(),
-               joined({optional_softness(), {own}})),
-       command(commands::Reset::name, "returns to rest"),
-       command(commands::Split::name, "divides faces, and appends elements", {{"elements", array_of(place)}}, split)});
-}
-
 Json moves() {
   const Json version = whole(1, newest_moves_version, "2 if moves split the object, 3 if relaxation ran between them");
-  const Json command = any_of({handle_commands(), object_commands(), relaxation_commands()});
+  const Json command = commands_of(std::type_identity<Command>());
   return object({{"version", version}, {"commands", array_of(command)}}, {}, "recorded moves, from rest");
 }
 
