@@ -45,7 +45,8 @@ static std::vector<Commands> read(const std::string& commands) {
 }
 static std::vector<schema::Json> schemas_of(std::string_view name) {
   std::vector<schema::Json> found;
-  for (const schema::Json& one : schema::commands_of(std::type_identity<Commands>())["anyOf"]) {
+  const schema::Json all = schema::commands_of(std::type_identity<Commands>());
+  for (const schema::Json& one : all["anyOf"]) {
     if (one["properties"]["do"]["const"] == schema::Json(name)) {
       found.push_back(one);
     }
@@ -117,7 +118,8 @@ void OneCommandTest::members_that_go_together_have_a_schema_each() {
 /// The names of the commands that reading knows, in its error, and those of the schema.
 void OneCommandTest::every_command_of_files_is_in_the_schema() {
   std::set<std::string> names;
-  for (const schema::Json& one : schema::commands_of(std::type_identity<Command>())["anyOf"]) {
+  const schema::Json all = schema::commands_of(std::type_identity<Command>());
+  for (const schema::Json& one : all["anyOf"]) {
     names.insert(one["properties"]["do"]["const"].get<std::string>());
   }
   QCOMPARE(names.size(), std::size_t{12});

@@ -21,8 +21,8 @@ constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_nu
 
 }  // namespace
 
-void MovesReader::scan(std::string_view text, const std::filesystem::path& path, const Progress& progress,
-                       const std::function<void()>& add) {
+void MovesReader::scan(std::string_view text, const std::filesystem::path& path, std::span<const PackedKey> packed,
+                       const std::function<void()>& add, const Progress& progress) {
   // A split costs at least as much as the mesh before all of them.
   static constexpr std::string_view name = "\"split\"";
   std::uint64_t splits = 0;
@@ -30,9 +30,6 @@ void MovesReader::scan(std::string_view text, const std::filesystem::path& path,
     ++splits;
   }
   check_split_parts(splits * split_parts_of(*mesh_));
-  static constexpr std::array packed{
-      PackedKey{"links", 2},    PackedKey{"elements", 3},         PackedKey{"removed", 1}, PackedKey{"triangles", 3},
-      PackedKey{"polygons", 1}, PackedKey{"removed_polygons", 1}, PackedKey{"slices", 1}};
   scan_json(text, path, where_,
             {.content = "recorded moves",
              .packed = packed,

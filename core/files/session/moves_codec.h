@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,7 +24,7 @@
 namespace chainmail {
 
 // The members of each command with a name. Reading, writing and schemas follow from this list: `Io` is MovesReader,
-// MovesWriter or schema::CommandMembers, which have a function for each kind of member.
+// MovesWriter, PackedKeys or schema::CommandMembers, which have a function for each kind of member.
 
 void members(auto& io, commands::Grab& one) {
   if (io.has("elements", one.elements.size() != 1)) {
@@ -64,6 +66,54 @@ void members(auto& io, SplitEdit& edit) {
 }
 void members(auto& io, commands::Split& one) { io.split(one.split); }
 
+/// Collects the keys of long arrays, which are read without a tree.
+class PackedKeys {
+ public:
+  template <class... Kinds>
+  explicit PackedKeys(std::type_identity<std::variant<Kinds...>> /*commands*/) {
+    (add_named<Kinds>(), ...);
+  }
+  std::span<const PackedKey> all() const { return keys_; }
+
+  // The kinds of members.
+  static bool has(const char* /*key*/, bool /*is_written*/) { return true; }
+  void element(const char* /*key*/, ElementId /*one*/) {}
+  void elements(const char* key, const auto& /*all*/) { add(key, 1); }
+  void links(const char* key, const auto& /*all*/) { add(key, 2); }
+  void point(const char* /*key*/, const Point& /*one*/, std::string_view /*help*/) {}
+  void rotation(const char* /*key*/, const Rotation& /*one*/, std::string_view /*help*/) {}
+  void numbers(const char* key, const auto& /*all*/, std::string_view /*help*/) { add(key, 1); }
+  void triangles(const char* key, const auto& /*all*/) { add(key, 3); }
+  void points(const char* key, const auto& /*all*/) { add(key, 3); }
+  void split(const SplitPointer& /*split*/) {
+    SplitEdit edit;
+    members(*this, edit);
+  }
+  void softness(const char* key, const auto& /*softness*/) { add(key, 2); }
+  void counts(const char* /*panels*/, const char* slices, const auto& /*counts*/) { add(slices, 1); }
+  void described(const auto& /*one*/) {}
+
+ private:
+  template <class Kind>
+  void add_named() {
+    if constexpr (requires { Kind::name; }) {
+      Kind one;
+      members(*this, one);
+    }
+  }
+  /// Adds a key. Of each item, the first `ids` numbers are whole; several commands may have arrays with this key.
+  void add(std::string_view key, std::size_t ids) {
+    const auto known = std::ranges::find(keys_, key, &PackedKey::key);
+    if (known == keys_.end()) {
+      keys_.push_back({key, ids});
+    } else {
+      known->ids = std::max(known->ids, ids);
+    }
+  }
+
+  std::vector<PackedKey> keys_;
+};
+
 /// Reads commands and checks one after another, as a simulation would execute them from rest.
 class MovesReader {
  public:
@@ -74,7 +124,9 @@ class MovesReader {
   template <class Commands>
   std::vector<Commands> read(std::string_view text, const std::filesystem::path& path, const Progress& progress) {
     std::vector<Commands> commands;
-    scan(text, path, progress, [&] { add_command(commands); });
+    const PackedKeys packed{std::type_identity<Commands>()};
+    scan(
+        text, path, packed.all(), [&] { add_command(commands); }, progress);
     return commands;
   }
 
@@ -101,8 +153,8 @@ class MovesReader {
   using Json = nlohmann::json;
 
   /// Calls `add` for each command, which is `of_` then.
-  void scan(std::string_view text, const std::filesystem::path& path, const Progress& progress,
-            const std::function<void()>& add);
+  void scan(std::string_view text, const std::filesystem::path& path, std::span<const PackedKey> packed,
+            const std::function<void()>& add, const Progress& progress);
   void check_head() const;
   void take(const Json& command, const std::function<void()>& add);
   /// Returns the command, of which this key is known.
