@@ -28,7 +28,18 @@ class WindowDocks : public QObject {
  private slots:
   void init() { failOnWarnings(); }
 
+  /// Also one that is added to the table.
   void everyDockOfTheTableIsDescribedAndIsInTheWindowAndInOneMenu() {
+    const ExtraDock extra({.id = "dummyDock",
+                           .action = "showDummyDock",
+                           .title = "Dummy",
+                           .tooltip = "Shows nothing",
+                           .icon = "mesh",
+                           .key = "Ctrl+Alt+D",
+                           .area = Qt::LeftDockWidgetArea,
+                           .visible = false,
+                           .make = [](const DockParts& /*parts*/) { return new QDockWidget; }});
+    QCOMPARE(dockEntries().back().id, "dummyDock");
     QSet<QString> names;
     for (const DockEntry& entry : dockEntries()) {
       const QList<const char*> texts{entry.id, entry.action, entry.title, entry.tooltip, entry.icon};
@@ -61,6 +72,10 @@ class WindowDocks : public QObject {
       QCOMPARE(actions.count(show), 1);
     }
     QCOMPARE(menu(bench, "Docks").size(), qsizetype(dockEntries().size()));
+    bench.trigger("showDummyDock");
+    QVERIFY(bench.find<QDockWidget>("dummyDock")->isVisible());
+    const auto placed = bench.window.docks().layout().docks;
+    QCOMPARE(std::ranges::count(placed, QStringLiteral("dummyDock"), &DockPlace::id), 1);
   }
 
   void theKeyOfTheElementDockClosesItAgainAndAnIdThatIsNoneGetsAnAnswer() {

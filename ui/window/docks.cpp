@@ -193,6 +193,11 @@ const std::array entries{
               .make = makeHistory},
 };
 
+std::vector<DockEntry>& dockTable() {
+  static std::vector<DockEntry> all(entries.begin(), entries.end());
+  return all;
+}
+
 /// Brings a dock to the front of its tabs when it is shown. If it is behind another tab, its action does not hide it
 /// but brings it to the front, too.
 void raiseWhenShown(QDockWidget& dock) {
@@ -213,11 +218,14 @@ void bringUp(QDockWidget& dock) {
   dock.raise();
 }
 
-std::span<const DockEntry> dockEntries() { return entries; }
+std::span<const DockEntry> dockEntries() { return dockTable(); }
+
+ExtraDock::ExtraDock(const DockEntry& entry) { dockTable().push_back(entry); }
+ExtraDock::~ExtraDock() { dockTable().pop_back(); }
 
 Docks::Docks(const DockParts& parts) : window_(parts.window) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height
-  for (const DockEntry& entry : entries) {
+  for (const DockEntry& entry : dockEntries()) {
     add(entry, parts);
   }
 }
@@ -239,7 +247,7 @@ void Docks::add(const DockEntry& entry, const DockParts& parts) {
 Layout Docks::first() const {
   Layout layout;
   for (std::size_t i = 0; i < docks_.size(); ++i) {
-    const DockEntry& entry = entries[i];
+    const DockEntry& entry = dockEntries()[i];
     DockPlace& place = layout.docks.emplace_back(
         DockPlace{.id = QLatin1String(entry.id),
                   .area = entry.area,
@@ -260,7 +268,7 @@ Layout Docks::layout() const { return layoutOf(window_, applied_); }
 
 void Docks::take(const QJsonObject& json) {
   QStringList ids;
-  for (const DockEntry& entry : entries) {
+  for (const DockEntry& entry : dockEntries()) {
     ids << QLatin1String(entry.id);
   }
   if (const Layout layout = layoutFrom(json, ids); !layout.docks.empty()) {

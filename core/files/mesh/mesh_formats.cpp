@@ -125,6 +125,11 @@ constexpr std::array formats{
                .write = write_positions_csv},
 };
 
+std::vector<MeshFormat>& format_table() {
+  static std::vector<MeshFormat> table(formats.begin(), formats.end());
+  return table;
+}
+
 /// Calls visit(ending) for each ending of a format.
 template <class Visit>
 void for_each_ending(const MeshFormat& format, Visit visit) {
@@ -140,7 +145,8 @@ const MeshFormat* find_by_ending(std::string_view wanted) {
     for_each_ending(format, [&](std::string_view ending) { found |= ending == wanted; });
     return found;
   };
-  const auto found = std::find_if(formats.begin(), formats.end(), has_ending);
+  const auto formats = mesh_formats();
+  const auto found = std::ranges::find_if(formats, has_ending);
   return found == formats.end() ? nullptr : &*found;
 }
 
@@ -161,11 +167,14 @@ std::string refusal(const std::string& ending, const MeshFormat* format, FormatU
 
 }  // namespace
 
-std::span<const MeshFormat> mesh_formats() { return formats; }
+std::span<const MeshFormat> mesh_formats() { return format_table(); }
+
+ExtraFormat::ExtraFormat(const MeshFormat& format) { format_table().push_back(format); }
+ExtraFormat::~ExtraFormat() { format_table().pop_back(); }
 
 std::string mesh_endings(FormatUse use, std::string_view last) {
   std::vector<std::string_view> endings;
-  for (const MeshFormat& format : formats) {
+  for (const MeshFormat& format : mesh_formats()) {
     if (format.allows(use)) {
       for_each_ending(format, [&](std::string_view ending) { endings.push_back(ending); });
     }
@@ -180,7 +189,7 @@ std::string mesh_endings(FormatUse use, std::string_view last) {
 
 std::string mesh_formats_help(FormatUse use) {
   std::string text;
-  for (const MeshFormat& format : formats) {
+  for (const MeshFormat& format : mesh_formats()) {
     if (format.allows(use)) {
       text +=
           "  " + std::string(format.endings) + ", " + std::string(format.name) + ": " + std::string(format.help) + "\n";

@@ -1,13 +1,17 @@
 #include "report/table/figure.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "report/table/format.h"
 
 namespace chainmail::report {
 
-std::span<const Figure* const> every_figure() {
+namespace {
+
+std::vector<const Figure*>& figure_table() {
   using namespace figures;
   static constexpr const Figure* all[]{&ms_per_move,
                                        &worst_move_ms,
@@ -58,8 +62,16 @@ std::span<const Figure* const> every_figure() {
                                        &mean_moved,
                                        &repeated,
                                        &real_time};
-  return all;
+  static std::vector<const Figure*> table(std::begin(all), std::end(all));
+  return table;
 }
+
+}  // namespace
+
+std::span<const Figure* const> every_figure() { return figure_table(); }
+
+ExtraFigure::ExtraFigure(const Figure& figure) { figure_table().push_back(&figure); }
+ExtraFigure::~ExtraFigure() { figure_table().pop_back(); }
 
 const Figure* find_figure(std::string_view key) {
   const auto all = every_figure();

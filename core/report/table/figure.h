@@ -198,6 +198,15 @@ inline constexpr Figure real_time{"real_time", "passes", "in real time", "", "",
 
 /// All figures, in the order of columns.
 std::span<const Figure* const> every_figure();
+/// Adds a figure to the table while this object exists. For tests: no other thread may read the table meanwhile, and
+/// the figure must exist as long.
+class ExtraFigure {
+ public:
+  explicit ExtraFigure(const Figure& figure);
+  ExtraFigure(const ExtraFigure&) = delete;
+  ExtraFigure& operator=(const ExtraFigure&) = delete;
+  ~ExtraFigure();
+};
 /// Returns null if there is no figure with this key.
 const Figure* find_figure(std::string_view key);
 /// Returns the definition of a figure with the number that it quotes.

@@ -1,3 +1,4 @@
+#include <QTemporaryDir>
 #include <QtTest>
 #include <sstream>
 
@@ -5,9 +6,14 @@
 #include "chainmail/list_method.h"
 #include "command_line/common.h"
 #include "core/chainmail/recorded.h"
+#include "files/formats/obj.h"
+#include "files/mesh/mesh_file.h"
+#include "files/mesh/mesh_formats.h"
+#include "files/mesh/open_mesh.h"
 #include "files/results/results_json.h"
 #include "files/text/described_json.h"
 #include "report/page/report.h"
+#include "report/run/physics.h"
 #include "solver/algorithms.h"
 
 using namespace chainmail;
@@ -16,7 +22,8 @@ using command_line::algorithms_help;
 using command_line::algorithms_of;
 using command_line::names_of;
 
-/// An algorithm is one entry of a table, and so is a parameter. Every list of them includes a new entry.
+/// An algorithm is one entry of a table, and so is a parameter, a figure or a format. Every list of them includes a new
+/// entry.
 class OneEntryTest : public QObject {
   Q_OBJECT
 
@@ -26,8 +33,11 @@ class OneEntryTest : public QObject {
   void an_algorithm_is_written();
   void an_algorithm_runs();
   void an_algorithm_is_replayed();
+  void an_algorithm_is_a_contestant();
   void an_entry_goes_with_its_object();
   void names_are_unique();
+  void a_figure_is_written_and_read();
+  void a_format_is_opened_and_written();
   void a_parameter_is_an_option();
   void a_parameter_is_checked();
   void a_member_is_an_option();
@@ -158,6 +168,12 @@ void OneEntryTest::an_algorithm_is_replayed() {
   QCOMPARE(history.at(3), waiting_history(*expected).at(3));
 }
 
+void OneEntryTest::an_algorithm_is_a_contestant() {
+  const ExtraAlgorithm extra(dummy_entry());
+  const auto contestants = report::contestants_of({dummy}, {0, 3}, true, {});
+  QVERIFY((contestants == std::vector<report::Contestant>{{}, {dummy}, {dummy, 3}}));
+}
+
 void OneEntryTest::an_entry_goes_with_its_object() {
   const std::size_t before = every_algorithm().size();
   { const ExtraAlgorithm extra(dummy_entry()); }
@@ -179,6 +195,53 @@ void OneEntryTest::names_are_unique() {
   names.erase("");
   QCOMPARE(names.size(), count);
   QCOMPARE(shapes.size(), every_algorithm().size());
+}
+
+void OneEntryTest::a_figure_is_written_and_read() {
+  static constexpr report::Figure figure{"dummy_ms", "dummy", "of nothing", "ms", "a figure without a meaning"};
+  QTemporaryDir folder;
+  const std::filesystem::path path = folder.filePath("report.json").toStdString();
+  report::Results results;
+  results.objects.push_back({.name = "object", .drags = {{.name = "drag", .moves = 1}}});
+  results.rows.push_back({.drag = 0, .contestant = {Algorithm::spiral}});
+  results.rows[0].set(figure, 2.5);
+  {
+    const report::ExtraFigure extra(figure);
+    std::ofstream json(path);
+    std::ostringstream csv;
+    write_json(json, results);
+    json.close();
+    write_csv(csv, results);
+    QVERIFY(contains(csv.str(), ",dummy_ms"));
+    const report::Results again = read_results(path);
+    QVERIFY(again.rows[0].find(figure) != nullptr);
+    QCOMPARE(again.rows[0].find(figure)->number, 2.5);
+  }
+  QVERIFY(report::find_figure("dummy_ms") == nullptr);
+}
+
+void OneEntryTest::a_format_is_opened_and_written() {
+  QTemporaryDir folder;
+  const auto path = [&](const char* name) { return std::filesystem::path(folder.filePath(name).toStdString()); };
+  const MeshPointer line = make_mesh(MeshKind::line, {3, 1, 1});
+  {
+    const ExtraFormat extra(
+        {.name = "Dummy",
+         .endings = ".dummy",
+         .help = "one link",
+         .signs = {"dummy 1"},
+         .read_mesh = [](RegularFile, const ReadOptions&,
+                         const Progress&) { return read_obj("v 0 0 0\nv 1 0 0\nl 1 2\n", "dummy"); },
+         .write = [](std::ostream& out, const MeshState&, const Progress&) { out << "dummy 1\n"; }});
+    QVERIFY(mesh_endings(FormatUse::read).ends_with(" or .dummy"));
+    QVERIFY(contains(mesh_formats_help(FormatUse::write), "  .dummy, Dummy: one link\n"));
+    save_mesh(path("a.DUMMY"), {*line, Cuts(), rest_positions(*line), {}});
+    std::filesystem::copy(path("a.DUMMY"), path("unnamed"));
+    for (const char* name : {"a.DUMMY", "unnamed"}) {
+      QCOMPARE(open_mesh(path(name)).mesh->link_count(), LinkId{1});
+    }
+  }
+  QVERIFY(contains(message([&] { open_mesh(path("a.DUMMY")); }), "the ending .dummy is not known"));
 }
 
 void OneEntryTest::a_parameter_is_an_option() {
