@@ -10,8 +10,8 @@ namespace chainmail::test_kept_sessions {
 
 using namespace chainmail::test;
 
-/// Sessions that version 1.0.0 wrote open, and their moves lead to the positions that they have. The files must never
-/// be written again.
+/// Sessions that the library of version 1.0.0 wrote open, and their moves lead to the positions that they have. Their
+/// `ui` is made after its window: the bytes of moved docks are Qt's. The files must never be written again.
 class KeptSessionsTest : public QObject {
   Q_OBJECT
 
