@@ -145,9 +145,9 @@ const MeshFormat* find_by_ending(std::string_view wanted) {
     for_each_ending(format, [&](std::string_view ending) { found |= ending == wanted; });
     return found;
   };
-  const auto formats = mesh_formats();
-  const auto found = std::ranges::find_if(formats, has_ending);
-  return found == formats.end() ? nullptr : &*found;
+  const auto all = mesh_formats();
+  const auto found = std::ranges::find_if(all, has_ending);
+  return found == all.end() ? nullptr : &*found;
 }
 
 /// Returns the reason why a file with this ending does not have this use. `format` is the format of the ending; null if
