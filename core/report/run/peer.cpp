@@ -143,7 +143,7 @@ PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragRefe
 std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs) {
   std::vector<PeerCase> cases;
   for (const SuiteExperiment& one : suite_experiments()) {
-    if (one.kind == SuiteKind::time_to_error && (organs.fine != nullptr || !one.needs_organ())) {
+    if (one.kind == SuiteKind::time_to_error && !one.only_named && (organs.fine != nullptr || !one.needs_organ())) {
       const Case object = one.cases(organs).front();
       const RecordedMoves& drag = object.drags.front();
       cases.push_back(peer_case(object, drag, DragReferences(object, reference_of(one)).at_end(drag)));

@@ -31,8 +31,8 @@ struct PeerAnswer {
 
 /// Makes a case of a drag without a cut.
 PeerCase peer_case(const Case& object, const RecordedMoves& drag, const DragReference& reference);
-/// Makes cases of the drags in which the suite measures the time to an error. `organs` as for the suite:
-/// drags of an organ without a file are left out.
+/// Makes cases of the drags in which the suite measures the time to an error, without those that only take part where
+/// they are named. `organs` as for the suite: drags of an organ without a file are left out.
 std::vector<PeerCase> peer_cases_of_suite(const SampleOrgans& organs);
 
 /// Measures answers as the suite measures its contestants: a row for each solver. Throws Error if one is of another
