@@ -16,7 +16,8 @@ struct CalibrateArguments {
   std::shared_ptr<MeshArguments> mesh;
   CalibrationOptions how = {};
   std::optional<EnergyKind> energy = {};
-  std::optional<std::string> pins = {}, name = {}, preset = {}, json = {};
+  std::optional<PinnedElements> pins = {};
+  std::optional<std::string> name = {}, preset = {}, json = {};
 };
 
 constexpr const char* calibrate_footer =
@@ -40,14 +41,14 @@ std::string name_of(const CalibrateArguments& arguments, const std::filesystem::
 
 void calibrate_file(CalibrateArguments& arguments) {
   arguments.mesh->options.read();
-  check_outputs({arguments.mesh->path()}, {arguments.preset, arguments.json});
-  const MeshPointer mesh = open_mesh(*arguments.mesh).mesh;
   const std::filesystem::path path = arguments.mesh->path();
+  const std::string name = name_of(arguments, path);
+  check_outputs({path}, {arguments.preset, arguments.json});
+  const MeshPointer mesh = open_mesh(*arguments.mesh).mesh;
   const std::string object = printable(path.filename().string());
   CalibrationOptions& how = arguments.how;
   how.pins = pins_of(arguments.pins, object, *mesh);
   how.energy = energy_of_links(arguments.energy.value_or(how.energy));
-  const std::string name = name_of(arguments, path);
   const CalibrationResult result =
       watched("calibrating softness for " + object,
               {{"pins", "--pins"}, {"reference solution", object}, {"neo-Hookean FEM", object}},
@@ -76,7 +77,7 @@ Command add_calibrate(CLI::App& root) {
       "--algorithm", "NAME", "an algorithm of the ChainMail family: see deform --help [natural-queue]", how.algorithm,
       [](const std::string& where, const std::string& name) { return algorithm_of(where, name, algorithms()); });
   add_relaxation(options, false, how.scheme);
-  add_energy(options, link_energy, arguments->energy);
+  add_energy(options, std::string(info(link_energy).name), arguments->energy);
   options.add_numbers(how, {"drags"});
   options.add("--seed", "S", help_of("random seed of the drags", double(how.seed)), how.seed, count_from(0));
   options.add_numbers(how, {"evaluations"});

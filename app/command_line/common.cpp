@@ -181,11 +181,22 @@ std::vector<Algorithm> algorithms_of(const std::string& where, const std::string
 
 // Meshes
 
-std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding) {
+std::shared_ptr<MeshArguments> add_mesh(CLI::App& app) {
+  auto mesh = add_mesh_path(app);
+  add_layout(*mesh);
+  add_weld(*mesh);
+  return mesh;
+}
+
+std::shared_ptr<MeshArguments> add_mesh_path(CLI::App& app) {
   auto mesh = std::make_shared<MeshArguments>(MeshArguments{Options(app)});
-  Options& options = mesh->options;
-  ReadOptions& how = mesh->how;
   add_value(app, "MESH", "", "mesh file: " + mesh_endings(FormatUse::read))->required();
+  return mesh;
+}
+
+void add_layout(MeshArguments& mesh) {
+  Options& options = mesh.options;
+  ReadOptions& how = mesh.how;
   options.add("--size", "WxH[xD]", "number of elements of a .dat file along each axis", how.size,
               [](const std::string& where, const std::string& text) {
                 const auto size = parse_size(text);
@@ -202,11 +213,12 @@ std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding) {
   options.add("--density-softness", on_or_off, "make denser voxels stiffer [on]", how.voxels.stiff_where_dense);
   options.add("--data-outside", Choices<bool>{{"allow", true}, {"refuse", false}},
               "data files outside the folder of a volume's header [refuse]", how.data_outside);
-  if (welding == Welding::by_reader) {
-    options.add("--weld", "TOLERANCE", "join points this close, in mesh units [STL: 1e-7 of the extent; others: not]",
-                how.weld, tolerance_of);
-  }
-  return mesh;
+}
+
+void add_weld(MeshArguments& mesh) {
+  mesh.options.add("--weld", "TOLERANCE",
+                   "join points this close, in mesh units [STL: 1e-7 of the extent; others: not]", mesh.how.weld,
+                   tolerance_of);
 }
 
 void add_space(MeshArguments& mesh) {
@@ -222,10 +234,7 @@ double tolerance_of(const std::string& where, const std::string& text) {
   return tolerance;
 }
 
-OpenedMesh open_mesh(const MeshArguments& mesh) {
-  mesh.options.read();
-  return open_mesh(mesh, open_file(mesh.path()));
-}
+OpenedMesh open_mesh(const MeshArguments& mesh) { return open_mesh(mesh, open_file(mesh.path())); }
 
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input) {
   return watched("reading " + shown(input.file.path()),

@@ -18,6 +18,7 @@
 #include "command_line/progress_line.h"
 #include "files/mesh/input_file.h"
 #include "files/text/outputs.h"
+#include "files/text/regular_file.h"
 #include "files/text/text.h"
 #include "mesh/described.h"
 #include "mesh/error.h"
@@ -160,6 +161,13 @@ class Options {
     return add(name, joined_words(names_of(choices), "|"), help, value,
                [choices](const std::string& where, const std::string& word) { return chosen(where, word, choices); });
   }
+  /// Adds an option for a file that is read, which must be there.
+  CLI::Option* add_input(const std::string& name, const std::string& help, std::optional<std::string>& path) {
+    return add(name, "FILE", help, path, [](const std::string&, const std::string& text) {
+      require_file(text);
+      return text;
+    });
+  }
   /// Adds an option for a text, mostly the name of a file.
   CLI::Option* add(const std::string& name, const std::string& type, const std::string& help,
                    std::optional<std::string>& value) {
@@ -215,16 +223,21 @@ struct MeshArguments {
 
   std::string path() const { return *value_of(options.app().get_option("MESH")); }
 };
-/// Whether points are joined when a file is opened, or as a repair.
-enum class Welding { by_reader, by_repair };
-std::shared_ptr<MeshArguments> add_mesh(CLI::App& app, Welding welding = Welding::by_reader);
+/// Adds a mesh with all its options but the number of coordinates.
+std::shared_ptr<MeshArguments> add_mesh(CLI::App& app);
+/// Adds a mesh without options.
+std::shared_ptr<MeshArguments> add_mesh_path(CLI::App& app);
+/// Adds the options of .dat files and of volumes, which have no faces.
+void add_layout(MeshArguments& mesh);
+/// Adds the option that joins points when a file is opened.
+void add_weld(MeshArguments& mesh);
 /// Adds the option for the number of coordinates.
 void add_space(MeshArguments& mesh);
 /// Returns a distance of --weld (mesh units).
 double tolerance_of(const std::string& where, const std::string& text);
-/// Reads the options and the mesh. Throws Error, with the option.
+/// Reads the mesh, with options that were read. Throws Error, with the option.
 OpenedMesh open_mesh(const MeshArguments& mesh);
-/// The same for an open file, with options that were read.
+/// The same for an open file.
 OpenedMesh open_mesh(const MeshArguments& mesh, InputFile input);
 /// Reads a mesh without options.
 OpenedMesh open_mesh(const std::string& path);

@@ -227,9 +227,6 @@ std::vector<report::Case> cases_of(const CompareArguments& arguments) {
           "leave out the option");
   require(!arguments.moves || arguments.has_meshes(), "--moves", "the mesh of the recorded moves is missing",
           "add its file");
-  if (arguments.against_physics || arguments.has_meshes()) {
-    arguments.elastic_options.read();
-  }
   const std::vector<StrainLaw> laws = strain_laws_of(arguments.laws, arguments.elastic);
   std::vector<report::Case> cases = objects_of(arguments);
   for (report::Case& object : cases) {
@@ -272,6 +269,7 @@ void group(CLI::App& app, const std::string& title, const std::vector<std::strin
   }
 }
 
+const std::vector<std::string> of_elastic{"--young", "--poisson", "--lattice", "--iterations"};
 const std::vector<std::string> only_physics{"--handles",  "--grow",       "--calibrated",   "--reference",
                                             "--material", "--gent-limit", "--fung-exponent"};
 
@@ -309,7 +307,7 @@ void add_contest(Options& options, CompareArguments& arguments) {
 
 void add_physics(Options& options, CompareArguments& arguments) {
   add_pins(options, arguments.pins);
-  arguments.elastic_options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"});
+  options.add_numbers(arguments.elastic, {"young", "poisson", "lattice", "iterations"});
   add_strain_laws(options, arguments.elastic, arguments.laws);
   options.add("--reference", Choices<bool>{{"same-cells", false}, {"refined", true}},
               "cells of the reference solution; refined: handles are patches, and the cells are refined until the "
@@ -330,8 +328,8 @@ void add_physics(Options& options, CompareArguments& arguments) {
               "sweeps [on; with MESH, --suite or --quick: off]",
               arguments.calibrated);
   group(options.app(), "Against physics", only_physics);
-  group(options.app(), "Pins and methods of elasticity",
-        {"--pins", "--young", "--poisson", "--lattice", "--iterations"});
+  group(options.app(), "Pins and methods of elasticity", {"--pins"});
+  group(options.app(), "Pins and methods of elasticity", of_elastic);
 }
 
 void add_suite(Options& options, CompareArguments& arguments) {
@@ -357,7 +355,7 @@ void add_arguments(Options& options, CompareArguments& arguments) {
   add_softness(options, arguments.softness);
   options.add("--preset", "NAME|FILE", "name of a built-in preset, or a preset file (for example from calibrate -o)",
               arguments.preset);
-  options.add("--moves", "FILE", "recorded moves (JSON) to run from rest, instead of the three drags", arguments.moves);
+  options.add_input("--moves", "recorded moves (JSON) to run from rest, instead of the three drags", arguments.moves);
   options.add("-o", "FOLDER", "folder for the report; created if missing", arguments.output)->required();
   add_physics(options, arguments);
   add_suite(options, arguments);
@@ -377,6 +375,9 @@ void compare(CompareArguments& arguments) {
   if (!arguments.against_physics) {
     refuse_without("--against physics", arguments, only_physics);
   }
+  if (!arguments.against_physics && !arguments.has_meshes()) {
+    refuse_without("MESH or --against physics", arguments, of_elastic);
+  }
   complete(arguments);
   OutputFolder folder(*arguments.output, report_files);
   const std::vector<report::Case> cases = cases_of(arguments);
@@ -393,8 +394,8 @@ void compare(CompareArguments& arguments) {
 
 Command add_compare(CLI::App& root, const std::string& command_line) {
   CLI::App* app = root.add_subcommand("compare", "Compare algorithms: a report of time against error");
-  const auto arguments = std::make_shared<CompareArguments>(
-      CompareArguments{.options = Options(*app), .command_line = command_line, .elastic_options = Options(*app)});
+  const auto arguments =
+      std::make_shared<CompareArguments>(CompareArguments{.options = Options(*app), .command_line = command_line});
   add_arguments(arguments->options, *arguments);
   app->footer(about_objects + about_limits() + about_moves);
   return {app, [arguments] { compare(*arguments); }};

@@ -11,12 +11,12 @@ struct CompareArguments {
   Options options;
   std::string command_line;  // shown in the report
   CLI::Option* meshes = nullptr;
-  std::optional<std::string> output = {}, preset = {}, moves = {}, pins = {}, experiments = {}, shard = {};
+  std::optional<std::string> output = {}, preset = {}, moves = {}, experiments = {}, shard = {};
+  std::optional<PinnedElements> pins = {};
   bool against_physics = false,
        refined = false;             // what errors refer to: physics, on the object's cells or refined ones
   report::PhysicsOptions how = {};  // against Exact, only what both comparisons have
   SoftnessArguments softness = {};
-  Options elastic_options;  // apart: they are read only for meshes
   ElasticOptions elastic = {};
   StrainLawArguments laws = {};
   std::optional<bool> calibrated = {};

@@ -11,6 +11,7 @@ Command add_convert(CLI::App& root) {
   const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail convert liver.msh -o liver.vtu");
   return {app, [mesh, target] {
+            mesh->options.read();
             check_mesh_output(mesh->path(), *value_of(target));
             const OpenedMesh opened = open_mesh(*mesh);
             say_flaws(opened);
@@ -20,28 +21,34 @@ Command add_convert(CLI::App& root) {
 
 Command add_fill(CLI::App& root) {
   CLI::App* app = root.add_subcommand("fill", "Fill a closed surface with tetrahedra");
-  const CLI::Option* mesh =
-      add_value(*app, "MESH", "", "file of the surface: " + mesh_endings(FormatUse::read))->required();
-  const CLI::Option* edge = add_value(
-      *app, "--edge", "LENGTH", "approximate length of inner edges, in mesh units [the mean edge of the surface]");
+  const auto mesh = add_mesh_path(*app);
+  const auto edge = std::make_shared<std::optional<double>>();
+  mesh->options.add("--edge", "LENGTH",
+                    "approximate length of inner edges, in mesh units [the mean edge of the surface]", *edge,
+                    [](const std::string& where, const std::string& text) {
+                      const double length = parse_number_of(where, text);
+                      require(length > 0, where, "it must be a number above 0", "use the length of the new edges");
+                      return length;
+                    });
   const CLI::Option* target = add_mesh_target(*app);
   app->footer("Example:\n  chainmail fill sphere.obj --edge 0.8 -o ball.msh");
   return {app, [=] {
-            const std::string path = *value_of(mesh), name = shown(path);
+            const std::string path = mesh->path(), name = shown(path);
+            mesh->options.read();
             check_mesh_output(path, *value_of(target));
-            const OpenedMesh surface = open_mesh(path);
+            const OpenedMesh surface = open_mesh(*mesh);
             say_flaws(surface);
-            const auto length = value_of(edge);
-            const double size = length ? parse_number_of("--edge", *length) : surface.mesh->mean_link_length;
+            const double size = edge->value_or(surface.mesh->mean_link_length);
             write_mesh_file(path, *value_of(target),
-                            watched("filling " + name, {{"size", "--edge"}, {"surface", name}},
+                            watched("filling " + name, {{"surface", name}},
                                     [&](const Progress& progress) { return fill(*surface.mesh, size, progress); }));
           }};
 }
 
 Command add_simplify(CLI::App& root) {
   CLI::App* app = root.add_subcommand("simplify", "Give a surface fewer elements");
-  const auto mesh = add_mesh(*app);
+  const auto mesh = add_mesh_path(*app);
+  add_weld(*mesh);
   const auto count = std::make_shared<std::uint32_t>(0);
   mesh->options
       .add("--elements", "N", "number of elements of the result, fewer than the surface has", *count,
@@ -53,6 +60,7 @@ Command add_simplify(CLI::App& root) {
       "closed; elements at the border of an open one stay where they are. Simplify before you fill.\n\n"
       "Example:\n  chainmail simplify scan.ply --elements 3000 -o coarse.ply");
   return {app, [=] {
+            mesh->options.read();
             const std::string path = mesh->path(), name = shown(path);
             check_mesh_output(path, *value_of(target));
             const OpenedMesh opened = open_mesh(*mesh);

@@ -178,10 +178,10 @@ void add_model(Options& options, DeformArguments& arguments) {
            })
       ->required();
   add_softness(options, arguments.global);
-  options.add("--softness", "FILE",
-              "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) + " or a,b," +
-                  softness_names(","),
-              arguments.softness);
+  options.add_input("--softness",
+                    "softness of single links: CSV rows a,b," + softness_names(",", 0, region_numbers) + " or a,b," +
+                        softness_names(","),
+                    arguments.softness);
   options.add("--relax", "N",
               "sweeps of relaxation after each pass, or largest number of iterations [0; equilibrium: " +
                   std::to_string(equilibrium_iterations) + "]",
@@ -203,8 +203,10 @@ Command add_deform(CLI::App& root) {
   add_model(options, *arguments);
   add_actions(*app, *arguments);
   options.add("--steps", "N", "passes per move, in equal steps [1]", arguments->schedule.steps, count_from(1));
-  options.add("--script", "FILE", "recorded moves (JSON) saved by the workbench; they run before all actions",
-              arguments->script);
+  options.add_input("--script",
+                    "recorded moves (JSON) saved by the workbench, which run before all actions; the default of "
+                    "--energy is then corotated",
+                    arguments->script);
   options.add("--positions", "FILE", "write the final positions: " + mesh_endings(FormatUse::write_positions),
               arguments->positions);
   options.add("--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved",

@@ -8,7 +8,6 @@ namespace {
 /// Reads a mesh, or the object of a session. Reading a session checks its moves and its lesson, too. A mesh that it
 /// names is beside it or among the samples.
 OpenedMesh contents_of(const MeshArguments& mesh) {
-  mesh.options.read();
   const std::filesystem::path path = mesh.path();
   InputFile input = open_file(path);
   if (input.kind != FileKind::session) {
@@ -34,6 +33,7 @@ Command add_info(CLI::App& root) {
   app->footer("Formats:\n" + mesh_formats_help(FormatUse::read) + "\nExample:\n  chainmail info 3x3.dat --json -");
   return {app, [mesh, json] {
             const auto path = value_of(json);
+            mesh->options.read();
             check_outputs({mesh->path()}, {path});
             const MeshSummary summary = summarize(contents_of(*mesh));
             write_outputs({mesh->path()}, {{path, [&](std::ostream& out) { write_json(out, summary); }},

@@ -31,16 +31,42 @@ void add_law(Options& options, const std::string& type, const std::string& help,
   options.add("--material", type, help + " [neo-hookean]", arguments.materials);
 }
 
+/// Reads the name of a layer, or ids separated by commas.
+PinnedElements parse_pins(const std::string& where, const std::string& text) {
+  if (is_layer(text)) {
+    return {text, {}};
+  }
+  PinnedElements pins;
+  for (const std::string& word : words_of(where, text)) {
+    const auto id = parse_count(word);
+    require(id.has_value(), where, in_quotes(word) + " is not an element's id",
+            "use ids from 0, separated by commas, or " + pin_names());
+    pins.ids.push_back(*id);
+  }
+  std::ranges::sort(pins.ids);
+  return pins;
+}
+
+/// Returns the text of --frame if it can be one.
+std::string parse_frame(const std::string& where, const std::string& text) {
+  if (text != "axes" && text != "object") {
+    require(text.find(':') != std::string::npos, where, in_quotes(text) + " is not known",
+            "use axes, object, or a rotation such as z:45 or 1,2,3:30");
+    parse_rotation(where, text);
+  }
+  return text;
+}
+
 }  // namespace
 
 // Softness
 
-void add_energy(Options& options, EnergyKind usual, std::optional<EnergyKind>& energy) {
+void add_energy(Options& options, const std::string& usual, std::optional<EnergyKind>& energy) {
   options.add("--energy", choices_of(energy_kinds(), &EnergyKindInfo::kind),
               "elastic energy that relaxation lowers, of links or of the material of cells; isotropic ignores " +
                   softness_names(", ", region_numbers, softness_numbers.size() - 1) + " and " +
-                  std::string(softness_numbers.back().parameter->name) + ", material too, at equilibrium [" +
-                  std::string(info(usual).name) + "]",
+                  std::string(softness_numbers.back().parameter->name) + ", material too, at equilibrium [" + usual +
+                  "]",
               energy);
 }
 
@@ -48,11 +74,14 @@ void add_softness(Options& options, SoftnessArguments& arguments) {
   for (std::size_t i = 0; i < softness_numbers.size(); ++i) {
     options.add(*softness_numbers[i].parameter, arguments.numbers[i]);
   }
-  add_energy(options, standard_energy, arguments.energy);
+  add_energy(options,
+             std::string(info(standard_energy).name) +
+                 "; with one of the numbers that it ignores: " + std::string(info(link_energy).name),
+             arguments.energy);
   options.add("--frame", "axes|object|AXIS:DEGREES",
               "valid regions lie along the axes of the world, the principal axes of the object at rest, "
               "or axes turned by a rotation; AXIS is x, y, z or X,Y,Z [axes]",
-              arguments.axes);
+              arguments.axes, parse_frame);
 }
 
 Softness softness_of(const SoftnessArguments& arguments, const LinkSoftness& usual) {
@@ -79,8 +108,6 @@ RegionAxes axes_of(const SoftnessArguments& arguments, const Mesh& mesh) {
     }
     return principal.axes;
   }
-  require(text.find(':') != std::string::npos, "--frame", "'" + printable(text) + "' is not known",
-          "use axes, object, or a rotation such as z:45 or 1,2,3:30");
   return error_at("--frame", [&] { return axes_after(parse_rotation("--frame", text), mesh); });
 }
 
@@ -158,41 +185,24 @@ std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const
 
 // Pins
 
-std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word,
-                                                   const Mesh& mesh) {
-  const ObjectSide* side = find_side(word);
-  if (side == nullptr && word != "boundary") {
-    return std::nullopt;
-  }
-  std::vector<ElementId> pins = side == nullptr ? boundary(mesh) : layer(mesh, *side);
-  require(!pins.empty() || side != nullptr, where, "the object is closed and has no boundary",
-          "pin a layer, like bottom, or elements by id");
-  require(!pins.empty(), where, "the object does not extend along that axis", "pin another layer, or elements by id");
-  return pins;
-}
-
-std::vector<ElementId> pins_of(const std::optional<std::string>& list, const std::string& object, const Mesh& mesh) {
-  require(list.has_value(), object, "it has no pins, so physics has no solution",
+std::vector<ElementId> pins_of(const std::optional<PinnedElements>& pins, const std::string& object, const Mesh& mesh) {
+  require(pins.has_value(), object, "it has no pins, so physics has no solution",
           "add --pins bottom, --pins boundary, or --pins ID,ID,…");
-  if (auto pins = pins_by_name("--pins", *list, mesh)) {
-    return *std::move(pins);
+  if (!pins->layer.empty()) {
+    return error_at("--pins", [&] { return elements_at(mesh, pins->layer); });
   }
-  std::vector<ElementId> pins;
-  for (const std::string& word : words_of("--pins", *list)) {
-    const auto id = parse_count(word);
-    require(id.has_value(), "--pins", in_quotes(word) + " is not an element's id",
-            "use ids from 0, separated by commas, or " + pin_names());
-    require(*id < mesh.element_count(), "--pins", object + " has no element " + word,
+  for (const ElementId id : pins->ids) {
+    require(id < mesh.element_count(), "--pins", object + " has no element " + std::to_string(id),
             "use an id from 0 to " + std::to_string(mesh.element_count() - 1));
-    pins.push_back(*id);
   }
-  std::ranges::sort(pins);
-  return pins;
+  return pins->ids;
 }
 
-void add_pins(Options& options, std::optional<std::string>& pins) {
-  options.add("--pins", "LAYER|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids", pins);
+void add_pins(Options& options, std::optional<PinnedElements>& pins) {
+  options.add("--pins", "LAYER|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids", pins, parse_pins);
 }
+
+bool is_layer(const std::string& word) { return word == "boundary" || find_side(word) != nullptr; }
 
 std::string pin_names() {
   std::string names;

@@ -10,8 +10,8 @@ namespace chainmail::command_line {
 
 // The options that say how an object deforms: softness, energy, axes of regions, elasticity, and pins.
 
-/// Adds the option for the kind of energy. Its help names `usual`.
-void add_energy(Options& options, EnergyKind usual, std::optional<EnergyKind>& energy);
+/// Adds the option for the kind of energy. Its help says what there is without it: `usual`.
+void add_energy(Options& options, const std::string& usual, std::optional<EnergyKind>& energy);
 
 /// The softness of all links, the kind of energy, and the axes of valid regions.
 struct SoftnessArguments {
@@ -41,13 +41,17 @@ void add_strain_laws(Options& options, ElasticOptions& elastic, StrainLawArgumen
 /// Returns the laws, of which there may be one or several. Throws Error, with the option.
 std::vector<StrainLaw> strain_laws_of(const StrainLawArguments& arguments, const ElasticOptions& elastic);
 
-void add_pins(Options& options, std::optional<std::string>& pins);
-/// Returns the elements of `--pins`, a layer or ids separated by commas, in ascending order. Throws Error if the option
-/// is missing; `object` is the object's name for error messages.
-std::vector<ElementId> pins_of(const std::optional<std::string>& pins, const std::string& object, const Mesh& mesh);
-/// Returns the elements of `boundary` or of a layer, like `bottom`; nothing for any other word. Throws Error, with the
-/// option, if the object has no boundary or layer with this name.
-std::optional<std::vector<ElementId>> pins_by_name(const std::string& where, const std::string& word, const Mesh& mesh);
+/// The elements of `--pins`: a layer, or ids.
+struct PinnedElements {
+  std::string layer;
+  std::vector<ElementId> ids;
+};
+void add_pins(Options& options, std::optional<PinnedElements>& pins);
+/// Returns the pinned elements in ascending order. Throws Error if the option is missing; `object` is the object's name
+/// for error messages.
+std::vector<ElementId> pins_of(const std::optional<PinnedElements>& pins, const std::string& object, const Mesh& mesh);
+/// Returns true for `boundary` and for a layer, like `bottom`.
+bool is_layer(const std::string& word);
 /// Returns all names of layers, separated by `|`.
 std::string pin_names();
 

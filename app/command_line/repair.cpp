@@ -19,6 +19,7 @@ RepairOptions options_of(const Options& options, double tolerance) {
 
 void repair_file(const MeshArguments& mesh, double& tolerance, const std::string& target,
                  const std::optional<std::string>& json) {
+  mesh.options.read();
   check_mesh_output(mesh.path(), target, json);
   const OpenedMesh opened = open_mesh(mesh);
   say_flaws(opened);
@@ -40,7 +41,8 @@ void repair_file(const MeshArguments& mesh, double& tolerance, const std::string
 Command add_repair(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("repair", "Repair a mesh: weld duplicates, remove loose points, close holes, turn cells");
-  const auto mesh = add_mesh(*app, Welding::by_repair);
+  const auto mesh = add_mesh_path(*app);
+  add_layout(*mesh);
   const auto tolerance = std::make_shared<double>(0);
   mesh->options
       .add("--weld", "TOLERANCE",

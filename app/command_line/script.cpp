@@ -4,6 +4,7 @@
 #include <set>
 
 #include "command_line/model.h"
+#include "mesh/layers.h"
 #include "simulate/move_history.h"
 
 namespace chainmail::command_line {
@@ -40,10 +41,7 @@ void check_element(const Action& action, ElementId element, const Mesh& mesh) {
 /// Returns the elements that an action pins or grabs, in the given order.
 std::vector<ElementId> elements_of(const Action& action, const Mesh& mesh) {
   if (!action.layer.empty()) {
-    const auto pins = pins_by_name(action.where, action.layer, mesh);
-    require(pins.has_value(), action.where, in_quotes(action.layer) + " is not an element's id",
-            "use a whole number from 0, or " + pin_names());
-    return *pins;
+    return error_at(action.where, [&] { return elements_at(mesh, action.layer); });
   }
   std::vector<ElementId> elements;
   for (const auto& [first, last] : action.ranges) {
@@ -191,6 +189,8 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
     action.rotation = parse_rotation(where, text);
     action.of_handle = true;
   } else if ((kind == pin || kind == grab) && text.find_first_of("0123456789") != 0) {
+    require(is_layer(text), where, in_quotes(text) + " is not an element's id",
+            "use a whole number from 0, or " + pin_names());
     action.layer = text;
   } else if (kind == pin) {
     action.ranges = {{parse_id(where, text), parse_id(where, text)}};
