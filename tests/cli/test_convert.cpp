@@ -220,8 +220,6 @@ void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file_data() {
   QTest::newRow("border too long") << "simplify strip.off --elements 5 -o a.msh"
                                    << "strip.off: the 6 elements at its borders and non-manifold edges stay, so it "
                                       "cannot have 5; use a surface with more elements inside";
-  QTest::newRow("size") << "fill a.off --edge -1 -o a.msh"
-                        << "--edge: it must be a number above 0; ";
 }
 
 void ConvertCommandTest::bad_usage_is_one_sentence_and_leaves_no_file() {

@@ -60,7 +60,6 @@ void DeformModelTest::what_does_not_fit_is_refused_data() {
     row(act, act);
   }
   row("--pin 2 --by 2:1", "--by 2:1: element 2 is already pinned");
-  row("--frame sideways", "--frame: 'sideways' is not known");
   row("--frame z:45", "--frame: turned about z, its axes would leave the space of the object");  // a line
   row("--softness bad.csv", "bad.csv:2: ");
 }

@@ -69,21 +69,13 @@ void UsageTest::wrong_arguments_data() {
       "--algorithm: 'best' is not known; use generalized, spiral, natural-queue, enhanced, 3d, exact, fem, ");
   row("deform grid.dat --algorithm spiral --algorithm spiral", "--algorithm: it was given 2 times; ");
   row("deform grid.dat --algorithm spiral --json --trace a.csv", "--json: its value is missing; ");
-  for (const char* option :
-       {"--compression 1.1", "--compression -0.1", "--stretch 0.9", "--shear -1", "--lateral -0.1", "--stiffness 0",
-        "--exponent -4.1", "--exponent 5", "--relax-step 0", "--relax-step 1.5", "--spacing 0"}) {
-    const QByteArray text = option;
-    row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": ");
-  }
   row("deform grid.dat --algorithm spiral --steps 1000000000 --by 0:1",
       "--steps: the moves have more than 100000 passes in all");
   for (const char* option : {"--compression nan", "--stretch inf", "--shear 1e999", "--shear 0.1x", "--stretch 1,5"}) {
     const QByteArray text = option;
     row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": '");
   }
-  for (const char* option :
-       {"--steps 0", "--steps 1.5", "--steps -1", "--steps 1e3", "--relax -1", "--relax x", "--space 0", "--space 4",
-        "--precision half", "--relaxation none", "--energy elastic", "--size 4", "--size 4x0", "--size 4x3x1x1"}) {
+  for (const char* option : {"--steps 1.5", "--steps 1e3", "--size 4", "--size 4x3x1x1"}) {
     const QByteArray text = option;
     row("deform grid.dat --algorithm spiral " + text, text.left(text.indexOf(' ')) + ": '");
   }
