@@ -22,9 +22,9 @@ void repair_file(const MeshArguments& mesh, double& tolerance, const std::string
   mesh.options.read();
   check_mesh_output(mesh.path(), target, json);
   const OpenedMesh opened = open_mesh(mesh);
-  say_flaws(opened);
   require(!mesh.options.has("--holes") || !opened.mesh->has_cells(), "--holes",
           "the object has cells, and only surfaces have holes", "leave it out, or use a surface");
+  say_flaws(opened);
   const std::string name = shown(mesh.path());
   const RepairResult repaired = watched("repairing " + name, {{"surface", name}}, [&](const Progress& progress) {
     return repair(opened.mesh, opened.softness, options_of(mesh.options, tolerance), progress);

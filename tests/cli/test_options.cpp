@@ -76,10 +76,10 @@ constexpr Row rows[]{
     {"convert", "-o", "b.vtu", "none/a.obj", "", "files"},
     {"fill", "--edge", "0.7", "0", "", "mesh"},
     {"fill", "-o", "b.vtu", "none/a.vtu", "", "files"},
-    {"repair", "--weld", "0", "-1", "", "mesh after"},
-    {"repair", "--loose", "", "", "", "mesh after"},
-    {"repair", "--holes", "", "", "broken.off", "mesh after"},
-    {"repair", "--cells", "", "", "", "mesh after"},
+    {"repair", "--weld", "0", "-1", "--cells", "mesh after duplicate_vertices"},
+    {"repair", "--loose", "", "", "--cells", "mesh after loose_points"},
+    {"repair", "--holes", "", "", "broken.off --cells", "mesh after holes hole_edges"},
+    {"repair", "--cells", "", "", "turned.mesh --loose", "mesh inverted_cells"},
     {"repair", "--json", "b.json", "none/a.json", "", "files"},
     {"repair", "-o", "b.vtu", "none/a.obj", "", "files"},
     {"simplify", "--elements", "14", "0", "", "mesh"},
@@ -119,14 +119,14 @@ constexpr Row rows[]{
     {"deform", "--steps", "3", "0", "", "motion energy"},
     {"deform", "--script", "moves.json", "none.json", "", "motion energy"},
     {"deform", "--positions", "b.csv", "none/a.csv", "", "files"},
-    {"deform", "--trace", "t.csv", "none/t.csv", "", "files trace"},
+    {"deform", "--trace", "t.csv", "none/t.csv", "", "files"},
     {"deform", "--json", "b.json", "none/a.json", "", "files"},
     {"calibrate", "--space", "2", "4", "", ""},
     {"calibrate", "--young", "2", "0", "", "young"},
     {"calibrate", "--poisson", "0.4", "0.5", "", "poisson figures presets"},
     {"calibrate", "--pins", "bottom", "roof", "", "pins drags figures"},
-    {"calibrate", "--algorithm", "exact", "fem", "", "contestants repetitions figures"},
-    {"calibrate", "--relaxation", "mean", "none", "", "relaxation contestants figures"},
+    {"calibrate", "--algorithm", "exact", "fem", "", "contestants figures"},
+    {"calibrate", "--relaxation", "mean", "none", "", "relaxation figures"},
     {"calibrate", "--energy", "axial", "elastic", "", "energy figures"},
     {"calibrate", "--drags", "2", "0", "", "drags contestants figures"},
     {"calibrate", "--seed", "7", "-1", "", "seed drags figures"},
@@ -152,7 +152,7 @@ constexpr Row rows[]{
     {"exact physics", "--relaxation", "link", "none", "", "relaxation figures"},
     {"exact physics", "--relax-step", "0.5", "0", "", "relax_step figures"},
     {"exact physics", "--precision", "double", "half", "", "precision figures"},
-    {"exact physics", "--repetitions", "2", "0", "", "repetitions"},
+    {"exact physics suite", "--repetitions", "2", "0", "", "repetitions"},
     {"exact physics", "--quick", "", "", "", "drags contestants repetitions figures files"},
     {"exact physics", "--compression", "0.9", "1.1", "", "drags figures"},
     {"exact physics", "--stretch", "1.1", "0.9", "", "drags figures"},
@@ -176,10 +176,9 @@ constexpr Row rows[]{
     {"refined", "--reference", "refined", "best", "", "object drags contestants repetitions figures files"},
     {"physics", "--reference", "same-cells", "best", "", ""},
     {"physics", "--handles", "2", "4", "", "drags contestants repetitions figures"},
-    {"physics", "--grow", "1e-9", "-1", "", "object pins repetitions drags contestants repetitions figures files"},
+    {"physics", "--grow", "1e-9", "-1", "", "object pins drags contestants repetitions figures files"},
     {"physics", "--calibrated", "on", "maybe", "", "object contestants repetitions figures"},
     {"suite", "--algorithms", "spiral", "best", "", "contestants repetitions figures files"},
-    {"suite", "--repetitions", "2", "0", "", "repetitions"},
     {"suite", "--calibrated", "off", "maybe", "", ""},
     {"suite", "--shard", "1/1", "2/1", "", ""},
     {"suite", "--experiments", "refinement", "none", "", ""},
@@ -198,6 +197,10 @@ const QStringList actions{"--move", "--by", "--grab", "--rotate", "--cut", "--pi
 constexpr const char* broken =
     "OFF\n11 11 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n0 0 0\n7 7 7\n3 3 0\n"
     "3 0 2 1\n3 8 3 2\n3 0 1 5\n3 8 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n3 1 2 10\n";
+/// Two cells, one of them inside out.
+constexpr const char* turned =
+    "MeshVersionFormatted 2 Dimension 3 Vertices 5 0 0 0 1 1 0 0 1 0 1 0 1 0 0 1 1 1 1 1 1 Tetrahedra 2 1 2 3 4 1 "
+    "2 3 5 4 1 End";
 constexpr const char* closed = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 /// Two strips whose borders are 0.05 apart.
 constexpr const char* near =
@@ -225,6 +228,7 @@ void write_inputs(const Program& program) {
   program.write("broken.off", broken);
   program.write("closed.off", closed);
   program.write("near.obj", near);
+  program.write("turned.mesh", turned);
   program.write("moves.json", moves);
   program.write("preset.json", preset);
   program.write("soft.csv", "0,1,0.9,1.1,0.1\n");
@@ -275,7 +279,8 @@ QString part_of(const QString& path) {
       return part;
     }
   }
-  return path.startsWith("options.") ? path.section('.', 1, 1) : path.section('.', 0, 0);
+  const bool is_last = path.startsWith("options.") || path.startsWith("after.defects.");
+  return is_last ? path.section('.', -1) : path.section('.', 0, 0);
 }
 
 using Parts = std::map<QString, QStringList>;
