@@ -331,7 +331,8 @@ class Runner {
         result.files.append(name);
       }
     }
-    std::ranges::stable_partition(result.files, [](const QString& name) { return name.endsWith(".json"); });
+    std::stable_partition(result.files.begin(), result.files.end(),
+                          [](const QString& name) { return name.endsWith(".json"); });
     for (const QString& name : QStringList(result.files)) {
       take(result, name);
     }
