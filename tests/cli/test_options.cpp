@@ -98,7 +98,7 @@ constexpr Row rows[]{
     {"deform", "--relax", "5", "-1", "", "motion energy"},
     {"deform", "--relaxation", "link", "none", "", "motion energy"},
     {"deform", "--relax-step", "0.5", "0", "", "motion energy"},
-    {"deform", "--relax-until", "0.5", "-1", "--relaxation equilibrium --relax 200", "motion energy"},
+    {"deform", "--relax-until", "0.5", "-1", "--relaxation equilibrium --relax 200", "motion energy figures"},
     {"deform", "--precision", "float", "half", "", "motion energy"},
     {"deform", "--young", "2", "0", "", "energy"},
     {"deform", "--poisson", "0.4", "0.5", "", "motion energy"},
@@ -611,7 +611,9 @@ QString check_wrong(Runs& runs, const Runner& runner, const Setting& setting, co
 
 bool names_any(const QString& error, const QStringList& line, const Rows& set) {
   return std::ranges::any_of(set, [&](const Row* row) { return error.contains(row->option); }) ||
-         std::ranges::any_of(line, [&](const QString& word) { return error.startsWith("chainmail: " + word + ": "); });
+         std::ranges::any_of(line, [&](const QString& word) {
+           return error.startsWith("chainmail: " + word + (word.startsWith("--") ? " " : ": "));
+         });
 }
 
 /// Nothing changes that no option may change; what only one may change is as with this option alone.
