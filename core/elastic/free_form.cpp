@@ -273,7 +273,7 @@ class FreeForm final : public ElasticSolver {
         right.col(k) += fields(displacements_)(k, static_cast<Eigen::Index>(e)) * weights;
       }
     }
-    return solved(normal, std::move(right));
+    return solved(factored(normal), std::move(right));
   }
 
   MeshPointer mesh_;
