@@ -1,10 +1,9 @@
 #include "equilibrium/surface_energy.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "mesh/eigenvectors.h"
 
 namespace chainmail {
 namespace {
@@ -51,6 +50,17 @@ Six curvature_of_ratio(const Vector& a, const Vector& b, const FixedMatrix<doubl
     }
   }
   return result - outer_product(slope, slope);
+}
+
+/// Returns a symmetric matrix with 0 in place of its negative eigenvalues.
+Six without_negative(const Six& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
+      Eigen::Map<const Eigen::Matrix<double, 6, 6>>(matrix.data()));
+  Six vectors = Six::from(eigen.eigenvectors().data()), scaled = vectors;
+  for (int i = 0; i < 36; ++i) {
+    scaled[i] *= std::max(0.0, eigen.eigenvalues()[i / 6]);
+  }
+  return scaled * transposed(vectors);
 }
 
 /// The share of a hinge that a triangle with this ratio of areas has, and its slope.

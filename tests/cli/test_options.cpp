@@ -258,13 +258,13 @@ const QList<std::pair<QRegularExpression, QString>>& parts_by_path() {
              {"_ms|ms_per|milliseconds|seconds$|p99|real_time|growth$|bytes|notes|description", ""},
              {"^(origin|figures|kind|schema_version|runs|sizes|algorithms|version|stopped)", ""},
              {"^objects[.]drags[.]contestants([.]algorithm)?$", "contestants"},
+             {"^(displacement|violation|shape|passes|equilibrium)", "motion"},
              {"^objects[.](drags[.])?contestants|residual|[.]reference", "figures"},
              {"^(objects[.])?drags", "drags"},
              {"^objects[.]pins", "pins"},
              {"^(objects|bounds|elements|links|triangles|tetrahedra|hexahedra|mean_link_length|object_dimension|"
               "space_dimension|components|joined|left_out|flaws|defects|read_as)",
               "object"},
-             {"^(displacement|violation|shape|passes|equilibrium)", "motion"},
              {"^(compression|stretch|shear|lateral|stiffness|exponent|sweeps|presets[.](?!name))", "figures"}}) {
       list.append({QRegularExpression(paths), part});
     }

@@ -691,10 +691,12 @@ void Life::Asked::check_panel(int panel) const {
   const ObjectFacts &before = was.object, &after = now.object;
   const bool drags =
       action_.kind == Kind::drag || action_.kind == Kind::drag_many || action_.kind == Kind::drag_and_keep;
-  // Exact may stop on the way, and says so only while it holds the handle.
-  const bool may_stop = action_.kind == Kind::drag_and_keep ? now.statistics.last_pass.stopped
-                                                            : info(document_.algorithm(panel)).holds_links &&
-                                                                  (!before.pins.empty() || motion_.degrees != 0);
+  // Exact may stop on the way, and says so only while it holds the handle. A new panel takes over positions that its
+  // links may not allow; the first pass mends them, also between the elements of the handle.
+  const bool may_stop = action_.kind == Kind::drag_and_keep
+                            ? now.statistics.last_pass.stopped
+                            : info(document_.algorithm(panel)).holds_links &&
+                                  (!before.pins.empty() || motion_.degrees != 0 || was.statistics.passes == 0);
   // A drag is two passes, unless it is refused.
   const bool has_answer = drags && now.statistics.passes == was.statistics.passes + 2 && now.statistics.remark.empty();
   RC_LOG() << "panel " << panel << ", " << info(document_.algorithm(panel)).name << ", " << action_ << '\n';
