@@ -98,7 +98,7 @@ constexpr Row rows[]{
     {"deform", "--relax", "5", "-1", "", "motion energy"},
     {"deform", "--relaxation", "link", "none", "", "motion energy"},
     {"deform", "--relax-step", "0.5", "0", "", "motion energy"},
-    {"deform", "--relax-until", "0.5", "-1", "--relaxation equilibrium --relax 200", "motion energy figures"},
+    {"deform", "--relax-until", "0.5", "-1", "--relaxation equilibrium --relax 200", "motion energy"},
     {"deform", "--precision", "float", "half", "", "motion energy"},
     {"deform", "--young", "2", "0", "", "energy"},
     {"deform", "--poisson", "0.4", "0.5", "", "motion energy"},

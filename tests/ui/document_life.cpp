@@ -696,7 +696,8 @@ void Life::Asked::check_panel(int panel) const {
   const bool may_stop = action_.kind == Kind::drag_and_keep
                             ? now.statistics.last_pass.stopped
                             : info(document_.algorithm(panel)).holds_links &&
-                                  (!before.pins.empty() || motion_.degrees != 0 || was.statistics.passes == 0);
+                                  (!before.pins.empty() || motion_.degrees != 0 ||
+                                   (was.statistics.passes == 0 && before.largest_excess({}) > 0));
   // A drag is two passes, unless it is refused.
   const bool has_answer = drags && now.statistics.passes == was.statistics.passes + 2 && now.statistics.remark.empty();
   RC_LOG() << "panel " << panel << ", " << info(document_.algorithm(panel)).name << ", " << action_ << '\n';

@@ -30,15 +30,15 @@ class WindowDocks : public QObject {
 
   /// Also one that is added to the table.
   void everyDockOfTheTableIsDescribedAndIsInTheWindowAndInOneMenu() {
-    const ExtraDock extra({.id = "dummyDock",
-                           .action = "showDummyDock",
-                           .title = "Dummy",
-                           .tooltip = "Shows nothing",
-                           .icon = "mesh",
-                           .key = "Ctrl+Alt+D",
-                           .area = Qt::LeftDockWidgetArea,
-                           .visible = false,
-                           .make = [](const DockParts& /*parts*/) { return new QDockWidget; }});
+    const ExtraRow<DockEntry> extra({.id = "dummyDock",
+                                     .action = "showDummyDock",
+                                     .title = "Dummy",
+                                     .tooltip = "Shows nothing",
+                                     .icon = "mesh",
+                                     .key = "Ctrl+Alt+D",
+                                     .area = Qt::LeftDockWidgetArea,
+                                     .visible = false,
+                                     .make = [](const DockParts& /*parts*/) { return new QDockWidget; }});
     QCOMPARE(dockEntries().back().id, "dummyDock");
     QSet<QString> names;
     for (const DockEntry& entry : dockEntries()) {

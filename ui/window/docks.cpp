@@ -220,8 +220,10 @@ void bringUp(QDockWidget& dock) {
 
 std::span<const DockEntry> dockEntries() { return dockTable(); }
 
-ExtraDock::ExtraDock(const DockEntry& entry) { dockTable().push_back(entry); }
-ExtraDock::~ExtraDock() { dockTable().pop_back(); }
+template <>
+std::vector<DockEntry>& table_of() {
+  return dockTable();
+}
 
 Docks::Docks(const DockParts& parts) : window_(parts.window) {
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);  // gives the right column the full height

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/extra_row.h"
 #include "window/layout.h"
 
 class QMainWindow;
@@ -58,14 +59,9 @@ struct DockEntry {
 /// Returns the entries of all docks, in the order in which they are made and listed.
 std::span<const DockEntry> dockEntries();
 
-/// Adds a dock to the table while this object exists. For tests: windows that are made meanwhile must end before it.
-class ExtraDock {
- public:
-  explicit ExtraDock(const DockEntry& entry);
-  ExtraDock(const ExtraDock&) = delete;
-  ExtraDock& operator=(const ExtraDock&) = delete;
-  ~ExtraDock();
-};
+/// For ExtraRow, in tests.
+template <>
+std::vector<DockEntry>& table_of();
 
 /// The docks of a window.
 class Docks {

@@ -169,8 +169,10 @@ std::string refusal(const std::string& ending, const MeshFormat* format, FormatU
 
 std::span<const MeshFormat> mesh_formats() { return format_table(); }
 
-ExtraFormat::ExtraFormat(const MeshFormat& format) { format_table().push_back(format); }
-ExtraFormat::~ExtraFormat() { format_table().pop_back(); }
+template <>
+std::vector<MeshFormat>& table_of() {
+  return format_table();
+}
 
 std::string mesh_endings(FormatUse use, std::string_view last) {
   std::vector<std::string_view> endings;

@@ -6,11 +6,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "files/formats/imported.h"
 #include "files/formats/mesh_state.h"
 #include "files/formats/read_options.h"
 #include "files/formats/volume.h"
+#include "mesh/extra_row.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -50,15 +52,9 @@ struct MeshFormat {
 /// Returns all formats, in the order of menus and help texts.
 std::span<const MeshFormat> mesh_formats();
 
-/// Adds a format to the table while this object exists. For tests: no other thread may read the table meanwhile, and
-/// references to its rows become invalid.
-class ExtraFormat {
- public:
-  explicit ExtraFormat(const MeshFormat& format);
-  ExtraFormat(const ExtraFormat&) = delete;
-  ExtraFormat& operator=(const ExtraFormat&) = delete;
-  ~ExtraFormat();
-};
+/// For ExtraRow, in tests.
+template <>
+std::vector<MeshFormat>& table_of();
 
 /// Returns the endings of all formats with a use, like `.dat or .obj`. `last` is the word before the last ending.
 std::string mesh_endings(FormatUse use, std::string_view last = "or");

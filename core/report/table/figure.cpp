@@ -70,9 +70,6 @@ std::vector<const Figure*>& figure_table() {
 
 std::span<const Figure* const> every_figure() { return figure_table(); }
 
-ExtraFigure::ExtraFigure(const Figure& figure) { figure_table().push_back(&figure); }
-ExtraFigure::~ExtraFigure() { figure_table().pop_back(); }
-
 const Figure* find_figure(std::string_view key) {
   const auto all = every_figure();
   const auto found = std::ranges::find_if(all, [&](const Figure* one) { return one->key == key; });
@@ -95,3 +92,10 @@ std::string in_brackets(const Figure& figure) {
 std::string group_with_unit(const Figure& figure) { return std::string(figure.group) + in_brackets(figure); }
 
 }  // namespace chainmail::report
+
+namespace chainmail {
+template <>
+std::vector<const report::Figure*>& table_of() {
+  return report::figure_table();
+}
+}  // namespace chainmail

@@ -3,9 +3,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "measure/physical_error.h"
 #include "measure/violation.h"
+#include "mesh/extra_row.h"
 
 namespace chainmail::report {
 
@@ -198,15 +200,6 @@ inline constexpr Figure real_time{"real_time", "passes", "in real time", "", "",
 
 /// All figures, in the order of columns.
 std::span<const Figure* const> every_figure();
-/// Adds a figure to the table while this object exists. For tests: no other thread may read the table meanwhile, and
-/// the figure must exist as long.
-class ExtraFigure {
- public:
-  explicit ExtraFigure(const Figure& figure);
-  ExtraFigure(const ExtraFigure&) = delete;
-  ExtraFigure& operator=(const ExtraFigure&) = delete;
-  ~ExtraFigure();
-};
 /// Returns null if there is no figure with this key.
 const Figure* find_figure(std::string_view key);
 /// Returns the definition of a figure with the number that it quotes.
@@ -217,3 +210,9 @@ std::string in_brackets(const Figure& figure);
 std::string group_with_unit(const Figure& figure);
 
 }  // namespace chainmail::report
+
+namespace chainmail {
+/// For ExtraRow, in tests. The figure must exist as long.
+template <>
+std::vector<const report::Figure*>& table_of();
+}  // namespace chainmail

@@ -206,7 +206,7 @@ void OneEntryTest::a_figure_is_written_and_read() {
   results.rows.push_back({.drag = 0, .contestant = {Algorithm::spiral}});
   results.rows[0].set(figure, 2.5);
   {
-    const report::ExtraFigure extra(figure);
+    const ExtraRow<const report::Figure*> extra(&figure);
     std::ofstream json(path);
     std::ostringstream csv;
     write_json(json, results);
@@ -225,7 +225,7 @@ void OneEntryTest::a_format_is_opened_and_written() {
   const auto path = [&](const char* name) { return std::filesystem::path(folder.filePath(name).toStdString()); };
   const MeshPointer line = make_mesh(MeshKind::line, {3, 1, 1});
   {
-    const ExtraFormat extra(
+    const ExtraRow<MeshFormat> extra(
         {.name = "Dummy",
          .endings = ".dummy",
          .help = "one link",
