@@ -46,7 +46,6 @@ set(public_headers
   mesh/described.h
   mesh/element_blocks.h
   mesh/error.h
-  mesh/extra_row.h
   mesh/fixed_matrix.h
   mesh/generate.h
   mesh/large_pages.h

@@ -27,7 +27,8 @@ struct CompareArguments {
 };
 
 /// The files of every report; it also has plots.
-inline const std::vector<std::string> report_files{"report.html", "report.json", "report.csv"};
+inline const std::string report_html = "report.html", report_json = "report.json", report_csv = "report.csv";
+inline const std::vector<std::string> report_files{report_html, report_json, report_csv};
 
 /// A folder for results. It is created if it is missing, and removed again if the results are not written.
 class OutputFolder {

@@ -91,9 +91,9 @@ void OutputFolder::write(std::vector<OutputFile> files, const std::vector<std::s
 
 void OutputFolder::write_report(const report::Results& results, const std::vector<std::string>& read) {
   const auto plots = plots_of(results);
-  std::vector<OutputFile> files{{report_files[0], [&](std::ostream& out) { write_html(out, results); }},
-                                {report_files[1], [&](std::ostream& out) { write_json(out, results); }},
-                                {report_files[2], [&](std::ostream& out) { write_csv(out, results); }}};
+  std::vector<OutputFile> files{{report_html, [&](std::ostream& out) { write_html(out, results); }},
+                                {report_json, [&](std::ostream& out) { write_json(out, results); }},
+                                {report_csv, [&](std::ostream& out) { write_csv(out, results); }}};
   for (const report::PlotFile& one : plots) {
     files.push_back({one.name, [&one](std::ostream& out) { write_svg(out, one.plot, report::file_ink); }});
   }

@@ -33,7 +33,7 @@ void add_law(Options& options, const std::string& type, const std::string& help,
 
 /// Reads the name of a layer, or ids separated by commas.
 PinnedElements parse_pins(const std::string& where, const std::string& text) {
-  if (is_layer(text)) {
+  if (is_side(text)) {
     return {text, {}};
   }
   PinnedElements pins;
@@ -75,8 +75,8 @@ void add_softness(Options& options, SoftnessArguments& arguments) {
     options.add(*softness_numbers[i].parameter, arguments.numbers[i]);
   }
   add_energy(options,
-             std::string(info(standard_energy).name) +
-                 "; with one of the numbers that it ignores: " + std::string(info(link_energy).name),
+             std::string(info(standard_energy).name) + "; " + std::string(info(link_energy).name) +
+                 " if one of these numbers is given",
              arguments.energy);
   options.add("--frame", "axes|object|AXIS:DEGREES",
               "valid regions lie along the axes of the world, the principal axes of the object at rest, "
@@ -201,8 +201,6 @@ std::vector<ElementId> pins_of(const std::optional<PinnedElements>& pins, const 
 void add_pins(Options& options, std::optional<PinnedElements>& pins) {
   options.add("--pins", "LAYER|ID,ID,…", "pinned elements: a layer (" + pin_names() + ") or ids", pins, parse_pins);
 }
-
-bool is_layer(const std::string& word) { return word == "boundary" || find_side(word) != nullptr; }
 
 std::string pin_names() {
   std::string names;

@@ -10,7 +10,7 @@ namespace chainmail::command_line {
 
 // The options that say how an object deforms: softness, energy, axes of regions, elasticity, and pins.
 
-/// Adds the option for the kind of energy. Its help says what there is without it: `usual`.
+/// Adds the option for the kind of energy. Its help gives `usual` as the default.
 void add_energy(Options& options, const std::string& usual, std::optional<EnergyKind>& energy);
 
 /// The softness of all links, the kind of energy, and the axes of valid regions.
@@ -50,8 +50,6 @@ void add_pins(Options& options, std::optional<PinnedElements>& pins);
 /// Returns the pinned elements in ascending order. Throws Error if the option is missing; `object` is the object's name
 /// for error messages.
 std::vector<ElementId> pins_of(const std::optional<PinnedElements>& pins, const std::string& object, const Mesh& mesh);
-/// Returns true for `boundary` and for a layer, like `bottom`.
-bool is_layer(const std::string& word);
 /// Returns all names of layers, separated by `|`.
 std::string pin_names();
 

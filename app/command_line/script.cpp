@@ -189,7 +189,7 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
     action.rotation = parse_rotation(where, text);
     action.of_handle = true;
   } else if ((kind == pin || kind == grab) && text.find_first_of("0123456789") != 0) {
-    require(is_layer(text), where, in_quotes(text) + " is not an element's id",
+    require(is_side(text), where, in_quotes(text) + " is not an element's id",
             "use a whole number from 0, or " + pin_names());
     action.layer = text;
   } else if (kind == pin) {

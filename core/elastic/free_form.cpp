@@ -80,7 +80,8 @@ Eigen::MatrixXd factored(const Eigen::MatrixXd& matrix) {
       return factor;
     }
   }
-  throw Error("free-form deformation", "its numbers are not finite", "use smaller coordinates");
+  throw Error("free-form deformation", "its control points cannot be computed",
+              "use smaller coordinates, or other pins");
 }
 
 /// Free-form deformation (Sederberg and Parry 1986) by direct manipulation (Hsu et al. 1992): of all motions of the

@@ -5,7 +5,7 @@
 
 namespace chainmail {
 
-/// Returns the table of a kind of rows; specialized beside the table.
+/// Returns the table of a kind of rows; specialized beside the table, and declared by the tests that add to it.
 template <class Row>
 std::vector<Row>& table_of();
 

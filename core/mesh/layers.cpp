@@ -111,12 +111,14 @@ std::vector<ElementId> boundary(const Mesh& mesh) {
   return elements;
 }
 
+bool is_side(std::string_view name) { return name == "boundary" || find_side(name) != nullptr; }
+
 std::vector<ElementId> elements_at(const Mesh& mesh, std::string_view name) {
-  const ObjectSide* side = find_side(name);
-  if (side == nullptr && name != "boundary") {
+  if (!is_side(name)) {
     throw Error("side '" + std::string(name.substr(0, 60)) + "'", "there is no such side",
                 "use left, right, bottom, top, back, front or boundary");
   }
+  const ObjectSide* side = find_side(name);
   std::vector<ElementId> elements = side == nullptr ? boundary(mesh) : layer(mesh, *side);
   if (elements.empty()) {
     throw Error(

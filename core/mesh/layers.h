@@ -30,6 +30,8 @@ std::vector<ElementId> layer(const Mesh& mesh, const ObjectSide& side);
 /// grid without faces, the ends of chains. Empty for a closed surface.
 std::vector<ElementId> boundary(const Mesh& mesh);
 
+/// True for the name of a side and for `boundary`.
+bool is_side(std::string_view name);
 /// Returns the elements of a side by its name, or those of `boundary`. Throws Error for another name, and if there are
 /// none.
 std::vector<ElementId> elements_at(const Mesh& mesh, std::string_view name);

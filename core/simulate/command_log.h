@@ -26,7 +26,7 @@ class CommandLog {
   void post_to(SolverThread& solver, const Command& command);
   /// Sends a command to all solvers without recording it: it is already recorded, or must not be.
   void replay(const Command& command);
-  /// Lets all solvers relax as was set last, after they have repeated recorded relaxation. Call this before a replay
+  /// Ends the repetition of recorded relaxation: all solvers use the last setting again. Call this before a replay
   /// begins again.
   void end_replay();
   /// Returns the recorded commands.

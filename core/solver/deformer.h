@@ -25,8 +25,8 @@ bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
 
 /// Options of relaxation that runs at once.
 struct RelaxOptions {
-  double step =
-      parameters::relax_step.default_value;  // share of the way that an element moves per sweep: above 0, to 1
+  /// Fraction of its displacement that an element moves per sweep: above 0, to 1.
+  double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
   /// With the scheme `equilibrium`: the residual at which it ends, see EquilibriumCertificate; 0 to 1. With 0, all
   /// iterations run.
@@ -118,7 +118,8 @@ class Deformer {
   };
   /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or `most` have run. The scheme
   /// `equilibrium` runs iterations for the whole object instead, until the residual is small, and moves the elements
-  /// once, at the end. What is held, and pins, stay, but `equilibrium` moves what is held to where the pins allow it.
+  /// once, at the end. What is held, and pins, stay, but `equilibrium` moves held elements only as far as the pins
+  /// allow.
   /// Each element stays in the valid regions of its neighbours. Does nothing for methods of elasticity, whose answers
   /// are equilibria. `after_slice`, if given, is called after elements have moved, see relaxed(). Throws Error for
   /// options out of their range or a number below 0, and if pins contradict each other and the scheme is `equilibrium`;

@@ -199,6 +199,12 @@ void PhysicsCommandTest::calibrates_and_saves_a_preset() {
 void PhysicsCommandTest::wrong_usage_data() {
   QTest::addColumn<QString>("where");
   const auto row = [](const char* line, const char* where) { QTest::newRow(line) << where; };
+  row("compare cloth.obj --against chance -o out", "--against: 'chance' is not known; use exact or physics");
+  row("compare cloth.obj --grow 3 -o out", "--grow: it works only with --against physics; add --against physics");
+  row("compare cloth.obj --against physics --pins top --material rubber -o out",
+      "--material: 'rubber' is not known; use neo-hookean, gent or fung");
+  row("compare cloth.obj --preset none -o out", "--preset: 'none' is neither a preset nor a file; ");
+  row("calibrate cloth.obj --pins top --algorithm fem", "--algorithm: 'fem' is not known; ");
   row("compare --against physics --handles 0 -o out", "--handles: '0' is not a whole number in range; use 1 to 3");
   row("compare --pins top -o out", "--pins: the built-in objects have their own pins; ");
   row("compare cloth.obj --against physics --pins 3,25 -o out", "--pins: cloth.obj has no element 25; ");

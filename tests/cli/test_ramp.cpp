@@ -77,6 +77,9 @@ void RampCommandTest::wrong_arguments_data() {
   QTest::addColumn<QString>("where");
   const auto row = [](const char* options, const char* where) { QTest::newRow(options) << where; };
   row("--algorithms spiral,spiral", "--algorithms: 'spiral' is given twice; ");
+  row("--algorithms best", "--algorithms: 'best' is not known; use generalized, ");
+  row("--seed -1", "--seed: '-1' ");
+  row("--budget 0", "--budget: Time of a pass 0 is out of range; use a number above 0");
   row("--largest 20000001", "--largest: Largest grid 20000001 is out of range; ");
   row("--json - --csv -", "standard output: ");
   row("grid.dat", "grid.dat: unexpected argument; ");

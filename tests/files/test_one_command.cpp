@@ -55,7 +55,8 @@ static std::vector<schema::Json> schemas_of(std::string_view name) {
 }
 
 void OneCommandTest::it_is_written_and_read() {
-  MovesWriter writer(*made(MeshKind::line, {4, 1, 1}));
+  const auto line = made(MeshKind::line, {4, 1, 1});
+  MovesWriter writer(*line);
   const auto written = [&](const Commands& one) { return std::visit(writer, one).dump(); };
   const std::string whole = R"({"do":"knock","elements":[3,1],"along":[0.5,1.0,-2.0],"times":[7]})",
                     shorter = R"({"do":"knock","elements":[],"along":[0.0,0.0,0.0]})";

@@ -102,15 +102,17 @@ class WindowKeyboard : public QObject {
   void anActionIsOneRow() {
     QMainWindow window;
     int done = 0;
-    bool isEarly = true, isOn = false;
+    bool isEarly = true, isOn = false, isOnAtFirst = true;
     Actions actions(window, {{"tests", "&Tests"}});
-    actions.add(
-        "tests",
-        {{"act", "&Act…", "fit", "Ctrl+J", "Does it", [&done] { ++done; },
-          When([&isEarly] { return isEarly ? QStringLiteral("Not available: it is too early") : QString(); })},
-         {"turn", "&Turn", "", "", "Turns it", [&isOn](bool on) { isOn = on; }, IsOn([&isOn] { return isOn; })}});
+    actions.add("tests",
+                {{"act", "&Act…", "fit", "Ctrl+J", "Does it", [&done] { ++done; },
+                  When([&isEarly] { return isEarly ? QStringLiteral("Not available: it is too early") : QString(); })},
+                 {"turn", "&Turn", "", "", "Turns it", [&isOn](bool on) { isOn = on; }, IsOn([&isOn] { return isOn; })},
+                 {"first", "&First", "", "", "Is on at first", [&done](bool) { ++done; },
+                  IsOn([&isOnAtFirst] { return isOnAtFirst; })}});
     QAction& act = actions["act"];
-    QCOMPARE(actions.menu("tests").actions(), (QList{&act, &actions["turn"]}));
+    QCOMPARE(actions.menu("tests").actions(), (QList{&act, &actions["turn"], &actions["first"]}));
+    QVERIFY(actions["first"].isChecked() && done == 0);  // it was made so, and did nothing
     QVERIFY(!act.isEnabled());
     QCOMPARE(act.statusTip(), QStringLiteral("Not available: it is too early"));
     isEarly = false;
@@ -128,6 +130,8 @@ class WindowKeyboard : public QObject {
     Actions actions(window, {{"tests", "&Tests"}});
     actions.add("tests", {{"act", "&Act", "", "", "", [] {}, Appears([&name] { return Appearance{.text = name}; })}});
     QCOMPARE(plainText(actions["act"]), QStringLiteral("one & two"));
+    emit actions.menu("tests").aboutToShow();
+    QCOMPARE(actions["act"].text(), QStringLiteral("&one && two"));
     name = QStringLiteral("three");
     emit actions.menu("tests").aboutToShow();
     QCOMPARE(actions["act"].text(), QStringLiteral("&three"));

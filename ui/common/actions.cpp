@@ -12,8 +12,10 @@ namespace chainmail {
 namespace {
 
 QChar mnemonicOf(const QString& text) {
-  const qsizetype at = text.indexOf(QLatin1Char('&'));
-  return at < 0 || at + 1 >= text.size() ? QChar() : text[at + 1].toLower();
+  static const QRegularExpression marks(QStringLiteral("(?:[^&]|&&)*&([^&])"));  // "&&" is a real '&'
+  const auto found =
+      marks.match(text, 0, QRegularExpression::NormalMatch, QRegularExpression::AnchorAtOffsetMatchOption);
+  return found.hasMatch() ? found.captured(1)[0].toLower() : QChar();
 }
 
 /// Returns the index of a letter that no other item uses, if possible the first letter of a word; -1 if there is none.
@@ -41,7 +43,8 @@ void addMnemonicsTo(const QList<QAction*>& actions) {
     }
   }
   for (QAction* action : without) {
-    QString text = action->text().remove(QLatin1Char('&'));
+    static const QRegularExpression marks(QStringLiteral("(&&)|&"));
+    QString text = action->text().replace(marks, QStringLiteral("\\1"));
     if (const qsizetype at = freeLetter(text, taken); at >= 0) {
       taken += text[at].toLower();
       action->setText(text.insert(at, QLatin1Char('&')));
@@ -61,9 +64,9 @@ Keys::Keys(const QString& names) : QList(QKeySequence::listFromString(names)) { 
 Actions::Actions(QMainWindow& window, const std::vector<ActionRow>& menus) : QObject(&window), window_(window) {
   add({}, menus);
   for (const auto& [id, menu] : menus_) {
-    connect(menu, &QMenu::aboutToShow, this, [this] {
+    connect(menu, &QMenu::aboutToShow, this, [this, menu = menu] {
       refresh();
-      addMnemonics();  // a text that has changed lost its own
+      addMnemonicsTo(menu->actions());  // a text that has changed lost its own
     });
   }
 }
@@ -109,7 +112,7 @@ void Actions::add(const QString& place, const ActionRow& row, QAction* action) {
         act(on);
       }
     });
-    connect(action, signal, this, [this] { refresh(); });
+    connect(action, signal, this, &Actions::refresh);
   }
   QMenu& in = menu(place);
   in.addAction(action);
@@ -117,6 +120,7 @@ void Actions::add(const QString& place, const ActionRow& row, QAction* action) {
   window_.addAction(action);
   actions_[row.id] = action;
   made_.push_back({place, row, action});
+  const QScopedValueRollback refreshes(refreshes_, true);
   adapt(made_.back());
 }
 
@@ -130,8 +134,10 @@ QList<QAction*> Actions::all(const QStringList& ids) const {
 
 void Actions::addMnemonics() const { addMnemonicsTo(window_.menuBar()->actions()); }
 
+void Actions::refresh() { refreshMenu({}); }
+
 /// Setting the state of a switch does not act again.
-void Actions::refresh(const QString& menu) {
+void Actions::refreshMenu(const QString& menu) {
   if (refreshes_) {
     return;
   }
@@ -169,6 +175,8 @@ void Actions::adapt(Made& one) {
   one.action->setToolTip(plainText(*one.action) + (names.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(names)) +
                          QLatin1Char('\n') + tip);
 }
+
+QString menuText(QString shown) { return shown.replace(QLatin1Char('&'), QLatin1String("&&")); }
 
 QString plainText(const QAction& action) {
   static const QRegularExpression marks(QStringLiteral("&(.)"));  // of a mnemonic, and before a real '&'

@@ -111,9 +111,9 @@ class Actions : public QObject {
   QMenu& menu(const QString& id) const { return *menus_.at(id); }
   /// Gives every item of all menus a mnemonic, unique in its menu, so that all can be reached with Alt and letters.
   void addMnemonics() const;
-  void refresh() { refresh({}); }
+  void refresh();
   /// Evaluates the actions of one menu only, for what changes many times in a second.
-  void refresh(const QString& menu);
+  void refreshMenu(const QString& menu);
 
  private:
   struct Made {
@@ -133,6 +133,8 @@ class Actions : public QObject {
   bool refreshes_ = false;
 };
 
+/// Returns the text of an item that shows this text, also where it has a '&'.
+QString menuText(QString shown);
 /// Returns the text of an action without its mnemonic and the dots of a question.
 QString plainText(const QAction& action);
 

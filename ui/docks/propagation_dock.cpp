@@ -116,7 +116,7 @@ void PropagationDock::addActions(Actions& actions) {
        {"passFollow", "Follow &drag", "", "Shift+O", "On: always shows the last pass. Off: keeps the present pass",
         [this](bool on) { propagation_.setShowsNewest(on); }, ready,
         IsOn([this] { return propagation_.showsNewest(); })}});
-  connect(this, &PropagationDock::changed, &actions, [&actions] { actions.refresh(QStringLiteral("steps")); });
+  connect(this, &PropagationDock::changed, &actions, [&actions] { actions.refreshMenu(QStringLiteral("steps")); });
 }
 
 QWidget* PropagationDock::makeButtons(Actions& actions) {

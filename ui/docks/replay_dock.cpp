@@ -128,7 +128,7 @@ void ReplayDock::showMoves() {
   position_->setText(describe());
   slider_->setEnabled(hasMoves() && !film_.running());
   for (const char* menu : {"replay", "File"}) {  // "File" has the film
-    actions_.refresh(QLatin1String(menu));
+    actions_.refreshMenu(QLatin1String(menu));
   }
 }
 

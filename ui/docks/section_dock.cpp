@@ -48,7 +48,7 @@ void SectionDock::addActions() {
                {"flipSection", "&Other side of section", "", "",
                 "Hides the lower side of the plane instead of the upper", [this](bool on) { flipBox_->setChecked(on); },
                 IsOn([this] { return flipBox_->isChecked(); }), When([this] { return whyOff(); })}});
-  connect(this, &SectionDock::changed, &actions_, [this] { actions_.refresh(); });
+  connect(this, &SectionDock::changed, &actions_, &Actions::refresh);
   connect(flipBox_, &QCheckBox::toggled, this, &SectionDock::changed);
 }
 

@@ -145,7 +145,7 @@ void FileActions::fill(Actions& actions) {
                   [this, panel] { saveShape(panel); },
                   Appears([this, panel] { return Appearance{.visible = panel < document_.panels()}; })}});
   }
-  connect(&sessions_.recoveryBar(), &RecoveryBar::changed, &actions, [&actions] { actions.refresh(); });
+  connect(&sessions_.recoveryBar(), &RecoveryBar::changed, &actions, &Actions::refresh);
   recent_ = &actions.menu("recent");
   fillRecent();
 }
@@ -288,7 +288,7 @@ void FileActions::fillRecent() {
   recent_->clear();
   for (const QString& kept : QSettings().value(recentKey()).toStringList()) {
     const QString path = pathOfKept(kept);
-    const QString shown = shownPath(path).replace(QLatin1Char('&'), QLatin1String("&&"));
+    const QString shown = menuText(shownPath(path));
     recent_->addAction(QStringLiteral("&%1 %2").arg(recent_->actions().size() + 1).arg(shown), this,
                        [this, path] { openPath(path); });
   }

@@ -25,7 +25,7 @@ void PanelLinks::fill(Actions& actions, Colouring& colouring) {
           emit marksLinked();
         },
         IsOn([this] { return marks_; })}});
-  connect(this, &PanelLinks::camerasLinked, &actions, [&actions] { actions.refresh(); });
+  connect(this, &PanelLinks::camerasLinked, &actions, &Actions::refresh);
 }
 
 void PanelLinks::setCameras(bool linked) {

@@ -76,7 +76,7 @@ Lessons::Lessons(MainWindow& window, Propagation& propagation, const Sessions& s
   addActions();
   // In this order: the bar reads the actions.
   for (const auto change : {&LessonPlayer::openChanged, &LessonPlayer::stepChanged, &LessonPlayer::playsChanged}) {
-    connect(&player_, change, &actions_, [this] { actions_.refresh(); });
+    connect(&player_, change, &actions_, &Actions::refresh);
   }
   bar_ = new LessonBar(player_, actions_["lessonBack"], actions_["lessonNext"], actions_["lessonFollowing"],
                        actions_["lessonClose"]);
@@ -111,7 +111,8 @@ void Lessons::addActions() {
        {"lessonFollowing", "Next lesson", "", "", "Opens the lesson after the present one", [this] { openFollowing(); },
         When([this] { return neighbour(1) != nullptr; }), Appears([this] {
           const LessonFile* next = neighbour(1);
-          return Appearance{.text = next != nullptr ? "Next lesson: " + QString::fromUtf8(next->title) : "Next lesson"};
+          return Appearance{.text = next != nullptr ? "Next lesson: " + menuText(QString::fromUtf8(next->title))
+                                                    : "Next lesson"};
         })},
        {"lessonClose", "&Close lesson", "close", "", "Closes the lesson; the object stays as it is",
         [this] { player_.close(); }, When([this] { return player_.isOpen(); })}});

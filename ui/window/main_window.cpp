@@ -59,7 +59,7 @@ constexpr std::chrono::milliseconds lastMovePatience(500);  // for the last move
 /// Shows the name of an undo step in the text of the menu item. The text of the tool bar button stays short, so that
 /// the tool bar keeps its width.
 Appearance appearanceOf(const QString& verb, const QString& step) {
-  return {.text = "&" + verb + (step.isEmpty() ? "" : " " + QString(step).replace('&', "&&"))};
+  return {.text = "&" + verb + (step.isEmpty() ? "" : " " + menuText(step))};
 }
 
 }  // namespace
@@ -359,12 +359,12 @@ void MainWindow::addView() {
 /// Evaluates the actions again after what decides on them has changed.
 void MainWindow::listenForActions() {
   for (const auto signal : {&Document::meshChanged, &Document::panelsChanged, &Document::pinsChanged}) {
-    connect(&document_, signal, actions_, [this] { actions_->refresh(); });
+    connect(&document_, signal, actions_, &Actions::refresh);
   }
-  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, [this] { actions_->refresh(); });
-  connect(area_, &PanelArea::arranged, actions_, [this] { actions_->refresh(); });
-  connect(area_, &PanelArea::ghostsChanged, actions_, [this] { actions_->refresh(); });
-  connect(&colouring_, &Colouring::modeChanged, actions_, [this] { actions_->refresh(); });
+  connect(&document_.undoStack(), &QUndoStack::indexChanged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::arranged, actions_, &Actions::refresh);
+  connect(area_, &PanelArea::ghostsChanged, actions_, &Actions::refresh);
+  connect(&colouring_, &Colouring::modeChanged, actions_, &Actions::refresh);
 }
 
 /// Shows names beside the icons of the tool bar if there is room for all of them.

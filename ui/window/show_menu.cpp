@@ -51,7 +51,7 @@ void ShowMenu::fill(Actions& actions) {
   }
   actions.add("View", {{"show", "S&how", "mesh"}});
   actions.add("show", rows);
-  connect(this, &ShowMenu::changed, &actions, [&actions] { actions.refresh(); });
+  connect(this, &ShowMenu::changed, &actions, &Actions::refresh);
   emit changed();
 }
 

@@ -19,6 +19,7 @@
 #include "files/import/import_file.h"
 #include "files/text/text.h"
 #include "mesh/error.h"
+#include "mesh/extra_row.h"
 
 namespace chainmail {
 namespace {
@@ -169,6 +170,7 @@ std::string refusal(const std::string& ending, const MeshFormat* format, FormatU
 
 std::span<const MeshFormat> mesh_formats() { return format_table(); }
 
+/// For ExtraRow, in tests.
 template <>
 std::vector<MeshFormat>& table_of() {
   return format_table();

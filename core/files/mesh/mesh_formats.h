@@ -6,13 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "files/formats/imported.h"
 #include "files/formats/mesh_state.h"
 #include "files/formats/read_options.h"
 #include "files/formats/volume.h"
-#include "mesh/extra_row.h"
 #include "mesh/progress.h"
 
 namespace chainmail {
@@ -51,10 +49,6 @@ struct MeshFormat {
 
 /// Returns all formats, in the order of menus and help texts.
 std::span<const MeshFormat> mesh_formats();
-
-/// For ExtraRow, in tests.
-template <>
-std::vector<MeshFormat>& table_of();
 
 /// Returns the endings of all formats with a use, like `.dat or .obj`. `last` is the word before the last ending.
 std::string mesh_endings(FormatUse use, std::string_view last = "or");

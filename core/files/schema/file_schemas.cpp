@@ -31,7 +31,7 @@ Json mesh_with(const Members& links) {
                                {"texels", with(text("bytes in base 64"), "contentEncoding", "base64")}});
   const Json lattice = object({{"size", size}, {"spacing", schema_of(parameters::spacing)}}, {}, "grid of elements");
   const Members parts{{"elements", from_one("number of elements")},
-                      {"space", whole(1, newest_moves_version, "number of coordinates")},
+                      {"space", whole(1, 3, "number of coordinates")},
                       {"rest", array_of(number(), "x, y, z of each element at rest (mesh units)")},
                       {"triangles", ids("three ids of each triangle")},
                       {"polygons", ids("a count, then as many ids, of each polygon")},

@@ -76,6 +76,7 @@ class PackedKeys {
   std::span<const PackedKey> all() const { return keys_; }
 
   // The kinds of members.
+  /// All members that are only there in one case are in the case of yes.
   static bool has(const char* /*key*/, bool /*is_written*/) { return true; }
   void element(const char* /*key*/, ElementId /*one*/) {}
   void elements(const char* key, const auto& /*all*/) { add(key, 1); }
@@ -119,6 +120,8 @@ class MovesReader {
  public:
   MovesReader(const std::string& where, MeshPointer mesh, EnergyKind absent_energy)
       : where_(where), fields_(where, &json_.arrays), mesh_(std::move(mesh)), absent_energy_(absent_energy) {}
+  MovesReader(const MovesReader&) = delete;
+  MovesReader& operator=(const MovesReader&) = delete;
 
   /// Returns commands of the kinds of a variant that have a name.
   template <class Commands>
@@ -216,7 +219,7 @@ class MovesWriter {
  public:
   using Json = nlohmann::ordered_json;
 
-  /// The commands begin with this mesh.
+  /// The commands begin with this mesh, which must exist as long.
   explicit MovesWriter(const Mesh& mesh) : mesh_(&mesh) {}
 
   /// Returns a command as JSON, or null for a command that is left out.

@@ -34,7 +34,7 @@ inline constexpr std::size_t moves = 10'000'000;         // in a file
 /// Elements, links and triangles of all meshes after splits of recorded moves: each split keeps a mesh of its own.
 inline constexpr std::uint64_t split_parts = 100'000'000;
 inline constexpr std::size_t lesson_steps = 1000;  // of a lesson
-/// Points of a grid in VTK that states none, if the file has fewer bytes.
+/// Largest grid of a VTK file that has fewer bytes than points.
 inline constexpr std::uint64_t points_without_values = 100'000;
 
 // Volumes

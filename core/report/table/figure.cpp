@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/extra_row.h"
 #include "report/table/format.h"
 
 namespace chainmail::report {
@@ -94,6 +95,7 @@ std::string group_with_unit(const Figure& figure) { return std::string(figure.gr
 }  // namespace chainmail::report
 
 namespace chainmail {
+/// For ExtraRow, in tests.
 template <>
 std::vector<const report::Figure*>& table_of() {
   return report::figure_table();

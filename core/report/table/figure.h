@@ -3,11 +3,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "measure/physical_error.h"
 #include "measure/violation.h"
-#include "mesh/extra_row.h"
 
 namespace chainmail::report {
 
@@ -210,9 +208,3 @@ std::string in_brackets(const Figure& figure);
 std::string group_with_unit(const Figure& figure);
 
 }  // namespace chainmail::report
-
-namespace chainmail {
-/// For ExtraRow, in tests. The figure must exist as long.
-template <>
-std::vector<const report::Figure*>& table_of();
-}  // namespace chainmail

@@ -12,9 +12,17 @@
 #include "files/mesh/open_mesh.h"
 #include "files/results/results_json.h"
 #include "files/text/described_json.h"
+#include "mesh/extra_row.h"
 #include "report/page/report.h"
 #include "report/run/physics.h"
 #include "solver/algorithms.h"
+
+namespace chainmail {
+template <>
+std::vector<MeshFormat>& table_of();
+template <>
+std::vector<const report::Figure*>& table_of();
+}  // namespace chainmail
 
 using namespace chainmail;
 using namespace chainmail::test;
