@@ -127,9 +127,6 @@ class Equilibrator final : public EquilibriumSolver {
     if (is_new || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       uses_material() ? note_links() : update_links(body);
     }
-    if (is_new || now.elastic != seen_.elastic) {
-      has_material_ = false;
-    }
     LoopTeam team = loop_team();
     read(body, team.loop());
     if (is_new || now.positions != seen_.positions) {
@@ -420,9 +417,11 @@ class Equilibrator final : public EquilibriumSolver {
   void prepare_material(const Progress& progress) {
     if (!material_->has_begun()) {
       material_->begin(mesh_, progress.part(0, 0.3));
-      has_material_ = has_cuts_ = has_fixed_ = false;
+      known_elastic_.reset();
+      has_cuts_ = has_fixed_ = false;
     }
-    if (!std::exchange(has_material_, true)) {
+    const std::uint64_t elastic = shown_.body->revisions().elastic;
+    if (std::exchange(known_elastic_, elastic) != elastic) {
       material_->set_material(shown_.body->elastic());
       has_cuts_ = false;
     }
@@ -762,9 +761,10 @@ class Equilibrator final : public EquilibriumSolver {
   int last_iterations_ = 0;  // of the last call
 
   std::unique_ptr<EnergyMinimum<D>> material_;
-  bool has_material_ = false, has_cuts_ = false, has_fixed_ = false;  // it knows the body's
-  bool is_start_ = true;                                              // the iterate was set from outside
-  Vectors jump_;  // by which fixed elements have moved since the last step
+  std::optional<std::uint64_t> known_elastic_;  // revision of the body's elasticity that it knows
+  bool has_cuts_ = false, has_fixed_ = false;   // it knows the body's
+  bool is_start_ = true;                        // the iterate was set from outside
+  Vectors jump_;                                // by which fixed elements have moved since the last step
   bool has_jump_ = false;
   double region_error_ = 0;  // how far the forces of regions were from right, see RegionPenalties
 

@@ -37,6 +37,7 @@ class MaterialTest : public QObject {
   void the_unit_of_length_does_not_matter();
   void it_is_found_after_half_the_width_in_one_move();
   void no_iteration_raises_the_energy();
+  void a_change_of_the_material_moves_the_minimum();
   void a_cut_gives_the_minimum_of_the_cut_object();
   void a_cut_changes_the_energy_by_its_cells_data();
   void a_cut_changes_the_energy_by_its_cells();
@@ -362,6 +363,22 @@ void MaterialTest::no_iteration_raises_the_energy() {
     last = now;
   }
   QVERIFY(solver->residual() < 1e-3);
+}
+
+void MaterialTest::a_change_of_the_material_moves_the_minimum() {
+  Scene scene(block(MeshKind::tetra, 5));
+  const std::vector<double> by{0.8, -0.6, 0.3};
+  Body body = scene.body();
+  body.set_positions(scene.moved(by));
+  const auto solver = EquilibriumSolver::make(3);
+  QVERIFY(solver->solve(body, scene.handle, 1e-8, 1000));
+  const std::vector<double> before = positions_of(body);
+  scene.material.poisson = 0.45;
+  body.set_elastic({scene.material});
+  QVERIFY(solver->solve(body, scene.handle, 1e-8, 1000));
+  const std::vector<double> right = scene.finite_elements(by);
+  QVERIFY(relative_error(positions_of(body), right, *scene.mesh) < 1e-6);
+  QVERIFY(relative_error(before, right, *scene.mesh) > 1e-3);
 }
 
 void MaterialTest::a_cut_gives_the_minimum_of_the_cut_object() {
