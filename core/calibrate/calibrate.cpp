@@ -174,8 +174,7 @@ class Bench {
     for (std::size_t i = dragged_.size(); i < drags_.fitted.size(); ++i) {
       Simulation& simulation =
           *dragged_.emplace_back(std::make_unique<Simulation>(object_.mesh, algorithm_, Precision::double_precision));
-      simulation.apply(commands::Cut{object_.cuts});
-      simulation.apply(commands::Pin{object_.pins});
+      report::set_up(simulation, object_);
       simulation.apply(commands::Grab{{drags_.fitted[i].element}});
     }
   }

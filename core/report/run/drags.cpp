@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/simulation.h"
+#include "report/run/runner.h"
 
 namespace chainmail::report {
 namespace {
@@ -52,9 +52,7 @@ class Trial {
       : simulation_(object.mesh, Algorithm::exact, Precision::double_precision),
         element_(element),
         progress_(progress) {
-    simulation_.apply(commands::SetSoftness{object.softness});
-    simulation_.apply(commands::Cut{object.cuts});
-    simulation_.apply(commands::Pin{object.pins});
+    set_up(simulation_, object);
     simulation_.apply(commands::Grab{element});
   }
 

@@ -17,6 +17,13 @@ std::vector<Item> sorted(std::vector<Item> items) {
 
 }  // namespace
 
+void set_up(Simulation& simulation, const Case& object) {
+  simulation.apply(commands::SetElastic{object.elastic});
+  simulation.apply(commands::SetSoftness{object.softness});
+  simulation.apply(commands::Cut{object.cuts});
+  simulation.apply(commands::Pin{object.pins});
+}
+
 Runner::Runner(const Case& object, Algorithm algorithm, Precision precision, const RunOptions& options)
     : object_(object),
       cuts_(sorted(object.cuts)),

@@ -37,6 +37,9 @@ struct RunOptions {
   Clocks clocks = machine_clocks();  // of everything but passes, which measure themselves
 };
 
+/// Gives a simulation of the mesh of an object at rest its elasticity, softness, cuts and pins.
+void set_up(Simulation& simulation, const Case& object);
+
 /// Runs recorded moves on a case from rest, with one algorithm in one precision.
 class Runner {
  public:

@@ -30,6 +30,7 @@ class CalibrateTest : public QObject {
   void the_residuals_are_those_of_the_result();
   void it_comes_closer();
   void the_equilibrium_comes_closer();
+  void the_equilibrium_is_that_of_the_object();
   void drags_held_out_are_others();
   void drags_without_a_reference_are_given_up();
   void it_is_the_same_each_time();
@@ -250,6 +251,18 @@ void CalibrateTest::the_equilibrium_comes_closer() {
         measure_physical_error(*sheet, simulation.body().positions(), reference.at(drag.element, drag.target));
     QVERIFY(std::abs(error.relative - drag.after.relative) < 0.03);
   }
+}
+
+/// Where no region binds, the equilibrium of the object's own material and cuts is the reference solution.
+void CalibrateTest::the_equilibrium_is_that_of_the_object() {
+  Cuts cuts(sheet);
+  CalibrationOptions options = cut_sheet(cuts);
+  options.scheme = RelaxationScheme::equilibrium;
+  options.energy = EnergyKind::material;
+  options.elastic.law = options.law = {StrainLaw::Kind::gent, 0.5};
+  options.evaluations = 200;
+  const Residual found = calibrate(sheet, cuts, options).fitted.after;
+  QVERIFY2(found.relative < 0.02, qPrintable(QString::number(found.relative)));
 }
 
 void CalibrateTest::drags_held_out_are_others() {
