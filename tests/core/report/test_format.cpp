@@ -1,11 +1,14 @@
+#include <QDateTime>
 #include <QtTest>
+#include <ctime>
 
 #include "program.h"
 #include "report/table/format.h"
+#include "report/table/machine.h"
 
 namespace chainmail::test_format {
 
-/// Numbers as texts for people.
+/// Numbers and times as texts for people.
 class FormatTest : public QObject {
   Q_OBJECT
 
@@ -17,6 +20,17 @@ class FormatTest : public QObject {
     for (const auto& [ms, words] : times) {
       QCOMPARE(report::time_in_words(ms), std::string(words));
     }
+  }
+
+  void the_time_of_a_report_is_utc_in_every_zone() {
+    const QByteArray before = qgetenv("TZ");
+    qputenv("TZ", "ABC-5:30");
+    ::tzset();
+    const auto utc = [] { return QDateTime::currentDateTimeUtc().toString("yyyy-MM-dd hh:mm 'UTC'").toStdString(); };
+    const std::string earliest = utc(), now = report::now_in_words(), latest = utc();
+    before.isNull() ? qunsetenv("TZ") : qputenv("TZ", before);
+    ::tzset();
+    QVERIFY2(now == earliest || now == latest, now.c_str());
   }
 };
 

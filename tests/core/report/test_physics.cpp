@@ -45,6 +45,7 @@ class PhysicsTest : public QObject {
   void turned_objects_show_what_depends_on_the_axes();
   void what_has_no_answer_is_refused_by_name();
   void objects_grow();
+  void a_growing_object_has_its_own_number_of_elements();
   void it_stops_at_once();
   void every_figure_of_physics_is_measured();
 };
@@ -474,6 +475,14 @@ void PhysicsTest::objects_grow() {
   }
   const Results without_time = compare_with_physics({pinned_sheet(9, {}, {})}, quick({Algorithm::exact}, {0}));
   QVERIFY(series_in(without_time).empty());
+}
+
+void PhysicsTest::a_growing_object_has_its_own_number_of_elements() {
+  PhysicsOptions options = quick({Algorithm::exact}, {0});
+  options.growth_seconds = 1e-9;  // the first size only
+  const Results grown = grow("sheet", "", [](std::uint64_t) { return pinned_sheet(25, {}, {}); }, options, {});
+  QCOMPARE(grown.objects.size(), std::size_t{1});
+  QCOMPARE(grown.objects[0].name, std::string("sheet, 25 elements"));
 }
 
 void PhysicsTest::it_stops_at_once() {
