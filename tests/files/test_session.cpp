@@ -25,6 +25,7 @@ class SessionTest : public QObject {
  private slots:
   void what_is_written_reads_back_data();
   void what_is_written_reads_back();
+  void each_setting_comes_back_alone();
   void a_frame_comes_back();
   void polygons_and_loose_elements_do_too();
   void a_picture_comes_back_with_its_sheet();
@@ -99,6 +100,39 @@ void SessionTest::what_is_written_reads_back() {
   const Session again = parse_session(text, "a.chainmail");
   compare(again, session);
   QCOMPARE(session_text(again), text);
+}
+
+/// Returns settings that differ from the standard ones in one number each.
+template <class Struct>
+static std::vector<Struct> changed_in_one() {
+  std::vector<Struct> all;
+  for (const Member<Struct>& member : members_of<Struct>) {
+    for (std::size_t i = 0; i < member.count; ++i) {
+      Struct& one = all.emplace_back();
+      const double before = member.get(one, i);
+      member.set(one, i, member.number ? (before + member.number->lowest) / 2 : 1 - before);
+    }
+  }
+  return all;
+}
+
+void SessionTest::each_setting_comes_back_alone() {
+  Session session;
+  session.mesh = made(MeshKind::line, {2, 1, 1});
+  session.panels.resize(1);
+  const auto again = [&] { return parse_session(session_text(session), "a.chainmail"); };
+  for (const ElasticOptions& elastic : changed_in_one<ElasticOptions>()) {
+    session.elastic = elastic;
+    QVERIFY(elastic != ElasticOptions() && again().elastic == elastic);
+  }
+  for (const auto& relaxation : changed_in_one<commands::SetRelaxation>()) {
+    session.relaxation = relaxation;
+    QVERIFY(relaxation != commands::SetRelaxation() && again().relaxation == relaxation);
+  }
+  for (const LinkSoftness& global : changed_in_one<LinkSoftness>()) {
+    session.softness = std::make_shared<const Softness>(Softness{global, {}});
+    QVERIFY(global != LinkSoftness() && again().softness->global == global);
+  }
 }
 
 void SessionTest::a_frame_comes_back() {
