@@ -1,4 +1,4 @@
-// The order of this file: crossings in the view, dividing faces along the stroke. separate.h then separates them.
+// Divides faces along the stroke. separate.h then separates them.
 //
 // The view is needed only to find in which order the stroke crosses the sides of a face, and where on the sides.
 // Everything after this is done on the faces themselves, in coordinates in which each is a regular polygon. Straight
@@ -23,84 +23,6 @@ namespace {
 
 using Eigen::Vector2d;
 constexpr double pi = std::numbers::pi;
-// Moves the stroke (pixels), so that no corner is exactly on it.
-const Vector2d aside(1.37e-6, 0.73e-6);
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Crossings in the view
-
-/// A point where the stroke crosses a side of faces.
-struct Crossing {
-  double when = 0;   // number of the segment, and the share of it
-  double share = 0;  // of the side, from its element with the lower id, on the object
-};
-
-/// The stroke in the view, and where the elements are.
-class StrokeInView {
- public:
-  StrokeInView(std::span<const ViewPlace> places, std::span<const Vector2d> stroke) : places_(places) {
-    for (const Vector2d& point : stroke) {
-      points_.push_back(point + aside);
-      low_ = low_.cwiseMin(points_.back());
-      high_ = high_.cwiseMax(points_.back());
-    }
-  }
-
-  bool empty() const { return points_.size() < 2; }
-  const Vector2d& first() const { return points_.front(); }
-  const Vector2d& last() const { return points_.back(); }
-  const ViewPlace& place(ElementId element) const { return places_[element]; }
-  /// Returns the crossings with a side, from its element with the lower id, in the order of the stroke.
-  std::vector<Crossing> crossings(ElementId a, ElementId b) const;
-  bool is_inside(const Vector2d& point, std::span<const ElementId> corners) const;
-
- private:
-  std::optional<Crossing> crossing(std::size_t segment, const ViewPlace& a, const ViewPlace& b) const;
-
-  std::span<const ViewPlace> places_;
-  std::vector<Vector2d> points_;
-  Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::max()), high_ = -low_;
-};
-
-std::vector<Crossing> StrokeInView::crossings(ElementId a, ElementId b) const {
-  const ViewPlace &from = places_[std::min(a, b)], &to = places_[std::max(a, b)];
-  std::vector<Crossing> result;
-  if ((from.at.cwiseMin(to.at).array() > high_.array()).any() ||
-      (from.at.cwiseMax(to.at).array() < low_.array()).any()) {
-    return result;
-  }
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    if (const auto found = crossing(i, from, to)) {
-      result.push_back(*found);
-    }
-  }
-  return result;
-}
-
-std::optional<Crossing> StrokeInView::crossing(std::size_t segment, const ViewPlace& a, const ViewPlace& b) const {
-  const Vector2d &p = points_[segment], &q = points_[segment + 1];
-  const Vector2d way = q - p, side = b.at - a.at;
-  const double of_a = cross(way, a.at - p), of_b = cross(way, b.at - p);
-  const double of_p = cross(side, p - a.at), of_q = cross(side, q - a.at);
-  if ((of_a >= 0) == (of_b >= 0) || (of_p >= 0) == (of_q >= 0)) {
-    return std::nullopt;
-  }
-  const double seen = of_a / (of_a - of_b), near = seen * a.distance;  // perspective shortens what is far away
-  return Crossing{double(segment) + of_p / (of_p - of_q), near / ((1 - seen) * b.distance + near)};
-}
-
-bool StrokeInView::is_inside(const Vector2d& point, std::span<const ElementId> corners) const {
-  bool inside = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector2d &a = places_[corners[i]].at, &b = places_[corners[(i + 1) % corners.size()]].at;
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
 
 /// A way of the stroke through a face, from side to side; or, at an end of the stroke, from a side to a point inside.
 struct Chord {
@@ -109,8 +31,6 @@ struct Chord {
   std::array<ElementId, 2> nodes{no_element, no_element};  // the second is no_element for a point inside
   std::array<double, 3> inside{};                          // this point, as shares of the three corners
 };
-
-// Dividing
 
 /// Returns the coordinates of corner i of n.
 Vector2d corner_place(std::size_t i, std::size_t n) {

@@ -4,15 +4,9 @@
 #include <span>
 
 #include "mesh/split.h"
+#include "mesh/stroke_in_view.h"
 
 namespace chainmail {
-
-/// Where an element is in a view.
-struct ViewPlace {
-  Eigen::Vector2d at;
-  /// Distance from the eye in perspective; 1 in parallel projection; at most 0 behind the eye.
-  double distance = 1;
-};
 
 /// A crossing this close to the end of a side, as a share of the side, goes through the end: no new side is shorter.
 inline constexpr double snap_share = 0.05;
