@@ -111,19 +111,9 @@ class Builder {
     }
   }
 
-  /// Splits a hexahedron into a fan from its lowest corner over the sides without this corner. Each side is split by
-  /// the diagonal from its own lowest corner.
   void add_hexahedron(const std::array<ElementId, 8>& cell) {
     note_cell(hexahedron_edges, cell, 6);
-    const ElementId lowest = *std::ranges::min_element(cell);
-    for (const auto& side : hexahedron_sides) {
-      std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
-      if (std::ranges::find(corners, lowest) == corners.end()) {
-        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
-        add({lowest, corners[0], corners[1], corners[2]});
-        add({lowest, corners[0], corners[2], corners[3]});
-      }
-    }
+    for_each_tetrahedron(mesh_, cell, [this](const auto& one) { add({one[0], one[1], one[2], one[3]}); });
   }
 
   /// Diagonals alternate, so that the sheet has no preferred direction.

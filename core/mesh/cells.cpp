@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <numeric>
+#include <tuple>
 
 namespace chainmail {
 namespace {
@@ -32,6 +33,11 @@ void add_links_along_edges(MeshParts& parts) {
   }
   add_cells(parts, parts.tetrahedra);
   add_cells(parts, parts.hexahedra);
+}
+
+bool OrderAtRest::operator()(ElementId one, ElementId other) const {
+  const Point a = mesh.rest_position(one), b = mesh.rest_position(other);
+  return std::tuple(a.z(), a.y(), a.x(), one) < std::tuple(b.z(), b.y(), b.x(), other);
 }
 
 namespace {

@@ -30,6 +30,28 @@ inline constexpr std::array<CellSide<4>, 6> hexahedron_sides{
 constexpr const auto& edges_of(const std::array<ElementId, 4>& /*cell*/) { return tetrahedron_edges; }
 constexpr const auto& edges_of(const std::array<ElementId, 8>& /*cell*/) { return hexahedron_edges; }
 
+/// Orders elements by z, y and x at rest, then by id. So a copy of an element comes where the element does.
+struct OrderAtRest {
+  const Mesh& mesh;
+
+  bool operator()(ElementId one, ElementId other) const;
+};
+
+/// Calls visit(corners) for the six tetrahedra that a hexahedron stands for: a fan from its first corner over the sides
+/// without this corner. Each side is divided by the diagonal from its own first corner, so neighbours agree.
+template <class Visit>
+void for_each_tetrahedron(const Mesh& mesh, const std::array<ElementId, 8>& cell, Visit visit) {
+  const ElementId first = *std::ranges::min_element(cell, OrderAtRest{mesh});
+  for (const auto& side : hexahedron_sides) {
+    std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
+    if (std::ranges::find(corners, first) == corners.end()) {
+      std::ranges::rotate(corners, std::ranges::min_element(corners, OrderAtRest{mesh}));
+      visit(std::array{first, corners[0], corners[1], corners[2]});
+      visit(std::array{first, corners[0], corners[2], corners[3]});
+    }
+  }
+}
+
 /// True if two elements are linked and the link is cut.
 inline bool is_cut_between(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   const auto link = cuts.touches(a) && cuts.touches(b) ? find_link(mesh, a, b) : std::nullopt;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
+
+#include "mesh/disjoint_sets.h"
 
 namespace chainmail {
 namespace {
@@ -67,27 +68,6 @@ Ring rotated(Ring ring, const std::vector<Point>& rest) {
   }
   return best;
 }
-
-/// Groups of numbers that grow together.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  /// Returns the lowest number in the group of a number.
-  std::size_t of(std::size_t one) const {
-    while (parent_[one] != one) {
-      one = parent_[one];
-    }
-    return one;
-  }
-  void unite(std::size_t one, std::size_t other) {
-    one = of(one);
-    other = of(other);
-    parent_[std::max(one, other)] = std::min(one, other);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Separates faces along the sides that are cut, and writes the edit.
 class Separation {
@@ -171,7 +151,7 @@ void Separation::separate(ElementId element, const std::vector<Corner>& around) 
     at_side[all[(around[i].index + 1) % all.size()]].push_back(i);
     at_side[all[(around[i].index + all.size() - 1) % all.size()]].push_back(i);
   }
-  Groups before(around.size()), after(around.size());
+  DisjointSets before(around.size()), after(around.size());
   for (const auto& [other, faces] : at_side) {
     for (const std::size_t one : faces) {
       before.unite(faces[0], one);

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "mesh/cells.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -14,6 +15,14 @@ template <class Visit>
 void for_each_side(std::span<const ElementId> corners, Visit visit) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     visit(corners[i], corners[(i + 1) % corners.size()]);
+  }
+}
+
+/// Calls visit(a, b) for each edge of a cell.
+template <class Cell, class Visit>
+void for_each_edge(const Cell& cell, Visit visit) {
+  for (const auto& [i, j] : edges_of(cell)) {
+    visit(cell[std::size_t(i)], cell[std::size_t(j)]);
   }
 }
 
@@ -60,7 +69,7 @@ void check_corners(std::span<const ElementId> corners, std::uint64_t elements) {
   std::vector<ElementId> sorted(corners.begin(), corners.end());
   std::ranges::sort(sorted);
   if (sorted.size() < 3 || sorted.back() >= elements || std::ranges::adjacent_find(sorted) != sorted.end()) {
-    refuse("a new face does not have three or more different corners that exist", "name each corner once");
+    refuse("a new face or cell does not have three or more different corners that exist", "name each corner once");
   }
 }
 
@@ -80,19 +89,26 @@ std::uint32_t polygon_count(const Mesh& mesh) {
 }
 
 void check(const SplitEdit& edit, const Mesh& mesh) {
-  if (!can_split(mesh)) {
-    refuse("the object has no faces, or it is a lattice or a volume", "cut its links instead");
+  if (!can_split(mesh) && !mesh.has_cells()) {
+    refuse("the object has neither cells nor faces, or it is a lattice of faces", "cut its links instead");
   }
-  if (edit.empty() && edit.triangles.empty() && edit.polygons.empty()) {
+  if (edit.empty() && edit.triangles.empty() && edit.polygons.empty() && edit.tetrahedra.empty() &&
+      edit.hexahedra.empty()) {
     refuse("it changes nothing", "leave it out");
   }
   check_points(edit.elements, mesh.element_count());
   check_removed(edit.removed, mesh.own_triangles, "triangles");
   check_removed(edit.removed_polygons, polygon_count(mesh), "polygons");
+  check_removed(edit.removed_cells, mesh.tetrahedra.size() + mesh.hexahedra.size(), "cells");
   const std::uint64_t elements = mesh.element_count() + edit.elements.size();
-  for (const auto& triangle : edit.triangles) {
-    check_corners(triangle, elements);
-  }
+  const auto check_all = [elements](const auto& groups) {
+    for (const auto& corners : groups) {
+      check_corners(corners, elements);
+    }
+  };
+  check_all(edit.triangles);
+  check_all(edit.tetrahedra);
+  check_all(edit.hexahedra);
   check_polygons(edit.polygons, elements);
 }
 
@@ -105,38 +121,46 @@ class MeshAfter {
     parts_.space_dimension = mesh_.space_dimension;
     parts_.texture = mesh_.texture;
     parts_.rest = rest_after(mesh_, edit_.elements);
+    drop_removed();
     take_triangles();
     take_polygons();
+    take_cells();
     link();
     return build_mesh(std::move(parts_));
   }
 
  private:
+  void drop_removed();
   void take_triangles();
   void take_polygons();
+  void take_cells();
+  std::vector<bool> ends_of_dropped() const;
   void link();
+  void drop(ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); }
+  void keep(ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); }
+  void add(ElementId a, ElementId b) {
+    keep(a, b);
+    if (const bool old = a < mesh_.element_count() && b < mesh_.element_count(); !old || !find_link(mesh_, a, b)) {
+      added_.insert(edge_key(a, b));
+    }
+  }
   void drop_sides(std::span<const ElementId> corners) {
-    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); });
+    for_each_side(corners, [this](ElementId a, ElementId b) { drop(a, b); });
   }
   void keep_sides(std::span<const ElementId> corners) {
-    for_each_side(corners, [this](ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); });
+    for_each_side(corners, [this](ElementId a, ElementId b) { keep(a, b); });
   }
   void add_sides(std::span<const ElementId> corners) {
-    for_each_side(corners, [this](ElementId a, ElementId b) {
-      dropped_.erase(edge_key(a, b));
-      if (const bool old = a < mesh_.element_count() && b < mesh_.element_count(); !old || !find_link(mesh_, a, b)) {
-        added_.insert(edge_key(a, b));
-      }
-    });
+    for_each_side(corners, [this](ElementId a, ElementId b) { add(a, b); });
   }
 
   const Mesh& mesh_;
   const SplitEdit& edit_;
   MeshParts parts_;
-  std::unordered_set<EdgeKey> dropped_, added_;  // links that no face has any more, and new ones
+  std::unordered_set<EdgeKey> dropped_, added_;  // links that no face or cell has any more, and new ones
 };
 
-void MeshAfter::take_triangles() {
+void MeshAfter::drop_removed() {
   for (const std::uint32_t one : edit_.removed) {
     drop_sides(mesh_.triangles[one]);
   }
@@ -145,6 +169,14 @@ void MeshAfter::take_triangles() {
       drop_sides(corners);
     }
   });
+  const auto drop_edges = [this](const auto& cell) { for_each_edge(cell, [this](auto a, auto b) { drop(a, b); }); };
+  for (const CellId cell : edit_.removed_cells) {
+    const std::size_t tetrahedra = mesh_.tetrahedra.size();
+    cell < tetrahedra ? drop_edges(mesh_.tetrahedra[cell]) : drop_edges(mesh_.hexahedra[cell - tetrahedra]);
+  }
+}
+
+void MeshAfter::take_triangles() {
   for (std::uint32_t i = 0; i < mesh_.own_triangles; ++i) {
     if (!std::ranges::binary_search(edit_.removed, i)) {
       parts_.triangles.push_back(mesh_.triangles[i]);
@@ -174,6 +206,40 @@ void MeshAfter::take_polygons() {
   });
 }
 
+void MeshAfter::take_cells() {
+  const std::vector<bool> is_end = ends_of_dropped();
+  auto removed = edit_.removed_cells.begin();
+  CellId number = 0;
+  const auto take = [&](const auto& before, const auto& added, auto& after) {
+    after.reserve(before.size() + added.size());
+    for (const auto& cell : before) {
+      if (const CellId id = number++; removed != edit_.removed_cells.end() && *removed == id) {
+        ++removed;
+        continue;
+      }
+      after.push_back(cell);
+      if (std::ranges::count_if(cell, [&](ElementId corner) { return bool(is_end[corner]); }) > 1) {
+        for_each_edge(cell, [this](ElementId a, ElementId b) { keep(a, b); });
+      }
+    }
+    for (const auto& cell : added) {
+      after.push_back(cell);
+      for_each_edge(cell, [this](ElementId a, ElementId b) { add(a, b); });
+    }
+  };
+  take(mesh_.tetrahedra, edit_.tetrahedra, parts_.tetrahedra);
+  take(mesh_.hexahedra, edit_.hexahedra, parts_.hexahedra);
+}
+
+/// Returns, for each element of the mesh before, whether a dropped link ends there.
+std::vector<bool> MeshAfter::ends_of_dropped() const {
+  std::vector<bool> result(mesh_.element_count());
+  for (const EdgeKey one : dropped_) {
+    result[ends_of(one)[0]] = result[ends_of(one)[1]] = true;
+  }
+  return result;
+}
+
 /// Writes the neighbour table. Rows that the file ordered keep their order, with new neighbours last.
 void MeshAfter::link() {
   std::vector<std::array<ElementId, 2>> entries;  // element and new neighbour, ascending
@@ -184,6 +250,7 @@ void MeshAfter::link() {
   }
   std::ranges::sort(entries);
   auto& neighbours = parts_.neighbours;
+  const std::vector<bool> is_end = ends_of_dropped();
   auto next = entries.begin();
   for (ElementId e = 0; e < parts_.rest.size(); ++e) {
     parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
@@ -192,7 +259,7 @@ void MeshAfter::link() {
       const auto row = mesh_.neighbours_of(e);
       ascending = std::ranges::is_sorted(row);
       std::ranges::copy_if(row, std::back_inserter(neighbours),
-                           [&](ElementId other) { return dropped_.empty() || !dropped_.contains(edge_key(e, other)); });
+                           [&](ElementId other) { return !is_end[e] || !dropped_.contains(edge_key(e, other)); });
     }
     for (; next != entries.end() && (*next)[0] == e; ++next) {
       neighbours.push_back((*next)[1]);
@@ -281,6 +348,9 @@ std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId
     for_each_side(mesh.triangles[t], leave_out);
   }
   for_each_polygon(mesh.polygons, [&](std::uint32_t, auto corners) { for_each_side(corners, leave_out); });
+  const auto leave_out_edges = [&](const auto& cell) { for_each_edge(cell, leave_out); };
+  std::ranges::for_each(mesh.tetrahedra, leave_out_edges);
+  std::ranges::for_each(mesh.hexahedra, leave_out_edges);
   std::vector<LinkId> result;
   result.reserve(found.size());
   for (const auto& [edge, link] : found) {

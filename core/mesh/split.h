@@ -40,15 +40,20 @@ struct SplitPoint {
   bool operator==(const SplitPoint&) const = default;
 };
 
-/// What a cut along a stroke changes in a mesh of faces: it appends elements, and replaces faces.
+/// What a cut along a stroke changes in a mesh: it appends elements, and replaces faces and cells.
 struct SplitEdit {
   std::vector<SplitPoint> elements;                 // appended
   std::vector<std::uint32_t> removed;               // triangles that go, ascending: indices below Mesh::own_triangles
   std::vector<std::array<ElementId, 3>> triangles;  // appended
   std::vector<std::uint32_t> removed_polygons;      // the same for polygons, which are counted from 0
   std::vector<ElementId> polygons;                  // appended: count, corner…, count, corner…
+  std::vector<std::uint32_t> removed_cells{};       // cells that go, ascending: see CellId
+  std::vector<std::array<ElementId, 4>> tetrahedra{};  // appended
+  std::vector<std::array<ElementId, 8>> hexahedra{};   // appended
 
-  bool empty() const { return elements.empty() && removed.empty() && removed_polygons.empty(); }
+  bool empty() const {
+    return elements.empty() && removed.empty() && removed_polygons.empty() && removed_cells.empty();
+  }
   bool operator==(const SplitEdit&) const = default;
 };
 
@@ -72,10 +77,11 @@ struct Split {
 
 using SplitPointer = std::shared_ptr<const Split>;
 
-/// True if strokes may split the faces of this mesh: it has faces, and neither cells nor a lattice.
+/// True if strokes may split the faces of this mesh: it has faces, and neither cells nor a lattice. Cells may always be
+/// divided; a lattice is gone then.
 bool can_split(const Mesh& mesh);
 
-/// Returns those of the links that are not the side of a face.
+/// Returns those of the links that are neither the side of a face nor the edge of a cell.
 std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links);
 
 /// Returns the rest positions of the elements of a mesh, and of elements that are appended to them.
