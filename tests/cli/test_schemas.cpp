@@ -107,6 +107,11 @@ MeshPointer hexahedron() {
   return build_mesh(std::move(parts));
 }
 
+SplitPointer split_hexahedron() {
+  return make_split(hexahedron(),
+                    {{SplitPoint::copy(0)}, {}, {}, {}, {}, {0}, {{8, 1, 3, 4}}, {{8, 1, 2, 3, 4, 5, 6, 7}}});
+}
+
 MeshPointer with_texture(const MeshPointer& mesh) {
   Texture texture;
   texture.size = {1, 1, 1};
@@ -171,8 +176,7 @@ Session session_of_file(const std::string& name) {
   return session;
 }
 
-Session session_with_a_split() {
-  const SplitPointer split = split_square();
+Session session_with(const SplitPointer& split) {
   Session session = session_of(split->after);
   session.moves = {commands::Split{split}};
   return session;
@@ -274,7 +278,8 @@ void SchemasTest::add_sessions() {
   add_session("a session of a picture", session_on(with_texture(made(MeshKind::cloth, {4, 4, 1}))));
   add_session("a session of neighbours in their own order", session_of(dat("0 2 2 1\n1 2 0 2\n2 2 0 1\n", "3x1.dat")));
   add_session("a session of hexahedra", session_of(hexahedron()));
-  add_session("a session with a split", session_with_a_split());
+  add_session("a session with a split", session_with(split_square()));
+  add_session("a session with a split of cells", session_with(split_hexahedron()));
   add_session("a session with a frame and a lesson", turned_session());
 }
 
@@ -366,7 +371,7 @@ void SchemasTest::add_rows(bool is_right) {
   command(R"({"do": "softness", "compression": 1, "stretch": 1})");
   command(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "links": [[0, 1, 1, 1, 0, 1]]})");
   command(R"({"do": "softness", "compression": 1, "stretch": 1, "shear": 0, "frame": {"kind": "given"}})");
-  add("another version of moves", "moves", R"({"version": 4, "commands": []})", false);
+  add("another version of moves", "moves", R"({"version": 5, "commands": []})", false);
   add("a preset without a name", "preset", R"({"version": 1, "presets": [{"name": " "}]})", false);
   Session empty = session_of_file("cloth.obj");
   empty.panels.clear();

@@ -24,6 +24,7 @@ class MovesTest : public QObject {
   void what_is_written_reads_back();
   void splits_are_written_and_read();
   void what_is_known_of_the_object_follows_a_split();
+  void splits_of_cells_are_written_and_read();
   void splits_that_do_not_fit_are_refused_data();
   void splits_that_do_not_fit_are_refused();
   void a_drag_after_a_split_needs_a_grab();
@@ -200,6 +201,30 @@ void MovesTest::what_is_known_of_the_object_follows_a_split() {
   QCOMPARE(error_of([&] { read(pin + split + grab + "5}"); }), QString());
 }
 
+void MovesTest::splits_of_cells_are_written_and_read() {
+  const MeshPointer mesh = made(MeshKind::tetra, {2, 2, 2});
+  const auto [a, b, c, d] = mesh->tetrahedra[3];
+  const SplitEdit edit{{SplitPoint::copy(a), SplitPoint::between(b, c, 1.0 / 3)},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {3},
+                       {{8, b, 9, d}, {8, 9, c, d}},
+                       {{0, 1, 3, 2, 4, 5, 7, 6}}};
+  const auto split = make_split(mesh, edit);
+  const std::vector<Command> moves{commands::Split{split}, commands::Grab{9}, commands::Drag{{1, 2, 0}}};
+  std::ostringstream out;
+  write_moves(out, moves, *split->after);
+  QVERIFY(out.str().starts_with(R"({"version": 4,)"));
+  const auto again = read_moves(out.str(), std::filesystem::path("m.json"), mesh);
+  const Split& read = *std::get<commands::Split>(again[0]).split;
+  QCOMPARE(read.edit, edit);
+  QCOMPARE(read.after->tetrahedra, split->after->tetrahedra);
+  QCOMPARE(read.after->hexahedra, split->after->hexahedra);
+  QCOMPARE(read.after->links, split->after->links);
+}
+
 void MovesTest::splits_that_do_not_fit_are_refused_data() {
   QTest::addColumn<QString>("command");
   QTest::addColumn<QString>("sentence");
@@ -244,8 +269,9 @@ void MovesTest::many_splits_are_refused_before_they_take_memory() {
   const std::size_t before = bytes_held;
   max_bytes_held = before;
   QVERIFY(refused(with_commands(commands), mesh)
-              .startsWith("m.json: the meshes after all splits have more than 100000000 elements, links and triangles; "
-                          "use fewer splits"));
+              .startsWith(
+                  "m.json: the meshes after all splits have more than 100000000 elements, links, triangles and cells; "
+                  "use fewer splits"));
   QVERIFY(max_bytes_held - before < 1'000'000);
 }
 
@@ -292,11 +318,11 @@ void MovesTest::other_files_are_refused_data() {
   row("null", "m.json: it contains no recorded moves; ");
   row("{}", "m.json: 'version' is missing; ");
   row(R"({"commands": []})", "m.json: 'version' is missing; ");
-  row(R"({"version": 4, "commands": []})",
-      "m.json: its version is 4, but this program knows only version 3 and older; ");
-  row(R"({"version": "1", "commands": []})", "m.json: 'version' is not a whole number from 1 to 3; ");
-  row(R"({"version": 1.5, "commands": []})", "m.json: 'version' is not a whole number from 1 to 3; ");
-  row(R"({"version": -1, "commands": []})", "m.json: 'version' is not a whole number from 1 to 3; ");
+  row(R"({"version": 5, "commands": []})",
+      "m.json: its version is 5, but this program knows only version 4 and older; ");
+  row(R"({"version": "1", "commands": []})", "m.json: 'version' is not a whole number from 1 to 4; ");
+  row(R"({"version": 1.5, "commands": []})", "m.json: 'version' is not a whole number from 1 to 4; ");
+  row(R"({"version": -1, "commands": []})", "m.json: 'version' is not a whole number from 1 to 4; ");
   row(R"({"version": 1})", "m.json: 'commands' is missing; ");
   row(R"({"version": 1, "commands": {}})", "m.json: 'commands' is not an array; ");
   row(R"({"version": 1, "commands": [], "more": 1})", "m.json: 'more' is not a known key; ");
@@ -448,8 +474,8 @@ void MovesTest::a_key_that_stands_twice_is_refused() {
 /// program does not know.
 void MovesTest::what_is_wrong_with_the_file_comes_before_its_commands() {
   QVERIFY(error_of([&] {
-            read(R"({"commands": [{"do": "twist"}], "version": 4})");
-          }).startsWith("m.json: its version is 4, but "));
+            read(R"({"commands": [{"do": "twist"}], "version": 5})");
+          }).startsWith("m.json: its version is 5, but "));
   QVERIFY(error_of([&] {
             read(R"({"version": 1, "commands": [{"do": "twist"}] ,})");
           }).startsWith("m.json:1: it is not JSON; "));

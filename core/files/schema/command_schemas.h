@@ -59,8 +59,9 @@ class CommandMembers {
     required.push_back(rotate(help));
   }
   void numbers(const char* key, const auto& /*all*/, std::string_view help) { optional.emplace_back(key, ids(help)); }
-  void triangles(const char* key, const auto& /*all*/) {
-    optional.emplace_back(key, array_of(array_of(id(), {}, 3, 3), "corners of the new triangles"));
+  template <std::size_t Size>
+  void groups(const char* key, const std::vector<std::array<ElementId, Size>>& /*all*/, std::string_view help) {
+    optional.emplace_back(key, array_of(array_of(id(), {}, Size, Size), help));
   }
   void points(const char* key, const auto& /*all*/) {
     required.emplace_back(

@@ -17,7 +17,8 @@ Json preset() {
 }
 
 Json moves() {
-  const Json version = whole(1, newest_moves_version, "2 if moves split the object, 3 if relaxation ran between them");
+  const Json version = whole(1, newest_moves_version,
+                             "2 if moves split the object, 3 if relaxation ran between them, 4 if they split cells");
   const Json command = commands_of(std::type_identity<Command>());
   return object({{"version", version}, {"commands", array_of(command)}}, {}, "recorded moves, from rest");
 }

@@ -14,8 +14,8 @@
 namespace chainmail {
 namespace {
 
-// The second version knows `split`, the third `relaxed`.
-constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = newest_moves_version;
+// The second version knows `split`, the third `relaxed`, the fourth splits of cells.
+constexpr std::uint64_t first_version = 1, split_version = 2, relaxed_version = 3, cells_version = newest_moves_version;
 // Numbers in the row of a link: its ends and its softness, without or with the numbers of its energy.
 constexpr std::size_t short_row = 2 + region_numbers, long_row = 2 + softness_numbers.size();
 
@@ -48,7 +48,7 @@ void MovesReader::check_head() const {
   if (!json_.tree.is_object()) {
     fields_.fail("it contains no recorded moves", "use a file of recorded moves");
   }
-  fields_.version(json_.tree, relaxed_version);
+  fields_.version(json_.tree, newest_moves_version);
   fields_.check_keys(json_.tree, {"version", "commands"});
   fields_.array(json_.tree, "commands");
 }
@@ -110,12 +110,6 @@ void MovesReader::rotation(const char* key, Rotation& one, std::string_view /*he
 void MovesReader::numbers(const char* key, std::vector<std::uint32_t>& all, std::string_view /*help*/) {
   if (has(key, true)) {
     all = fields_.packed(with(key), key).ids;
-  }
-}
-
-void MovesReader::triangles(const char* key, std::vector<std::array<ElementId, 3>>& all) {
-  if (has(key, true)) {
-    all = fields_.groups<3>(fields_.packed(with(key), key, {3}).ids, key);
   }
 }
 
@@ -209,7 +203,7 @@ void MovesReader::follow(const commands::Relax& one) {
 void MovesReader::check_split_parts(std::uint64_t parts) const {
   if (parts > limits::split_parts) {
     fields_.fail("the meshes after all splits have more than " + std::to_string(limits::split_parts) +
-                     " elements, links and triangles",
+                     " elements, links, triangles and cells",
                  "use fewer splits, or a smaller object");
   }
 }
@@ -227,18 +221,6 @@ void MovesWriter::point(const char* key, const Point& one, std::string_view /*he
 
 void MovesWriter::rotation(const char* key, const Rotation& one, std::string_view /*help*/) {
   json_[key] = {{"axis", {one.axis.x(), one.axis.y(), one.axis.z()}}, {"degrees", one.degrees}};
-}
-
-void MovesWriter::numbers(const char* key, const std::vector<std::uint32_t>& all, std::string_view /*help*/) {
-  if (!all.empty()) {
-    json_[key] = all;
-  }
-}
-
-void MovesWriter::triangles(const char* key, const std::vector<std::array<ElementId, 3>>& all) {
-  if (!all.empty()) {
-    json_[key] = all;
-  }
 }
 
 void MovesWriter::points(const char* key, const std::vector<SplitPoint>& all) {
@@ -274,7 +256,8 @@ void MovesWriter::counts(const char* panels, const char* slices,
 }
 
 std::uint64_t split_parts_of(const Mesh& mesh) {
-  return std::uint64_t{mesh.element_count()} + mesh.link_count() + mesh.triangles.size();
+  return std::uint64_t{mesh.element_count()} + mesh.link_count() + mesh.triangles.size() + mesh.tetrahedra.size() +
+         mesh.hexahedra.size();
 }
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
@@ -296,7 +279,16 @@ void write_moves(std::ostream& out, const std::vector<Command>& commands, const 
   MovesWriter write(first ? *first : mesh);
   const bool relaxed =
       std::ranges::any_of(commands, [](const Command& one) { return std::holds_alternative<commands::Relaxed>(one); });
-  out << "{\"version\": " << (relaxed ? relaxed_version : first ? split_version : first_version) << ", \"commands\": [";
+  const bool cells = std::ranges::any_of(commands, [](const Command& command) {
+    const auto* split = std::get_if<commands::Split>(&command);
+    return split != nullptr && split->split->before->has_cells();
+  });
+  out << "{\"version\": "
+      << (cells     ? cells_version
+          : relaxed ? relaxed_version
+          : first   ? split_version
+                    : first_version)
+      << ", \"commands\": [";
   const char* before = "\n";
   for (std::size_t i = 0; i < commands.size(); ++i) {
     progress.report(i, commands.size());

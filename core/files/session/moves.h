@@ -13,7 +13,7 @@
 
 namespace chainmail {
 
-inline constexpr std::uint64_t newest_moves_version = 3;
+inline constexpr std::uint64_t newest_moves_version = 4;
 
 /// Recorded moves as JSON. Any algorithm can replay them from rest:
 ///
@@ -42,6 +42,11 @@ inline constexpr std::uint64_t newest_moves_version = 3;
 /// A slice is an iteration of the scheme `equilibrium`, or a sweep, but at most 20,000 elements of it. Another
 /// simulation repeats that of the panel with its algorithm. "awake" and "asleep" say that relaxation began anew before,
 /// with all elements or with none.
+///
+/// It is 4 if moves split cells. Then a split has also these members, each only if it is not empty:
+///
+///     "removed_cells": [index of each, the tetrahedra first…], "tetrahedra": [[four ids of each new one]…],
+///        "hexahedra": [[eight ids of each new one]…]
 ///
 /// Links are named by their ends. A softness has all numbers of softness_numbers and replaces the softness of all
 /// links; "links" may be left out. So may "energy", and the numbers after the first three: they have their defaults

@@ -60,9 +60,12 @@ void members(auto& io, commands::Relaxed& one) {
 void members(auto& io, SplitEdit& edit) {
   io.points("elements", edit.elements);
   io.numbers("removed", edit.removed, "indices of the triangles that go");
-  io.triangles("triangles", edit.triangles);
+  io.groups("triangles", edit.triangles, "corners of the new triangles");
   io.numbers("removed_polygons", edit.removed_polygons, "indices of the polygons that go");
   io.numbers("polygons", edit.polygons, "the new polygons: a count, then as many ids, for each");
+  io.numbers("removed_cells", edit.removed_cells, "indices of the cells that go, the tetrahedra first");
+  io.groups("tetrahedra", edit.tetrahedra, "corners of the new tetrahedra");
+  io.groups("hexahedra", edit.hexahedra, "corners of the new hexahedra");
 }
 void members(auto& io, commands::Split& one) { io.split(one.split); }
 
@@ -84,7 +87,10 @@ class PackedKeys {
   void point(const char* /*key*/, const Point& /*one*/, std::string_view /*help*/) {}
   void rotation(const char* /*key*/, const Rotation& /*one*/, std::string_view /*help*/) {}
   void numbers(const char* key, const auto& /*all*/, std::string_view /*help*/) { add(key, 1); }
-  void triangles(const char* key, const auto& /*all*/) { add(key, 3); }
+  template <std::size_t Size>
+  void groups(const char* key, const std::vector<std::array<ElementId, Size>>& /*all*/, std::string_view /*help*/) {
+    add(key, Size);
+  }
   void points(const char* key, const auto& /*all*/) { add(key, 3); }
   void split(const SplitPointer& /*split*/) {
     SplitEdit edit;
@@ -141,7 +147,12 @@ class MovesReader {
   void point(const char* key, Point& one, std::string_view help);
   void rotation(const char* key, Rotation& one, std::string_view help);
   void numbers(const char* key, std::vector<std::uint32_t>& all, std::string_view help);
-  void triangles(const char* key, std::vector<std::array<ElementId, 3>>& all);
+  template <std::size_t Size>
+  void groups(const char* key, std::vector<std::array<ElementId, Size>>& all, std::string_view /*help*/) {
+    if (has(key, true)) {
+      all = fields_.groups<Size>(fields_.packed(with(key), key, {Size}).ids, key);
+    }
+  }
   void points(const char* key, std::vector<SplitPoint>& all);
   void split(SplitPointer& split);
   void softness(const char* key, std::shared_ptr<const Softness>& softness);
@@ -244,8 +255,12 @@ class MovesWriter {
   void links(const char* key, const std::vector<LinkId>& all);
   void point(const char* key, const Point& one, std::string_view help);
   void rotation(const char* key, const Rotation& one, std::string_view help);
-  void numbers(const char* key, const std::vector<std::uint32_t>& all, std::string_view help);
-  void triangles(const char* key, const std::vector<std::array<ElementId, 3>>& all);
+  void numbers(const char* key, const auto& all, std::string_view /*help*/) {
+    if (!all.empty()) {
+      json_[key] = all;
+    }
+  }
+  void groups(const char* key, const auto& all, std::string_view help) { numbers(key, all, help); }
   void points(const char* key, const std::vector<SplitPoint>& all);
   void split(const SplitPointer& split);
   void softness(const char* key, const std::shared_ptr<const Softness>& softness);

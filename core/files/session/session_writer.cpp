@@ -60,7 +60,8 @@ std::size_t weight(const Command& command) {
   return std::visit(
       [](const auto& one) -> std::size_t {
         if constexpr (requires { one.split; }) {
-          return 1 + one.split->edit.elements.size() + one.split->edit.triangles.size();
+          const SplitEdit& edit = one.split->edit;
+          return 1 + edit.elements.size() + edit.triangles.size() + edit.tetrahedra.size() + edit.hexahedra.size();
         } else if constexpr (requires { one.links; }) {
           return 1 + one.links.size();
         } else if constexpr (requires { one.elements; }) {

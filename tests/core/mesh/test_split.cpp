@@ -7,6 +7,7 @@
 #include "body/snapshot.h"
 #include "core/families.h"
 #include "core/simulations.h"
+#include "mesh/divide_cells.h"
 #include "mesh/error.h"
 #include "mesh/parts.h"
 #include "mesh/split_along.h"
@@ -39,6 +40,7 @@ class SplitTest : public QObject {
   void positions_go_over_data();
   void positions_go_over();
   void a_simulation_is_split_and_undone_exactly();
+  void a_solid_is_split_and_undone_exactly();
   void the_parts_move_apart();
   void a_split_does_not_stop_relaxation();
   void a_drag_after_a_split_needs_a_grab();
@@ -493,6 +495,48 @@ void SplitTest::a_simulation_is_split_and_undone_exactly() {
     QCOMPARE(simulation.softness().links.size(), 1U);
     simulation.apply(commands::RestoreState{2});
     QCOMPARE(simulation.snapshot(), split);
+  }
+}
+
+/// All that a body has goes over to the cells of both parts, which then move apart.
+void SplitTest::a_solid_is_split_and_undone_exactly() {
+  const MeshPointer mesh = generate({MeshKind::tetra, {5, 5, 5}, 1, {}});
+  const auto split = make_split(mesh, divide_cells(*mesh, seen(*mesh), Stroke{{-20, 47}, {120, 31}}));
+  QCOMPARE(split->after->part_count, 2U);
+  const LinkId side = *find_link(*mesh, 10, 10 + 25);  // along z, so that the blade crosses it nowhere
+  for (const Algorithm algorithm : {Algorithm::natural_queue, Algorithm::exact}) {
+    Simulation simulation(mesh, algorithm, Precision::double_precision);
+    simulation.apply(commands::SetSoftness{{{0.7, 1.3, 0.2}, {{side, {1, 1, 0}}}}});
+    simulation.apply(commands::Pin{{0, 1}});
+    drag_by(simulation, 62, Point(0.4, 0.3, 0.5));
+    const Snapshot before = simulation.snapshot();
+    std::vector<Point> at;
+    for (ElementId e = 0; e < mesh->element_count(); ++e) {
+      at.push_back(point_of(*mesh, simulation.body().positions(), e));
+    }
+    simulation.apply(commands::KeepState{1});
+    simulation.apply(commands::Split{split});
+    QCOMPARE(simulation.mesh_pointer(), split->after);
+    for (const SplitPoint& point : split->edit.elements) {
+      at.push_back(point.mix<Point>(at[point.of[0]], at[point.of[1]], at[point.of[2]]));
+    }
+    for (ElementId e = 0; e < at.size(); ++e) {
+      QVERIFY((point_of(*split->after, simulation.body().positions(), e) - at[e]).norm() < 1e-12);
+    }
+    const auto is_own = [&](const auto& one) { return split->parents[one.first] == side; };
+    QVERIFY(std::ranges::any_of(simulation.softness().links, is_own));
+    drag_by(simulation, 124, Point(0, 6, 0));  // the last element, in the part without pins
+    for (ElementId e = 0; e < 10; ++e) {       // of the part with the pins; Exact ChainMail may make new links valid
+      QVERIFY(algorithm == Algorithm::exact || point_of(*split->after, simulation.body().positions(), e) == at[e]);
+    }
+    const Snapshot after = simulation.snapshot();
+    simulation.apply(commands::KeepState{2});
+    simulation.apply(commands::RestoreState{1});
+    QCOMPARE(simulation.mesh_pointer(), mesh);
+    QCOMPARE(simulation.snapshot(), before);
+    simulation.apply(commands::RestoreState{2});
+    QCOMPARE(simulation.mesh_pointer(), split->after);
+    QCOMPARE(simulation.snapshot(), after);
   }
 }
 
