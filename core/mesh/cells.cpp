@@ -1,6 +1,7 @@
 #include "mesh/cells.h"
 
 #include <Eigen/LU>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -89,6 +90,7 @@ CellTable::CellTable(MeshPointer mesh, const Progress& progress)
   list_cells();
   progress.report(0.1);
   pair_sides(progress.part(0.1, 0.9));
+  pair_with_triangles();
   find_loose_links();
   find_loose_triangles();
 }
@@ -191,6 +193,39 @@ void CellTable::pair_sides(const Progress& progress) {
         twins_[keys[i + 1].side] = keys[i].side;
         ++i;
       }
+    }
+  }
+}
+
+/// Pairs sides of hexahedra with two sides of tetrahedra each.
+void CellTable::pair_with_triangles() {
+  if (tetrahedra_ == 0 || mesh_->hexahedra.empty()) {
+    return;
+  }
+  const auto key_of_three = [](ElementId a, ElementId b, ElementId c) {
+    std::array key{a, b, c};
+    std::ranges::sort(key);
+    return key;
+  };
+  std::map<std::array<ElementId, 3>, SideId> open;
+  for (SideId side = 0; side < 4 * tetrahedra_; ++side) {
+    if (twins_[side] == none) {
+      const auto& [a, b, c, d] = side_by_number(side).corner;
+      open[key_of_three(a, b, c)] = side;
+    }
+  }
+  for (SideId side = 4 * tetrahedra_; side < side_count(); ++side) {
+    if (twins_[side] != none) {
+      continue;
+    }
+    auto corner = side_by_number(side).corner;
+    std::rotate(corner.begin(), std::ranges::min_element(corner, OrderAtRest{*mesh_}), corner.end());
+    const auto one = open.find(key_of_three(corner[0], corner[1], corner[2]));
+    const auto other = open.find(key_of_three(corner[0], corner[2], corner[3]));
+    if (one != open.end() && other != open.end()) {
+      twins_[side] = one->second;
+      second_twins_[side] = other->second;
+      twins_[one->second] = twins_[other->second] = side;
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "mesh/cuts.h"
@@ -45,7 +46,7 @@ void for_each_tetrahedron(const Mesh& mesh, const std::array<ElementId, 8>& cell
   for (const auto& side : hexahedron_sides) {
     std::array<ElementId, 4> corners{cell[side[0]], cell[side[1]], cell[side[2]], cell[side[3]]};
     if (std::ranges::find(corners, first) == corners.end()) {
-      std::ranges::rotate(corners, std::ranges::min_element(corners, OrderAtRest{mesh}));
+      std::rotate(corners.begin(), std::ranges::min_element(corners, OrderAtRest{mesh}), corners.end());
       visit(std::array{first, corners[0], corners[1], corners[2]});
       visit(std::array{first, corners[0], corners[2], corners[3]});
     }
@@ -105,7 +106,18 @@ class CellTable {
   Side side(SideId side) const;
   bool has_corner(SideId side, ElementId element) const;
   /// Returns the side of another cell with the same corners, if any. If more than two sides have them, they are paired.
+  /// A side of four corners may coincide with two of three: see for_each_tetrahedron. They have it as twin, and it one
+  /// of them.
   SideId twin(SideId side) const { return twins_[side]; }
+  template <class Visit>
+  void for_each_twin(SideId side, Visit visit) const {
+    if (twins_[side] != none) {
+      visit(twins_[side]);
+    }
+    if (const auto second = second_twins_.find(side); second != second_twins_.end()) {
+      visit(second->second);
+    }
+  }
   /// Returns the cells with this corner, ascending.
   std::span<const CellId> cells_of(ElementId element) const {
     return {cells_.data() + first_cell_[element], cells_.data() + first_cell_[element + 1]};
@@ -134,13 +146,15 @@ class CellTable {
   bool has_edge(CellId cell, ElementId a, ElementId b) const;
   void list_cells();
   void pair_sides(const Progress& progress);
+  void pair_with_triangles();
   void find_loose_links();
   void find_loose_triangles();
 
   MeshPointer mesh_;
   std::uint32_t tetrahedra_ = 0;
   std::vector<SideId> twins_;
-  std::vector<std::uint32_t> first_cell_;  // of each element, among cells_, and the end
+  std::unordered_map<SideId, SideId> second_twins_;  // of sides of four corners
+  std::vector<std::uint32_t> first_cell_;            // of each element, among cells_, and the end
   std::vector<CellId> cells_;
   std::vector<LinkId> loose_links_;
   std::vector<std::uint32_t> loose_triangles_;

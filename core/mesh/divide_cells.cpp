@@ -403,7 +403,7 @@ void CellDivider::add_faces(CellsInPieces& result) const {
     if (ring.size() > 4 || !is_near(ring)) {
       continue;
     }
-    std::ranges::rotate(ring, std::ranges::min_element(ring, OrderAtRest{mesh_}));
+    std::rotate(ring.begin(), std::ranges::min_element(ring, OrderAtRest{mesh_}), ring.end());
     for (std::size_t i = 2; i < ring.size(); ++i) {
       const std::array<ElementId, 3> corner{ring[0], ring[i - 1], ring[i]};
       const std::array edges{edge_between(corner[0], corner[1]), edge_between(corner[1], corner[2]),

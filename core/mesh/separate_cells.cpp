@@ -1,7 +1,9 @@
 #include "mesh/separate_cells.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
 
@@ -59,6 +61,7 @@ class CellSeparation {
   void take_sides_of_neighbours();
   bool take_side(std::uint32_t piece, std::uint32_t from, ElementId corner);
   bool is_cut(const Interface& one) const;
+  void note_side(std::uint32_t piece, const Triangle& corner, bool cut);
   void make_copies();
   void write_cells();
   void write_faces();
@@ -71,8 +74,10 @@ class CellSeparation {
   const std::vector<std::uint8_t>& is_on_blade_;
   std::vector<PieceFace> faces_;  // of pieces, with a corner on the blade; ascending
   std::vector<Interface> interfaces_;
-  std::vector<PieceSide> sides_;                     // of each piece
-  std::vector<std::array<ElementId, 4>> separated_;  // corners of each piece, with copies
+  std::vector<PieceSide> sides_;                            // of each piece
+  std::vector<std::array<ElementId, 4>> separated_;         // corners of each piece, with copies
+  std::map<std::array<std::size_t, 2>, bool> side_is_cut_;  // by hexahedron and number of its side
+  std::set<CellId> half_cut_;                               // hexahedra with a side of which only one half is cut
   SplitEdit edit_;
 };
 
@@ -147,12 +152,31 @@ bool CellSeparation::is_cut(const Interface& one) const {
   return at < old_ && (sides_[first] != sides_[second]) != (is_beyond(first, at) != is_beyond(second, at));
 }
 
+/// Finds hexahedra that cannot stay, because a half of a side is cut.
+void CellSeparation::note_side(std::uint32_t piece, const Triangle& corner, bool cut) {
+  const CellId cell = tetrahedron(piece).cell;
+  if (cell < mesh_.tetrahedra.size()) {
+    return;
+  }
+  const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
+  for (std::size_t i = 0; i < hexahedron_sides.size(); ++i) {
+    const auto is_on = [&](ElementId one) {
+      return std::ranges::any_of(hexahedron_sides[i], [&](int at) { return corners[std::size_t(at)] == one; });
+    };
+    if (std::ranges::all_of(corner, is_on) && side_is_cut_.try_emplace({cell, i}, cut).first->second != cut) {
+      half_cut_.insert(cell);
+    }
+  }
+}
+
 /// Joins corners of pieces across faces that are not cut. Of those that were together before, one set keeps the
 /// element; each other gets a copy.
 void CellSeparation::make_copies() {
   DisjointSets before(4 * pieces_.size()), after(4 * pieces_.size());
   for (const Interface& one : interfaces_) {
     const bool cut = is_cut(one);
+    note_side(one.piece[0], one.corner, cut);
+    note_side(one.piece[1], one.corner, cut);
     for (const ElementId corner : one.corner) {
       const std::size_t first = node(one.piece[0], corner), second = node(one.piece[1], corner);
       before.unite(first, second);
@@ -201,11 +225,12 @@ void CellSeparation::write_cells() {
   const auto write = [this](CellId cell, const auto& corners, auto& all, std::size_t first, std::size_t end) {
     const auto after = std::span(separated_).subspan(first, end - first);
     const auto whole = separated_whole(corners, std::span(pieces_).subspan(first, end - first), after);
-    if (whole == corners) {
+    const bool stays = whole && !half_cut_.contains(cell);
+    if (stays && *whole == corners) {
       return;
     }
     edit_.removed_cells.push_back(cell);
-    if (whole) {
+    if (stays) {
       all.push_back(*whole);
     } else {
       edit_.tetrahedra.insert(edit_.tetrahedra.end(), after.begin(), after.end());

@@ -72,13 +72,15 @@ void Surface::change(LinkId link, bool cut) {
 /// Updates the visibility of the sides of a cell and of the sides that coincide with them.
 void Surface::look_at_sides(CellId cell) {
   for (SideId side = table_->first_side(cell); side < table_->end_side(cell); ++side) {
-    const SideId twin = table_->twin(side);
-    const bool whole = is_whole(cell), beside = twin != CellTable::none && is_whole(table_->cell_of(twin));
-    sides_.set(side, whole && !beside);
-    if (twin != CellTable::none) {
-      sides_.set(twin, beside && !whole);
-    }
+    sides_.set(side, is_side_in_sight(side));
+    table_->for_each_twin(side, [this](SideId twin) { sides_.set(twin, is_side_in_sight(twin)); });
   }
+}
+
+bool Surface::is_side_in_sight(SideId side) const {
+  bool covered = table_->twin(side) != CellTable::none;
+  table_->for_each_twin(side, [&](SideId twin) { covered = covered && is_whole(table_->cell_of(twin)); });
+  return is_whole(table_->cell_of(side)) && !covered;
 }
 
 void Surface::look_at_links(CellId cell) {

@@ -50,6 +50,7 @@ class Surface {
   void change(LinkId link, bool cut);
   void look_at_sides(CellId cell);
   void look_at_links(CellId cell);
+  bool is_side_in_sight(SideId side) const;
   bool is_link_in_sight(LinkId link) const;
 
   CellTablePointer table_;

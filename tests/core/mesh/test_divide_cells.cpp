@@ -8,6 +8,7 @@
 #include "mesh/divide_cells.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
+#include "mesh/surface.h"
 #include "program.h"
 #include "property.h"
 
@@ -167,7 +168,7 @@ std::vector<Triangle> boundary(const Mesh& mesh) {
   std::vector<Triangle> result;
   for (const auto& [key, all] : faces) {
     const auto is_even = [key = key](Triangle face) {
-      std::ranges::rotate(face, std::ranges::min_element(face));
+      std::rotate(face.begin(), std::ranges::min_element(face), face.end());
       return face == key;
     };
     if (all.size() > 2 || (all.size() == 2 && is_even(all[0]) == is_even(all[1]))) {
@@ -221,6 +222,10 @@ std::string flaw_of(const Split& split) {
   }
   if (!is_closed(boundary(after))) {
     return "the surface is not closed";
+  }
+  // Sides of hexahedra coincide with those of tetrahedra.
+  if (Surface(std::make_shared<CellTable>(split.after)).triangles().size() != 3 * boundary(after).size()) {
+    return "sides inside the object have no twin";
   }
   if (edges_of_cells(after) != std::set(after.links.begin(), after.links.end())) {
     return "links and edges of cells differ";
