@@ -21,7 +21,7 @@ inline constexpr double least_piece_quality = 0.15;
 /// volume stays the same. Where the stroke crosses an edge an even number of times, it does not cut it: a bend within
 /// one cell, or the crossing of the stroke with itself, stays uncut.
 ///
-/// A hexahedron with a divided edge, with parts on both sides, or with half a side cut becomes tetrahedra: see
+/// A hexahedron with a divided edge, with parts on both sides, or with half a side open becomes tetrahedra: see
 /// for_each_tetrahedron. Other hexahedra stay; their sides agree with the new tetrahedra, because the diagonal of a
 /// side depends on its own corners alone.
 ///

@@ -61,8 +61,13 @@ class CellSeparation {
   void take_sides_of_neighbours();
   bool take_side(std::uint32_t piece, std::uint32_t from, ElementId corner);
   bool is_cut(const Interface& one) const;
-  void note_side(std::uint32_t piece, const Triangle& corner, bool cut);
   void make_copies();
+  ElementId separated(std::uint32_t piece, ElementId corner) const {
+    const std::size_t at = node(piece, corner);
+    return separated_[at / 4][at % 4];
+  }
+  void find_half_open();
+  void note_side(std::uint32_t piece, const Triangle& corner, bool open);
   void write_cells();
   void write_faces();
 
@@ -74,10 +79,10 @@ class CellSeparation {
   const std::vector<std::uint8_t>& is_on_blade_;
   std::vector<PieceFace> faces_;  // of pieces, with a corner on the blade; ascending
   std::vector<Interface> interfaces_;
-  std::vector<PieceSide> sides_;                            // of each piece
-  std::vector<std::array<ElementId, 4>> separated_;         // corners of each piece, with copies
-  std::map<std::array<std::size_t, 2>, bool> side_is_cut_;  // by hexahedron and number of its side
-  std::set<CellId> half_cut_;                               // hexahedra with a side of which only one half is cut
+  std::vector<PieceSide> sides_;                             // of each piece
+  std::vector<std::array<ElementId, 4>> separated_;          // corners of each piece, with copies
+  std::map<std::array<std::size_t, 2>, bool> side_is_open_;  // by hexahedron and number of its side
+  std::set<CellId> half_open_;                               // hexahedra with a side of which only one half is open
   SplitEdit edit_;
 };
 
@@ -152,31 +157,12 @@ bool CellSeparation::is_cut(const Interface& one) const {
   return at < old_ && (sides_[first] != sides_[second]) != (is_beyond(first, at) != is_beyond(second, at));
 }
 
-/// Finds hexahedra that cannot stay, because a half of a side is cut.
-void CellSeparation::note_side(std::uint32_t piece, const Triangle& corner, bool cut) {
-  const CellId cell = tetrahedron(piece).cell;
-  if (cell < mesh_.tetrahedra.size()) {
-    return;
-  }
-  const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
-  for (std::size_t i = 0; i < hexahedron_sides.size(); ++i) {
-    const auto is_on = [&](ElementId one) {
-      return std::ranges::any_of(hexahedron_sides[i], [&](int at) { return corners[std::size_t(at)] == one; });
-    };
-    if (std::ranges::all_of(corner, is_on) && side_is_cut_.try_emplace({cell, i}, cut).first->second != cut) {
-      half_cut_.insert(cell);
-    }
-  }
-}
-
 /// Joins corners of pieces across faces that are not cut. Of those that were together before, one set keeps the
 /// element; each other gets a copy.
 void CellSeparation::make_copies() {
   DisjointSets before(4 * pieces_.size()), after(4 * pieces_.size());
   for (const Interface& one : interfaces_) {
     const bool cut = is_cut(one);
-    note_side(one.piece[0], one.corner, cut);
-    note_side(one.piece[1], one.corner, cut);
     for (const ElementId corner : one.corner) {
       const std::size_t first = node(one.piece[0], corner), second = node(one.piece[1], corner);
       before.unite(first, second);
@@ -197,6 +183,35 @@ void CellSeparation::make_copies() {
         }
         separated_.back()[i] = copy->second;
       }
+    }
+  }
+}
+
+/// Finds hexahedra that cannot stay, because only a half of a side has come apart. A cut face with no doubled corner
+/// has not.
+void CellSeparation::find_half_open() {
+  for (const auto& [corner, piece] : interfaces_) {
+    bool open = false;
+    for (const ElementId one : corner) {
+      open = open || separated(piece[0], one) != separated(piece[1], one);
+    }
+    note_side(piece[0], corner, open);
+    note_side(piece[1], corner, open);
+  }
+}
+
+void CellSeparation::note_side(std::uint32_t piece, const Triangle& corner, bool open) {
+  const CellId cell = tetrahedron(piece).cell;
+  if (cell < mesh_.tetrahedra.size()) {
+    return;
+  }
+  const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
+  for (std::size_t i = 0; i < hexahedron_sides.size(); ++i) {
+    const auto is_on = [&](ElementId one) {
+      return std::ranges::any_of(hexahedron_sides[i], [&](int at) { return corners[std::size_t(at)] == one; });
+    };
+    if (std::ranges::all_of(corner, is_on) && side_is_open_.try_emplace({cell, i}, open).first->second != open) {
+      half_open_.insert(cell);
     }
   }
 }
@@ -225,7 +240,7 @@ void CellSeparation::write_cells() {
   const auto write = [this](CellId cell, const auto& corners, auto& all, std::size_t first, std::size_t end) {
     const auto after = std::span(separated_).subspan(first, end - first);
     const auto whole = separated_whole(corners, std::span(pieces_).subspan(first, end - first), after);
-    const bool stays = whole && !half_cut_.contains(cell);
+    const bool stays = whole && !half_open_.contains(cell);
     if (stays && *whole == corners) {
       return;
     }
@@ -259,8 +274,7 @@ void CellSeparation::write_faces() {
     std::ranges::sort(key);
     const auto found = std::ranges::lower_bound(faces_, key, {}, &PieceFace::corner);
     for (std::size_t i = 0; i < 3 && found != faces_.end() && found->corner == key; ++i) {
-      const std::size_t at = node(found->piece, piece.corner[i]);
-      after.back()[i] = separated_[at / 4][at % 4];
+      after.back()[i] = separated(found->piece, piece.corner[i]);
     }
   }
   const Faces faces(mesh_);
@@ -295,6 +309,7 @@ SplitEdit CellSeparation::run() {
   if (edit_.elements.size() == points) {
     return {};
   }
+  find_half_open();
   write_cells();
   write_faces();
   return std::move(edit_);
