@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "mesh/separate.h"
 #include "mesh/separate_cells.h"
@@ -103,6 +104,8 @@ class CellDivider {
   CellDivider(const Mesh& mesh, const StrokeInView& stroke)
       : mesh_(mesh), stroke_(stroke), is_on_blade_(mesh.element_count()) {}
 
+  /// The blade then crosses only cells with one of these links.
+  void limit_to(std::span<const LinkId> reached);
   CellsInPieces run();
 
  private:
@@ -112,9 +115,13 @@ class CellDivider {
     std::array<std::uint32_t, 6> edge{};  // that is crossed, in the order of tetrahedron_edges
   };
 
+  std::vector<CellId> cells_at_stroke() const;
+  void for_each_part(CellId cell, const auto& visit) const;
   void find_crossed();
-  void look_at(CellId cell, const std::array<ElementId, 4>& corner);
-  std::uint32_t edge(ElementId a, ElementId b);
+  bool is_reached(CellId cell) const;
+  void find_edges(const std::array<ElementId, 4>& corner);
+  void add_if_crossed(CellId cell, const std::array<ElementId, 4>& corner);
+  std::uint32_t edge_between(ElementId a, ElementId b) const;
   void find_sides(Crossed& one);
 
   void snap();
@@ -150,48 +157,92 @@ class CellDivider {
   const Mesh& mesh_;
   const StrokeInView& stroke_;
   std::vector<std::uint8_t> is_on_blade_, is_near_;  // of each element
+  std::optional<std::unordered_set<EdgeKey>> reached_;
   std::unordered_map<EdgeKey, std::uint32_t> edge_of_;
   std::vector<CrossedEdge> edges_;
   std::vector<Crossed> crossed_;  // ascending by cell
 };
 
-/// Finds the tetrahedra with an edge that the stroke crosses.
-void CellDivider::find_crossed() {
+/// Returns the cells that may have an edge that the stroke crosses.
+std::vector<CellId> CellDivider::cells_at_stroke() const {
   const StrokeRaster raster(stroke_);
   std::vector<StrokeRaster::Square> squares;
   squares.reserve(mesh_.element_count());
   for (ElementId e = 0; e < mesh_.element_count(); ++e) {
     squares.push_back(raster.square(stroke_.place(e).at));
   }
-  const auto may_cross = [&](const auto& corners) {
-    StrokeRaster::Square low = squares[corners[0]], high = low;
-    for (const ElementId corner : corners) {
-      const auto [x, y] = squares[corner];
-      low = {std::min(low.x, x), std::min(low.y, y)};
-      high = {std::max(high.x, x), std::max(high.y, y)};
+  std::vector<CellId> result;
+  const auto add = [&](const auto& cells, std::size_t first) {
+    for (const auto& corners : cells) {
+      StrokeRaster::Square low = squares[corners[0]], high = low;
+      for (const ElementId corner : corners) {
+        const auto [x, y] = squares[corner];
+        low = {std::min(low.x, x), std::min(low.y, y)};
+        high = {std::max(high.x, x), std::max(high.y, y)};
+      }
+      if (raster.has_stroke(low, high)) {
+        result.push_back(static_cast<CellId>(first + std::size_t(&corners - cells.data())));
+      }
     }
-    return raster.has_stroke(low, high);
   };
-  CellId cell = 0;
-  for (const auto& corners : mesh_.tetrahedra) {
-    if (may_cross(corners)) {
-      look_at(cell, corners);
-    }
-    ++cell;
-  }
-  for (const auto& corners : mesh_.hexahedra) {
-    if (may_cross(corners)) {
-      for_each_tetrahedron(mesh_, corners, [&](const auto& one) { look_at(cell, one); });
-    }
-    ++cell;
+  add(mesh_.tetrahedra, 0);
+  add(mesh_.hexahedra, mesh_.tetrahedra.size());
+  return result;
+}
+
+/// Calls visit(corners) for a tetrahedron, or for the six of a hexahedron.
+void CellDivider::for_each_part(CellId cell, const auto& visit) const {
+  if (cell < mesh_.tetrahedra.size()) {
+    visit(mesh_.tetrahedra[cell]);
+  } else {
+    for_each_tetrahedron(mesh_, mesh_.hexahedra[cell - mesh_.tetrahedra.size()], visit);
   }
 }
 
-void CellDivider::look_at(CellId cell, const std::array<ElementId, 4>& corner) {
+/// Finds the edges that the stroke crosses, and the tetrahedra that have them.
+void CellDivider::find_crossed() {
+  const std::vector<CellId> cells = cells_at_stroke();
+  for (const CellId cell : cells) {
+    if (is_reached(cell)) {
+      for_each_part(cell, [&](const auto& corner) { find_edges(corner); });
+    }
+  }
+  for (const CellId cell : cells) {
+    for_each_part(cell, [&](const auto& corner) { add_if_crossed(cell, corner); });
+  }
+}
+
+bool CellDivider::is_reached(CellId cell) const {
+  bool result = !reached_;
+  for_each_part(cell, [&](const auto& corner) {
+    for (const auto& [a, b] : tetrahedron_edges) {
+      result = result || reached_->contains(edge_key(corner[std::size_t(a)], corner[std::size_t(b)]));
+    }
+  });
+  return result;
+}
+
+void CellDivider::find_edges(const std::array<ElementId, 4>& corner) {
+  for (const auto& [i, j] : tetrahedron_edges) {
+    const ElementId a = corner[std::size_t(i)], b = corner[std::size_t(j)];
+    const auto [found, is_new] = edge_of_.try_emplace(edge_key(a, b), none);
+    if (is_new && stroke_.place(a).distance > 0 && stroke_.place(b).distance > 0) {
+      auto crossings = stroke_.crossings(a, b);
+      if (crossings.size() % 2 == 1) {
+        std::ranges::sort(crossings, {}, &Crossing::share);
+        found->second = static_cast<std::uint32_t>(edges_.size());
+        const double length = (mesh_.rest_position(std::max(a, b)) - mesh_.rest_position(std::min(a, b))).squaredNorm();
+        edges_.push_back({edge_key(a, b), crossings[crossings.size() / 2].share, length});
+      }
+    }
+  }
+}
+
+void CellDivider::add_if_crossed(CellId cell, const std::array<ElementId, 4>& corner) {
   Crossed one{{cell, corner}, {}};
   for (std::size_t i = 0; i < one.edge.size(); ++i) {
     const auto [a, b] = tetrahedron_edges[i];
-    one.edge[i] = edge(corner[std::size_t(a)], corner[std::size_t(b)]);
+    one.edge[i] = edge_between(corner[std::size_t(a)], corner[std::size_t(b)]);
   }
   if (std::ranges::any_of(one.edge, [](std::uint32_t edge) { return edge != none; })) {
     find_sides(one);
@@ -200,18 +251,9 @@ void CellDivider::look_at(CellId cell, const std::array<ElementId, 4>& corner) {
 }
 
 /// Returns the index of an edge, or none if the stroke does not cross it.
-std::uint32_t CellDivider::edge(ElementId a, ElementId b) {
-  const auto [found, is_new] = edge_of_.try_emplace(edge_key(a, b), none);
-  if (is_new && stroke_.place(a).distance > 0 && stroke_.place(b).distance > 0) {
-    auto crossings = stroke_.crossings(a, b);
-    if (crossings.size() % 2 == 1) {
-      std::ranges::sort(crossings, {}, &Crossing::share);
-      found->second = static_cast<std::uint32_t>(edges_.size());
-      const double length = (mesh_.rest_position(std::max(a, b)) - mesh_.rest_position(std::min(a, b))).squaredNorm();
-      edges_.push_back({edge_key(a, b), crossings[crossings.size() / 2].share, length});
-    }
-  }
-  return found->second;
+std::uint32_t CellDivider::edge_between(ElementId a, ElementId b) const {
+  const auto found = edge_of_.find(edge_key(a, b));
+  return found == edge_of_.end() ? none : found->second;
 }
 
 /// A tetrahedron has two sides if the stroke crosses each of its faces an even number of times.
@@ -394,10 +436,6 @@ void CellDivider::add_cells(CellsInPieces& result) const {
 /// hexahedron; others stay.
 void CellDivider::add_faces(CellsInPieces& result) const {
   const Faces faces(mesh_);
-  const auto edge_between = [this](ElementId a, ElementId b) {
-    const auto found = edge_of_.find(edge_key(a, b));
-    return found == edge_of_.end() ? none : found->second;
-  };
   for (std::uint32_t face = 0; face < faces.count(); ++face) {
     Ring ring(faces[face].begin(), faces[face].end());
     if (ring.size() > 4 || !is_near(ring)) {
@@ -412,6 +450,13 @@ void CellDivider::add_faces(CellsInPieces& result) const {
         result.faces.push_back({face, piece});
       }
     }
+  }
+}
+
+void CellDivider::limit_to(std::span<const LinkId> reached) {
+  reached_.emplace();
+  for (const LinkId link : reached) {
+    reached_->insert(edge_key(mesh_.links[link][0], mesh_.links[link][1]));
   }
 }
 
@@ -430,11 +475,19 @@ CellsInPieces CellDivider::run() {
 
 }  // namespace
 
-SplitEdit divide_cells(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> points) {
+SplitEdit divide_cells(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> points,
+                       std::optional<std::span<const LinkId>> reached) {
   assert(places.size() == mesh.element_count());
   const StrokeInView stroke(places, points);
   const bool is_point = stroke.empty() || stroke.low() == stroke.high();
-  return is_point || !mesh.has_cells() ? SplitEdit() : separate(mesh, CellDivider(mesh, stroke).run());
+  if (is_point || !mesh.has_cells()) {
+    return {};
+  }
+  CellDivider divider(mesh, stroke);
+  if (reached) {
+    divider.limit_to(*reached);
+  }
+  return separate(mesh, divider.run());
 }
 
 }  // namespace chainmail

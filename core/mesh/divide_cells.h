@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "mesh/split.h"
@@ -25,8 +26,11 @@ inline constexpr double least_piece_quality = 0.15;
 /// for_each_tetrahedron. Other hexahedra stay; their sides agree with the new tetrahedra, because the diagonal of a
 /// side depends on its own corners alone.
 ///
+/// With `reached`, which is ascending, the blade crosses only cells with one of these links.
+///
 /// The edit is empty if nothing comes apart. Takes one pass over all elements and two over all cells, and beyond it
 /// time in proportion to the cells at the stroke.
-SplitEdit divide_cells(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> stroke);
+SplitEdit divide_cells(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> stroke,
+                       std::optional<std::span<const LinkId>> reached = {});
 
 }  // namespace chainmail

@@ -89,7 +89,7 @@ std::uint32_t polygon_count(const Mesh& mesh) {
 }
 
 void check(const SplitEdit& edit, const Mesh& mesh) {
-  if (!can_split(mesh) && !mesh.has_cells()) {
+  if (!can_split(mesh)) {
     refuse("the object has neither cells nor faces, or it is a lattice of faces", "cut its links instead");
   }
   if (edit.empty() && edit.triangles.empty() && edit.polygons.empty() && edit.tetrahedra.empty() &&
@@ -314,7 +314,7 @@ class Origins {
 
 }  // namespace
 
-bool can_split(const Mesh& mesh) { return !mesh.triangles.empty() && !mesh.has_cells() && !mesh.lattice; }
+bool can_split(const Mesh& mesh) { return mesh.has_cells() || (!mesh.triangles.empty() && !mesh.lattice); }
 
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   check(edit, *mesh);

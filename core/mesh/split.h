@@ -77,8 +77,8 @@ struct Split {
 
 using SplitPointer = std::shared_ptr<const Split>;
 
-/// True if strokes may split the faces of this mesh: it has faces, and neither cells nor a lattice. Cells may always be
-/// divided; a lattice is gone then.
+/// True if strokes may divide this mesh: it has cells, or it has faces and is not a lattice. A lattice of cells is gone
+/// after it.
 bool can_split(const Mesh& mesh);
 
 /// Returns those of the links that are neither the side of a face nor the edge of a cell.

@@ -13,9 +13,11 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <unordered_map>
 
+#include "mesh/divide_cells.h"
 #include "mesh/separate.h"
 
 namespace chainmail {
@@ -60,7 +62,8 @@ bool is_line(const DividedFace& face, const Ring& ring) {
 /// Divides the faces of a mesh along a stroke.
 class FaceDivider {
  public:
-  FaceDivider(const Mesh& mesh, const Faces& faces, const StrokeInView& stroke, std::span<const LinkId> reached)
+  FaceDivider(const Mesh& mesh, const Faces& faces, const StrokeInView& stroke,
+              std::optional<std::span<const LinkId>> reached)
       : mesh_(mesh), faces_(faces), stroke_(stroke), reached_(reached), next_(mesh.element_count()) {}
 
   void run();
@@ -106,7 +109,7 @@ class FaceDivider {
   const Mesh& mesh_;
   const Faces& faces_;
   const StrokeInView& stroke_;
-  std::span<const LinkId> reached_;
+  std::optional<std::span<const LinkId>> reached_;
   ElementId next_;
   std::unordered_map<EdgeKey, Side> sides_;
   std::vector<Chord> chords_;
@@ -125,13 +128,18 @@ FaceDivider::Side& FaceDivider::side(ElementId a, ElementId b) {
 
 /// Finds the links that the stroke crosses.
 void FaceDivider::find_sides() {
-  for (const LinkId link : reached_) {
+  const auto find = [this](LinkId link) {
     const auto& [a, b] = mesh_.links[link];
     if (Side& one = side(a, b); one.crossings.empty()) {
       sides_.erase(edge_key(a, b));
     } else {
       one.reached = true;
     }
+  };
+  if (reached_) {
+    std::ranges::for_each(*reached_, find);
+  } else {
+    std::ranges::for_each(std::views::iota(LinkId{0}, mesh_.link_count()), find);
   }
 }
 
@@ -447,9 +455,12 @@ FacesInPieces FaceDivider::pieces() const {
 }  // namespace
 
 SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Vector2d> points,
-                      std::span<const LinkId> reached) {
+                      std::optional<std::span<const LinkId>> reached) {
   assert(places.size() == mesh.element_count());
   const StrokeInView stroke(places, points);
+  if (mesh.has_cells()) {
+    return divide_cells(mesh, places, points, reached);
+  }
   if (stroke.empty() || !can_split(mesh)) {
     return {};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "mesh/split.h"
@@ -14,12 +15,12 @@ inline constexpr double snap_share = 0.05;
 /// nearest side or corner.
 inline constexpr double tip_share = 0.1;
 
-/// Returns the edit that cuts the faces of a mesh along a stroke. It appends elements where the stroke crosses the
-/// sides of faces and where it begins and ends inside a face, divides the faces along the stroke, and then separates
-/// them: elements on the stroke are doubled, except where the cut ends inside the object. Total area stays the same. A
-/// face is divided only between crossings of links in `reached`, which is ascending. The edit is empty if nothing comes
-/// apart.
+/// Returns the edit that cuts a mesh along a stroke: its cells, as divide_cells does, or its faces if it has none. Of
+/// faces, it appends elements where the stroke crosses their sides and where it begins and ends inside one, divides the
+/// faces along the stroke, and then separates them: elements on the stroke are doubled, except where the cut ends
+/// inside the object. Total area stays the same. With `reached`, which is ascending, a face is divided only between
+/// crossings of these links. The edit is empty if nothing comes apart.
 SplitEdit split_along(const Mesh& mesh, std::span<const ViewPlace> places, std::span<const Eigen::Vector2d> stroke,
-                      std::span<const LinkId> reached);
+                      std::optional<std::span<const LinkId>> reached = {});
 
 }  // namespace chainmail

@@ -4,6 +4,8 @@
 #include <QTest>
 #include <QTimer>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,7 +18,7 @@
 #include "document/element_facts.h"
 #include "document/session_draft.h"
 #include "mesh/generate.h"
-#include "mesh/split.h"
+#include "mesh/split_along.h"
 #include "program.h"
 #include "property.h"
 
@@ -503,10 +505,22 @@ void cut(Document& document, std::vector<LinkId> links) {
   edits::cut(document, links);
 }
 
-/// Splits a triangle into three.
+/// Splits a triangle into three, or divides the cells of a volume by a plane through an element and z.
 void split(Document& document, std::uint32_t which) {
   const Mesh& mesh = *document.mesh();
-  if (can_split(mesh)) {
+  if (mesh.has_cells()) {
+    std::vector<ViewPlace> places;
+    for (ElementId e = 0; e < mesh.element_count(); ++e) {
+      places.push_back({mesh.rest_position(e).head<2>()});
+    }
+    const Eigen::Vector2d middle = places[which % mesh.element_count()].at, along(std::cos(which), std::sin(which));
+    const double length = 100 * mesh.mean_link_length;
+    SplitEdit edit =
+        split_along(mesh, places, std::array{Eigen::Vector2d(middle - length * along), middle + 0.3 * along});
+    if (!edit.empty()) {
+      edits::split(document, make_split(document.mesh(), std::move(edit)));
+    }
+  } else if (can_split(mesh)) {
     const std::uint32_t triangle = which % std::uint32_t(mesh.triangles.size());
     const auto [a, b, c] = mesh.triangles[triangle];
     const ElementId p = mesh.element_count();
@@ -712,7 +726,7 @@ void Life::Asked::check_panel(int panel) const {
     }
     RC_ASSERT(after.cuts == cuts);
   }
-  if (action_.kind == Kind::split && can_split(*before.mesh)) {
+  if (action_.kind == Kind::split && can_split(*before.mesh) && !before.mesh->has_cells()) {
     RC_ASSERT(after.mesh->element_count() == before.mesh->element_count() + 1);
     RC_ASSERT(after.mesh->link_count() == before.mesh->link_count() + 3);
   }

@@ -176,9 +176,38 @@ class WindowKnife : public QObject {
     QCOMPARE(cutBy(bench), through);
   }
 
+  void aStrokeDividesTheCellsOfAVolume() {
+    Workbench bench(test::make_mesh(MeshKind::tetra, {5, 5, 5}));
+    const MeshPointer whole = bench.document().mesh();
+    bench.trigger("toolCut");
+    QVERIFY(bench.find<QAction>("cutSplits")->isChecked() && bench.find<QAction>("cutSplits")->isEnabled());
+    const QPoint middle = bench.view(0).viewPosition(Point(2, 2, 2)).toPoint();
+    const QList<QPoint> across{middle - QPoint(250, 7), middle + QPoint(250, 7)};
+    bench.stroke(0, across);
+    const MeshPointer split = bench.document().mesh();
+    QVERIFY(split->tetrahedra.size() > whole->tetrahedra.size());
+    QCOMPARE(bench.document().cuts().count(), 0U);
+    QCOMPARE(bench.document().parts(), 2U);
+    bench.trigger("undo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), whole);
+    bench.trigger("redo");
+    bench.settle();
+    QCOMPARE(bench.document().mesh(), split);
+    bench.trigger("undo");
+    bench.settle();
+    // The front layer alone.
+    bench.trigger("cutFrontOnly");
+    bench.stroke(0, across);
+    const std::size_t front = bench.document().mesh()->tetrahedra.size();
+    QVERIFY(front > whole->tetrahedra.size() && front < split->tetrahedra.size());
+    QCOMPARE(bench.document().parts(), 1U);
+  }
+
   void aVolumeIsOpenedLayerByLayer() {
     Workbench bench(test::make_mesh(MeshKind::tetra, {5, 5, 5}));
     bench.trigger("toolCut");
+    bench.find<QAction>("cutSplits")->setChecked(false);
     bench.trigger("cutFrontOnly");
     const QPoint middle = bench.view(0).viewPosition(Point(2, 2, 2)).toPoint();
     const QList<QPoint> across{middle - QPoint(90, 4), middle + QPoint(90, 4)};

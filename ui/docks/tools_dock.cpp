@@ -82,17 +82,17 @@ void ToolsDock::addActions(Actions& actions, const Document& document, CutTool& 
                              ? QString()
                              : "Not available in 2D: a stroke cuts all links that it crosses";
                 })},
-               {"cutSplits", "Split triangles when cutting|Split triangles", "", "",
-                "On: a stroke splits the triangles that it crosses, except where only links are drawn. Off: it cuts "
-                "the links that it crosses",
+               {"cutSplits", "Divide cells and triangles when cutting|Divide cells and triangles", "", "",
+                "On: a stroke divides the cells of a volume, or the triangles of a surface, except where only links "
+                "are drawn. Off: it cuts the links that it crosses, and cells with a cut link disappear",
                 [&cut](bool on) {
                   cut.setSplits(on);
                   QSettings().setValue(splitsKey(), on);
                 },
                 IsOn([&cut] { return cut.splits(); }), When([&document] {
                   return can_split(*document.mesh()) ? QString()
-                                                     : "Not available: a stroke cuts the links of volumes, of "
-                                                       "generated lattices and of objects without faces";
+                                                     : "Not available: a stroke cuts the links of lattices of faces "
+                                                       "and of objects without faces";
                 })}});
 }
 

@@ -102,7 +102,7 @@ std::vector<Face> ViewSearch::frontFaces(const Frame& frame, QRectF part) const 
   return faces;
 }
 
-bool ViewSearch::splitsFaces() const { return options_.faces && can_split(*document_.mesh()); }
+bool ViewSearch::splits() const { return options_.faces && can_split(*document_.mesh()); }
 
 SplitPointer ViewSearch::splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const {
   const Frame* frame = document_.solvers().frame(panel_);

@@ -38,10 +38,10 @@ class ViewSearch {
   std::vector<LinkId> linksCrossing(QLineF stroke) const;
   /// Returns the crossed links of the front layer; in a plane, all crossed links.
   std::vector<LinkId> frontLinksCrossing(QLineF stroke) const;
-  /// True if a stroke may split the faces that it crosses: faces are drawn and can be split.
-  bool splitsFaces() const;
-  /// Returns the split of the faces along a stroke, between crossings of the reached links, which are ascending; null
-  /// if nothing comes apart.
+  /// True if a stroke may split the faces or cells that it crosses: faces are drawn, and they can be split.
+  bool splits() const;
+  /// Returns the split of the faces or cells along a stroke, where it crosses the reached links, which are ascending;
+  /// null if nothing comes apart.
   SplitPointer splitAlong(std::span<const QPointF> stroke, std::span<const LinkId> reached) const;
 
   Projection projection() const;

@@ -55,7 +55,7 @@ void CutTool::release(View& view, QPointF position) {
 }
 
 void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
-  if (!splits_ || !view.search().splitsFaces()) {
+  if (!splits_ || !view.search().splits()) {
     edits::cut(document_, links);
     return;
   }
@@ -66,7 +66,7 @@ void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std:
     } else if (!loose.empty() || links.empty()) {
       edits::cut(document_, loose);
     } else {
-      emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face"));
+      emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face or cell"));
     }
   } catch (const Error& error) {
     emit document_.refused(QString::fromStdString(error.what()));

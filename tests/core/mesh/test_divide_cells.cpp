@@ -24,6 +24,7 @@ class DivideCellsTest : public QObject {
   void a_stroke_across_makes_two_parts_data();
   void a_stroke_across_makes_two_parts();
   void a_stroke_that_ends_inside_leaves_one_part();
+  void only_cells_with_a_reached_link_are_crossed();
   void a_stroke_along_faces_only_doubles_elements();
   void a_stroke_through_elements_makes_two_parts();
   void a_stroke_beside_the_object_changes_nothing();
@@ -307,6 +308,31 @@ void DivideCellsTest::a_stroke_that_ends_inside_leaves_one_part() {
       }
       QVERIFY(furthest <= slit[1].x() + 10 && furthest >= slit[1].x() - 50);
     }
+  }
+}
+
+void DivideCellsTest::only_cells_with_a_reached_link_are_crossed() {
+  for (const bool hexahedra : {false, true}) {
+    const MeshPointer mesh = block(hexahedra, 0.15, 5);
+    const double top = size[2] - 1;
+    std::vector<LinkId> reached;
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      const auto& [a, b] = mesh->links[link];
+      if (mesh->rest_position(a).z() == top && mesh->rest_position(b).z() == top) {
+        reached.push_back(link);
+      }
+    }
+    const auto stroke = Stroke{{-40, 50}, {300, 64}};
+    SplitEdit edit = divide_cells(*mesh, seen_along_z(*mesh), stroke, reached);
+    QVERIFY(!edit.empty());
+    const auto split = make_split(mesh, std::move(edit));
+    QCOMPARE(flaw_of(*split), std::string());
+    QCOMPARE(split->after->part_count, 1U);
+    // The wound is one cell deep; the elements of the next layer are moved by up to 0.15.
+    for (ElementId e = mesh->element_count(); e < split->after->element_count(); ++e) {
+      QVERIFY(split->after->rest_position(e).z() >= top - 1.15);
+    }
+    QVERIFY(divide_cells(*mesh, seen_along_z(*mesh), stroke, std::span<const LinkId>()).empty());
   }
 }
 
