@@ -515,8 +515,8 @@ void split(Document& document, std::uint32_t which) {
     }
     const Eigen::Vector2d middle = places[which % mesh.element_count()].at, along(std::cos(which), std::sin(which));
     const double length = 100 * mesh.mean_link_length;
-    SplitEdit edit =
-        split_along(mesh, places, std::array{Eigen::Vector2d(middle - length * along), middle + 0.3 * along});
+    const std::vector<Eigen::Vector2d> stroke{middle - length * along, middle + 0.3 * along};
+    SplitEdit edit = split_along(mesh, places, stroke);
     if (!edit.empty()) {
       edits::split(document, make_split(document.mesh(), std::move(edit)));
     }
