@@ -264,6 +264,7 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->tetrahedra = std::move(parts.tetrahedra);
   mesh->hexahedra = std::move(parts.hexahedra);
   mesh->texture = std::move(parts.texture);
+  mesh->skin = std::move(parts.skin);
   mesh->lattice = parts.lattice;
   divide_polygons(*mesh, progress.part(0.8, 0.82));
   mesh->object_dimension = object_dimension(*mesh);

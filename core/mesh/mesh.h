@@ -41,6 +41,8 @@ struct Lattice {
   Point position(ElementId element) const;
 };
 
+class Skin;
+
 /// Input of build_mesh, from a reader or a generator.
 struct MeshParts {
   std::vector<Point> rest;
@@ -59,6 +61,8 @@ struct MeshParts {
   std::optional<Lattice> lattice;
   /// Picture on the faces or sections, if any.
   std::shared_ptr<const Texture> texture;
+  /// See Mesh::skin.
+  std::shared_ptr<const Skin> skin;
   /// Requested space dimension. Default: the axes on which the rest positions are not constant.
   std::optional<int> space_dimension;
 };
@@ -100,6 +104,8 @@ struct Mesh {
   std::vector<std::array<ElementId, 8>> hexahedra;
   std::optional<Lattice> lattice;
   std::shared_ptr<const Texture> texture;
+  /// The surface before splits of cells; null without splits, when all of the surface is skin.
+  std::shared_ptr<const Skin> skin;
   /// Number of parts that no link joins.
   std::uint32_t part_count = 0;
   /// True for a rectangular mesh: elements in a lattice, with links to the next element along its axes only.

@@ -6,6 +6,7 @@
 
 #include "mesh/cells.h"
 #include "mesh/error.h"
+#include "mesh/skin.h"
 
 namespace chainmail {
 namespace {
@@ -117,7 +118,8 @@ class MeshAfter {
  public:
   MeshAfter(const Mesh& mesh, const SplitEdit& edit) : mesh_(mesh), edit_(edit) {}
 
-  MeshPointer build() {
+  MeshPointer build(std::shared_ptr<const Skin> skin) {
+    parts_.skin = std::move(skin);
     parts_.space_dimension = mesh_.space_dimension;
     parts_.texture = mesh_.texture;
     parts_.rest = rest_after(mesh_, edit_.elements);
@@ -319,7 +321,7 @@ bool can_split(const Mesh& mesh) { return mesh.has_cells() || (!mesh.triangles.e
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   check(edit, *mesh);
   auto split = std::make_shared<Split>();
-  split->after = MeshAfter(*mesh, edit).build();
+  split->after = MeshAfter(*mesh, edit).build(mesh->has_cells() ? Skin::after(mesh, edit.elements) : nullptr);
   split->before = std::move(mesh);
   split->edit = std::move(edit);
   Origins(*split).find();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/skin.h"
+
 namespace chainmail {
 
 void NumberSet::set(std::uint32_t number, bool in) {
@@ -30,18 +32,26 @@ Surface::Surface(CellTablePointer table, const Cuts& cuts) : Surface(std::move(t
 }
 
 void Surface::show_uncut() {
+  const Skin* skin = table_->mesh()->skin.get();
   for (SideId side = 0; side < table_->side_count(); ++side) {
     if (table_->twin(side) != CellTable::none) {
       continue;
     }
     sides_.set(side, true);
     const Side corners = table_->side(side);
+    if (skin != nullptr && !skin->contains(corners.corners())) {
+      opened_.push_back(side);
+    }
     for (int i = 0; i < corners.count; ++i) {
       if (const auto link = find_link(*table_->mesh(), corners.corner[i], corners.corner[(i + 1) % corners.count])) {
         links_.set(*link, true);
       }
     }
   }
+}
+
+bool Surface::is_inner(SideId side) const {
+  return table_->twin(side) != CellTable::none || std::ranges::binary_search(opened_, side);
 }
 
 void Surface::change(LinkId link, bool cut) {

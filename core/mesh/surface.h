@@ -38,6 +38,8 @@ class Surface {
   bool is_whole(CellId cell) const { return cut_links_.empty() || cut_links_[cell] == 0; }
   /// The visible sides, in no order.
   std::span<const SideId> sides() const { return sides_.numbers(); }
+  /// True if a visible side was inside the object before cuts of links and splits: see Mesh::skin.
+  bool is_inner(SideId side) const;
   /// The uncut links along visible sides, and those whose cells are all gone. Links that were never the edge of a cell
   /// are CellTable::loose_links.
   std::span<const LinkId> links() const { return links_.numbers(); }
@@ -57,6 +59,7 @@ class Surface {
   std::vector<std::uint8_t> cut_links_;  // number along the edges of each cell; allocated by the first cut
   NumberSet cut_;                        // the links
   NumberSet sides_, links_;              // visible
+  std::vector<SideId> opened_;           // by splits, ascending
 };
 
 /// Appends the triangles of a side: one, or two that are split by the diagonal from the lowest corner, the same for

@@ -30,6 +30,7 @@ class DivideCellsTest : public QObject {
   void a_stroke_beside_the_object_changes_nothing();
   void a_stroke_that_leaves_and_enters_again_makes_three_parts();
   void a_stroke_across_an_earlier_cut_makes_four_parts();
+  void the_wound_has_the_area_of_the_blade_twice();
   void ten_strokes_keep_the_cells_good_data();
   void ten_strokes_keep_the_cells_good();
   void perspective_places_elements_on_the_stroke();
@@ -207,6 +208,17 @@ std::set<std::array<ElementId, 2>> edges_of_cells(const Mesh& mesh) {
   return edges;
 }
 
+/// True if all corners lie on one of the six planes around the block.
+bool is_outside(const Mesh& mesh, std::span<const ElementId> corners) {
+  bool result = false;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    for (const double plane : {0.0, size[std::size_t(k)] - 1.0}) {
+      result = result || std::ranges::all_of(corners, [&](ElementId e) { return mesh.rest_position(e)[k] == plane; });
+    }
+  }
+  return result;
+}
+
 /// Returns what is wrong with the cells after a split; empty if nothing is.
 std::string flaw_of(const Split& split) {
   const Mesh &before = *split.before, &after = *split.after;
@@ -225,8 +237,14 @@ std::string flaw_of(const Split& split) {
     return "the surface is not closed";
   }
   // Sides of hexahedra coincide with those of tetrahedra.
-  if (Surface(std::make_shared<CellTable>(split.after)).triangles().size() != 3 * boundary(after).size()) {
+  const Surface surface(std::make_shared<CellTable>(split.after));
+  if (surface.triangles().size() != 3 * boundary(after).size()) {
     return "sides inside the object have no twin";
+  }
+  if (std::ranges::any_of(surface.sides(), [&](SideId side) {
+        return surface.is_inner(side) == is_outside(after, surface.table().side(side).corners());
+      })) {
+    return "skin and inner sides are mixed up";
   }
   if (edges_of_cells(after) != std::set(after.links.begin(), after.links.end())) {
     return "links and edges of cells differ";
@@ -236,6 +254,23 @@ std::string flaw_of(const Split& split) {
     used.insert(one.begin(), one.end());
   }
   return used.size() == after.element_count() ? "" : "an element belongs to no cell";
+}
+
+/// Returns the area of the inner sides at rest.
+double inner_area(const MeshPointer& mesh) {
+  const Surface surface(std::make_shared<CellTable>(mesh));
+  double area = 0;
+  for (const SideId side : surface.sides()) {
+    std::vector<ElementId> corners;
+    if (surface.is_inner(side)) {
+      append_triangles(surface.table().side(side), corners);
+    }
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      const Point at = mesh->rest_position(corners[i]);
+      area += (mesh->rest_position(corners[i + 1]) - at).cross(mesh->rest_position(corners[i + 2]) - at).norm() / 2;
+    }
+  }
+  return area;
 }
 
 std::size_t new_tetrahedra_per_old_one(const Split& split) {
@@ -397,6 +432,17 @@ void DivideCellsTest::a_stroke_across_an_earlier_cut_makes_four_parts() {
     const auto second = split_of(first->after, {{-30, 52}, {200, 69}});
     QCOMPARE(flaw_of(*second), std::string());
     QCOMPARE(second->after->part_count, 4U);
+  }
+}
+
+void DivideCellsTest::the_wound_has_the_area_of_the_blade_twice() {
+  for (const bool hexahedra : {false, true}) {
+    const MeshPointer mesh = block(hexahedra, 0, 1);
+    QCOMPARE(inner_area(mesh), 0.0);
+    const auto first = split_of(mesh, {{70, -30}, {70, 200}});
+    QVERIFY(std::abs(inner_area(first->after) - 2 * 6 * 6) < 1e-9);
+    const auto second = split_of(first->after, {{-30, 50}, {200, 50}});
+    QVERIFY(std::abs(inner_area(second->after) - 2 * (6 * 6 + 8 * 6)) < 1e-9);
   }
 }
 
