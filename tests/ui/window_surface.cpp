@@ -3,6 +3,7 @@
 #include "common/colours.h"
 #include "document/edits.h"
 #include "io/sessions.h"
+#include "mesh/split.h"
 #include "window.h"
 
 namespace chainmail::window_surface {
@@ -44,6 +45,18 @@ void cutOut(Workbench& bench, ElementId element) {
   const Mesh& mesh = *bench.document().mesh();
   const auto* row = mesh.entry_link.data();
   edits::cut(bench.document(), {row + mesh.first_entry[element], row + mesh.first_entry[element + 1]});
+}
+
+/// Returns the block without the cells beyond x = 7, which a split has removed.
+MeshPointer openBlock() {
+  const MeshPointer whole = tetraBlock();
+  SplitEdit edit;
+  for (CellId cell = 0; cell < whole->tetrahedra.size(); ++cell) {
+    if (std::ranges::any_of(whole->tetrahedra[cell], [&](ElementId e) { return whole->rest_position(e).x() > 7; })) {
+      edit.removed_cells.push_back(cell);
+    }
+  }
+  return make_split(whole, std::move(edit))->after;
 }
 
 }  // namespace
@@ -108,6 +121,24 @@ class WindowSurface : public QObject {
     bench.settle();
     bench.trigger("viewFront");
     QCOMPARE(picture(bench), open);
+  }
+
+  void aSplitShowsTheInsideInItsOwnColourUnlessValuesColourIt() {
+    Workbench bench(openBlock());
+    bench.trigger("showSurface");
+    const auto seenAlong = [&](const char* direction, const Point& at) {
+      bench.trigger(direction);
+      bench.settleFigures();
+      return bench.view(0).grabFramebuffer().pixelColor(bench.view(0).viewPosition(at).toPoint());
+    };
+    const auto skin = [&] { return seenAlong("viewFront", {3.3, 4.4, 4}); };
+    const auto inside = [&] { return seenAlong("viewRight", {7, 4.4, 2.3}); };
+    const auto isInside = [](const QColor& colour) { return colour.blueF() > 0.6F * colour.redF(); };  // not yellow
+    QVERIFY(isInside(inside()) && !isInside(skin()));
+    bench.trigger("colourBy-distance");
+    const QColor one = inside(), other = skin();  // both face the viewer, so they have the same light
+    QVERIFY(std::abs(one.red() - other.red()) <= 2 && std::abs(one.green() - other.green()) <= 2 &&
+            std::abs(one.blue() - other.blue()) <= 2);
   }
 
   void aLargeVolumesSurfaceIsMadeMeanwhile() {

@@ -79,13 +79,13 @@ DrawnLinks surfaceLinks(const Surface& surface, const Cuts& cuts, std::size_t nt
   return drawn;
 }
 
-/// Returns the corners of the triangles of the surface that no cut has revealed, and of the mesh's own triangles that
-/// belong to no cell and have no cut side.
+/// Returns the corners of the triangles of the skin, and of the mesh's own triangles that belong to no cell and have no
+/// cut side.
 std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
   const CellTable& table = surface.table();
   std::vector<ElementId> corners;
   for (const SideId side : surface.sides()) {
-    if (table.twin(side) == CellTable::none) {
+    if (!surface.is_inner(side)) {
       append_triangles(table.side(side), corners);
     }
   }
@@ -99,11 +99,10 @@ std::vector<ElementId> surfaceFaces(const Surface& surface, const Cuts& cuts) {
 
 /// Returns the corners of the triangles inside the uncut volume that cuts have made visible.
 std::vector<ElementId> freshSurfaceFaces(const Surface& surface) {
-  const CellTable& table = surface.table();
   std::vector<ElementId> corners;
   for (const SideId side : surface.sides()) {
-    if (table.twin(side) != CellTable::none) {
-      append_triangles(table.side(side), corners);
+    if (surface.is_inner(side)) {
+      append_triangles(surface.table().side(side), corners);
     }
   }
   return corners;
