@@ -3,6 +3,7 @@
 #include <QCursor>
 #include <QPointF>
 #include <QString>
+#include <QVector3D>
 #include <span>
 
 namespace chainmail {
@@ -42,6 +43,9 @@ class Tool {
 
   /// Returns a line to draw in `view` (logical pixels); empty if the tool is not used in it.
   virtual std::span<const QPointF> stroke(const View& view) const = 0;
+  /// Returns the ribbon that a stroke in another view spans with its line of sight: for each point of the stroke a point
+  /// before and one behind the object, in the coordinates of frames.
+  virtual std::span<const QVector3D> ribbon(const View& /*view*/) const { return {}; }
 };
 
 }  // namespace chainmail

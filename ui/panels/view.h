@@ -200,6 +200,7 @@ class View : public QOpenGLWidget {
   ObjectDrawing::Paint objectPaint();
   ObjectDrawing::Paint colouredPaint();
   void drawMarks(const PaintTarget& on);
+  void drawRibbon(const PaintTarget& on);
   void drawHighlight(const PaintTarget& on);
   void drawAnnotations(const PaintTarget& on);
   void drawWayBack(const PaintTarget& on);

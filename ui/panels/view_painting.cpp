@@ -262,7 +262,25 @@ void View::drawMarks(const PaintTarget& on) {
   on.own.drawElements(in, document_.pins(), colours::pinned, pinSize, ObjectDrawing::Mark::diamond);
   if (tool_ != nullptr) {
     on.own.drawStroke(in, tool_->stroke(*this), colours::marked);
+    drawRibbon(on);
   }
+}
+
+/// Draws the ribbon of a stroke in another view.
+void View::drawRibbon(const PaintTarget& on) {
+  constexpr int faint = 70;  // of 255
+  const auto ribbon = tool_->ribbon(*this);
+  std::vector<QVector3D> sides, edges;
+  for (std::size_t i = 0; i + 4 <= ribbon.size(); i += 2) {
+    const auto& a = ribbon[i];
+    const auto &b = ribbon[i + 1], &c = ribbon[i + 2], &d = ribbon[i + 3];
+    sides.insert(sides.end(), {a, b, c, c, b, d});
+    edges.insert(edges.end(), {a, c, b, d});
+  }
+  QColor colour = colours::marked;
+  on.own.drawInSpace(on.scene, edges, ObjectDrawing::Shape::segments, colour, 1);
+  colour.setAlpha(faint);
+  on.own.drawInSpace(on.scene, sides, ObjectDrawing::Shape::triangles, colour);
 }
 
 void View::drawHighlight(const PaintTarget& on) {

@@ -21,10 +21,9 @@ QString CutTool::hint() const {
 void CutTool::hover(View& /*view*/, QPointF /*position*/) { document_.highlight().set({}); }
 
 void CutTool::press(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
+  cancel();
   at_ = &view;
-  stroke_ = {position};
-  crossed_.clear();
-  document_.highlight().set({});
+  add(view, position);
 }
 
 void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifiers*/) {
@@ -35,7 +34,7 @@ void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifie
   if (segment.length() < shortestSegment) {
     return;
   }
-  stroke_.push_back(position);
+  add(view, position);
   auto crossed = frontOnly_ ? view.search().frontLinksCrossing(segment) : view.search().linksCrossing(segment);
   std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
   document_.highlight().add(crossed);
@@ -66,7 +65,8 @@ void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std:
     } else if (!loose.empty() || links.empty()) {
       edits::cut(document_, loose);
     } else {
-      emit document_.noticed(QStringLiteral("The stroke is too short to open the object: draw it across a whole face or cell"));
+      emit document_.noticed(
+          QStringLiteral("The stroke is too short to open the object: draw it across a whole face or cell"));
     }
   } catch (const Error& error) {
     emit document_.refused(QString::fromStdString(error.what()));
@@ -78,8 +78,25 @@ void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std:
 void CutTool::cancel() {
   at_ = nullptr;
   stroke_.clear();
+  ribbon_.clear();
   crossed_.clear();
   document_.highlight().set({});
+}
+
+/// Adds a point to the stroke, and what it sweeps to the ribbon.
+void CutTool::add(const View& view, QPointF position) {
+  stroke_.push_back(position);
+  const Camera& camera = *view.camera();
+  if (camera.spatial()) {
+    const auto [near, far] = camera.depthRange();
+    const QVector3D away = camera.toView().inverted().mapVector({0, 0, -float(far - near) / 2});
+    ribbon_.push_back(camera.pointAt(position, camera.centre() - away, view.size()));
+    ribbon_.push_back(camera.pointAt(position, camera.centre() + away, view.size()));
+  }
+}
+
+std::span<const QVector3D> CutTool::ribbon(const View& view) const {
+  return at_ != nullptr && at_ != &view ? std::span<const QVector3D>(ribbon_) : std::span<const QVector3D>();
 }
 
 std::span<const QPointF> CutTool::stroke(const View& view) const {

@@ -35,8 +35,10 @@ class CutTool : public Tool {
   bool wheel(View& /*view*/, QPointF /*position*/, double /*notches*/) override { return busy(); }
   void cancel() override;
   std::span<const QPointF> stroke(const View& view) const override;
+  std::span<const QVector3D> ribbon(const View& view) const override;
 
  private:
+  void add(const View& view, QPointF position);
   void cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke);
 
   Document& document_;
@@ -44,6 +46,7 @@ class CutTool : public Tool {
   bool splits_ = false;
   const View* at_ = nullptr;  // the view of the stroke; null if there is none
   std::vector<QPointF> stroke_;
+  std::vector<QVector3D> ribbon_;
   std::set<LinkId> crossed_;  // links that the stroke has crossed so far
 };
 
