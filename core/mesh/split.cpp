@@ -285,8 +285,16 @@ class Origins {
       original_.push_back(point.is_copy() ? original(point.of[0]) : self);
       split_.link_of.push_back(point.is_copy() ? split_.link_at(point.of[0]) : on);
     }
-    for (const auto& [a, b] : split_.after->links) {
-      split_.parents.push_back(between(a, b));
+    // Most links are kept, in the same order.
+    const auto& before = split_.before->links;
+    LinkId next = 0;
+    split_.parents.reserve(split_.after->links.size());
+    for (const auto& link : split_.after->links) {
+      while (next < before.size() && before[next] < link) {
+        ++next;
+      }
+      const bool is_kept = next < before.size() && before[next] == link;
+      split_.parents.push_back(is_kept ? next : between(link[0], link[1]));
     }
   }
 

@@ -4,9 +4,11 @@
 #include <QToolButton>
 
 #include "core/families.h"
+#include "core/hexahedra.h"
 #include "docks/replay_dock.h"
 #include "document/edits.h"
 #include "window.h"
+#include "window/bars.h"
 
 namespace chainmail::window_knife {
 
@@ -202,6 +204,22 @@ class WindowKnife : public QObject {
     const std::size_t front = bench.document().mesh()->tetrahedra.size();
     QVERIFY(front > whole->tetrahedra.size() && front < split->tetrahedra.size());
     QCOMPARE(bench.document().parts(), 1U);
+  }
+
+  void aStrokeThatAnAlgorithmCannotFollowIsRefused() {
+    MeshParts parts = test::hexahedral_parts({3, 3, 3}, 1);
+    parts.lattice = Lattice{{4, 4, 4}};
+    Workbench bench(build_mesh(std::move(parts)));
+    const MeshPointer whole = bench.document().mesh();
+    edits::setAlgorithm(bench.document(), 1, Algorithm::chainmail_3d);
+    bench.trigger("toolCut");
+    const QPoint middle = bench.view(0).viewPosition(Point(1.5, 1.5, 1.5)).toPoint();
+    bench.stroke(0, {middle - QPoint(250, 7), middle + QPoint(250, 7)});
+    QCOMPARE(bench.document().mesh(), whole);
+    QVERIFY(bench.window.messages().sentence().contains(QStringLiteral("works only on grids")));
+    bench.find<QAction>("cutSplits")->setChecked(false);
+    bench.stroke(0, {middle - QPoint(250, 7), middle + QPoint(250, 7)});
+    QVERIFY(bench.document().cuts().count() > 0);
   }
 
   void aVolumeIsOpenedLayerByLayer() {

@@ -6,6 +6,7 @@
 #include "document/edits.h"
 #include "mesh/error.h"
 #include "panels/view.h"
+#include "solver/algorithms.h"
 
 namespace chainmail {
 namespace {
@@ -61,6 +62,9 @@ void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std:
   try {
     const auto loose = links_without_faces(*document_.mesh(), links);
     if (const SplitPointer split = view.search().splitAlong(stroke, links)) {
+      for (int panel = 0; panel < document_.panels(); ++panel) {
+        check(document_.algorithm(panel), *split->after);  // some need a lattice
+      }
       edits::split(document_, split, loose);
     } else if (!loose.empty() || links.empty()) {
       edits::cut(document_, loose);

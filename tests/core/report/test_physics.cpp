@@ -496,8 +496,8 @@ void PhysicsTest::it_stops_at_once() {
 void PhysicsTest::every_figure_of_physics_is_measured() {
   const auto measured = figures_in(everything());
   for (const Figure* one :
-       {&relative, &first_ms, &later_ms, &after_cut_ms, &factorize_ms, &grab_ms, &hausdorff, &volume_change,
-        &inverted_cells, &stretch, &violation_max, &turned_45_max, &turned_90_relative}) {
+       {&relative, &first_ms, &later_ms, &after_cut_ms, &factorize_ms, &grab_ms, &hausdorff, &figures::volume_change,
+        &figures::inverted_cells, &stretch, &violation_max, &turned_45_max, &turned_90_relative}) {
     QVERIFY2(std::ranges::count(measured, one) == 1, std::string(one->key).c_str());
   }
   const double nothing = joined(everything(), 0, {}, Drags::all, "nudge").row[relative].value();
