@@ -136,7 +136,7 @@ class MeshAfter {
   void take_triangles();
   void take_polygons();
   void take_cells();
-  std::vector<bool> ends_of_dropped() const;
+  std::vector<std::uint8_t> ends_of_dropped() const;
   void link();
   void drop(ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); }
   void keep(ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); }
@@ -209,7 +209,7 @@ void MeshAfter::take_polygons() {
 }
 
 void MeshAfter::take_cells() {
-  const std::vector<bool> is_end = ends_of_dropped();
+  const std::vector<std::uint8_t> is_end = ends_of_dropped();
   auto removed = edit_.removed_cells.begin();
   CellId number = 0;
   const auto take = [&](const auto& before, const auto& added, auto& after) {
@@ -220,7 +220,11 @@ void MeshAfter::take_cells() {
         continue;
       }
       after.push_back(cell);
-      if (std::ranges::count_if(cell, [&](ElementId corner) { return bool(is_end[corner]); }) > 1) {
+      int ends = 0;
+      for (const ElementId corner : cell) {
+        ends += is_end[corner];
+      }
+      if (ends > 1) {
         for_each_edge(cell, [this](ElementId a, ElementId b) { keep(a, b); });
       }
     }
@@ -234,10 +238,10 @@ void MeshAfter::take_cells() {
 }
 
 /// Returns, for each element of the mesh before, whether a dropped link ends there.
-std::vector<bool> MeshAfter::ends_of_dropped() const {
-  std::vector<bool> result(mesh_.element_count());
+std::vector<std::uint8_t> MeshAfter::ends_of_dropped() const {
+  std::vector<std::uint8_t> result(mesh_.element_count());
   for (const EdgeKey one : dropped_) {
-    result[ends_of(one)[0]] = result[ends_of(one)[1]] = true;
+    result[ends_of(one)[0]] = result[ends_of(one)[1]] = 1;
   }
   return result;
 }
@@ -252,7 +256,8 @@ void MeshAfter::link() {
   }
   std::ranges::sort(entries);
   auto& neighbours = parts_.neighbours;
-  const std::vector<bool> is_end = ends_of_dropped();
+  const std::vector<std::uint8_t> is_end = ends_of_dropped();
+  neighbours.reserve(mesh_.neighbours.size() + entries.size());
   auto next = entries.begin();
   for (ElementId e = 0; e < parts_.rest.size(); ++e) {
     parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
@@ -260,13 +265,18 @@ void MeshAfter::link() {
     if (e < mesh_.element_count()) {
       const auto row = mesh_.neighbours_of(e);
       ascending = std::ranges::is_sorted(row);
-      std::ranges::copy_if(row, std::back_inserter(neighbours),
-                           [&](ElementId other) { return !is_end[e] || !dropped_.contains(edge_key(e, other)); });
+      if (is_end[e] == 0) {
+        neighbours.insert(neighbours.end(), row.begin(), row.end());
+      } else {
+        std::ranges::copy_if(row, std::back_inserter(neighbours),
+                             [&](ElementId other) { return !dropped_.contains(edge_key(e, other)); });
+      }
     }
+    const bool has_new = next != entries.end() && (*next)[0] == e;
     for (; next != entries.end() && (*next)[0] == e; ++next) {
       neighbours.push_back((*next)[1]);
     }
-    if (ascending) {
+    if (ascending && has_new) {
       std::sort(neighbours.begin() + parts_.first_entry.back(), neighbours.end());
     }
   }

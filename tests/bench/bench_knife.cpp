@@ -1,5 +1,6 @@
 // Divides solids along strokes (see README.md): bench_knife [MESH]. Prints a table in Markdown.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
