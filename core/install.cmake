@@ -4,6 +4,7 @@
 # The public interface: these headers, by room. Each includes only others of this list, Eigen and the standard library.
 set(public_headers
   chainmail.h
+  body/blade.h
   body/body.h
   body/handle.h
   body/method.h

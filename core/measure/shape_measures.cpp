@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "mesh/cells.h"
 #include "mesh/eigenvectors.h"
+#include "mesh/parts.h"
 
 namespace chainmail {
 namespace {
@@ -211,6 +213,40 @@ std::optional<double> volume(const Mesh& mesh, PositionOf at) {
 
 std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions) {
   return volume(mesh, [&](ElementId e) { return point_of(mesh, positions, e); });
+}
+
+std::optional<CellFigures> cell_figures(const Mesh& mesh, const Cuts& cuts, const PositionView& positions) {
+  if (!mesh.has_cells()) {
+    return std::nullopt;
+  }
+  CellFigures result{.parts = cuts.count() == 0 ? mesh.part_count : count_parts(mesh, cuts)};
+  double rest = 0, now = 0;  // of one cell
+  const auto add = [&](const std::array<ElementId, 4>& corner) {
+    std::array<Point, 4> before, after;
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      before[i] = mesh.rest_position(corner[i]);
+      after[i] = point_of(mesh, positions, corner[i]);
+    }
+    rest += std::apply(signed_volume, before);
+    now += std::apply(signed_volume, after);
+    result.worst_quality = std::min(result.worst_quality.value_or(1), tetrahedron_quality(before));
+  };
+  const auto add_cell = [&](const auto& cell, auto add_tetrahedra) {
+    if (is_whole(mesh, cuts, cell)) {
+      rest = now = 0;
+      add_tetrahedra(cell);
+      ++result.cells;
+      result.rest_volume += std::abs(rest);
+      result.volume += rest < 0 ? -now : now;
+    }
+  };
+  for (const auto& cell : mesh.tetrahedra) {
+    add_cell(cell, add);
+  }
+  for (const auto& cell : mesh.hexahedra) {
+    add_cell(cell, [&](const auto& one) { for_each_tetrahedron(mesh, one, add); });
+  }
+  return result;
 }
 
 std::optional<double> volume_change(const Mesh& mesh, const PositionView& positions) {

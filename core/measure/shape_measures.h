@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "body/positions.h"
+#include "mesh/cuts.h"
 #include "mesh/mesh.h"
 
 namespace chainmail {
@@ -24,6 +25,18 @@ std::optional<double> largest_principal_stretch(const Mesh& mesh, const Position
 /// turned inside out counts negative. None for an object without cells and faces, and for faces in space that are not
 /// closed.
 std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions);
+
+/// Figures about the cells of an object, without those that have a cut link. Hexahedra count as the tetrahedra for
+/// which they stand: see for_each_tetrahedron.
+struct CellFigures {
+  std::uint64_t cells = 0;
+  std::uint64_t parts = 0;                // of the object: no uncut link joins them
+  double rest_volume = 0, volume = 0;     // at rest and now (mesh units to the power 3)
+  std::optional<double> worst_quality{};  // at rest, see tetrahedron_quality; none if all cells are gone
+};
+
+/// Returns the figures about the cells of an object; none for an object without cells.
+std::optional<CellFigures> cell_figures(const Mesh& mesh, const Cuts& cuts, const PositionView& positions);
 
 /// Returns the change of the volume, relative to that at rest: −0.1 if a tenth is lost. None where volume_of has none,
 /// or if the volume at rest is 0.

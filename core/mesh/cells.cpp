@@ -1,6 +1,8 @@
 #include "mesh/cells.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -39,6 +41,16 @@ void add_links_along_edges(MeshParts& parts) {
 bool OrderAtRest::operator()(ElementId one, ElementId other) const {
   const Point a = mesh.rest_position(one), b = mesh.rest_position(other);
   return std::tuple(a.z(), a.y(), a.x(), one) < std::tuple(b.z(), b.y(), b.x(), other);
+}
+
+double tetrahedron_quality(const std::array<Point, 4>& corners) {
+  const auto& [p, q, r, s] = corners;
+  const Point a = q - p, b = r - p, c = s - p;
+  const Point bc = b.cross(c), ab = a.cross(b), ac = a.cross(c);
+  const double volume = std::abs(a.dot(bc));  // times 6
+  const double area = bc.norm() + ab.norm() + ac.norm() + (b - a).cross(c - a).norm();
+  const double radius = (a.squaredNorm() * bc - b.squaredNorm() * ac + c.squaredNorm() * ab).norm();
+  return volume > 0 ? 6 * volume * volume / (area * radius) : 0;
 }
 
 namespace {

@@ -53,6 +53,10 @@ void for_each_tetrahedron(const Mesh& mesh, const std::array<ElementId, 8>& cell
   }
 }
 
+/// Returns three times the radius of the inscribed sphere of a tetrahedron, relative to that of the circumscribed one:
+/// 1 if it is regular, 0 if it is flat.
+double tetrahedron_quality(const std::array<Point, 4>& corners);
+
 /// True if two elements are linked and the link is cut.
 inline bool is_cut_between(const Mesh& mesh, const Cuts& cuts, ElementId a, ElementId b) {
   const auto link = cuts.touches(a) && cuts.touches(b) ? find_link(mesh, a, b) : std::nullopt;

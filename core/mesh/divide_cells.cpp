@@ -3,7 +3,6 @@
 
 #include "mesh/divide_cells.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -78,15 +77,6 @@ void StrokeRaster::mark(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
       }
     }
   }
-}
-
-double tetrahedron_quality(const std::array<Point, 4>& p) {
-  const Point a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-  const Point bc = b.cross(c), ab = a.cross(b), ac = a.cross(c);
-  const double volume = std::abs(a.dot(bc));  // times 6
-  const double area = bc.norm() + ab.norm() + ac.norm() + (b - a).cross(c - a).norm();
-  const double radius = (a.squaredNorm() * bc - b.squaredNorm() * ac + c.squaredNorm() * ab).norm();
-  return volume > 0 ? 6 * volume * volume / (area * radius) : 0;
 }
 
 /// An edge that the stroke crosses an odd number of times.

@@ -12,8 +12,7 @@ namespace chainmail {
 /// A crossing this close to the end of an edge, as a share of the edge, goes through the end.
 inline constexpr double cell_snap_share = 0.2;
 /// No piece of a cell is worse than this at rest, or than its cell, if that is worse: the blade goes through more
-/// elements there. The quality is three times the radius of the inscribed sphere, relative to that of the circumscribed
-/// one: 1 for a regular tetrahedron, 0 for a flat one. Cubes in six tetrahedra have 0.72.
+/// elements there. See tetrahedron_quality. Cubes in six tetrahedra have 0.72.
 inline constexpr double least_piece_quality = 0.15;
 
 /// Returns the edit that cuts the cells of a mesh along a stroke. The stroke and the line of sight span a blade. Cells

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "equilibrium/link_energy.h"
-#include "measure/shape_measures.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -101,7 +100,8 @@ DeformSummary Deformation::summary() {
           volume_change(mesh, positions),
           inverted_cells(mesh, positions),
           largest_principal_stretch(mesh, positions),
-          info(simulation_.relaxation().scheme).sweeps ? std::nullopt : simulation_.certificate()};
+          info(simulation_.relaxation().scheme).sweeps ? std::nullopt : simulation_.certificate(),
+          cell_figures(mesh, body.cuts(), positions)};
 }
 
 }  // namespace chainmail

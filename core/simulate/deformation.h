@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/method.h"
+#include "measure/shape_measures.h"
 #include "simulate/simulation.h"
 
 namespace chainmail {
@@ -36,6 +37,7 @@ struct DeformSummary {
   std::optional<std::uint64_t> inverted_cells = {};        // number of them
   std::optional<double> largest_stretch = {};              // principal stretch
   std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
+  std::optional<CellFigures> cells = {};                   // of an object with cells
 };
 
 /// A simulation that notes what each of its passes did.

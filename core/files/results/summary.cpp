@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "files/formats/mesh_state.h"
 #include "files/results/json_kind.h"
 #include "files/text/text.h"
 #include "report/table/format.h"
@@ -11,6 +12,8 @@ namespace chainmail {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+Json or_null(const auto& figure) { return figure ? Json(*figure) : Json(); }
 
 Json to_json(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
@@ -74,6 +77,7 @@ MeshSummary summarize(const Mesh& mesh) {
   summary.components = mesh.part_count;
   summary.bounds = bounds(mesh);
   summary.mean_link_length = mesh.mean_link_length;
+  summary.cells = cell_figures(mesh, {}, rest_positions(mesh));
   return summary;
 }
 
@@ -87,24 +91,29 @@ MeshSummary summarize(const OpenedMesh& opened) {
 
 void write_json(std::ostream& out, const MeshSummary& summary) {
   const MeshFlaws& flaws = summary.flaws;
-  const Json json{{"elements", summary.elements},
-                  {"links", summary.links},
-                  {"triangles", summary.triangles},
-                  {"tetrahedra", summary.tetrahedra},
-                  {"hexahedra", summary.hexahedra},
-                  {"object_dimension", summary.object_dimension},
-                  {"space_dimension", summary.space_dimension},
-                  {"components", summary.components},
-                  {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
-                  {"mean_link_length", summary.mean_link_length},
-                  {"left_out",
-                   {{"unused", flaws.unused},
-                    {"collapsed", flaws.collapsed},
-                    {"doubled", flaws.doubled},
-                    {"lines", flaws.skipped}}},
-                  {"joined", flaws.joined},
-                  {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
-                  {"defects", to_json(summary.defects)}};
+  Json json{{"elements", summary.elements},
+            {"links", summary.links},
+            {"triangles", summary.triangles},
+            {"tetrahedra", summary.tetrahedra},
+            {"hexahedra", summary.hexahedra},
+            {"object_dimension", summary.object_dimension},
+            {"space_dimension", summary.space_dimension},
+            {"components", summary.components},
+            {"bounds", {to_json(summary.bounds[0]), to_json(summary.bounds[1])}},
+            {"mean_link_length", summary.mean_link_length},
+            {"left_out",
+             {{"unused", flaws.unused},
+              {"collapsed", flaws.collapsed},
+              {"doubled", flaws.doubled},
+              {"lines", flaws.skipped}}},
+            {"joined", flaws.joined},
+            {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
+            {"defects", to_json(summary.defects)}};
+  if (const auto& found = summary.cells) {
+    json["cells"] = found->cells;
+    json["volume"] = found->rest_volume;
+    json["worst_quality"] = or_null(found->worst_quality);
+  }
   out << of_kind(json_kinds::info, json).dump(2) << '\n';
 }
 
@@ -142,7 +151,6 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
             {"energy", summary.energy},
             {"displacement", {{"max", summary.displacement.max}, {"rms", summary.displacement.rms}}}};
   if (summary.volume_change || summary.inverted_cells || summary.largest_stretch) {
-    const auto or_null = [](const auto& figure) { return figure ? Json(*figure) : Json(); };
     json["shape"] = {{"volume_change", or_null(summary.volume_change)},
                      {"inverted_cells", or_null(summary.inverted_cells)},
                      {"largest_stretch", or_null(summary.largest_stretch)}};
@@ -150,9 +158,15 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
   if (const auto& found = summary.equilibrium) {
     json["equilibrium"] = {{"violation", found->violation},
                            {"residual", found->residual},
-                           {"energy_gap", found->gap ? Json(*found->gap) : Json()},
+                           {"energy_gap", or_null(found->gap)},
                            {"regions_bind", found->binds},
                            {"iterations", found->iterations}};
+  }
+  if (const auto& found = summary.cells) {
+    json["cells"] = found->cells;
+    json["parts"] = found->parts;
+    json["volume"] = {{"rest", found->rest_volume}, {"now", found->volume}};
+    json["worst_quality"] = or_null(found->worst_quality);
   }
   out << of_kind(json_kinds::deform, json).dump(2) << '\n';
 }

@@ -28,6 +28,7 @@ struct MeshSummary {
   std::uint64_t components = 0;  // parts without a link between them
   std::array<Point, 2> bounds{Point::Zero(), Point::Zero()};
   double mean_link_length = 0;
+  std::optional<CellFigures> cells;  // of an object with cells
   MeshFlaws flaws;
   Defects defects;
   std::string remark;  // how voxels became elements; usually empty

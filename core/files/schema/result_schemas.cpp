@@ -26,6 +26,11 @@ Json defects() {
                  {"inverted_cells", count("cells inside out, while others are not")}});
 }
 
+/// The figures of cells that `info` and `deform` have, for an object with cells.
+const Members cell_figures{
+    {"cells", count("number of cells that have no cut link")},
+    {"worst_quality", or_null(from_zero("of these at rest: 1 regular, 0 flat; null without cells"))}};
+
 Member info() {
   const Members left_out{{"unused", count("points that nothing uses")},
                          {"collapsed", count("faces or cells with a repeated corner, and faces with fewer than 3")},
@@ -45,7 +50,8 @@ Member info() {
                        {"flaws", object(flaws)},
                        {"defects", defects()}};
   return of_kind(json_kinds::info, "Output of chainmail info --json",
-                 joined({each(count(), {"elements", "links", "tetrahedra", "hexahedra"}), others}));
+                 joined({each(count(), {"elements", "links", "tetrahedra", "hexahedra"}), others}),
+                 joined({cell_figures, {{"volume", from_zero("of the cells (mesh units to the power 3)")}}}));
 }
 
 Member repair() {
@@ -85,8 +91,12 @@ Member deform() {
        {"violation", object(joined({spread, {{"fraction", with(from_zero("share of links"), "maximum", 1)}}}))},
        {"energy", from_zero("elastic energy")},
        {"displacement", object(spread, {}, "of elements from rest (mesh units)")}},
-      {{"shape", object(shape, {}, "of an object with cells or faces; null: no such figure")},
-       {"equilibrium", object(equilibrium, {}, "certificate, after relaxation to the equilibrium")}});
+      joined({cell_figures,
+              {{"parts", count("of an object with cells: parts without an uncut link between them")},
+               {"volume",
+                object({{"rest", from_zero()}, {"now", number()}}, {}, "of these cells (mesh units to the power 3)")},
+               {"shape", object(shape, {}, "of an object with cells or faces; null: no such figure")},
+               {"equilibrium", object(equilibrium, {}, "certificate, after relaxation to the equilibrium")}}}));
 }
 
 Json points(std::string_view help) { return array_of(point(), help, 1); }
