@@ -46,7 +46,7 @@ std::vector<Action> read_actions(const DeformArguments& arguments) {
   std::vector<Action> actions;
   for (const CLI::Option* option : arguments.mesh->options.app().parse_order()) {
     if (const auto kind = arguments.actions.find(option); kind != arguments.actions.end()) {
-      actions.push_back(parse_action(kind->second, option->get_name(), option->results()[taken[option]++]));
+      add_action(actions, parse_action(kind->second, option->get_name(), option->results()[taken[option]++]));
     }
   }
   return actions;
@@ -166,6 +166,8 @@ void add_actions(CLI::App& app, DeformArguments& arguments) {
   add(grab, "--grab", "IDS|LAYER", "grab elements, such as 3,7,20-29, or all of a layer: they move as one rigid body");
   add(rotate, "--rotate", "AXIS:DEGREES", "rotate the handle of --grab about its middle; AXIS is x, y, z or X,Y,Z");
   add(cut, "--cut", "A-B", "cut the link between two elements");
+  add(blade, "--split", "X,Y,Z;X,Y,Z;…", "divide cells, or faces, along a line of points where the object then is");
+  add(along, "--along", "DX,DY,DZ", "direction along which the line of the --split before it is swept both ways");
   add(pin, "--pin", "ID|LAYER", "pin an element at its current position, or all elements of " + pin_names());
 }
 
@@ -197,7 +199,8 @@ void add_model(Options& options, DeformArguments& arguments) {
 }  // namespace
 
 Command add_deform(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("deform", "Drag elements of a mesh, pin elements, cut links");
+  CLI::App* app =
+      root.add_subcommand("deform", "Drag elements of a mesh, pin elements, cut links, split cells and faces");
   const auto arguments = std::make_shared<DeformArguments>(DeformArguments{add_mesh(*app)});
   Options& options = arguments->mesh->options;
   add_model(options, *arguments);
@@ -211,7 +214,8 @@ Command add_deform(CLI::App& root) {
               arguments->positions);
   options.add("--trace", "FILE", "write every processed candidate as CSV pass,order,element,sponsor,moved",
               arguments->trace);
-  options.add("--json", "FILE", "write passes, violation, energy and displacement as JSON", arguments->json);
+  options.add("--json", "FILE", "write passes, violation, energy, displacement and figures of cells as JSON",
+              arguments->json);
   app->footer("Algorithms:\n" + algorithms_help(every_algorithm()) + "\nFormats of positions:\n" +
               mesh_formats_help(FormatUse::write_positions) + "\n" + example);
   return {app, [arguments] { deform(*arguments); }};

@@ -133,7 +133,7 @@ std::vector<double> parse_coordinates(const std::string& where, std::string_view
   std::vector<double> coordinates;
   for (const std::string_view number : split(text)) {
     coordinates.push_back(parse_number_of(where, number));
-    require(coordinates.size() <= 3, where, "it has more than three coordinates", "write ID:X[,Y[,Z]]");
+    require(coordinates.size() <= 3, where, "it has more than three coordinates", "write X[,Y[,Z]]");
   }
   return coordinates;
 }

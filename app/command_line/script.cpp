@@ -12,6 +12,12 @@ namespace {
 
 using enum Action::Kind;
 
+Point parse_point(const std::string& where, std::string_view text) {
+  std::vector<double> coordinates = parse_coordinates(where, text);
+  coordinates.resize(3);
+  return Point(coordinates.data());
+}
+
 ElementId parse_id(const std::string& where, std::string_view text) {
   const auto id = parse_count(text);
   require(id.has_value(), where, in_quotes(text) + " is not an element's id", "use a whole number from 0");
@@ -68,33 +74,36 @@ void check_axes(const Action& action, const Mesh& mesh) {
 /// Checks actions one after another, with what the actions before have pinned and grabbed.
 class ActionChecker {
  public:
-  ActionChecker(const Mesh& mesh, std::uint32_t steps) : mesh_(mesh), steps_(steps) {}
+  explicit ActionChecker(std::uint32_t steps) : steps_(steps) {}
 
-  void check(const Action& action) {
-    check_element(action, action.element, mesh_);
+  /// Checks an action on the mesh that the object then has.
+  void check(const Action& action, const Mesh& mesh) {
+    check_element(action, action.element, mesh);
     require(!action.of_handle || is_grabbed_, action.where,
             "no handle is grabbed at this action: every action except --by without an id and --rotate releases it",
             "put --grab IDS directly before it, or write --by ID:DX,DY,DZ");
     is_grabbed_ = action.kind == grab || action.of_handle;
-    check_one(action);
+    check_one(action, mesh);
     count_passes(action);
   }
 
  private:
-  void check_one(const Action& action) {
+  void check_one(const Action& action, const Mesh& mesh) {
     if (action.kind == cut) {
-      check_element(action, action.other, mesh_);
-      require(find_link(mesh_, action.element, action.other).has_value(), action.where, "these elements are not linked",
+      check_element(action, action.other, mesh);
+      require(find_link(mesh, action.element, action.other).has_value(), action.where, "these elements are not linked",
               "use the ids of the two ends of a link");
     } else if (action.kind == pin) {
-      const std::vector<ElementId> elements = elements_of(action, mesh_);
+      const std::vector<ElementId> elements = elements_of(action, mesh);
       pinned_.insert(elements.begin(), elements.end());
     } else if (action.kind == grab) {
-      check_grab(action);
+      check_grab(action, mesh);
     } else if (action.kind == rotate) {
-      error_at(action.where, [&] { chainmail::check(action.rotation, mesh_); });
+      error_at(action.where, [&] { chainmail::check(action.rotation, mesh); });
+    } else if (action.kind == blade) {
+      error_at(action.where, [&] { chainmail::check(action.blade, mesh); });
     } else {
-      check_axes(action, mesh_);
+      check_axes(action, mesh);
       if (!action.of_handle) {
         check_free(action, action.element);
       }
@@ -108,9 +117,9 @@ class ActionChecker {
     }
   }
 
-  void check_grab(const Action& action) {
+  void check_grab(const Action& action, const Mesh& mesh) {
     std::set<ElementId> grabbed;
-    for (const ElementId element : elements_of(action, mesh_)) {
+    for (const ElementId element : elements_of(action, mesh)) {
       check_free(action, element);
       if (!grabbed.insert(element).second) {
         throw Error(action.where, "element " + std::to_string(element) + " is named twice", "name each element once");
@@ -133,7 +142,6 @@ class ActionChecker {
 
   static constexpr std::uint64_t most_passes = 100'000, most_named = 10'000'000;
 
-  const Mesh& mesh_;
   std::uint32_t steps_;  // passes of each move
   std::uint64_t handle_ = 1, passes_ = 0, named_ = 0;
   std::set<ElementId> pinned_;
@@ -152,6 +160,15 @@ Point target_of(const Action& action, const Mesh& mesh, const Point& start) {
   return target;
 }
 
+SplitPointer split_of(const Action& action, const Body& body, Algorithm algorithm) {
+  return error_at(action.where, [&] {
+    SplitPointer split = split_along(action.blade, body);
+    require(split != nullptr, action.where, "nothing comes apart", "give a line that crosses the object");
+    check(algorithm, *split->after);  // some need a lattice
+    return split;
+  });
+}
+
 void apply(Deformation& deformation, const Action& action, std::uint32_t steps) {
   const Mesh& mesh = deformation.simulation().mesh();
   if (action.kind == cut) {
@@ -160,6 +177,9 @@ void apply(Deformation& deformation, const Action& action, std::uint32_t steps) 
     deformation.apply(commands::Pin{elements_of(action, mesh)});
   } else if (action.kind == grab) {
     deformation.apply(commands::Grab{elements_of(action, mesh)});
+  } else if (action.kind == blade) {
+    const Simulation& simulation = deformation.simulation();
+    deformation.apply(commands::Split{split_of(action, simulation.body(), simulation.statistics().algorithm)});
   } else if (action.of_handle) {
     deformation.move_handle(target_of(action, mesh, Point::Zero()), action.rotation, steps);
   } else {
@@ -192,6 +212,12 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
     require(is_side(text), where, in_quotes(text) + " is not an element's id",
             "use a whole number from 0, or " + pin_names());
     action.layer = text;
+  } else if (kind == blade) {
+    for (const std::string_view point : split(text, ';')) {
+      action.blade.line.push_back(parse_point(where, point));
+    }
+  } else if (kind == along) {
+    action.blade.along = parse_point(where, text);
   } else if (kind == pin) {
     action.ranges = {{parse_id(where, text), parse_id(where, text)}};
   } else if (kind == grab) {
@@ -210,9 +236,24 @@ Action parse_action(Action::Kind kind, const std::string& option, const std::str
   return action;
 }
 
+void add_action(std::vector<Action>& actions, Action action) {
+  if (action.kind != along) {
+    actions.push_back(std::move(action));
+    return;
+  }
+  require(!actions.empty() && actions.back().kind == blade && !actions.back().blade.along, action.where,
+          "there is no --split without a direction directly before it", "write --split X,Y,Z;… --along DX,DY,DZ");
+  actions.back().blade.along = action.blade.along;
+}
+
 void check_actions(const std::vector<Action>& actions, const Mesh& mesh, std::uint32_t steps) {
-  ActionChecker checker(mesh, steps);
-  std::ranges::for_each(actions, [&](const Action& action) { checker.check(action); });
+  ActionChecker checker(steps);
+  for (const Action& action : actions) {
+    checker.check(action, mesh);
+    if (action.kind == blade) {
+      return;
+    }
+  }
 }
 
 std::uint64_t passes_of(const std::vector<chainmail::Command>& recorded, const std::vector<Action>& actions,
@@ -225,7 +266,9 @@ void carry_out(Deformation& deformation, const std::vector<chainmail::Command>& 
   for (const chainmail::Command& command : recorded) {
     deformation.apply(command);
   }
+  ActionChecker checker(steps);
   for (const Action& action : actions) {
+    checker.check(action, deformation.simulation().mesh());
     carry_out(deformation, action, steps);
   }
 }
