@@ -225,9 +225,9 @@ void set_positions(UsedBody object, const py::object& values) {
 void add_state(BodyClass& body) {
   body.def(py::init<MeshObjectPointer, Precision>(), py::arg("mesh").none(false),
            py::arg("precision") = Precision::double_precision)
-      // Neither changes while a body exists, so both may be asked for at any time.
+      // They change only with the lock of Python, so both may be asked for at any time.
       .def_property_readonly(
-          "mesh", [](Object& one) { return one.mesh_object(); }, "The object at rest.")
+          "mesh", [](Object& one) { return one.mesh_object(); }, "The object at rest. A split replaces it.")
       .def_property_readonly(
           "precision", [](Object& one) { return one.body().precision(); },
           "Type of the numbers that store the positions: `double` or `float`.")

@@ -1,6 +1,7 @@
 // Deformers: methods, handles, moves and relaxation.
 #include <algorithm>
 
+#include "body/blade.h"
 #include "python/long_work.h"
 #include "python/module.h"
 #include "python/value.h"
@@ -72,6 +73,22 @@ MoveResult move(const Used<Mover>& object, const py::object& what, const py::obj
   MoveResult result = pass(*object, element, to);
   result.reached.pivot = point_of(object->mesh(), object->body().positions(), element);
   return result;
+}
+
+std::size_t split(const Used<Mover>& object, const py::sequence& line, const py::object& along) {
+  Blade blade;
+  for (const py::object& point : list_of<py::object>(line, "line")) {
+    blade.line.push_back(vector_of(point, "line"));
+  }
+  if (!along.is_none()) {
+    blade.along = vector_of(along, "along");
+  }
+  const auto found = run(*object, false, [&](Deformer& deformer) { return split_along(blade, deformer.body()); });
+  if (!found) {
+    return 0;
+  }
+  object->split(found);
+  return found->edit.elements.size();
 }
 
 int relax(const Used<Mover>& object, int sweeps, double step, RelaxationScheme scheme, double until) {
@@ -168,6 +185,15 @@ void add_moves(MoverClass& deformer) {
           "moved", [](const Used<Mover>& object) { return array_of(object->deformer().moved()); },
           "Returns the elements that the last move moved, in order of update, without the handle: shape (n,), dtype\n"
           "uint32. A copy.")
+      .def("split", &split, py::arg("line"), py::arg("along") = py::none(),
+           "Splits the object along a blade: a line of points (x, y, z) where the elements are now (mesh units),\n"
+           "swept both ways along a direction. Divides cells, or faces if there are no cells, and moves nothing.\n\n"
+           "Returns the number of new elements; 0 if nothing came apart. All elements keep their ids; links get new\n"
+           "ones. `body.mesh` is another mesh then: grab handles again. In a plane, `along` may be left out. Raises\n"
+           "Error if the object has neither cells nor faces, or is a lattice of faces, for fewer than two points, for\n"
+           "coordinates that are not finite or leave the space of the object, for a direction of length 0 or in the\n"
+           "plane of the object, if the method does not work after the split, and while a view of the positions\n"
+           "exists. Nothing has changed then.")
       .def(
           "release", [](const Used<Mover>& object) { object->deformer().release(); },
           "Releases the handle of the last move: relaxation may move its elements.")

@@ -54,6 +54,16 @@ void Object::set_method(Algorithm method) {
   deformer_.set_algorithm(method);
 }
 
+void Object::split(const SplitPointer& split) {
+  check(method(), *split->after);
+  check_no_views("split");
+  const ObjectState file{split->before, {}, {}, std::make_shared<Softness>(Softness{{}, mesh_->softness})};
+  auto after =
+      std::make_shared<MeshObject>(MeshObject{split->after, object_after(*split, file).softness->links, mesh_->remark});
+  deformer_.split(split, body().snapshot());
+  mesh_ = std::move(after);
+}
+
 void Object::set_job(const Progress& job) {
   job_ = job;
   deformer_.set_progress(job);

@@ -87,6 +87,9 @@ class Object : public Busy {
   void attach(Algorithm method);
   void detach() { is_attached_ = false; }
   void set_method(Algorithm method);
+  /// Splits this object, whose mesh is another one then. Call it with the lock of Python. Throws Error if the method
+  /// does not work on that mesh, and if a view exists.
+  void split(const SplitPointer& split);
   Algorithm method() const { return deformer_.algorithm(); }
 
   const Progress& job() const { return job_; }
