@@ -29,6 +29,12 @@ class DeformCommandTest : public QObject {
   void sweeps_are_interrupted_at_once();
   void acts_that_do_not_fit_are_refused_data();
   void acts_that_do_not_fit_are_refused();
+  void a_split_divides_cells_where_they_are();
+  void a_split_divides_a_surface();
+  void cells_with_a_cut_link_do_not_count();
+  void a_recorded_split_is_replayed();
+  void splits_that_do_not_fit_are_refused_data();
+  void splits_that_do_not_fit_are_refused();
 
  private:
   /// Returns the final positions of a deformation, in rows x, y, z.
@@ -190,6 +196,121 @@ void DeformCommandTest::acts_that_do_not_fit_are_refused() {
   QCOMPARE(outcome.code, 2);
   QVERIFY2(is_one_sentence(outcome), outcome.error);
   QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + where + ": "), outcome.error);
+  QCOMPARE(program_->files(), before);
+}
+
+/// A blade through a block of 36 cubes, six cells each. Element 4 is in the other part than element 0.
+void DeformCommandTest::a_split_divides_cells_where_they_are() {
+  QCOMPARE(program_->run("generate tetra 5x4x4 -o block.vtu").code, 0);
+  const QByteArray method = "--algorithm natural-queue ", pull = "--move 0:-9,0,0 ";
+  const QByteArray split = "--split 1.3,-1,0;2.6,5,0 --along 0.1,0.2,-1 ";
+  const auto rows = deform(method + split + pull, "block.vtu");
+  const QJsonObject json = program_->json("out.json");
+  const auto is_whole = [](const QJsonValue& volume) { return std::abs(volume.toDouble() / 36 - 1) < 1e-12; };
+  QVERIFY(rows.size() > 80);
+  QCOMPARE(json["elements"].toInt(), int(rows.size()));
+  QVERIFY(json["cells"].toInt() > 216);
+  QCOMPARE(json["parts"].toInt(), 2);
+  QVERIFY(is_whole(json["volume"]["rest"]));
+  QVERIFY(!is_whole(json["volume"]["now"]));  // the part of element 0 is stretched
+  QVERIFY(json["worst_quality"].toDouble() >= 0.03 && json["worst_quality"].toDouble() < 0.7);
+  QCOMPARE(rows[4], (QList<double>{4, 0, 0}));
+  QVERIFY(rows[1][0] < 0);
+  // Before the split, element 0 pulls the whole block away from the line.
+  QVERIFY(deform(method + pull, "block.vtu")[4][0] < 0);
+  const auto outcome = program_->run("deform block.vtu " + method + pull + split);
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(outcome.error.startsWith("chainmail: --split 1.3,-1,0;2.6,5,0: nothing comes apart; "), outcome.error);
+  const auto later = deform(method + "--grab 0-79 --by 10 --split 11.3,-1,0;12.6,5,0 --along 0.1,0.2,-1", "block.vtu");
+  QCOMPARE(later.size(), rows.size());
+  const QJsonObject moved = program_->json("out.json");
+  QVERIFY(is_whole(moved["volume"]["now"]));
+  // A second blade across the first, and a pin on what the first has made.
+  deform(method + split + "--pin 80 --split -1,1.5,0;5,1.6,0 --along 0,0,1", "block.vtu");
+  QCOMPARE(program_->json("out.json")["parts"].toInt(), 4);
+}
+
+void DeformCommandTest::a_split_divides_a_surface() {
+  QCOMPARE(program_->run("generate cloth 5x4 -o cloth.obj").code, 0);
+  const auto rows = deform("--algorithm spiral --split 1.3,-1;1.6,9 --move 0:-9,0", "cloth.obj");
+  QVERIFY(rows.size() > 20);
+  QCOMPARE(rows[4], (QList<double>{4, 0, 0}));
+  QVERIFY(rows[1][0] < 0);
+  QVERIFY(!program_->json("out.json").contains("cells"));
+  // In space, a blade also cuts along a slope.
+  const auto same =
+      deform("--algorithm spiral --space 3 --split 1.3,-1,1;1.6,9,1 --along 0,0,-3 --move 0:-9,0", "cloth.obj");
+  QCOMPARE(same.size(), rows.size());
+  const auto slope =
+      deform("--algorithm spiral --space 3 --split 0.3,-1,1;0.6,9,1 --along 1,0,-1 --move 0:-9,0", "cloth.obj");
+  QCOMPARE(slope.size(), rows.size());
+  QCOMPARE(slope[4], (QList<double>{4, 0, 0}));
+}
+
+/// Link 0-1 is an edge of two of the six cells of a cube.
+void DeformCommandTest::cells_with_a_cut_link_do_not_count() {
+  QCOMPARE(program_->run("generate tetra 2x2x2 -o cube.vtu").code, 0);
+  deform("--algorithm spiral --cut 0-1", "cube.vtu");
+  const QJsonObject json = program_->json("out.json");
+  QCOMPARE(json["cells"].toInt(), 4);
+  QCOMPARE(json["parts"].toInt(), 1);
+  QVERIFY(std::abs(json["volume"]["rest"].toDouble() - 4.0 / 6) < 1e-12);
+}
+
+/// Two tetrahedra with a face in common, whose elements are doubled. Then an act names one of the new elements.
+void DeformCommandTest::a_recorded_split_is_replayed() {
+  program_->write("two.mesh",
+                  "MeshVersionFormatted 2 Dimension 3 Vertices 5 0 0 0 1 1 0 0 1 0 1 0 1 0 0 1 1 1 1 1 1 Tetrahedra 2 "
+                  "1 2 3 4 1 2 3 4 5 1 End");
+  program_->write("moves.json", R"({"version": 4, "commands": [{"do": "split",
+    "elements": [[1, 1, 1, 0, 0], [2, 2, 2, 0, 0], [3, 3, 3, 0, 0]],
+    "removed_cells": [1], "tetrahedra": [[5, 6, 7, 4]]}]})");
+  const auto rows = deform("--algorithm spiral --script moves.json --by 7:5", "two.mesh");
+  QCOMPARE(rows.size(), qsizetype{8});
+  QCOMPARE(rows[3], (QList<double>{0, 0, 1}));
+  QCOMPARE(rows[7], (QList<double>{5, 0, 1}));
+  QVERIFY(rows[4][0] > 1);
+  QCOMPARE(program_->json("out.json")["parts"].toInt(), 2);
+}
+
+void DeformCommandTest::splits_that_do_not_fit_are_refused_data() {
+  QTest::addColumn<QString>("mesh");
+  QTest::addColumn<QString>("sentence");
+  const auto row = [](const char* mesh, const char* options, const char* sentence) {
+    QTest::newRow(options) << mesh << sentence;
+  };
+  row("block.vtu", "--split 1,1,1 --along 0,0,1", "--split 1,1,1: its line has fewer than two points");
+  row("block.vtu", "--split 1,-1;nan,9 --along 0,0,1", "--split 1,-1;nan,9: 'nan' is not a finite number");
+  row("block.vtu", "--split 1,-1;1,9", "--split 1,-1;1,9: it has no direction");
+  row("block.vtu", "--split 1,-1;1,9 --along 0,0,0", "--split 1,-1;1,9: its direction is not finite or has the length");
+  row("block.vtu", "--split 9,-1;9,9 --along 0,0,1", "--split 9,-1;9,9: nothing comes apart");
+  row("block.vtu", "--split 1,0,-1;1,0,9 --along 0,0,1", "--split 1,0,-1;1,0,9: nothing comes apart");
+  row("block.vtu", "--along 0,0,1", "--along 0,0,1: there is no --split");
+  row("block.vtu", "--split 1,-1;1,9 --along 0,0,1 --along 0,0,2", "--along 0,0,2: there is no --split");
+  row("block.vtu", "--split 1,-1;1,9 --pin 0 --along 0,0,1", "--along 0,0,1: there is no --split");
+  row("block.vtu", "--split 1.5,-1;1.5,9 --along 0,0,1 --cut 1-2", "--cut 1-2: these elements are not linked");
+  row("block.vtu", "--split 1.5,-1;1.5,9 --along 0,0,1 --pin 999", "--pin 999: there is no element 999");
+  row("large.vtu", "--split 1.5,-1;1.5,99 --along 0,0,1", "--split 1.5,-1;1.5,99: ");
+  row("cloth.obj", "--split 1.5,-1;1.5,9 --along 1,0,0", "--split 1.5,-1;1.5,9: its direction lies in the plane");
+  row("cloth.obj", "--split 1.5,-1,1;1.5,9,1", "--split 1.5,-1,1;1.5,9,1: the object does not extend along z");
+  row("grid.dat", "--split 1.5,-1;1.5,9", "--split 1.5,-1;1.5,9: the object has neither cells nor faces");
+}
+
+void DeformCommandTest::splits_that_do_not_fit_are_refused() {
+  QFETCH(QString, mesh);
+  QFETCH(QString, sentence);
+  for (const char* line : {"generate tetra 4x3x3 -o block.vtu", "generate cloth 4x4 -o cloth.obj",
+                           "generate tetra 60x10x10 -o large.vtu"}) {
+    QVERIFY(!QString(line).endsWith(mesh) || program_->run(line).code == 0);
+  }
+  const auto before = program_->files();
+  // With its new elements, the large block is too large for the method.
+  const char* const method = mesh == "large.vtu" ? "corotational" : "exact";
+  const auto outcome = program_->run(QStringList{"deform", mesh, "--algorithm", method, "--positions", "a.csv"} +
+                                     QString(QTest::currentDataTag()).split(' '));
+  QCOMPARE(outcome.code, 2);
+  QVERIFY2(is_one_sentence(outcome), outcome.error);
+  QVERIFY2(QString::fromUtf8(outcome.error).startsWith("chainmail: " + sentence), outcome.error);
   QCOMPARE(program_->files(), before);
 }
 

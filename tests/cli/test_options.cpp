@@ -111,14 +111,18 @@ constexpr Row rows[]{
     {"deform", "--lattice", "2", "0", "--algorithm ffd", "motion energy"},
     {"deform", "--iterations", "2", "0", "block.vtu --algorithm xpbd --pin left", "motion energy"},
     {"deform", "--space", "3", "4|0", "cloth.obj", "motion energy"},
-    {"deform", "--move", "4:-0.5,0.3", "0:x", "", "motion energy"},
-    {"deform", "--by", "7:-0.3,0.2", "0:x", "", "motion energy"},
-    {"deform", "--grab", "--grab 4,7 --by 0.2,0.3", "roof", "", "motion energy"},
-    {"deform", "--rotate", "--grab 4,7 --rotate z:30", "z:x", "", "motion energy"},
+    // A split after a move meets other cells.
+    {"deform", "--move", "4:-0.5,0.3", "0:x", "", "motion energy object"},
+    {"deform", "--by", "7:-0.3,0.2", "0:x", "", "motion energy object"},
+    {"deform", "--grab", "--grab 4,7 --by 0.2,0.3", "roof", "", "motion energy object"},
+    {"deform", "--rotate", "--grab 4,7 --rotate z:30", "z:x", "", "motion energy object"},
     {"deform", "--cut", "0-1", "0", "", "motion energy"},
+    {"deform", "--split", "--split 3,0.5,0;-1,0.5,0 --along 0,0,1", "0,0;1,x|0,0;", "block.vtu",
+     "motion energy object"},
+    {"deform", "--along", "--split 3,0.5;-1,0.5 --along 0.2,0.1,1", "x|0,0,1", "cloth.obj", "motion energy object"},
     {"deform", "--pin", "2", "roof", "", "motion energy"},
     {"deform", "--steps", "3", "0|1.5|-1|1e3", "", "motion energy"},
-    {"deform", "--script", "moves.json", "none.json", "", "motion energy"},
+    {"deform", "--script", "moves.json", "none.json", "", "motion energy object"},
     {"deform", "--positions", "b.csv", "none/a.csv", "", "files"},
     {"deform", "--trace", "t.csv", "none/t.csv", "", "files"},
     {"deform", "--json", "b.json", "none/a.json", "", "files"},
@@ -192,7 +196,7 @@ constexpr Row rows[]{
 };
 
 /// Actions of `deform`, which may be given several times.
-const QStringList actions{"--move", "--by", "--grab", "--rotate", "--cut", "--pin"};
+const QStringList actions{"--move", "--by", "--grab", "--rotate", "--cut", "--split", "--along", "--pin"};
 
 /// A surface with a duplicate corner, a loose point, a hole and a fin.
 constexpr const char* broken =
@@ -275,7 +279,7 @@ const QList<std::pair<QRegularExpression, QString>>& parts_by_path() {
              {"_ms|ms_per|milliseconds|seconds$|p99|real_time|growth$|bytes|notes|description", ""},
              {"^(origin|figures|kind|schema_version|runs|sizes|algorithms|version|stopped)", ""},
              {"^objects[.]drags[.]contestants([.]algorithm)?$", "contestants"},
-             {"^(displacement|violation|shape|passes|equilibrium)", "motion"},
+             {"^(displacement|violation|shape|passes|equilibrium|cells|parts|volume|worst_quality)", "motion"},
              {"^objects[.](drags[.])?contestants|residual|[.]reference", "figures"},
              {"^(objects[.])?drags", "drags"},
              {"^objects[.]pins", "pins"},

@@ -230,6 +230,8 @@ void SchemasTest::add_outputs() {
   run("info", "info", "info.json", "info tetra.msh --json info.json");
   run("repair", "repair", "repair.json", "repair cloth.obj -o whole.obj --json repair.json");
   run("deform", "deform", "deform.json", "deform cloth.obj --algorithm spiral --by 12:2,1 --json deform.json");
+  run("a split", "deform", "split.json",
+      "deform tetra.msh --algorithm spiral --split 0.5,-1;0.5,2 --along 0,0,1 --by 0:-1 --json split.json");
   run("a handle of many", "deform", "many.json",
       "deform cloth.obj --algorithm exact --grab 11-13 --by 2,1 --rotate z:20 --json many.json");
   run("a handle that pins stop", "deform", "stopped.json",

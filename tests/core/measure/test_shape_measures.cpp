@@ -56,6 +56,9 @@ class ShapeMeasuresTest : public QObject {
   void a_stretched_plane();
   void sheared_cells_have_the_stretch_of_the_closed_form();
   void objects_without_cells_have_no_figures();
+  void figures_of_cells_are_at_rest_and_now();
+  void cells_with_a_cut_link_do_not_count();
+  void the_quality_of_tetrahedra_is_that_of_closed_forms();
   void hausdorff_is_from_points_to_triangles();
   void hausdorff_agrees_with_all_pairs();
   void hausdorff_looks_at_each_side_of_a_triangle();
@@ -251,6 +254,49 @@ void ShapeMeasuresTest::hausdorff_agrees_with_a_search_of_all_triangles() {
     const double found = hausdorff_distance(with_point, surface);
     QVERIFY2(near(found, nearest), qPrintable(QString("%1, not %2").arg(found).arg(nearest)));
   }
+}
+
+void ShapeMeasuresTest::figures_of_cells_are_at_rest_and_now() {
+  const MeshPointer tetrahedra = generate({MeshKind::tetra, {3, 3, 3}, 1, {}});
+  for (const MeshPointer& mesh : {tetrahedra, hexahedral_block({2, 2, 2})}) {
+    const auto now = cell_figures(*mesh, {}, Placed(*mesh, stretched));
+    QCOMPARE(now->cells, std::uint64_t{mesh->tetrahedra.size() + mesh->hexahedra.size()});
+    QCOMPARE(now->parts, std::uint64_t{1});
+    QVERIFY(near(now->rest_volume, 8) && near(now->volume, 8 * 1.3));
+    // A sixth of a unit cube: the inscribed sphere has the radius 1 / (2 + 2 √2), the circumscribed one √3 / 2.
+    QVERIFY(near(*now->worst_quality, 3 / (2 + 2 * std::sqrt(2.0)) / (std::sqrt(3.0) / 2)));
+    QVERIFY(near(cell_figures(*mesh, {}, Placed(*mesh, mirrored))->volume, -8));
+  }
+  QVERIFY(!cell_figures(*generate({MeshKind::cloth, {3, 3, 1}, 1, {}}), {}, PositionView(nullptr, 0, {})));
+}
+
+void ShapeMeasuresTest::cells_with_a_cut_link_do_not_count() {
+  const MeshPointer mesh = hexahedral_block({3, 1, 1});
+  const Placed rest(*mesh, same);
+  Cuts cuts(mesh);
+  cuts.cut(*find_link(*mesh, 0, 1));
+  auto found = cell_figures(*mesh, cuts, rest);
+  QCOMPARE(found->cells, std::uint64_t{2});
+  QCOMPARE(found->parts, std::uint64_t{1});
+  QVERIFY(near(found->rest_volume, 2) && near(found->volume, 2));
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    cuts.cut(link);
+  }
+  found = cell_figures(*mesh, cuts, rest);
+  QCOMPARE(found->cells, std::uint64_t{0});
+  QCOMPARE(found->parts, std::uint64_t{mesh->element_count()});
+  QVERIFY(found->volume == 0 && !found->worst_quality);
+}
+
+void ShapeMeasuresTest::the_quality_of_tetrahedra_is_that_of_closed_forms() {
+  using Corners = std::array<Point, 4>;
+  const Corners regular{Point(1, 1, 1), Point(1, -1, -1), Point(-1, 1, -1), Point(-1, -1, 1)};
+  const Corners corner{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  const Corners flat{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(1, 1, 0)};
+  QVERIFY(near(tetrahedron_quality(regular), 1));
+  // Its inscribed sphere has the radius 1 / (3 + √3), and its circumscribed one √3 / 2.
+  QVERIFY(near(tetrahedron_quality(corner), 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2)));
+  QCOMPARE(tetrahedron_quality(flat), 0.0);
 }
 
 CHAINMAIL_TEST(ShapeMeasuresTest)
