@@ -1,6 +1,7 @@
 #include "mesh/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cassert>
 #include <numeric>
 

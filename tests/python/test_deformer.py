@@ -87,6 +87,72 @@ def test_relaxation_to_the_equilibrium():
     assert "residual" in repr(found)
 
 
+def test_a_split_makes_two_parts():
+    deformer = chainmail.Deformer(chainmail.make_tetra(5, 4, 4))
+    body, before = deformer.body, deformer.body.mesh
+    body.pin(before.side("left"))
+    body.set_softness(chainmail.LinkSoftness(stretch=1.5), [before.find_link(3, 4)])
+    handle = deformer.grab(4)
+    count = deformer.split([(1.3, -1), (2.6, 5)], (0.1, 0.2, -1))
+    assert count > 0 and body.mesh.element_count == before.element_count + count
+    assert body.mesh.part_count == 2 and before.part_count == 1
+    assert np.array_equal(body.positions()[:80], before.rest_positions())
+    assert set(before.side("left")) <= set(body.pins())
+    assert body.softness_of(body.mesh.find_link(3, 4)).stretch == 1.5
+    with pytest.raises(chainmail.Error, match="it is of another mesh"):
+        deformer.move(handle, handle.after((1, 0, 0)))
+    at = body.positions()
+    assert deformer.move(4, (9, 0, 0)).moved > 0
+    still = body.positions()
+    assert np.array_equal(still[before.side("left")], at[before.side("left")]) and still[1].tolist() == [1, 0, 0]
+    # The line is where the elements are: between the parts, there are none.
+    assert deformer.split(np.array([[3, -1, 0], [3.4, 5, 0]]), (0, 0, 1)) == 0
+    assert chainmail.Body(body.mesh).mesh.element_count == len(still)
+
+
+def sheet(space_dimension):
+    corners = [[x, y, 0] for y in range(3) for x in range(3)]
+    faces = [[i, i + 1, i + 4] for i in (0, 1, 3, 4)] + [[i, i + 4, i + 3] for i in (0, 1, 3, 4)]
+    return chainmail.make_mesh(corners, triangles=faces, space_dimension=space_dimension)
+
+
+def test_a_split_of_faces():
+    plane, space = (chainmail.Deformer(sheet(dimension), "exact") for dimension in (2, 3))
+    assert plane.split([(1.4, -1), (1.6, 3)]) == space.split([(1.4, -1, 5), (1.6, 3, 5)], along=(0, 0, 1)) > 0
+    assert plane.body.mesh.part_count == space.body.mesh.part_count == 2
+
+
+@pytest.mark.parametrize(
+    "mesh, line, along, words",
+    [
+        (chainmail.make_tetra(3, 3, 3), [(1, 1, 1)], (0, 0, 1), "fewer than two points"),
+        (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (np.nan, 2, 2)], (0, 0, 1), "not a finite number"),
+        (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (1, 2, 2, 2)], (0, 0, 1), "line: it has more than 3 numbers"),
+        (chainmail.make_tetra(3, 3, 3), [(1, -1), (1, 3)], None, "no direction"),
+        (chainmail.make_tetra(3, 3, 3), [(1, -1), (1, 3)], (0, 0, 0), "has the length 0"),
+        (chainmail.make_tetra(60, 10, 10), [(1.5, -1), (1.5, 30)], (0, 0, 1), "elements"),
+        (chainmail.make_grid(3, 3), [(1, -1), (1, 3)], None, "neither cells nor faces"),
+        (sheet(2), [(1, -1), (1, 3)], (1, 0, 0), "in the plane of the object"),
+    ],
+)
+def test_what_cannot_be_split(mesh, line, along, words):
+    """The large block is too large for the method after the split."""
+    deformer = chainmail.Deformer(mesh, "corotational" if mesh.element_count == 6000 else "natural-queue")
+    with pytest.raises(chainmail.Error, match=words):
+        deformer.split(line, along)
+    assert deformer.body.mesh == mesh and deformer.body.positions().shape == (mesh.element_count, 3)
+
+
+def test_nothing_is_split_while_a_view_exists():
+    deformer = chainmail.Deformer(chainmail.make_tetra(3, 3, 3))
+    view = deformer.body.view()
+    with pytest.raises(chainmail.Error, match="a view of its positions is in use"):
+        deformer.split([(1, -1), (1, 3)], (0, 0, 1))
+    assert np.array_equal(view, deformer.body.positions())
+    del view
+    assert deformer.split([(1, -1), (1, 3)], (0, 0, 1)) == 9
+
+
 def test_the_shortcut():
     mesh = chainmail.make_grid(6, 4)
     deformer = chainmail.Deformer(mesh)

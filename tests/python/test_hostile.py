@@ -162,6 +162,7 @@ ENDLESS_CALLS = {
     "a handle": lambda body: chainmail.Handle(body, ENDLESS_IDS[:, 0]),
     "a target": lambda body: chainmail.Deformer(body).move(0, ENDLESS[:, 0]),
     "a target without an end": lambda body: chainmail.Deformer(body).move(0, itertools.count()),
+    "a line": lambda body: chainmail.Deformer(body).split(ENDLESS),
     "elements of a drag": lambda body: chainmail.Drag("drag", ENDLESS_IDS[:, 0], [(1, 0)]),
     "motions": lambda body: chainmail.Drag("drag", [0], ENDLESS),
     "drags": lambda body: chainmail.compare(body, [chainmail.Drag("drag", [0], [(1, 0, 0)])] * 10**6),

@@ -63,6 +63,15 @@ void write_pass(std::ostream& out, const DeformSummary::Pass& pass) {
   out << (pass.remark.empty() ? "" : ", ") << pass.remark << '\n';
 }
 
+void add_cells(Json& json, const std::optional<CellFigures>& found) {
+  if (found) {
+    json["cells"] = found->cells;
+    json["parts"] = found->parts;
+    json["volume"] = {{"rest", found->rest_volume}, {"now", found->volume}};
+    json["worst_quality"] = or_null(found->worst_quality);
+  }
+}
+
 }  // namespace
 
 MeshSummary summarize(const Mesh& mesh) {
@@ -109,11 +118,7 @@ void write_json(std::ostream& out, const MeshSummary& summary) {
             {"joined", flaws.joined},
             {"flaws", {{"flat", flaws.flat}, {"inverted", flaws.inverted}, {"coincident", flaws.coincident}}},
             {"defects", to_json(summary.defects)}};
-  if (const auto& found = summary.cells) {
-    json["cells"] = found->cells;
-    json["volume"] = found->rest_volume;
-    json["worst_quality"] = or_null(found->worst_quality);
-  }
+  add_cells(json, summary.cells);
   out << of_kind(json_kinds::info, json).dump(2) << '\n';
 }
 
@@ -162,12 +167,7 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
                            {"regions_bind", found->binds},
                            {"iterations", found->iterations}};
   }
-  if (const auto& found = summary.cells) {
-    json["cells"] = found->cells;
-    json["parts"] = found->parts;
-    json["volume"] = {{"rest", found->rest_volume}, {"now", found->volume}};
-    json["worst_quality"] = or_null(found->worst_quality);
-  }
+  add_cells(json, summary.cells);
   out << of_kind(json_kinds::deform, json).dump(2) << '\n';
 }
 

@@ -29,6 +29,8 @@ Json defects() {
 /// The figures of cells that `info` and `deform` have, for an object with cells.
 const Members cell_figures{
     {"cells", count("number of cells that have no cut link")},
+    {"parts", count("of the object: parts without an uncut link between them")},
+    {"volume", object({{"rest", from_zero()}, {"now", number()}}, {}, "of these cells (mesh units to the power 3)")},
     {"worst_quality", or_null(from_zero("of these at rest: 1 regular, 0 flat; null without cells"))}};
 
 Member info() {
@@ -50,8 +52,7 @@ Member info() {
                        {"flaws", object(flaws)},
                        {"defects", defects()}};
   return of_kind(json_kinds::info, "Output of chainmail info --json",
-                 joined({each(count(), {"elements", "links", "tetrahedra", "hexahedra"}), others}),
-                 joined({cell_figures, {{"volume", from_zero("of the cells (mesh units to the power 3)")}}}));
+                 joined({each(count(), {"elements", "links", "tetrahedra", "hexahedra"}), others}), cell_figures);
 }
 
 Member repair() {
@@ -92,10 +93,7 @@ Member deform() {
        {"energy", from_zero("elastic energy")},
        {"displacement", object(spread, {}, "of elements from rest (mesh units)")}},
       joined({cell_figures,
-              {{"parts", count("of an object with cells: parts without an uncut link between them")},
-               {"volume",
-                object({{"rest", from_zero()}, {"now", number()}}, {}, "of these cells (mesh units to the power 3)")},
-               {"shape", object(shape, {}, "of an object with cells or faces; null: no such figure")},
+              {{"shape", object(shape, {}, "of an object with cells or faces; null: no such figure")},
                {"equilibrium", object(equilibrium, {}, "certificate, after relaxation to the equilibrium")}}}));
 }
 
