@@ -301,19 +301,18 @@ void RelaxationTest::axial_energy_by_hand() {
   parts.links = {{0, 1}, {1, 2}};
   const auto mesh = build_mesh(std::move(parts));
   const LinkSoftness loose{0, 100, 100, 0.25};
+  Deformer solver(mesh, Algorithm::natural_queue, Precision::double_precision);
+  solver.body().pin(std::array<ElementId, 2>{0, 2});
   const auto after = [&](const Softness& softness) {
-    const auto solver = std::make_unique<Deformer>(mesh, Algorithm::natural_queue, Precision::double_precision);
-    solver->body().set_softness(softness);
-    solver->body().set_positions(std::vector<double>{0, 0, 1, 0, 2, 2});
-    const std::array<ElementId, 2> ends{0, 2};
-    solver->body().pin(ends);
-    wake_all(*solver, *mesh);
-    solver->relax_slice(1, no_limit, {});
-    const auto all = positions_of(*solver, *mesh);
+    solver.body().set_softness(softness);
+    solver.body().set_positions(std::vector<double>{0, 0, 1, 0, 2, 2});
+    wake_all(solver, *mesh);
+    solver.relax_slice(1, no_limit, {});
+    const auto all = positions_of(solver, *mesh);
     return Point(all[2], all[3], 0);
   };
   QVERIFY((after({loose, {}, EnergyKind::axial}) - Point(1 + 0.25 / 1.5, 1.25 / 1.5, 0)).norm() < 1e-14);
-  // With a stiffness of 3, the link to 2 weighs 3b on x and 3(1 + b) on y.
+  // With a stiffness of 3 from now on, the link to 2 weighs 3b on x and 3(1 + b) on y.
   LinkSoftness stiff = loose;
   stiff.stiffness = 3;
   QVERIFY((after({loose, {{1, stiff}}, EnergyKind::axial}) - Point(1 + 0.75 / 2, 3.75 / 4, 0)).norm() < 1e-14);
