@@ -561,7 +561,9 @@ void WindowLessons::theLessonsShowTheirPoint() {
   back(bench);
   QCOMPARE(violated(bench, 0), 0.0);  // within reach
   toEnd("organ.chainmail");
-  QCOMPARE(bench.document().mesh()->tetrahedra.size(), std::size_t{9891});
+  QVERIFY(bench.document().mesh()->tetrahedra.size() > 9891);  // some are divided
+  QCOMPARE(bench.document().cuts().count(), 0U);
+  back(bench);
   QVERIFY(violated(bench, 0) > 0.05);
   QCOMPARE(violated(bench, 1), 0.0);
 }
