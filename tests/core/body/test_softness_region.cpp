@@ -26,6 +26,7 @@ class SoftnessRegionTest : public QObject {
   void the_other_end_sees_the_mirror_image();
   void the_rest_shape_is_always_valid();
   void softness_of_a_link_goes_before_the_global_one();
+  void another_energy_keeps_a_lateral_stiffness_that_was_set();
 };
 
 namespace {
@@ -174,6 +175,17 @@ void SoftnessRegionTest::softness_of_a_link_goes_before_the_global_one() {
   solver->body().set_softness(softness);
   solver->move(0, Point(-4, 0, 0));
   QCOMPARE(positions_of(*solver, *mesh), (std::vector<double>{-4, -2.5, -1, 0, 1.5}));
+}
+
+void SoftnessRegionTest::another_energy_keeps_a_lateral_stiffness_that_was_set() {
+  Softness softness = standard_softness();
+  set_energy(softness, EnergyKind::axial);
+  QCOMPARE(softness.global.lateral, info(EnergyKind::axial).lateral);  // nobody has set it
+  softness.global.lateral = 0.625;
+  for (const EnergyKindInfo& one : energy_kinds()) {
+    set_energy(softness, one.kind);
+    QCOMPARE(softness.global.lateral, 0.625);
+  }
 }
 
 CHAINMAIL_TEST(SoftnessRegionTest)

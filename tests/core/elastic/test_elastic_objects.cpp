@@ -22,6 +22,8 @@ class ElasticObjectsTest : public QObject {
   void a_cut_part_is_named();
   void cells_that_are_too_small_to_hold_are_told();
   void what_does_not_converge_is_told();
+  void the_last_step_is_told_relative_to_the_edges_data();
+  void the_last_step_is_told_relative_to_the_edges();
 };
 
 namespace {
@@ -191,6 +193,32 @@ void ElasticObjectsTest::what_does_not_converge_is_told() {
   solver->move(ElasticMotion::by(std::array{-0.3, 0.0, 0.0}));
   QVERIFY(solver->remark().empty());
   QCOMPARE(solver->displacements()[3 * middle], -0.3);
+}
+
+void ElasticObjectsTest::the_last_step_is_told_relative_to_the_edges_data() {
+  QTest::addColumn<int>("method");
+  for (const AlgorithmInfo& one : elastic_algorithms()) {
+    if (one.obeys_iterations) {
+      QTest::newRow(std::string(one.name).c_str()) << int(one.algorithm);
+    }
+  }
+}
+
+/// The same object in another unit of length: the remark has the same number.
+void ElasticObjectsTest::the_last_step_is_told_relative_to_the_edges() {
+  QFETCH(const int, method);
+  const auto remark = [&](double unit) {
+    const auto mesh = make_mesh(MeshKind::tetra, {6, 3, 3}, {}, unit);
+    ElasticProblem problem = pinned(mesh, layer(*mesh, *find_side("left")));
+    problem.options.iterations = 2;
+    const auto solver = make_elastic(Algorithm(method), problem);
+    solver->hold(ElasticHandle::of(mesh->element_count() - 1));
+    solver->move(ElasticMotion::by(std::array{unit, 2 * unit, 0.0}));
+    return QString::fromStdString(solver->remark());
+  };
+  const QString in_metres = remark(1), in_sixteenths = remark(16);
+  QVERIFY2(in_metres.contains("of the mean edge length"), qPrintable(in_metres));
+  QCOMPARE(in_sixteenths, in_metres);
 }
 
 CHAINMAIL_TEST(ElasticObjectsTest)
