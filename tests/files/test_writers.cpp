@@ -99,6 +99,7 @@ class WritersTest : public QObject {
   void msh_is_as_documented();
   void msh_tells_large_faces_by_their_links();
   void msh_of_elements_alone();
+  void stl_has_normals_of_the_deformed_faces();
   void cut_pieces_are_gone();
   void positions_are_told_to_the_bit();
   void other_edges_of_a_cut_face_are_lines();
@@ -201,6 +202,23 @@ void WritersTest::msh_of_elements_alone() {
   const std::string text = written("a.msh", {*line, cuts, rest_positions(*line), softness_});
   QVERIFY(text.find("$Entities\n0 1 0 0\n1 0 0 0 1 0 0 0 0\n") != text.npos);
   QVERIFY(text.ends_with("$Elements\n0 0 0 0\n$EndElements\n"));
+}
+
+/// A sheet that lies at rest and now stands: its faces look along y, not along z.
+void WritersTest::stl_has_normals_of_the_deformed_faces() {
+  const auto sheet = made(MeshKind::cloth, {2, 2, 1}, 1, 3);
+  const std::vector<double> standing{0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 1};
+  std::istringstream text(written("a.stl", {*sheet, {}, view(*sheet, standing), softness_}));
+  int facets = 0;
+  for (std::string word; text >> word;) {
+    if (word == "normal") {
+      Point normal;
+      text >> normal.x() >> normal.y() >> normal.z();
+      QCOMPARE(normal, Point(0, -1, 0));
+      ++facets;
+    }
+  }
+  QCOMPARE(facets, 2);
 }
 
 /// Faces and cells with a cut link are left out; their other links are written as lines.
