@@ -249,6 +249,10 @@ class WindowDocks : public QObject {
     edits::replaceMesh(bench.document(), generate({MeshKind::grid, {4, 4, 1}, 1, {}}), QStringLiteral("square"),
                        QStringLiteral("open"));
     QVERIFY(now().kind() == AxesKind::object && !now().is_turned() && !note->isHidden());
+    choose(AxesKind::axes);
+    QVERIFY(note->isHidden());
+    choose(AxesKind::object);
+    QVERIFY(!note->isHidden());
     bench.trigger("resetStiffness");
     QVERIFY(now() == RegionAxes() && note->isHidden());
 

@@ -197,13 +197,12 @@ void StiffnessDock::showFrame() {
   }
   frame_->setCurrentIndex(frame_->findData(int(axes.kind())));
   frame_->setEnabled(document_.mesh()->space_dimension > 1);
-  if (axes.kind() != AxesKind::object) {
-    frameNote_->hide();
-    notedMesh_.reset();
-  } else if (notedMesh_ != document_.mesh()) {  // takes time in proportion to the object
-    notedMesh_ = document_.mesh();
-    frameNote_->setVisible(!principal_axes(*notedMesh_).are_unique);
+  const bool alongObject = axes.kind() == AxesKind::object;
+  if (alongObject && measuredMesh_ != document_.mesh()) {  // takes time in proportion to the object
+    measuredMesh_ = document_.mesh();
+    axesAreUnique_ = principal_axes(*measuredMesh_).are_unique;
   }
+  frameNote_->setVisible(alongObject && !axesAreUnique_);
 }
 
 /// The kind of energy applies to the whole object.

@@ -67,7 +67,8 @@ class StiffnessDock : public QDockWidget {
   std::vector<ParameterRow*> rows_;  // in the order of softness_numbers
   QComboBox* frame_;
   QLabel* frameNote_;
-  MeshPointer notedMesh_;  // of which the note is
+  MeshPointer measuredMesh_;  // the object of axesAreUnique_
+  bool axesAreUnique_ = true;
   QComboBox* energy_;
 };
 
