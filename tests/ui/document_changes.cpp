@@ -8,6 +8,7 @@
 #include "core/families.h"
 #include "document/document.h"
 #include "document/edits.h"
+#include "document/propagation.h"
 #include "document/session_draft.h"
 #include "mesh/generate.h"
 #include "mesh/progress.h"
@@ -58,6 +59,7 @@ class DocumentChangesTest : public QObject {
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
   void a_panel_may_be_removed_while_saving();
+  void a_panel_that_is_added_shows_its_passes();
 
  private:
   const MeshPointer mesh_ = jittered_triangles(5, 4, 2);
@@ -154,6 +156,22 @@ void DocumentChangesTest::a_panel_may_be_removed_while_saving() {
   const Session session = draft.finished(job);
   QVERIFY(session.panels.size() == 2 || session.panels.size() == 3);
   QCOMPARE(session.mesh, document.mesh());
+}
+
+/// The Propagation dock is open before the panel comes.
+void DocumentChangesTest::a_panel_that_is_added_shows_its_passes() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  Propagation propagation(document);
+  propagation.setOpen(true);
+  propagation.setShown(true);
+  document.addPanel();
+  document.handle().grab(7);
+  document.handle().dragBy(Point(0.5, 1, 0));
+  document.handle().release();
+  for (int panel = 0; panel < 3; ++panel) {
+    QTRY_VERIFY(propagation.player(panel) != nullptr);
+    QVERIFY(propagation.player(panel)->stepCount() > 0);
+  }
 }
 
 CHAINMAIL_TEST(DocumentChangesTest)

@@ -1,4 +1,4 @@
-// Tests which links and faces of a mesh are drawn, in full detail and coarsely.
+// Tests which elements, links and faces of a mesh are drawn, in full detail and coarsely.
 
 #include <QTest>
 #include <algorithm>
@@ -98,6 +98,18 @@ class DrawnIndices : public QObject {
     const auto mesh = build_mesh(std::move(parts));
     QCOMPARE(ends(wholeLevel(mesh), Cuts(mesh)).size(), 8U);
     QCOMPARE(faceCount(wholeLevel(mesh), Cuts(mesh)), 2U);
+  }
+
+  /// Without links, there is nothing else to see, however many elements there are and however far away.
+  void pointsWithoutLinksAreMarked() {
+    MeshParts parts;
+    for (int i = 0; i < 30'000; ++i) {
+      parts.rest.emplace_back(i % 200, i / 200, 0);
+    }
+    const auto points = build_mesh(std::move(parts));
+    for (const double pixelsPerUnit : {0.01, 1.0, 100.0}) {
+      QVERIFY(ObjectDrawing::marksElements(*points, pixelsPerUnit));
+    }
   }
 
   void everyLinkAndFaceIsInOneCluster() {
