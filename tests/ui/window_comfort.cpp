@@ -75,6 +75,12 @@ class WindowComfort : public QObject {
         QVERIFY2(contrastOf(palette.color(text), palette.color(behind)) >= ofText,
                  qPrintable(QStringLiteral("%1 on %2").arg(palette.color(text).name(), palette.color(behind).name())));
       }
+      for (const Role text : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+        const QColor disabled = palette.color(QPalette::Disabled, text);
+        for (const Role behind : {QPalette::Window, QPalette::Base, QPalette::Button}) {
+          QVERIFY2(contrastOf(disabled, palette.color(behind)) >= ofText, qPrintable(disabled.name()));
+        }
+      }
       // The figures of a panel have the panel's colour.
       for (const QColor& colour : coloursOfPanels()) {
         QVERIFY2(contrastOf(colour, palette.color(QPalette::Window)) >= ofText, qPrintable(colour.name()));
@@ -222,6 +228,24 @@ class WindowComfort : public QObject {
     second.settle();
     QVERIFY(!second.window.messages().isVisible());
     QCOMPARE(second.position(0, moved), rest);
+  }
+
+  /// With a coloured mark, the action would look as if it could be chosen.
+  void disabledIconsHaveOneColour() {
+    const QColor faint = QApplication::palette().color(QPalette::Disabled, QPalette::ButtonText);
+    const auto isFaint = [&](const QColor& at) {  // rounded where lines cross
+      return std::abs(at.red() - faint.red()) <= 4 && std::abs(at.green() - faint.green()) <= 4 &&
+             std::abs(at.blue() - faint.blue()) <= 4;
+    };
+    for (const QString& name : iconNames()) {
+      const QImage drawn = icon(qPrintable(name)).pixmap(32, QIcon::Disabled).toImage();
+      for (int i = 0; i < drawn.width() * drawn.height(); ++i) {
+        const QColor at = drawn.pixelColor(i % drawn.width(), i / drawn.width());
+        if (at.alpha() == 255) {
+          QVERIFY2(isFaint(at), qPrintable(name + QLatin1Char(' ') + at.name()));
+        }
+      }
+    }
   }
 
   // Also runs at several scales (CMakeLists.txt).

@@ -164,14 +164,14 @@ class WindowPictures : public QObject {
   void aPictureHasTheWidthThatIsChosen() {
     Workbench bench;
     bench.trigger("pictureOfPanels");
-    const auto chooseSize = [&](double width, const QString& unit, int dpi) {
+    const auto chooseSize = [&](double width, const QString& unit, int dpi, int answer = QDialog::Accepted) {
       QTimer::singleShot(0, &bench.window, [&] {
         auto* dialog = QApplication::activeModalWidget();
         QVERIFY(dialog != nullptr);
         dialog->findChild<QComboBox*>(QStringLiteral("pictureUnit"))->setCurrentText(unit);
         dialog->findChild<QDoubleSpinBox*>(QStringLiteral("pictureWidth"))->setValue(width);
         dialog->findChild<QSpinBox*>(QStringLiteral("pictureDpi"))->setValue(dpi);
-        qobject_cast<QDialog*>(dialog)->accept();
+        qobject_cast<QDialog*>(dialog)->done(answer);
       });
       bench.trigger("pictureOwnSize");
     };
@@ -185,6 +185,7 @@ class WindowPictures : public QObject {
     bench.settle();
     QCOMPARE(QImage(png).width(), 945);  // 80 mm / 25.4 mm * 300
     QCOMPARE(QImage(png).dotsPerMeterX(), 11811);
+    chooseSize(50, QStringLiteral("mm"), 150, QDialog::Rejected);
     QVERIFY(bench.find<QAction>("pictureOwnSize")->text().contains(QStringLiteral("80 mm at 300 dpi")));
     const QString svg = folder_.filePath(QStringLiteral("sized.svg"));
     pictures(bench).savePath(svg);
