@@ -7,6 +7,7 @@
 #include "core/hexahedra.h"
 #include "docks/replay_dock.h"
 #include "document/edits.h"
+#include "tools/cut_tool.h"
 #include "window.h"
 #include "window/bars.h"
 
@@ -204,6 +205,58 @@ class WindowKnife : public QObject {
     const std::size_t front = bench.document().mesh()->tetrahedra.size();
     QVERIFY(front > whole->tetrahedra.size() && front < split->tetrahedra.size());
     QCOMPARE(bench.document().parts(), 1U);
+  }
+
+  /// The stroke is beside the object, so that no link lights up.
+  void otherViewsArePaintedAgainWithTheRibbonAndWithoutIt() {
+    Workbench bench(test::make_mesh(MeshKind::tetra, {5, 5, 5}));
+    bench.trigger("linkCameras");
+    bench.view(1).orbit(QPointF(150, 0));
+    bench.trigger("toolCut");
+    const QList<QPoint> beside{{4, bench.view(0).height() / 2}, {4, bench.view(0).height() / 2 + 40}};
+    const auto cancel = [&] {
+      QTest::keyClick(&bench.window, Qt::Key_Escape);
+      QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, beside.last());
+    };
+    bench.stroke(0, beside.first(1), false);  // moves the keyboard focus
+    cancel();
+    bench.settle();
+    View& other = bench.view(1);
+    const QImage before = other.grabFramebuffer();
+
+    QTRY_COMPARE(other.meter().framesPerSecond(), 0);
+    bench.stroke(0, beside, false);
+    QTRY_VERIFY(other.meter().framesPerSecond() > 0);
+    QVERIFY(bench.document().highlight().marks().links.empty());
+    QVERIFY(other.grabFramebuffer() != before);
+    QTRY_COMPARE(other.meter().framesPerSecond(), 0);
+    cancel();
+    QTRY_VERIFY(other.meter().framesPerSecond() > 0);
+    QVERIFY(other.grabFramebuffer() == before);
+  }
+
+  void theRibbonLiesUnderItsStrokeAndInFrontOfTheEye() {
+    Workbench bench(test::make_mesh(MeshKind::tetra, {5, 5, 5}));
+    View& view = bench.view(0);
+    const QPointF from(20, 30), to(90, 110);
+    CutTool tool(bench.document());
+    for (const double closer : {1.0, 20.0}) {  // then the eye is inside the object
+      view.zoom(closer);
+      tool.press(view, from, {});
+      tool.move(view, to, {});
+      const auto ribbon = tool.ribbon(bench.view(1));
+      QVERIFY(tool.ribbon(view).empty());
+      QCOMPARE(ribbon.size(), std::size_t{4});
+      for (std::size_t i = 0; i < ribbon.size(); ++i) {
+        const auto &end = ribbon[i], &nearEnd = ribbon[i / 2 * 2];
+        const auto depth = [&view](const QVector3D& at) { return -view.camera()->toView().map(at).z(); };
+        QVERIFY(depth(nearEnd) > 0 && (i % 2 == 0 || depth(end) > depth(nearEnd)));
+        const QPointF seen = view.viewPosition(Point(double(end.x()), double(end.y()), double(end.z())));
+        QVERIFY(QLineF(seen, i < 2 ? from : to).length() < 1);
+      }
+      tool.cancel();
+      QVERIFY(tool.ribbon(bench.view(1)).empty());
+    }
   }
 
   void aStrokeThatAnAlgorithmCannotFollowIsRefused() {

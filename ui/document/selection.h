@@ -34,6 +34,8 @@ class Highlight : public QObject {
 
  signals:
   void changed();
+  /// The stroke of a tool has changed, or has ended. All views may draw a part of it.
+  void strokeChanged();
 
  private:
   Marks marks_;

@@ -43,8 +43,8 @@ class Tool {
 
   /// Returns a line to draw in `view` (logical pixels); empty if the tool is not used in it.
   virtual std::span<const QPointF> stroke(const View& view) const = 0;
-  /// Returns the ribbon that a stroke in another view spans with its line of sight: for each point of the stroke a point
-  /// before and one behind the object, in the coordinates of frames.
+  /// Returns the ribbon that a stroke in another view spans with its line of sight: for each point of the stroke a
+  /// point before and one behind the object, in the coordinates of frames. Both are in front of the eye.
   virtual std::span<const QVector3D> ribbon(const View& /*view*/) const { return {}; }
 };
 

@@ -53,6 +53,7 @@ void View::listen() {
     }
   });
   connect(&document_.highlight(), &Highlight::changed, this, qOverload<>(&View::update));
+  connect(&document_.highlight(), &Highlight::strokeChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::pinsChanged, this, qOverload<>(&View::update));
   connect(&document_, &Document::algorithmChanged, this, qOverload<>(&View::update));  // changes colours of panels
   connect(&document_, &Document::algorithmChanged, this, &View::nameIt);

@@ -1,6 +1,7 @@
 #include "tools/cut_tool.h"
 
 #include <QLineF>
+#include <algorithm>
 #include <new>
 
 #include "document/edits.h"
@@ -12,6 +13,7 @@ namespace chainmail {
 namespace {
 
 constexpr double shortestSegment = 2;  // pixels
+constexpr double nearestDepth = 0.05;  // of a ribbon in perspective, in distances of the centre from the eye
 
 }  // namespace
 
@@ -39,7 +41,6 @@ void CutTool::move(View& view, QPointF position, Qt::KeyboardModifiers /*modifie
   auto crossed = frontOnly_ ? view.search().frontLinksCrossing(segment) : view.search().linksCrossing(segment);
   std::erase_if(crossed, [this](LinkId link) { return !crossed_.insert(link).second; });
   document_.highlight().add(crossed);
-  view.update();
 }
 
 void CutTool::release(View& view, QPointF position) {
@@ -51,7 +52,6 @@ void CutTool::release(View& view, QPointF position) {
   const auto stroke = stroke_;
   cancel();
   cut(view, links, stroke);
-  view.update();
 }
 
 void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std::vector<QPointF>& stroke) {
@@ -85,18 +85,24 @@ void CutTool::cancel() {
   ribbon_.clear();
   crossed_.clear();
   document_.highlight().set({});
+  emit document_.highlight().strokeChanged();
 }
 
-/// Adds a point to the stroke, and what it sweeps to the ribbon.
+/// Adds a point to the stroke, and the two ends of its line of sight to the ribbon.
 void CutTool::add(const View& view, QPointF position) {
   stroke_.push_back(position);
   const Camera& camera = *view.camera();
   if (camera.spatial()) {
     const auto [near, far] = camera.depthRange();
-    const QVector3D away = camera.toView().inverted().mapVector({0, 0, -float(far - near) / 2});
-    ribbon_.push_back(camera.pointAt(position, camera.centre() - away, view.size()));
-    ribbon_.push_back(camera.pointAt(position, camera.centre() + away, view.size()));
+    const double centre = (near + far) / 2;
+    // A close eye is inside the object.
+    const double nearEnd = camera.parallel() ? near : std::max(near, nearestDepth * centre);
+    const QVector3D away = camera.toView().inverted().mapVector({0, 0, -1});
+    for (const double depth : {nearEnd, far}) {
+      ribbon_.push_back(camera.pointAt(position, camera.centre() + float(depth - centre) * away, view.size()));
+    }
   }
+  emit document_.highlight().strokeChanged();
 }
 
 std::span<const QVector3D> CutTool::ribbon(const View& view) const {
