@@ -1,8 +1,8 @@
 #include "mesh/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 #include "mesh/error.h"
@@ -214,7 +214,7 @@ bool is_far(const Mesh& mesh) {
 
 namespace {
 
-/// The same bits as stableNorm(), at a third of its time for usual numbers.
+/// Returns the same bits as stableNorm(), in a third of its time for usual numbers.
 double norm_of(const Point& vector) {
   const double most = vector.cwiseAbs().maxCoeff();
   if (!(most > 1e-300) || !(most < 1e300)) {
