@@ -92,7 +92,7 @@ void ToolsDock::addActions(Actions& actions, const Document& document, CutTool& 
                 IsOn([&cut] { return cut.splits(); }), When([&document] {
                   return can_split(*document.mesh()) ? QString()
                                                      : "Not available: a stroke cuts the links of lattices of faces "
-                                                       "and of objects without faces";
+                                                       "and of objects without cells and faces";
                 })}});
 }
 
