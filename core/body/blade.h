@@ -8,7 +8,7 @@
 
 namespace chainmail {
 
-/// What cuts through an object: a line of points, swept both ways along a direction.
+/// A line of points that is swept both ways along a direction, and cuts through an object.
 struct Blade {
   std::vector<Point> line;          // two or more (mesh units), where the elements are at present
   std::optional<Point> along = {};  // of any length; without it, the direction across the plane of the object

@@ -187,8 +187,8 @@ void CellSeparation::make_copies() {
   }
 }
 
-/// Finds hexahedra that cannot stay, because only a half of a side has come apart. A cut face with no doubled corner
-/// has not.
+/// Finds hexahedra that cannot stay, because only a half of a side has come apart. A cut face has come apart if one of
+/// its corners is doubled.
 void CellSeparation::find_half_open() {
   for (const auto& [corner, piece] : interfaces_) {
     bool open = false;

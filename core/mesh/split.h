@@ -64,7 +64,8 @@ struct Split {
 
   MeshPointer before, after;
   SplitEdit edit;
-  /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face.
+  /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face or
+  /// a cell.
   std::vector<LinkId> parents;
   /// For each appended element: the link on which it lies; none for others.
   std::vector<LinkId> link_of;
@@ -77,8 +78,8 @@ struct Split {
 
 using SplitPointer = std::shared_ptr<const Split>;
 
-/// True if strokes may divide this mesh: it has cells, or it has faces and is not a lattice. A lattice of cells is gone
-/// after it.
+/// True if strokes may divide this mesh: it has cells, or it has faces and is not a lattice. A divided lattice of cells
+/// is no longer a lattice.
 bool can_split(const Mesh& mesh);
 
 /// Returns those of the links that are neither the side of a face nor the edge of a cell.

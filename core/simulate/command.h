@@ -142,10 +142,10 @@ struct Reset {
 struct ReplaceMesh {
   MeshPointer mesh;
 };
-/// Splits faces of the object along a stroke. Its positions, cuts, pins and softness go over to the new elements and
-/// links. The object must have the mesh before the split.
+/// Splits cells or faces of the object along a stroke. Its positions, cuts, pins and softness go over to the new
+/// elements and links. The object must have the mesh before the split.
 struct Split {
-  static constexpr std::string_view name = "split", help = "divides faces, and appends elements";
+  static constexpr std::string_view name = "split", help = "divides cells or faces, and appends elements";
   SplitPointer split;
 };
 

@@ -538,7 +538,7 @@ void Simulation::carry_out(const commands::ReplaceMesh& command) {
 }
 
 void Simulation::carry_out(const commands::Split& command) {
-  const bool was_valid = valid_ && away_.empty();  // links inside faces are new
+  const bool was_valid = valid_ && away_.empty();  // links inside faces and cells are new
   const bool was_relaxing = statistics_.relaxing;
   Snapshot positions = deformer_.split(command.split, current_positions());
   follow_mesh();

@@ -74,9 +74,9 @@ class Deformer {
   /// Puts another object at rest in its place. Natural Queue runs if the algorithm does not work on its mesh. If memory
   /// runs out, nothing has changed.
   void replace(const ObjectState& object, Algorithm algorithm);
-  /// Splits faces: positions, cuts, pins and softness go over to the new elements and links, and so does the last
-  /// handle unless it is pinned now. Wakes the new elements. `positions` are the present ones; returns those after it.
-  /// Throws Error if the object does not have the mesh before the split; nothing has changed then.
+  /// Splits cells or faces: positions, cuts, pins and softness go over to the new elements and links, and so does the
+  /// last handle unless it is pinned now. Wakes the new elements. `positions` are the present ones; returns those after
+  /// it. Throws Error if the object does not have the mesh before the split; nothing has changed then.
   Snapshot split(const SplitPointer& split, const Snapshot& positions);
 
   /// Throws Error if the algorithm does not work on the mesh; nothing has changed then.

@@ -35,7 +35,7 @@ void setElastic(Document& document, const ElasticOptions& options, const QString
 void setAlgorithm(Document& document, int panel, Algorithm algorithm);
 void setPinned(Document& document, const std::vector<ElementId>& elements, bool pinned);
 void cut(Document& document, const std::vector<LinkId>& links);
-/// Splits faces of the object, and cuts links of the object before the split.
+/// Splits cells or faces of the object, and cuts links of the object before the split.
 void split(Document& document, const SplitPointer& split, const std::vector<LinkId>& cut = {});
 void resetObject(Document& document);
 
