@@ -44,9 +44,6 @@ class Lesson:
     def pin(self, elements):
         self.moves.append({"do": "pin", "elements": elements})
 
-    def cut(self, links):
-        self.moves.append({"do": "cut", "links": links})
-
     def soften(self, **softness):
         self.moves.append({"do": "softness", **STANDARD, **softness, "energy": "corotated"})
 
@@ -64,7 +61,7 @@ class Lesson:
 "relaxation": {{"on": false, "scheme": "mean", "step": 1}},
 "panels": [
 {lines(panels)}],
-"moves": {{"version": 1, "commands": [
+"moves": {{"version": {4 if any(move["do"] == "split" for move in self.moves) else 1}, "commands": [
 {lines(self.moves)}]}},
 "moves_done": 0,
 "ui": {own(self.ui)}}}
@@ -168,9 +165,9 @@ def exact_and_taut():
 
 
 def read_msh(path):
-    """Returns points and tetrahedra (ids from 0) of a Gmsh 4.1 file in text."""
+    """Returns the points of a Gmsh 4.1 file in text."""
     lines = path.read_text().split("\n")
-    points, tetrahedra = [], []
+    points = []
     i = lines.index("$Nodes") + 1
     blocks = int(lines[i].split()[0])
     i += 1
@@ -178,20 +175,17 @@ def read_msh(path):
         count = int(lines[i].split()[3])
         points += [tuple(map(float, line.split())) for line in lines[i + 1 + count:i + 1 + 2 * count]]
         i += 1 + 2 * count
-    i = lines.index("$Elements") + 1
-    blocks = int(lines[i].split()[0])
-    i += 1
-    for _ in range(blocks):
-        _, _, kind, count = map(int, lines[i].split())
-        if kind == 4:
-            tetrahedra += [[int(n) - 1 for n in line.split()[1:]] for line in lines[i + 1:i + 1 + count]]
-        i += 1 + count
-    return points, tetrahedra
+    return points
+
+
+def recorded_split():
+    """Returns the split of the organ. The knife recorded it, so it is taken over from the lesson that exists."""
+    moves = json.loads((ROOT / "resources/lessons/organ.chainmail").read_text())["moves"]["commands"]
+    return next(move for move in moves if move["do"] == "split")
 
 
 def cut_an_organ():
-    points, tetrahedra = read_msh(MESHES / "organ.msh")
-    links = sorted({(min(a, b), max(a, b)) for t in tetrahedra for a in t for b in t if a != b})
+    points = read_msh(MESHES / "organ.msh")
     lesson = Lesson("Cut an organ", {"file": "organ.msh"}, ["natural-queue", "exact"],
                     looking_from(25, 40))
     near = lambda x, y, z, r: [e for e, p in enumerate(points) if math.dist(p, (x, y, z)) < r]
@@ -205,19 +199,24 @@ def cut_an_organ():
                 "The handle takes its surroundings along. On the way back, elements follow only as far as their links "
                 "demand, so some creases stay. Next cuts the organ from above.",
                 tool="cut")
-    at_x, deep = 2.5, -3.0
-    cut = [[a, b] for a, b in links
-           if (points[a][0] - at_x) * (points[b][0] - at_x) < 0 and (points[a][1] + points[b][1]) / 2 > deep]
-    lesson.cut(cut)
+    lesson.moves.append(recorded_split())
     lesson.step("A cut",
-                "A cut removes the links that cross the blade, and that is all: nothing has to be prepared again. "
-                "Next pulls both sides apart.")
+                "The blade divides the tetrahedra that it crosses, so no volume is lost. New elements get ids after "
+                "all others. ChainMail itself prepares nothing, so the next drag starts at once. Next pulls both "
+                "sides apart.")
     lesson.drag(near(6.5, 6.5, 0, 3.5), [[4, 0.5, 0]], 50)
-    lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50)
+    lesson.drag(near(-1.5, 6.5, 0, 3.5), [[-4, 0.5, 0]], 50, release=False)
     lesson.step("Open it",
                 "The sides part and show the inside of the solid. In panel A, the coloured links exceed their "
-                "limits: Natural Queue places each element within reach of one neighbour, its sponsor, but not always "
-                "of the others. Exact ChainMail in panel B keeps all limits. Press K to cut further yourself.", tool="drag")
+                "limits: Natural Queue places each element within reach of one neighbour, its sponsor, but not "
+                "always of the others. Exact ChainMail in panel B keeps all limits. Next lets the organ settle "
+                "while the handle is held.")
+    lesson.moves += [{"do": "relax", "sweeps": 300, "scheme": "equilibrium", "until": 0.01}, {"do": "release"}]
+    lesson.step("Let it settle",
+                "Relaxation moves the elements to the state of least energy: creases vanish, the side that nothing "
+                "holds goes back, and the wound shows the inside in a colour of its own. Press K to cut further "
+                "yourself.",
+                colour="plain", tool="drag")
     return lesson
 
 
