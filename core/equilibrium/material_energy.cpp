@@ -18,6 +18,20 @@ void make_unique(std::vector<Id>& ids) {
 
 double modulus_of(const Lame& lame) { return 2 * lame.mu + lame.lambda; }
 
+template <int D>
+FourNumbers four_of(const FixedMatrix<double, D>& vector) {
+  FourNumbers result;
+  std::copy_n(vector.data(), D, result.at.begin());
+  return result;
+}
+
+template <int D>
+void add_to(FixedMatrix<double, D>& sum, const FourNumbers& numbers) {
+  for (int k = 0; k < D; ++k) {
+    sum[k] += numbers.at[std::size_t(k)];
+  }
+}
+
 template <int D, class Energy = MaterialEnergy<D>>
 double energy_in_space(const Mesh& mesh, const ElasticOptions& elastic, const Cuts& cuts,
                        const PositionView& position) {
@@ -46,24 +60,13 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
   is_cut_.assign(mesh_->link_count(), 0);
   whole_beside_.assign(mesh_->element_count(), 0);
   first_simplex_.assign(cells_.cell_count() + 1, 0);
-  batches_.assign((count + lanes - 1) / lanes, Batch{});
+  batches_.assign((count + Batch::lanes - 1) / Batch::lanes, Batch{});
   for (std::size_t s = 0; s < count; ++s) {
-    Batch& batch = batches_[s / lanes];
-    const auto corners = cells_.simplices.corners_of(s);
-    const auto gradients = cells_.simplices.gradients_of(s);
-    for (int k = 0; k <= D; ++k) {
-      batch.corner[std::size_t(k)][s % lanes] = corners[std::size_t(k)];
-      ++whole_beside_[corners[std::size_t(k)]];
-      for (int axis = 0; k > 0 && axis < D; ++axis) {
-        batch.gradient[std::size_t(k - 1)][std::size_t(axis)][Eigen::Index(s % lanes)] = gradients(axis, k);
-      }
+    set_simplex(batches_[s / Batch::lanes], s % Batch::lanes, s);
+    for (const ElementId corner : cells_.simplices.corners_of(s)) {
+      ++whole_beside_[corner];
     }
     ++first_simplex_[cells_.cell_of[s] + 1];
-  }
-  for (std::size_t s = count; s % lanes != 0; ++s) {  // the rest of the last batch has no volume
-    for (auto& corner : batches_.back().corner) {
-      corner[s % lanes] = corner[0];
-    }
   }
   for (std::size_t cell = 0; cell + 1 < first_simplex_.size(); ++cell) {
     first_simplex_[cell + 1] += first_simplex_[cell];
@@ -74,6 +77,19 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
   loose_.find(*mesh_, Cuts(), whole_beside_);
   find_cell_links();
   divide();
+}
+
+/// Sets the corners and gradients of one simplex of a batch.
+template <int D>
+void MaterialEnergy<D>::set_simplex(Batch& batch, std::size_t lane, std::size_t simplex) const {
+  const auto corners = cells_.simplices.corners_of(simplex);
+  const auto gradients = cells_.simplices.gradients_of(simplex);
+  for (std::size_t k = 0; k <= D; ++k) {
+    batch.corner[k][lane] = corners[k];
+    for (std::size_t axis = 0; k > 0 && axis < D; ++axis) {
+      batch.gradient[k - 1][axis].at[lane] = gradients(Eigen::Index(axis), Eigen::Index(k));
+    }
+  }
 }
 
 /// Turns the table of links by cell into one of cells by link.
@@ -113,7 +129,7 @@ void MaterialEnergy<D>::set_material(const ElasticOptions& elastic) {
 
 template <int D>
 void MaterialEnergy<D>::set_volume(std::uint32_t simplex, bool is_whole) {
-  batches_[simplex / lanes].volume[Eigen::Index(simplex % lanes)] =
+  batches_[simplex / Batch::lanes].volume.at[simplex % Batch::lanes] =
       is_whole ? cells_.simplices.volumes[simplex] / scale_ : 0;
 }
 
@@ -201,26 +217,30 @@ std::vector<std::uint32_t> MaterialEnergy<D>::take_changed_cells() {
 
 template <int D>
 double MaterialEnergy<D>::add_changes(const Vectors& displacements, Vectors& force) {
-  double change = 0;
-  Lanes least = Lanes::Constant(least_);
-  Batch batch;
+  std::vector<Batch> batches;
+  std::vector<ElementId> corners;  // of the simplices of these batches, one after the other
   for (const std::uint32_t cell : take_changed_cells()) {
     for (std::uint32_t s = first_simplex_[cell]; s < first_simplex_[cell + 1]; ++s) {
-      // All lanes have the simplex; only the first counts.
-      const Batch& from = batches_[s / lanes];
-      const auto lane = Eigen::Index(s % lanes);
-      for (std::size_t k = 0; k <= D; ++k) {
-        batch.corner[k].fill(from.corner[k][s % lanes]);
-        for (std::size_t axis = 0; k > 0 && axis < D; ++axis) {
-          batch.gradient[k - 1][axis].setConstant(from.gradient[k - 1][axis][lane]);
-        }
+      const std::size_t lane = corners.size() / (D + 1) % Batch::lanes;
+      Batch& batch = lane == 0 ? batches.emplace_back() : batches.back();
+      set_simplex(batch, lane, s);
+      batch.volume.at[lane] = (is_whole_[cell] != 0 ? 1 : -1) * cells_.simplices.volumes[s] / scale_;
+      for (auto& corner : batch.corner) {
+        corners.push_back(corner[lane]);
+        corner[lane] = std::uint32_t(corners.size() - 1);
       }
-      batch.volume.setZero();
-      batch.volume[0] = (is_whole_[cell] != 0 ? 1 : -1) * cells_.simplices.volumes[s] / scale_;
-      change += evaluate(batch, displacements, &force, 0, least);
     }
   }
-  least_ = least.minCoeff();
+  std::vector<FourNumbers> at(corners.size()), pull(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    at[i] = four_of(displacements[corners[i]]);
+  }
+  const BatchSum sum = evaluate_batches<D>(batches, batch_density(), at.data(), pull.data());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    add_to(force[corners[i]], pull[i]);
+  }
+  least_ = std::min(least_, sum.least);
+  double change = sum.energy;
   if (loose_before_) {
     change += loose_.add(*mesh_, displacements, &force);
     change += loose_before_->add(*mesh_, displacements, &force, -1);
@@ -258,7 +278,7 @@ double MaterialEnergy<D>::weight(LinkId link) const {
   return is_loose ? LooseLinks<D>::stiffness : std::max(least_weight, stiffness_around(link));
 }
 
-/// Divides the batches into parts that are worth a thread.
+/// Divides the batches into parts that are worth a thread. Their corners become places in their part.
 template <int D>
 void MaterialEnergy<D>::divide() {
   constexpr std::size_t worth = 1024, most = 8;
@@ -269,10 +289,15 @@ void MaterialEnergy<D>::divide() {
     part.first = batches_.size() * p / count;
     part.last = batches_.size() * (p + 1) / count;
     part.low = mesh_->element_count();
-    for (std::size_t b = part.first; b < part.last; ++b) {
-      for (const auto& corners : batches_[b].corner) {
-        part.low = std::min(part.low, std::ranges::min(corners));
-        part.high = std::max(part.high, std::ranges::max(corners) + 1);
+    const std::size_t end = std::min(part.last * Batch::lanes, cells_.simplices.count());
+    for (std::size_t s = part.first * Batch::lanes; s < end; ++s) {
+      const auto corners = cells_.simplices.corners_of(s);
+      part.low = std::min(part.low, std::ranges::min(corners));
+      part.high = std::max(part.high, std::ranges::max(corners) + 1);
+    }
+    for (std::size_t s = part.first * Batch::lanes; s < end; ++s) {
+      for (auto& corner : batches_[s / Batch::lanes].corner) {
+        corner[s % Batch::lanes] -= part.low;
       }
     }
   }
@@ -286,8 +311,8 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
   changed_cells_.clear();
   loose_before_.reset();
   for (const Part& part : parts_) {
-    energy += part.energy;
-    least_ = std::min(least_, part.least);
+    energy += part.sum.energy;
+    least_ = std::min(least_, part.sum.least);
   }
   if (force != nullptr) {
     force->resize(displacements.size());
@@ -295,7 +320,7 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
       std::fill(force->begin() + std::ptrdiff_t(first), force->begin() + std::ptrdiff_t(last), Vector());
       for (const Part& part : parts_) {
         for (std::size_t e = std::max<std::size_t>(first, part.low); e < std::min<std::size_t>(last, part.high); ++e) {
-          (*force)[e] += part.force[e - part.low];
+          add_to((*force)[e], part.force[e - part.low]);
         }
       }
     });
@@ -305,176 +330,16 @@ double MaterialEnergy<D>::evaluate(const Vectors& displacements, Vectors* force,
 
 template <int D>
 void MaterialEnergy<D>::evaluate(Part& part, const Vectors& displacements, bool wants_force) const {
+  const std::size_t count = part.high > part.low ? part.high - part.low : 0;
+  part.displacements.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    part.displacements[i] = four_of(displacements[part.low + i]);
+  }
   if (wants_force) {
-    part.force.assign(part.high > part.low ? part.high - part.low : 0, Vector());
+    part.force.assign(count, {});
   }
-  part.energy = 0;
-  Lanes least = Lanes::Ones();
-  for (std::size_t b = part.first; b < part.last; ++b) {
-    part.energy += evaluate(batches_[b], displacements, wants_force ? &part.force : nullptr, part.low, least);
-  }
-  part.least = least.minCoeff();
-}
-
-template <int D>
-double MaterialEnergy<D>::evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low,
-                                   Lanes& least) const {
-  const Matrix strain = strain_of(batch, displacements);
-  Lanes energy, determinant;
-  Matrix stress;
-  find_stress(strain, batch.volume, energy, determinant, force != nullptr ? &stress : nullptr);
-  least = (batch.volume > 0).select(least.min(determinant), least);
-  if (force != nullptr) {
-    add_forces(batch, stress, *force, low);
-  }
-  return energy.sum();
-}
-
-/// Returns F − 1.
-template <int D>
-auto MaterialEnergy<D>::strain_of(const Batch& batch, const Vectors& displacements) -> Matrix {
-  Matrix apart;  // [corner − 1][axis]: from the first corner's displacement
-  for (std::size_t k = 0; k < D; ++k) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const Vector& first = displacements[batch.corner[0][l]];
-      const Vector& here = displacements[batch.corner[k + 1][l]];
-      for (std::size_t axis = 0; axis < D; ++axis) {
-        apart[k][axis][Eigen::Index(l)] = here[Eigen::Index(axis)] - first[Eigen::Index(axis)];
-      }
-    }
-  }
-  Matrix strain;
-  for (std::size_t row = 0; row < D; ++row) {
-    for (std::size_t column = 0; column < D; ++column) {
-      Lanes sum = apart[0][row] * batch.gradient[0][column];
-      for (std::size_t k = 1; k < D; ++k) {
-        sum += apart[k][row] * batch.gradient[k][column];
-      }
-      strain[row][column] = sum;
-    }
-  }
-  return strain;
-}
-
-template <int D>
-void MaterialEnergy<D>::add_forces(const Batch& batch, const Matrix& stress, Vectors& force, ElementId low) {
-  std::array<std::array<Lanes, D>, D + 1> pull;
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    pull[0][axis].setZero();
-    for (std::size_t k = 0; k < D; ++k) {
-      Lanes sum = stress[axis][0] * batch.gradient[k][0];
-      for (std::size_t column = 1; column < D; ++column) {
-        sum += stress[axis][column] * batch.gradient[k][column];
-      }
-      pull[k + 1][axis] = sum;
-      pull[0][axis] -= sum;
-    }
-  }
-  for (std::size_t l = 0; l < lanes; ++l) {
-    for (std::size_t k = 0; k <= D; ++k) {
-      Vector& sum = force[batch.corner[k][l] - low];
-      for (std::size_t axis = 0; axis < D; ++axis) {
-        sum[Eigen::Index(axis)] -= pull[k][axis][Eigen::Index(l)];
-      }
-    }
-  }
-}
-
-template <int D>
-auto MaterialEnergy<D>::cofactor_of(const Matrix& f) -> Matrix {
-  Matrix cofactor;
-  if constexpr (D == 1) {
-    cofactor[0][0].setOnes();
-  } else if constexpr (D == 2) {
-    cofactor = {{{f[1][1], -f[1][0]}, {-f[0][1], f[0][0]}}};
-  } else {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const std::size_t c = (j + 1) % 3, d = (j + 2) % 3;
-        cofactor[i][j] = f[a][c] * f[b][d] - f[a][d] * f[b][c];
-      }
-    }
-  }
-  return cofactor;
-}
-
-/// Returns the energy, and the first Piola-Kirchhoff stress times the volume.
-template <int D>
-void MaterialEnergy<D>::find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant,
-                                    Matrix* stress) const {
-  Matrix f = strain;
-  Lanes shape = Lanes::Zero();
-  for (std::size_t i = 0; i < D; ++i) {
-    f[i][i] += 1;
-    shape += 2 * strain[i][i];
-    for (std::size_t j = 0; j < D; ++j) {
-      shape += strain[i][j] * strain[i][j];
-    }
-  }
-  const Matrix cofactor = cofactor_of(f);
-  determinant = f[0][0] * cofactor[0][0];
-  for (std::size_t j = 1; j < D; ++j) {
-    determinant += f[0][j] * cofactor[0][j];
-  }
-  Lanes value, by_shape, by_volume;
-  find_density(shape, determinant, value, by_shape, by_volume);
-  energy = volume * value;
-  if (stress != nullptr) {
-    by_shape *= 2 * volume;
-    by_volume *= volume;
-    for (std::size_t i = 0; i < D; ++i) {
-      for (std::size_t j = 0; j < D; ++j) {
-        (*stress)[i][j] = by_shape * f[i][j] + by_volume * cofactor[i][j];
-      }
-    }
-  }
-}
-
-/// Returns ln s for the stretch s on the axes that are free of stress, as log_of_free_stretch() of elastic/energy.cpp
-/// does, for all lanes at once.
-template <int D>
-auto MaterialEnergy<D>::log_of_free_stretch(const Lanes& log_volume) const -> Lanes {
-  constexpr int most = 60;
-  constexpr double free_axes = 3 - D;
-  const auto [mu, lambda] = lame_;
-  Lanes a = -lambda / (2 * mu + free_axes * lambda) * log_volume, step;
-  for (int turn = 0; turn < most; ++turn) {
-    const Lanes squared = (2 * a).exp();
-    step = (mu * (squared - 1) + lambda * (log_volume + free_axes * a)) / (2 * mu * squared + free_axes * lambda);
-    a -= step;
-    if ((step.abs() <= 1e-15 * (1 + a.abs())).all()) {
-      break;
-    }
-  }
-  return a;
-}
-
-template <int D>
-void MaterialEnergy<D>::find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
-                                     Lanes& by_volume) const {
-  if (is_neo_hookean_) {
-    constexpr double free_axes = 3 - D;
-    const auto [mu, lambda] = lame_;
-    const double slope = density_.slope_below(), curvature = density_.curvature_below();
-    const Lanes inside = determinant.max(density_.least_volume()), below = determinant - inside;
-    Lanes log = inside.log();  // of the whole volume: with the axes that are free of stress
-    if constexpr (D < 3) {
-      log += free_axes * log_of_free_stretch(log);
-    }
-    // The free axes add μ/2 (s² − 1) each, which is −λ/2 ln J for the stretch s that minimizes W.
-    value = mu / 2 * shape + log * (lambda / 2 * log - mu - free_axes * lambda / 2) +
-            below * (slope + curvature / 2 * below);
-    by_shape.setConstant(mu / 2);
-    by_volume = (lambda * log - mu) / inside + curvature * below;
-    return;
-  }
-  for (int l = 0; l < lanes; ++l) {
-    const auto one = density_.at(shape[l], determinant[l]);
-    value[l] = one.value;
-    by_shape[l] = one.by_shape;
-    by_volume[l] = one.by_volume;
-  }
+  part.sum = evaluate_batches<D>(std::span(batches_).subspan(part.first, part.last - part.first), batch_density(),
+                                 part.displacements.data(), wants_force ? part.force.data() : nullptr);
 }
 
 template class MaterialEnergy<1>;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "elastic/stiffening.h"
 #include "equilibrium/loose_links.h"
 #include "equilibrium/shared_loop.h"
+#include "equilibrium/simplex_batches.h"
 #include "mesh/cuts.h"
 #include "mesh/fixed_matrix.h"
 
@@ -62,24 +62,16 @@ class MaterialEnergy {
   double scale() const { return scale_; }
 
  private:
-  // Simplices that the processor computes at once.
-  static constexpr int lanes = 4;
-  using Lanes = Eigen::Array<double, lanes, 1>;
-
-  struct Batch {
-    std::array<std::array<ElementId, lanes>, Dimension + 1> corner;
-    std::array<std::array<Lanes, Dimension>, Dimension> gradient;  // [corner − 1][axis]: of its shape function
-    Lanes volume;                                                  // divided by the scale; 0 if the cell is gone
-  };
-  using Matrix = std::array<std::array<Lanes, Dimension>, Dimension>;  // [row][column]
+  using Batch = SimplexBatch<Dimension>;
 
   /// A run of batches. Parts are evaluated at the same time, each with the forces on its own range of elements; their
   /// number depends on the object alone, and so do the bits of the sum.
   struct Part {
-    std::size_t first = 0, last = 0;  // batches
-    ElementId low = 0, high = 0;      // the elements of their corners are below `high`
-    Vectors force;                    // on the elements from `low` on
-    double energy = 0, least = 1;
+    std::size_t first = 0, last = 0;         // batches
+    ElementId low = 0, high = 0;             // the elements of their corners are below `high`
+    std::vector<FourNumbers> displacements;  // of the elements from `low` on
+    std::vector<FourNumbers> force;          // on them
+    BatchSum sum;
   };
 
   void find_cell_links();
@@ -91,14 +83,8 @@ class MaterialEnergy {
   void set_cell(std::uint32_t cell, bool is_whole);
   void set_volume(std::uint32_t simplex, bool is_whole);
   double stiffness_around(LinkId link) const;
-  double evaluate(const Batch& batch, const Vectors& displacements, Vectors* force, ElementId low, Lanes& least) const;
-  static Matrix strain_of(const Batch& batch, const Vectors& displacements);
-  static Matrix cofactor_of(const Matrix& f);
-  static void add_forces(const Batch& batch, const Matrix& stress, Vectors& force, ElementId low);
-  void find_stress(const Matrix& strain, const Lanes& volume, Lanes& energy, Lanes& determinant, Matrix* stress) const;
-  Lanes log_of_free_stretch(const Lanes& log_volume) const;
-  void find_density(const Lanes& shape, const Lanes& determinant, Lanes& value, Lanes& by_shape,
-                    Lanes& by_volume) const;
+  void set_simplex(Batch& batch, std::size_t lane, std::size_t simplex) const;
+  BatchDensity batch_density() const { return {is_neo_hookean_, lame_, &density_}; }
 
   MeshPointer mesh_;
   CellSimplices cells_;

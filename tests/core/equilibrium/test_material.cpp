@@ -8,6 +8,7 @@
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/link_energy.h"
 #include "equilibrium/material_energy.h"
+#include "equilibrium/simplex_batches.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
@@ -27,6 +28,8 @@ class MaterialTest : public QObject {
   void the_force_is_the_slope_of_the_energy_data();
   void the_force_is_the_slope_of_the_energy();
   void the_energy_equals_finite_elements();
+  void instructions_change_no_bit();
+  void batches_have_the_density_of_single_simplices();
   void a_slice_of_a_long_body_is_a_sheet_of_another_ratio();
   void the_minimum_equals_finite_elements_data();
   void the_minimum_equals_finite_elements();
@@ -181,6 +184,70 @@ void check_slope(const Mesh& mesh, const StrainLaw& law, double size) {
            qPrintable(QString("%1 against %2").arg(measured).arg(slope)));
 }
 
+/// Batches of any simplices, some of them without volume.
+template <int D>
+struct Batches {
+  explicit Batches(double size) : at(300) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (FourNumbers& one : at) {
+      std::generate_n(one.at.begin(), D, [&] { return size * number(random); });
+    }
+    for (SimplexBatch<D>& batch : batches) {
+      for (std::size_t lane = 0; lane < SimplexBatch<D>::lanes; ++lane) {
+        for (auto& corner : batch.corner) {
+          corner[lane] = std::uint32_t(random() % at.size());
+        }
+        for (auto& gradient : batch.gradient) {
+          std::ranges::for_each(gradient, [&](FourNumbers& axis) { axis.at[lane] = number(random); });
+        }
+        batch.volume.at[lane] = random() % 5 != 0 ? 1 + number(random) / 2 : 0;
+      }
+    }
+  }
+  /// Returns the energy, the least ratio of volumes, and the forces.
+  std::vector<double> evaluate(const BatchDensity& density, BatchInstructions instructions) const {
+    std::vector<FourNumbers> force(at.size());
+    const BatchSum sum = evaluate_batches<D>(batches, density, at.data(), force.data(), instructions);
+    const BatchSum energy = evaluate_batches<D>(batches, density, at.data(), nullptr, instructions);
+    std::vector<double> result{sum.energy, sum.least, energy.energy, energy.least};
+    std::ranges::for_each(force,
+                          [&](const FourNumbers& one) { result.insert(result.end(), one.at.begin(), one.at.end()); });
+    return result;
+  }
+
+  std::vector<SimplexBatch<D>> batches{500};
+  std::vector<FourNumbers> at;
+};
+
+template <int D>
+void check_instructions(StrainLaw::Kind kind, double size) {
+  const Lame moduli = lame({1, 0.4});
+  ExtendedDensity extended({kind, 1, 1}, moduli, D);
+  extended.set_least_volume(0.1);
+  const BatchDensity density{kind == StrainLaw::Kind::neo_hookean, moduli, &extended};
+  const Batches<D> batches(size);
+  const std::vector<double> one = batches.evaluate(density, BatchInstructions::portable);
+  QVERIFY(std::ranges::all_of(one, [](double number) { return std::isfinite(number); }) && one[1] < 1);
+  QVERIFY(one[0] == one[2] && one[1] == one[3]);
+  QVERIFY(one == batches.evaluate(density, batch_instructions()));
+}
+
+template <int D>
+void check_density(double poisson, double size) {
+  const Lame moduli = lame({1, poisson});
+  ExtendedDensity extended({}, moduli, D);
+  extended.set_least_volume(0.1);
+  const Batches<D> batches(size);
+  const std::vector<double> fast = batches.evaluate({true, moduli, &extended}, batch_instructions());
+  const std::vector<double> single = batches.evaluate({false, moduli, &extended}, batch_instructions());
+  const double largest = std::abs(*std::ranges::max_element(single, {}, [](double one) { return std::abs(one); }));
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    QVERIFY2(std::abs(fast[i] - single[i]) <= 1e-12 * largest,
+             qPrintable(QString("%1, not %2").arg(fast[i]).arg(single[i])));
+  }
+}
+
 }  // namespace
 
 void MaterialTest::the_force_is_the_slope_of_the_energy_data() {
@@ -222,6 +289,29 @@ void MaterialTest::the_energy_equals_finite_elements() {
   }
   QVERIFY(sum > 0);
   QVERIFY(std::abs(energy_of(body) - sum) < 1e-12 * sum);
+}
+
+void MaterialTest::instructions_change_no_bit() {
+  if (batch_instructions() == BatchInstructions::portable) {
+    QSKIP("this processor has no other instructions");
+  }
+  for (const StrainLaw::Kind kind : {StrainLaw::Kind::neo_hookean, StrainLaw::Kind::gent, StrainLaw::Kind::fung}) {
+    for (const double size : {1e-6, 0.1, 1.5}) {  // the last one inverts many
+      check_instructions<1>(kind, size);
+      check_instructions<2>(kind, size);
+      check_instructions<3>(kind, size);
+    }
+  }
+}
+
+void MaterialTest::batches_have_the_density_of_single_simplices() {
+  for (const double poisson : {0.0, 0.3, 0.49}) {
+    for (const double size : {0.1, 1.5}) {
+      check_density<1>(poisson, size);
+      check_density<2>(poisson, size);
+      check_density<3>(poisson, size);
+    }
+  }
 }
 
 /// Hooke's law in plane strain, ν, is that in plane stress with ν / (1 − ν) and E / (1 − ν²): the manual says so.
