@@ -13,13 +13,12 @@ namespace chainmail {
 template <class Scalar, int Dimension>
 using BlockVectors = std::vector<FixedMatrix<Scalar, Dimension>>;
 
-template <class Scalar, int Dimension>
-double dot(const BlockVectors<Scalar, Dimension>& a, const BlockVectors<Scalar, Dimension>& b,
-           const SharedLoop& blocks = {}) {
+template <class A, class B, int Dimension>
+double dot(const BlockVectors<A, Dimension>& a, const BlockVectors<B, Dimension>& b, const SharedLoop& blocks = {}) {
   return blocks.sum(a.size(), [&](std::size_t first, std::size_t last) {
     double sum = 0;
     for (std::size_t i = first; i < last; ++i) {
-      sum += double(a[i].dot(b[i]));
+      sum += rounded<double>(a[i]).dot(rounded<double>(b[i]));
     }
     return sum;
   });
@@ -44,6 +43,20 @@ void add(BlockVectors<Scalar, Dimension>& sum, double factor, const BlockVectors
     for (std::size_t i = first; i < last; ++i) {
       sum[i] += Scalar(factor) * other[i];
     }
+  });
+}
+
+/// Does the same, and returns the dot product of the result with `next`: vectors are read once.
+template <class Other, class Next, int Dimension>
+double add_and_dot(BlockVectors<double, Dimension>& sum, double factor, const BlockVectors<Other, Dimension>& other,
+                   const BlockVectors<Next, Dimension>& next, const SharedLoop& blocks) {
+  return blocks.sum(sum.size(), [&](std::size_t first, std::size_t last) {
+    double product = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      sum[i] += factor * rounded<double>(other[i]);
+      product += sum[i].dot(rounded<double>(next[i]));
+    }
+    return product;
   });
 }
 

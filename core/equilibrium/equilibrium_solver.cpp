@@ -10,6 +10,7 @@
 #include "equilibrium/block_vectors.h"
 #include "equilibrium/conjugate_gradients.h"
 #include "equilibrium/corotated.h"
+#include "equilibrium/linear_prediction.h"
 #include "equilibrium/link_energy.h"
 #include "equilibrium/material_minimum.h"
 #include "equilibrium/quasi_newton.h"
@@ -29,6 +30,8 @@ constexpr double turned_share = 0.3;
 constexpr double binds_below = 0.2;
 // They count no more if none has a force while the residual is below this.
 constexpr double frees_below = 0.01;
+// A frame has converged, so that the next one can be extrapolated from it, if its residual is below this.
+constexpr double predicts_below = 0.1;
 
 /// Displacements from rest, in double, as RestoreValidity and the projection see a body.
 template <int D>
@@ -112,6 +115,7 @@ class Equilibrator final : public EquilibriumSolver {
   // What the body was when it was last seen.
 
   void follow(Body& body, std::span<const ElementId> held) {
+    is_iterate_valid_.reset();
     const Revisions& now = body.revisions();
     const bool is_new = shown_.mesh != body.stored_mesh().get();
     if (is_new) {
@@ -126,6 +130,10 @@ class Equilibrator final : public EquilibriumSolver {
     }
     if (is_new || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       uses_material() ? note_links() : update_links(body);
+    }
+    if (is_new || !is_same_problem(now, held)) {
+      prediction_.forget();
+      residual_ = 1;  // unknown
     }
     LoopTeam team = loop_team();
     read(body, team.loop());
@@ -150,6 +158,12 @@ class Equilibrator final : public EquilibriumSolver {
     make_valid(body, team.loop());
     hold_fixed();
     seen_ = body.revisions();
+  }
+
+  /// True if only relaxation and moves of this handle have changed the body.
+  bool is_same_problem(Revisions now, std::span<const ElementId> held) const {
+    now.relaxed = seen_.relaxed;
+    return now == seen_ && std::ranges::equal(held, held_);
   }
 
   /// Other energies than the material's are computed on this thread alone.
@@ -375,6 +389,7 @@ class Equilibrator final : public EquilibriumSolver {
   // Iterations.
 
   void step(const Progress& progress) {
+    is_iterate_valid_.reset();
     if (uses_material()) {
       material_step(progress);
       return;
@@ -408,8 +423,9 @@ class Equilibrator final : public EquilibriumSolver {
     prepared_ = material_->step(iterate_, threads_, progress) || prepared_;
     energy_of_iterate_ = material_->energy();
     note_distance(material_->distance());
+    LoopTeam team = loop_team();
     ++iterations_;
-    if (uses_regions_ && (constrained_ || (residual_ < binds_below && !is_valid(iterate_)))) {
+    if (uses_regions_ && (constrained_ || (residual_ < binds_below && !is_iterate_valid(team.loop())))) {
       follow_regions();
     }
   }
@@ -434,14 +450,38 @@ class Equilibrator final : public EquilibriumSolver {
     has_fixed_ = true;
     prepared_ = material_->update(progress.part(0.3, 1)) || prepared_;
     if (std::exchange(has_jump_, false)) {
-      for (ElementId e = 0; e < fixed_.size(); ++e) {
-        iterate_[e] -= jump_[e];
-      }
-      material_->extend(jump_, iterate_);
-      std::ranges::fill(jump_, Vector());
+      follow_jump();
     }
-    if (std::exchange(is_start_, false) && material_->is_inverted(iterate_)) {
+    if (std::exchange(is_start_, false) && material_->is_inverted(iterate_, threads_)) {
       try_rest();
+    }
+  }
+
+  /// Begins where the move of the handle is likely to end: extrapolates the last two frames, unless that inverts cells,
+  /// and extends the rest of the motion.
+  void follow_jump() {
+    LoopTeam team = loop_team();
+    for (ElementId e = 0; e < fixed_.size(); ++e) {
+      iterate_[e] -= jump_[e];
+    }
+    const bool has_converged = !constrained_ && residual_ < predicts_below;
+    const bool predicts = prediction_.predict(iterate_, jump_, fixed_, has_converged, team.loop());
+    extend_jump();
+    if (predicts && material_->is_inverted(iterate_, threads_)) {
+      iterate_ = prediction_.before();
+      for (ElementId e = 0; e < fixed_.size(); ++e) {
+        jump_[e] = fixed_[e] != 0 ? vector_of(shown_.positions[e]) - iterate_[e] : Vector();
+      }
+      extend_jump();
+    }
+    residual_ = 1;  // unknown
+  }
+
+  void extend_jump() {
+    material_->extend(jump_, iterate_, threads_);
+    for (ElementId e = 0; e < fixed_.size(); ++e) {
+      iterate_[e] = fixed_[e] != 0 ? vector_of(shown_.positions[e]) : iterate_[e];  // without rounding
+      jump_[e] = {};
     }
   }
 
@@ -453,7 +493,7 @@ class Equilibrator final : public EquilibriumSolver {
         from_rest[e] = iterate_[e];
       }
     }
-    material_->extend(from_rest, rest);
+    material_->extend(from_rest, rest, threads_);
     if (material_->energy_of(rest) < material_->energy_of(iterate_)) {
       iterate_ = std::move(rest);
     }
@@ -613,10 +653,18 @@ class Equilibrator final : public EquilibriumSolver {
     return !uses_regions_ || projection().is_valid(positions, shared);
   }
 
+  /// Checks the iterate once after each step.
+  bool is_iterate_valid(const SharedLoop& shared) {
+    if (!is_iterate_valid_) {
+      is_iterate_valid_ = is_valid(iterate_, shared);
+    }
+    return *is_iterate_valid_;
+  }
+
   void show(Body& body) {
     LoopTeam team = loop_team();
     const SharedLoop shared = team.loop();
-    if (!is_valid(iterate_, shared)) {
+    if (!is_iterate_valid(shared)) {
       projection().run(shown_.positions, iterate_);
     } else {
       shared.run(iterate_.size(), [&](std::size_t first, std::size_t last) {
@@ -748,6 +796,7 @@ class Equilibrator final : public EquilibriumSolver {
   Preconditioner<D> penalised_;
 
   Vectors iterate_;  // displacements
+  std::optional<bool> is_iterate_valid_;
   ConjugateGradients<D> gradients_;
   CorotatedEnergy<D> corotated_;
   QuasiNewton<D> newton_;
@@ -766,6 +815,7 @@ class Equilibrator final : public EquilibriumSolver {
   bool is_start_ = true;                        // the iterate was set from outside
   Vectors jump_;                                // by which fixed elements have moved since the last step
   bool has_jump_ = false;
+  LinearPrediction<D> prediction_;
   double region_error_ = 0;  // how far the forces of regions were from right, see RegionPenalties
 
   bool constrained_ = false;  // valid regions bind

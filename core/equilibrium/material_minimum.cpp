@@ -68,7 +68,9 @@ void MaterialMinimum<D, Steps>::forget() {
 }
 
 template <int D, class Steps>
-void MaterialMinimum<D, Steps>::extend(const Vectors& jump, Vectors& at) {
+void MaterialMinimum<D, Steps>::extend(const Vectors& jump, Vectors& at, int threads) {
+  LoopTeam team(threads, at.size());
+  const SharedLoop shared = team.loop();
   const Mesh& mesh = preconditioner_.mesh();
   pull_.assign(at.size(), typename Vectors::value_type());
   for (ElementId e = 0; e < at.size(); ++e) {
@@ -82,15 +84,22 @@ void MaterialMinimum<D, Steps>::extend(const Vectors& jump, Vectors& at) {
       }
     }
   }
-  preconditioner_.apply(pull_, step_, {});
-  add(at, 1, step_);
+  preconditioner_.apply(pull_, step_, shared);
+  add(at, 1, step_, shared);
   is_outdated_ = is_material_outdated_ = true;
 }
 
 template <int D, class Steps>
-bool MaterialMinimum<D, Steps>::is_inverted(const Vectors& at) {
-  is_material_outdated_ = is_material_outdated_ || has_changed_cells_;  // what they change is forgotten
-  energy_.evaluate(at, nullptr);
+double MaterialMinimum<D, Steps>::energy_of(const Vectors& at) {
+  is_outdated_ = is_material_outdated_ = true;
+  return energy_.evaluate(at, nullptr);
+}
+
+template <int D, class Steps>
+bool MaterialMinimum<D, Steps>::is_inverted(const Vectors& at, int threads) {
+  LoopTeam team(threads, at.size());
+  is_material_outdated_ = true;
+  find_gradient(at, team.loop());
   return energy_.is_inverted();
 }
 

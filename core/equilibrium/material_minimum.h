@@ -36,11 +36,12 @@ class EnergyMinimum {
   virtual bool update(const Progress& progress) = 0;
   /// Continues the displacements of fixed elements, `jump`, which is 0 at all others, to those around them: adds the
   /// solution of Laplace's equation, approximated by one cycle. Call update() before.
-  virtual void extend(const Vectors& jump, Vectors& at) = 0;
+  virtual void extend(const Vectors& jump, Vectors& at, int threads) = 0;
   /// Returns the energy, without the springs of regions.
   virtual double energy_of(const Vectors& at) = 0;
-  /// True if a cell is inverted, or a triangle in space has no area.
-  virtual bool is_inverted(const Vectors& at) = 0;
+  /// True if a cell is inverted, or a triangle in space has no area. A step from these displacements need not compute
+  /// the gradient again.
+  virtual bool is_inverted(const Vectors& at, int threads) = 0;
 
   /// Runs a step, on at most this many threads. Call update() before. Throws Cancelled; nothing has moved then. Returns
   /// true if it prepared later ones, which takes as long as tens of them.
@@ -98,9 +99,9 @@ class MaterialMinimum final : public EnergyMinimum<D> {
   void set_fixed(ElementId element, bool fixed) override;
   void forget() override;
   bool update(const Progress& progress) override { return preconditioner_.update(progress); }
-  void extend(const Vectors& jump, Vectors& at) override;
-  double energy_of(const Vectors& at) override { return energy_.evaluate(at, nullptr); }
-  bool is_inverted(const Vectors& at) override;
+  void extend(const Vectors& jump, Vectors& at, int threads) override;
+  double energy_of(const Vectors& at) override;
+  bool is_inverted(const Vectors& at, int threads) override;
   bool step(Vectors& at, int threads, const Progress& progress) override;
   double energy() const override { return value_; }
   double distance() const override { return distance_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -35,17 +36,17 @@ class QuasiNewton {
   static constexpr std::size_t max_pairs = 6;
   static constexpr int max_tries = 12;
 
+  // In float, which is half as much to read: the product is that of the rounded vectors.
   struct Pair {
-    Vectors step, change;  // of the position, and of the gradient
-    double product = 0;    // step · change
+    BlockVectors<float, D> step, change;  // of the position, and of the gradient
+    double product = 0;                   // step · change
   };
 
   /// Forgets everything if it fails.
   template <class Evaluate, class Preconditioner>
   bool try_step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force,
                 const SharedLoop& shared) {
-    find_direction(preconditioner, force, shared);
-    const double slope = dot(direction_, force, shared);
+    const double slope = find_direction(preconditioner, force, shared);
     slope_ = std::max(0.0, slope);
     if (!(slope > 0)) {
       forget();
@@ -75,19 +76,25 @@ class QuasiNewton {
     return false;
   }
 
+  /// Returns the slope of the energy along the direction, which is down if it is above 0.
   template <class Preconditioner>
-  void find_direction(Preconditioner& preconditioner, const Vectors& force, const SharedLoop& shared) {
+  double find_direction(Preconditioner& preconditioner, const Vectors& force, const SharedLoop& shared) {
     assign(residual_, force, shared);
-    std::vector<double> fractions(pairs_.size());
-    for (std::size_t i = pairs_.size(); i-- > 0;) {
-      fractions[i] = dot(pairs_[i].step, residual_, shared) / pairs_[i].product;
-      add(residual_, -fractions[i], pairs_[i].change, shared);
+    const std::size_t count = pairs_.size();
+    std::array<double, max_pairs> fractions{};
+    double along = count > 0 ? dot(pairs_.back().step, residual_, shared) : 0;
+    for (std::size_t i = count; i-- > 0;) {
+      fractions[i] = along / pairs_[i].product;
+      along = add_and_dot(residual_, -fractions[i], pairs_[i].change, pairs_[i > 0 ? i - 1 : 0].step, shared);
     }
     preconditioner.apply(residual_, direction_, shared);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      add(direction_, fractions[i] - dot(pairs_[i].change, direction_, shared) / pairs_[i].product, pairs_[i].step,
-          shared);
+    along = count > 0 ? dot(pairs_.front().change, direction_, shared) : dot(direction_, force, shared);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double fraction = fractions[i] - along / pairs_[i].product;
+      along = i + 1 < count ? add_and_dot(direction_, fraction, pairs_[i].step, pairs_[i + 1].change, shared)
+                            : add_and_dot(direction_, fraction, pairs_[i].step, force, shared);
     }
+    return along;
   }
 
   void learn(double length, const Vectors& force, const SharedLoop& shared) {
@@ -100,8 +107,8 @@ class QuasiNewton {
     pair.change.resize(direction_.size());
     shared.run(direction_.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t e = first; e < last; ++e) {
-        pair.step[e] = length * direction_[e];
-        pair.change[e] = before_[e] - force[e];
+        pair.step[e] = rounded<float>(length * direction_[e]);
+        pair.change[e] = rounded<float>(before_[e] - force[e]);
       }
     });
     pair.product = dot(pair.step, pair.change, shared);

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "body/body_view.h"
 #include "core/scenarios.h"
 #include "elastic/energy.h"
 #include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/linear_prediction.h"
 #include "equilibrium/link_energy.h"
 #include "equilibrium/material_energy.h"
 #include "equilibrium/simplex_batches.h"
@@ -39,6 +41,10 @@ class MaterialTest : public QObject {
   void materials_that_stiffen_equal_finite_elements();
   void the_unit_of_length_does_not_matter();
   void it_is_found_after_half_the_width_in_one_move();
+  void a_prediction_goes_on_with_the_last_frame();
+  void a_later_move_begins_near_its_end();
+  void where_a_drag_ends_does_not_depend_on_its_way();
+  void positions_that_are_set_end_a_drag();
   void no_iteration_raises_the_energy();
   void a_change_of_the_material_moves_the_minimum();
   void a_cut_gives_the_minimum_of_the_cut_object();
@@ -126,6 +132,18 @@ struct Scene {
   StrainLaw law;
   std::vector<ElementId> pins, handle;
 };
+
+/// Moves the handle this far from rest, as a pass does.
+void move_handle(Body& body, const Scene& scene, const std::array<double, 3>& by) {
+  body.with_view([&]<class View>(const View& view) {
+    for (const ElementId e : scene.handle) {
+      for (int k = 0; k < View::Dimension; ++k) {
+        view.set_position(e, k, scene.mesh->rest[std::size_t{e} * 3 + std::size_t(k)] + by[std::size_t(k)]);
+      }
+    }
+  });
+  body.note_move();
+}
 
 std::vector<double> positions_of(const Body& body) {
   std::vector<double> at(body.mesh().rest.size());
@@ -438,6 +456,78 @@ void MaterialTest::it_is_found_after_half_the_width_in_one_move() {
     const std::vector<double> by{3.2, -2.4, 0};
     QVERIFY(error_from(scene, scene.moved(by), by) < 1e-6);
   }
+}
+
+void MaterialTest::a_prediction_goes_on_with_the_last_frame() {
+  using Frame = Vectors<1>;
+  const auto frame = [](double held, double free) {
+    Frame result(2);
+    result[0][0] = held;
+    result[1][0] = free;
+    return result;
+  };
+  const std::vector<std::uint8_t> fixed{1, 0};
+  LinearPrediction<1> prediction;
+  const auto predicted = [&](Frame at, Frame motion, bool has_converged = true) {
+    const bool predicts = prediction.predict(at, motion, fixed, has_converged, {});
+    return std::tuple(predicts, at[0][0], at[1][0], motion[0][0]);
+  };
+  QVERIFY(predicted(frame(0, 0), frame(2, 0)) == std::tuple(false, 0.0, 0.0, 2.0));  // the first frame
+  QVERIFY(predicted(frame(2, 1), frame(1, 0)) == std::tuple(true, 3.0, 1.5, 0.0));
+  QVERIFY(predicted(frame(3, 2), frame(-1, 0)) == std::tuple(true, 2.0, 1.0, 0.0));    // back to the frame before
+  QVERIFY(predicted(frame(2, 1), frame(-9, 0)) == std::tuple(true, 0.0, -1.0, -7.0));  // at most twice as far
+  QVERIFY(predicted(frame(-7, 0), frame(1, 0), false) == std::tuple(false, -7.0, 0.0, 1.0));
+  QVERIFY(predicted(frame(-6, 1), frame(1, 0)) == std::tuple(false, -6.0, 1.0, 1.0));  // the last one had not converged
+  prediction.forget();
+  QVERIFY(predicted(frame(-5, 2), frame(1, 0)) == std::tuple(false, -5.0, 2.0, 1.0));
+}
+
+void MaterialTest::a_later_move_begins_near_its_end() {
+  const Scene scene(block(MeshKind::tetra, 9), 1.5);
+  const auto error_of_one_iteration = [&](int before) {  // frames that converged before
+    Body body = scene.body();
+    const auto solver = EquilibriumSolver::make(3);
+    for (int frame = 3 - before; frame <= 3; ++frame) {
+      move_handle(body, scene, {0.4 * frame, -0.3 * frame, 0});
+      frame < 3 ? void(solver->solve(body, scene.handle, 1e-4, 1000)) : solver->iterate(body, scene.handle);
+    }
+    return relative_error(positions_of(body), scene.finite_elements(std::vector<double>{1.2, -0.9, 0}), *scene.mesh);
+  };
+  const double extended = error_of_one_iteration(1), predicted = error_of_one_iteration(2);
+  QVERIFY2(predicted < extended / 4, qPrintable(QString("%1 against %2").arg(predicted).arg(extended)));
+}
+
+void MaterialTest::where_a_drag_ends_does_not_depend_on_its_way() {
+  const Scene scene(block(MeshKind::tetra, 7), 1.5);
+  Body body = scene.body();
+  const auto solver = EquilibriumSolver::make(3);
+  for (const double share : {0.2, 0.5, 0.9, 1.6, 1.2, 1.1, 1.0}) {  // farther, and back
+    move_handle(body, scene, {1.2 * share, -0.9 * share, 0.3 * share * share});
+    solver->solve(body, scene.handle, share == 1 ? 1e-8 : 1e-2, 1000);
+  }
+  const std::vector<double> right = scene.finite_elements(std::vector<double>{1.2, -0.9, 0.3});
+  QVERIFY(relative_error(positions_of(body), right, *scene.mesh) < 1e-6);
+}
+
+void MaterialTest::positions_that_are_set_end_a_drag() {
+  const Scene scene(block(MeshKind::tetra, 7), 1.5);
+  Body body = scene.body();
+  const auto solver = EquilibriumSolver::make(3);
+  for (const double share : {0.5, 1.0}) {
+    move_handle(body, scene, {share, 0, 0});
+    solver->solve(body, scene.handle, 1e-4, 1000);
+  }
+  Body other = scene.body();
+  other.set_positions(positions_of(body));
+  body.set_positions(positions_of(body));
+  const auto fresh = EquilibriumSolver::make(3);
+  fresh->iterate(other, scene.handle);
+  solver->iterate(body, scene.handle);
+  move_handle(body, scene, {1.5, 0, 0});
+  move_handle(other, scene, {1.5, 0, 0});
+  fresh->iterate(other, scene.handle);
+  solver->iterate(body, scene.handle);
+  QVERIFY(positions_of(body) == positions_of(other));
 }
 
 void MaterialTest::no_iteration_raises_the_energy() {
