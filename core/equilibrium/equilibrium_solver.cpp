@@ -1,6 +1,7 @@
 #include "equilibrium/equilibrium_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -131,12 +132,13 @@ class Equilibrator final : public EquilibriumSolver {
     if (is_new || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       uses_material() ? note_links() : update_links(body);
     }
-    if (is_new || !is_same_problem(now, held)) {
+    const bool is_same = !is_new && is_same_problem(now, held);
+    if (!is_same) {
       prediction_.forget();
       residual_ = 1;  // unknown
     }
     LoopTeam team = loop_team();
-    read(body, team.loop());
+    const bool has_moved = read(body, team.loop());
     if (is_new || now.positions != seen_.positions) {
       for (std::size_t e = 0; e < iterate_.size(); ++e) {
         iterate_[e] = vector_of(shown_.positions[e]);
@@ -155,7 +157,9 @@ class Equilibrator final : public EquilibriumSolver {
     if (other_fixed || now.positions != seen_.positions || now.energy != seen_.energy || now.cuts != seen_.cuts) {
       hold_lone_frames();
     }
-    make_valid(body, team.loop());
+    if (!is_same || has_moved) {
+      make_valid(body, team.loop());
+    }
     hold_fixed();
     seen_ = body.revisions();
   }
@@ -194,23 +198,31 @@ class Equilibrator final : public EquilibriumSolver {
     return result;
   }
 
-  void read(const Body& body, const SharedLoop& shared) {
+  /// Returns true if elements have moved by more than rounding since positions were read or written.
+  bool read(const Body& body, const SharedLoop& shared) {
     const PositionView positions = body.stored_positions();
+    std::atomic<bool> has_moved = false;
     const bool stores_displacements = body.stores_displacements();
     largest_ = shared.largest(mesh_->element_count(), [&](std::size_t first, std::size_t last) {
       double largest = 0;
+      bool moves = false;
       for (auto e = static_cast<ElementId>(first); e < last; ++e) {
         for (int k = 0; k < D; ++k) {
           const double at = positions(e, k), from_rest = at - mesh_->rest[std::size_t{e} * D + std::size_t(k)];
+          moves = moves || !(std::abs(from_rest - shown_.positions[e][k]) <= tolerance_ / 4);
           shown_.positions[e][k] = from_rest;
           largest = std::max(largest, std::abs(stores_displacements ? from_rest : at));
         }
+      }
+      if (moves) {
+        has_moved = true;
       }
       return largest;
     });
     epsilon_ = body.precision() == Precision::single_precision ? std::numeric_limits<float>::epsilon()
                                                                : std::numeric_limits<double>::epsilon();
     tolerance_ = 4 * epsilon_ * largest_;
+    return has_moved;
   }
 
   Vector rest_vector(LinkId link) const {
