@@ -1,5 +1,6 @@
 #include "mesh/split.h"
 
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -332,6 +333,144 @@ class Origins {
   std::vector<ElementId> original_;  // of each appended element: itself, or what it is a copy of
 };
 
+/// Finds the links that are cut after a split.
+class CutsAfter {
+ public:
+  CutsAfter(const Split& split, std::span<const LinkId> cuts)
+      : before_(*split.before),
+        after_(*split.after),
+        elements_(split.edit.elements),
+        cuts_(cuts),
+        is_cut_(after_.link_count()) {
+    for (const SplitPoint& point : elements_) {
+      carriers_.push_back(together({point.of.begin(), point.of.end()}));
+    }
+    add_removed(split.edit);
+    for (LinkId link = 0; link < after_.link_count(); ++link) {
+      const LinkId on = split.parents[link];
+      is_cut_[link] = on == Split::none ? is_inside_gone(link) : was_cut(on);
+    }
+    keep_stubs();
+  }
+
+  std::vector<LinkId> links() const {
+    std::vector<LinkId> result;
+    for (LinkId link = 0; link < is_cut_.size(); ++link) {
+      if (is_cut_[link]) {
+        result.push_back(link);
+      }
+    }
+    return result;
+  }
+
+ private:
+  using Elements = std::vector<ElementId>;  // ascending
+  /// A cell or a face that the split replaces.
+  struct Removed {
+    Elements corners;
+    bool is_gone = false;  // it has a cut link
+  };
+
+  /// Returns the old elements between which some elements lie.
+  Elements together(const Elements& elements) const {
+    std::set<ElementId> all;
+    for (const ElementId one : elements) {
+      if (one < before_.element_count()) {
+        all.insert(one);
+      } else {
+        const Elements& carrier = carriers_[one - before_.element_count()];
+        all.insert(carrier.begin(), carrier.end());
+      }
+    }
+    return {all.begin(), all.end()};
+  }
+  void add_removed(const SplitEdit& edit);
+  bool was_cut(LinkId link) const { return std::ranges::binary_search(cuts_, link); }
+  bool is_inside_gone(LinkId link) const;
+  bool is_loose(const Mesh& mesh, ElementId element, auto is_cut) const {
+    const auto links =
+        std::span(mesh.entry_link).subspan(mesh.first_entry[element], mesh.neighbours_of(element).size());
+    return std::ranges::all_of(links, is_cut);
+  }
+  void keep_stub(ElementId element) {
+    if (is_loose(after_, element, [this](LinkId link) { return is_cut_[link]; }) &&
+        !after_.neighbours_of(element).empty()) {
+      is_cut_[after_.entry_link[after_.first_entry[element]]] = false;
+    }
+  }
+  void keep_stubs();
+
+  const Mesh &before_, &after_;
+  std::span<const SplitPoint> elements_;
+  std::span<const LinkId> cuts_;
+  std::vector<bool> is_cut_;  // of each link after the split
+  std::vector<Elements> carriers_;
+  std::vector<Removed> removed_;
+  std::unordered_map<ElementId, std::vector<std::size_t>> removed_at_;  // by corner
+};
+
+void CutsAfter::add_removed(const SplitEdit& edit) {
+  const auto add = [this](const auto& corners, auto for_each) {
+    Removed one{{corners.begin(), corners.end()}};
+    for_each(corners, [&](ElementId a, ElementId b) {
+      const auto link = find_link(before_, a, b);
+      one.is_gone = one.is_gone || (link && was_cut(*link));
+    });
+    std::ranges::sort(one.corners);
+    for (const ElementId corner : one.corners) {
+      removed_at_[corner].push_back(removed_.size());
+    }
+    removed_.push_back(std::move(one));
+  };
+  const auto add_face = [&add](std::span<const ElementId> corners) {
+    add(corners, [](auto face, auto visit) { for_each_side(face, visit); });
+  };
+  const auto add_cell = [&add](const auto& corners) {
+    add(corners, [](const auto& cell, auto visit) { for_each_edge(cell, visit); });
+  };
+  for (const std::uint32_t one : edit.removed) {
+    add_face(before_.triangles[one]);
+  }
+  for_each_polygon(before_.polygons, [&](std::uint32_t number, auto corners) {
+    if (std::ranges::binary_search(edit.removed_polygons, number)) {
+      add_face(corners);
+    }
+  });
+  for (const CellId cell : edit.removed_cells) {
+    const std::size_t tetrahedra = before_.tetrahedra.size();
+    cell < tetrahedra ? add_cell(before_.tetrahedra[cell]) : add_cell(before_.hexahedra[cell - tetrahedra]);
+  }
+}
+
+/// True if everything inside which a new link lies is gone. So no piece of it is whole, and nothing else is cut.
+bool CutsAfter::is_inside_gone(LinkId link) const {
+  const Elements carrier = together({after_.links[link].begin(), after_.links[link].end()});
+  const auto found = removed_at_.find(carrier.front());
+  bool result = false;
+  for (std::size_t i = 0; found != removed_at_.end() && i < found->second.size(); ++i) {
+    if (const Removed& one = removed_[found->second[i]]; std::ranges::includes(one.corners, carrier)) {
+      if (!one.is_gone) {
+        return false;
+      }
+      result = true;
+    }
+  }
+  return result;
+}
+
+/// An element all of whose links would be cut stays linked to its first neighbour, so that it is no part of its own.
+/// What is gone stays so: it has other links there.
+void CutsAfter::keep_stubs() {
+  for (ElementId i = 0; i < elements_.size(); ++i) {
+    keep_stub(before_.element_count() + i);
+    const ElementId of = elements_[i].of[0];
+    if (elements_[i].is_copy() && of < before_.element_count() &&
+        !is_loose(before_, of, [this](LinkId link) { return was_cut(link); })) {
+      keep_stub(of);
+    }
+  }
+}
+
 }  // namespace
 
 bool can_split(const Mesh& mesh) { return mesh.has_cells() || (!mesh.triangles.empty() && !mesh.lattice); }
@@ -381,16 +520,7 @@ std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId
 }
 
 std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts) {
-  std::vector<LinkId> result;
-  if (cuts.empty()) {
-    return result;
-  }
-  for (LinkId link = 0; link < split.parents.size(); ++link) {
-    if (std::ranges::binary_search(cuts, split.parents[link])) {
-      result.push_back(link);
-    }
-  }
-  return result;
+  return cuts.empty() ? std::vector<LinkId>() : CutsAfter(split, cuts).links();
 }
 
 std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins) {

@@ -64,8 +64,8 @@ struct Split {
 
   MeshPointer before, after;
   SplitEdit edit;
-  /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face or
-  /// a cell.
+  /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face
+  /// or a cell.
   std::vector<LinkId> parents;
   /// For each appended element: the link on which it lies; none for others.
   std::vector<LinkId> link_of;
@@ -91,7 +91,8 @@ std::vector<Point> rest_after(const Mesh& mesh, std::span<const SplitPoint> poin
 /// Applies an edit. Throws Error, with the reason, if it does not fit the mesh.
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit);
 
-/// Returns the links that are cut after the split: those on cut links. Ascending.
+/// Returns the links that are cut after the split: those on cut links, and new ones inside cells and faces that are
+/// gone, so that no piece of these comes back. Elements that would lose all links keep the first one. Ascending.
 std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts);
 /// Returns the pins after the split: also the new elements all of whose elements are pinned. Ascending.
 std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins);

@@ -8,6 +8,7 @@
 #include "mesh/divide_cells.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
+#include "mesh/parts.h"
 #include "mesh/surface.h"
 #include "program.h"
 #include "property.h"
@@ -38,6 +39,8 @@ class DivideCellsTest : public QObject {
   void only_hexahedra_at_the_stroke_become_tetrahedra();
   void faces_are_divided_with_their_cells_data();
   void faces_are_divided_with_their_cells();
+  void cells_that_are_gone_stay_gone_data();
+  void cells_that_are_gone_stay_gone();
   void edits_that_do_not_fit_are_refused();
 };
 
@@ -271,6 +274,30 @@ double inner_area(const MeshPointer& mesh) {
     }
   }
   return area;
+}
+
+Cuts cuts_of(const MeshPointer& mesh, const std::vector<LinkId>& links) {
+  Cuts cuts(mesh);
+  std::ranges::for_each(links, [&](LinkId link) { cuts.cut(link); });
+  return cuts;
+}
+
+/// Returns six times the volume of the cells that are not gone.
+double whole_volume(const MeshPointer& mesh, const std::vector<LinkId>& cut) {
+  const Cuts cuts = cuts_of(mesh, cut);
+  double sum = 0;
+  const auto add = [&](const Tetrahedron& one) { sum += volume(*mesh, one); };
+  for (const auto& cell : mesh->tetrahedra) {
+    if (is_whole(*mesh, cuts, cell)) {
+      add(cell);
+    }
+  }
+  for (const auto& cell : mesh->hexahedra) {
+    if (is_whole(*mesh, cuts, cell)) {
+      for_each_tetrahedron(*mesh, cell, add);
+    }
+  }
+  return sum;
 }
 
 std::size_t new_tetrahedra_per_old_one(const Split& split) {
@@ -563,6 +590,45 @@ void DivideCellsTest::faces_are_divided_with_their_cells() {
     QVERIFY(split->after->rest_position(split->after->polygons[i + 1]).x() >= 0);
   }
   QVERIFY(std::abs(area - 2 * (8 * 6 + 8 * 6 + 6 * 6)) < 1e-9);
+}
+
+void DivideCellsTest::cells_that_are_gone_stay_gone_data() { add_objects(); }
+
+/// Cuts links, so that cells are gone, and then splits across the gap, which no cell fills again.
+void DivideCellsTest::cells_that_are_gone_stay_gone() {
+  QFETCH(const bool, hexahedra);
+  QFETCH(const double, jitter);
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    std::mt19937_64 random(seed);
+    const MeshPointer mesh = block(hexahedra, jitter, seed);
+    std::vector<LinkId> cut;
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      const double a = mesh->rest_position(mesh->links[link][0]).x(), b = mesh->rest_position(mesh->links[link][1]).x();
+      if ((seed % 2 == 0 && (a < 4.4) != (b < 4.4)) || (seed % 2 == 1 && random() % 50 == 0)) {
+        cut.push_back(link);
+      }
+    }
+    const auto split = split_of(mesh, {{-30, 20 + 7.0 * double(seed)}, {200, 90 - 3.0 * double(seed)}});
+    QVERIFY(split != nullptr);
+    const auto after = cuts_after(*split, cut);
+    QVERIFY(std::abs(whole_volume(split->after, after) - whole_volume(mesh, cut)) < 1e-9);
+    // All pieces of a cell that is gone are gone, and what remains is on one of the two sides of the blade.
+    const std::uint32_t parts = count_parts(*mesh, cuts_of(mesh, cut));
+    QCOMPARE(count_parts(*split->after, cuts_of(split->after, after)), 2 * parts);
+  }
+  // One cell with all links at one element cut, which a blade separates from the others.
+  MeshParts parts;
+  parts.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  parts.tetrahedra = {{0, 1, 2, 3}};
+  add_links_along_edges(parts);
+  const MeshPointer mesh = build_mesh(std::move(parts));
+  for (const Stroke& stroke : {Stroke{{12, -9}, {-9, 12}}, Stroke{{7, 70}, {12, -70}}}) {
+    const auto split = split_of(mesh, seen_along_z(*mesh), stroke);
+    QVERIFY(split != nullptr);
+    const auto after = cuts_after(*split, std::vector<LinkId>{0, 1, 2});
+    QCOMPARE(whole_volume(split->after, after), 0.0);
+    QVERIFY(count_parts(*split->after, cuts_of(split->after, after)) <= 3);
+  }
 }
 
 void DivideCellsTest::edits_that_do_not_fit_are_refused() {
