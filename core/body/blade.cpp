@@ -1,10 +1,9 @@
 #include "body/blade.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "mesh/divide_cells.h"
 #include "mesh/error.h"
 #include "mesh/split_along.h"
 
@@ -20,31 +19,61 @@ void require(bool holds, const std::string& problem, const std::string& remedy) 
 /// Returns the direction across the plane of an object in two dimensions.
 Point across(const Mesh& mesh) { return Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])); }
 
-/// Parallel projection along a direction.
+constexpr double width = 1000;  // of the object in the view (pixels): StrokeInView moves strokes aside by a part of one
+
+/// Parallel projection along a direction, with the middle of the object at the origin.
 class ParallelView {
  public:
-  ParallelView(const Mesh& mesh, const Point& along) : from_(mesh.box[0]) {
-    constexpr double width = 1000;  // of the object (pixels): StrokeInView moves strokes aside by a part of a pixel
-    const double size = (mesh.box[1] - from_).norm();
+  ParallelView(const std::vector<Point>& points, const Point& along) {
+    Point low = points.front(), high = low;
+    for (const Point& point : points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+    middle_ = low + (high - low) / 2;
+    const double size = (high - low).stableNorm();
     right_ = (size > 0 ? width / size : 1) * along.unitOrthogonal();
     up_ = along.cross(right_);
   }
 
-  Eigen::Vector2d operator()(const Point& at) const { return {right_.dot(at - from_), up_.dot(at - from_)}; }
+  Eigen::Vector2d operator()(const Point& at) const { return {right_.dot(at - middle_), up_.dot(at - middle_)}; }
 
  private:
-  Point from_, right_, up_;
+  Point middle_, right_, up_;
 };
+
+/// Returns a stroke that is the same inside the square of 2 · `width` around the object, and runs along its sides where
+/// the stroke is outside. Far points would make the numbers coarse.
+std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& stroke) {
+  std::vector<Eigen::Vector2d> result;
+  const auto add = [&](const Eigen::Vector2d& at) { result.emplace_back(at.cwiseMax(-width).cwiseMin(width)); };
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+    const Eigen::Vector2d from = stroke[i], way = stroke[i + 1] - from;
+    std::vector<double> shares;  // where the segment meets the lines of the sides
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      for (const double side : {-width, width}) {
+        if (const double share = (side - from[k]) / way[k]; share > 0 && share < 1) {
+          shares.push_back(share);
+        }
+      }
+    }
+    std::ranges::sort(shares);
+    add(from);
+    std::ranges::for_each(shares, [&](double share) { add(from + share * way); });
+  }
+  add(stroke.back());
+  return result;
+}
 
 }  // namespace
 
 void check(const Blade& blade, const Mesh& mesh) {
   constexpr double smallest_angle = 1e-6;  // between the direction and the plane of an object
-  require(mesh.has_cells() || can_split(mesh), "the object has neither cells nor faces, or it is a lattice of faces",
-          "cut its links instead");
+  check_can_split(mesh, "blade");
   require(blade.line.size() > 1, "its line has fewer than two points", "give two or more");
   for (const Point& point : blade.line) {
     check_position(mesh, "blade", point);
+    require(point.cwiseAbs().maxCoeff() <= coordinate_limit, "a coordinate is too large", "use numbers up to 1e100");
   }
   const bool is_plane = mesh.space_dimension < 3;
   require(blade.along || is_plane, "it has no direction", "give the direction along which its line is swept");
@@ -58,13 +87,15 @@ void check(const Blade& blade, const Mesh& mesh) {
 SplitPointer split_along(const Blade& blade, const Body& body) {
   const Mesh& mesh = body.mesh();
   check(blade, mesh);
-  const ParallelView seen(mesh, blade.along.value_or(across(mesh)).stableNormalized());
-  const PositionView positions = body.positions();
-  std::vector<ViewPlace> places;
-  places.reserve(mesh.element_count());
+  std::vector<Point> points;
+  points.reserve(mesh.element_count());
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    places.push_back({seen(point_of(mesh, positions, e))});
+    points.push_back(point_of(mesh, body.positions(), e));
   }
+  const ParallelView seen(points, blade.along.value_or(across(mesh)).stableNormalized());
+  std::vector<ViewPlace> places;
+  places.reserve(points.size());
+  std::ranges::for_each(points, [&](const Point& point) { places.push_back({seen(point)}); });
   std::vector<Eigen::Vector2d> stroke;
   for (Point at : blade.line) {
     for (int k = 0; k < 3; ++k) {
@@ -72,9 +103,7 @@ SplitPointer split_along(const Blade& blade, const Body& body) {
     }
     stroke.push_back(seen(at));
   }
-  std::vector<LinkId> links(mesh.has_cells() ? 0 : mesh.link_count());
-  std::iota(links.begin(), links.end(), 0);
-  SplitEdit edit = mesh.has_cells() ? divide_cells(mesh, places, stroke) : split_along(mesh, places, stroke, links);
+  SplitEdit edit = split_along(mesh, places, clipped(stroke));
   return edit.empty() ? nullptr : make_split(body.mesh_pointer(), std::move(edit));
 }
 

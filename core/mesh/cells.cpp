@@ -45,12 +45,19 @@ bool OrderAtRest::operator()(ElementId one, ElementId other) const {
 
 double tetrahedron_quality(const std::array<Point, 4>& corners) {
   const auto& [p, q, r, s] = corners;
-  const Point a = q - p, b = r - p, c = s - p;
+  const double longest =
+      std::max({(q - p).cwiseAbs().maxCoeff(), (r - p).cwiseAbs().maxCoeff(), (s - p).cwiseAbs().maxCoeff()});
+  if (!(longest > 0) || !std::isfinite(longest)) {
+    return 0;
+  }
+  const double scale = std::exp2(-std::ilogb(longest));  // a power of two, so that nothing is rounded
+  const Point a = scale * (q - p), b = scale * (r - p), c = scale * (s - p);
   const Point bc = b.cross(c), ab = a.cross(b), ac = a.cross(c);
   const double volume = std::abs(a.dot(bc));  // times 6
   const double area = bc.norm() + ab.norm() + ac.norm() + (b - a).cross(c - a).norm();
   const double radius = (a.squaredNorm() * bc - b.squaredNorm() * ac + c.squaredNorm() * ab).norm();
-  return volume > 0 ? 6 * volume * volume / (area * radius) : 0;
+  const double quality = 6 * volume * volume / (area * radius);
+  return quality > 0 ? quality : 0;  // also if it is NaN
 }
 
 namespace {
@@ -234,10 +241,12 @@ void CellTable::pair_with_triangles() {
     std::rotate(corner.begin(), std::ranges::min_element(corner, OrderAtRest{*mesh_}), corner.end());
     const auto one = open.find(key_of_three(corner[0], corner[1], corner[2]));
     const auto other = open.find(key_of_three(corner[0], corner[2], corner[3]));
-    if (one != open.end() && other != open.end()) {
+    if (one != open.end() && other != open.end() && one != other) {
       twins_[side] = one->second;
       second_twins_[side] = other->second;
       twins_[one->second] = twins_[other->second] = side;
+      open.erase(one);
+      open.erase(other);
     }
   }
 }

@@ -54,7 +54,7 @@ void for_each_tetrahedron(const Mesh& mesh, const std::array<ElementId, 8>& cell
 }
 
 /// Returns three times the radius of the inscribed sphere of a tetrahedron, relative to that of the circumscribed one:
-/// 1 if it is regular, 0 if it is flat.
+/// 1 if it is regular, 0 if it is flat or not finite.
 double tetrahedron_quality(const std::array<Point, 4>& corners);
 
 /// True if two elements are linked and the link is cut.

@@ -37,11 +37,7 @@ class StrokeRaster {
   }
 
   /// Returns the square of a position. Positions outside the box of the stroke are in the outermost squares.
-  Square square(const Eigen::Vector2d& position) const {
-    const auto inside = [](double one) { return std::uint16_t(one > 0 ? std::min(one, count - 1.0) + 1 : 1); };
-    const Eigen::Vector2d at = scaled(position);
-    return {inside(at.x()), inside(at.y())};
-  }
+  Square square(const Eigen::Vector2d& position) const { return square_at(scaled(position)); }
   /// True if a part of the stroke is in a box.
   bool has_stroke(Square low, Square high) const {
     return at(high.x, high.y) + at(low.x - 1U, low.y - 1U) != at(low.x - 1U, high.y) + at(high.x, low.y - 1U);
@@ -53,6 +49,11 @@ class StrokeRaster {
 
   std::uint32_t& at(std::size_t x, std::size_t y) { return sums_[width * y + x]; }
   std::uint32_t at(std::size_t x, std::size_t y) const { return sums_[width * y + x]; }
+  /// NaN counts as the first square.
+  static Square square_at(const Eigen::Vector2d& scaled) {
+    const auto index = [](double one) { return std::uint16_t(one > 0 ? std::min(one, count - 1.0) + 1 : 1); };
+    return {index(scaled.x()), index(scaled.y())};
+  }
   Eigen::Vector2d scaled(const Eigen::Vector2d& position) const {
     constexpr double margin = 1.5;
     return (position - low_) * scale_ + Eigen::Vector2d::Constant(margin);
@@ -67,13 +68,14 @@ class StrokeRaster {
 /// Marks the squares of a segment, in steps of at most one square.
 void StrokeRaster::mark(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   constexpr double rounding = 1e-6;
-  const double steps = std::ceil((to - from).cwiseAbs().maxCoeff()) + 1;
+  // Never more than there are squares, except if the stroke is not finite.
+  const double steps = std::min(std::ceil((to - from).cwiseAbs().maxCoeff()) + 1, count + 1.0);
   for (double i = 0; i < steps; ++i) {
     const Eigen::Vector2d a = from + i / steps * (to - from), b = from + (i + 1) / steps * (to - from);
-    const Eigen::Vector2d low = a.cwiseMin(b).array() - rounding, high = a.cwiseMax(b).array() + rounding;
-    for (auto y = std::size_t(low.y()); y <= std::size_t(high.y()); ++y) {
-      for (auto x = std::size_t(low.x()); x <= std::size_t(high.x()); ++x) {
-        at(x + 1, y + 1) = 1;
+    const Square low = square_at(a.cwiseMin(b).array() - rounding), high = square_at(a.cwiseMax(b).array() + rounding);
+    for (std::size_t y = low.y; y <= high.y; ++y) {
+      for (std::size_t x = low.x; x <= high.x; ++x) {
+        at(x, y) = 1;
       }
     }
   }

@@ -25,7 +25,7 @@ inline constexpr double least_piece_quality = 0.15;
 /// for_each_tetrahedron. Other hexahedra stay; their sides agree with the new tetrahedra, because the diagonal of a
 /// side depends on its own corners alone.
 ///
-/// With `reached`, which is ascending, the blade crosses only cells with one of these links.
+/// With `reached`, which is ascending, the blade crosses only edges of cells with one of these links.
 ///
 /// The edit is empty if nothing comes apart. Takes one pass over all elements and two over all cells, and beyond it
 /// time in proportion to the cells at the stroke.

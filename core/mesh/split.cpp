@@ -1,7 +1,6 @@
 #include "mesh/split.h"
 
 #include <set>
-#include <string>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -91,12 +90,13 @@ std::uint32_t polygon_count(const Mesh& mesh) {
 }
 
 void check(const SplitEdit& edit, const Mesh& mesh) {
-  if (!can_split(mesh)) {
-    refuse("the object has neither cells nor faces, or it is a lattice of faces", "cut its links instead");
-  }
+  check_can_split(mesh, "split");
   if (edit.empty() && edit.triangles.empty() && edit.polygons.empty() && edit.tetrahedra.empty() &&
       edit.hexahedra.empty()) {
     refuse("it changes nothing", "leave it out");
+  }
+  if (!mesh.has_cells() && !(edit.tetrahedra.empty() && edit.hexahedra.empty())) {
+    refuse("it adds cells to an object without cells", "add faces only");
   }
   check_points(edit.elements, mesh.element_count());
   check_removed(edit.removed, mesh.own_triangles, "triangles");
@@ -474,6 +474,12 @@ void CutsAfter::keep_stubs() {
 }  // namespace
 
 bool can_split(const Mesh& mesh) { return mesh.has_cells() || (!mesh.triangles.empty() && !mesh.lattice); }
+
+void check_can_split(const Mesh& mesh, const std::string& where) {
+  if (!can_split(mesh)) {
+    throw Error(where, "the object has neither cells nor faces, or it is a lattice of faces", "cut its links instead");
+  }
+}
 
 SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
   check(edit, *mesh);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -81,6 +82,8 @@ using SplitPointer = std::shared_ptr<const Split>;
 /// True if strokes may divide this mesh: it has cells, or it has faces and is not a lattice. A divided lattice of cells
 /// is no longer a lattice.
 bool can_split(const Mesh& mesh);
+/// Throws Error at `where` if strokes may not divide this mesh.
+void check_can_split(const Mesh& mesh, const std::string& where);
 
 /// Returns those of the links that are neither the side of a face nor the edge of a cell.
 std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId> links);
