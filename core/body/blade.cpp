@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "mesh/error.h"
 #include "mesh/split_along.h"
@@ -19,7 +20,8 @@ void require(bool holds, const std::string& problem, const std::string& remedy) 
 /// Returns the direction across the plane of an object in two dimensions.
 Point across(const Mesh& mesh) { return Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])); }
 
-constexpr double width = 1000;  // of the object in the view (pixels): StrokeInView moves strokes aside by a part of one
+constexpr double view_width =
+    1000;  // of the object in the view (pixels): StrokeInView moves strokes aside by a part of one
 
 /// Parallel projection along a direction, with the middle of the object at the origin.
 class ParallelView {
@@ -32,7 +34,7 @@ class ParallelView {
     }
     middle_ = low + (high - low) / 2;
     const double size = (high - low).stableNorm();
-    right_ = (size > 0 ? width / size : 1) * along.unitOrthogonal();
+    right_ = (size > 0 ? view_width / size : 1) * along.unitOrthogonal();
     up_ = along.cross(right_);
   }
 
@@ -42,16 +44,18 @@ class ParallelView {
   Point middle_, right_, up_;
 };
 
-/// Returns a stroke that is the same inside the square of 2 · `width` around the object, and runs along its sides where
-/// the stroke is outside. Far points would make the numbers coarse.
+/// Returns a stroke that is the same inside the square of 2 · `view_width` around the object, and runs along its sides
+/// where the stroke is outside. Far points would make the numbers coarse.
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& stroke) {
   std::vector<Eigen::Vector2d> result;
-  const auto add = [&](const Eigen::Vector2d& at) { result.emplace_back(at.cwiseMax(-width).cwiseMin(width)); };
+  const auto add = [&](const Eigen::Vector2d& at) {
+    result.emplace_back(at.cwiseMax(-view_width).cwiseMin(view_width));
+  };
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
     const Eigen::Vector2d from = stroke[i], way = stroke[i + 1] - from;
     std::vector<double> shares;  // where the segment meets the lines of the sides
     for (Eigen::Index k = 0; k < 2; ++k) {
-      for (const double side : {-width, width}) {
+      for (const double side : {-view_width, view_width}) {
         if (const double share = (side - from[k]) / way[k]; share > 0 && share < 1) {
           shares.push_back(share);
         }
@@ -71,6 +75,8 @@ void check(const Blade& blade, const Mesh& mesh) {
   constexpr double smallest_angle = 1e-6;  // between the direction and the plane of an object
   check_can_split(mesh, "blade");
   require(blade.line.size() > 1, "its line has fewer than two points", "give two or more");
+  require(blade.line.size() <= blade_point_limit,
+          "its line has more than " + std::to_string(blade_point_limit) + " points", "give fewer");
   for (const Point& point : blade.line) {
     check_position(mesh, "blade", point);
     require(point.cwiseAbs().maxCoeff() <= coordinate_limit, "a coordinate is too large", "use numbers up to 1e100");

@@ -14,6 +14,9 @@ struct Blade {
   std::optional<Point> along = {};  // of any length; without it, the direction across the plane of the object
 };
 
+/// A line has at most this many points: each edge of the object is compared with all segments.
+inline constexpr std::size_t blade_point_limit = 10'000;
+
 /// Throws Error if an object has neither cells nor faces that can be split, and if the line or the direction is not one
 /// for this object.
 void check(const Blade& blade, const Mesh& mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "mesh/error.h"
@@ -137,14 +138,6 @@ void check(const Snapshot& snapshot, const Mesh& mesh, Precision precision) {
 
 namespace {
 
-LinkSoftness between(const LinkSoftness& one, const LinkSoftness& other) {
-  LinkSoftness result;
-  for (const auto& [parameter, value] : softness_numbers) {
-    result.*value = one.*value + (other.*value - one.*value) / 2;
-  }
-  return result;
-}
-
 /// Reads and writes the coordinates that a body stores, element by element.
 class SplitPositions {
  public:
@@ -236,21 +229,86 @@ Snapshot SplitPositions::snapshot() {
   return std::move(result_);
 }
 
+/// Adds links around two old elements: the one that joins them, or the first and last ones of the ways between them
+/// over one or two others.
+void add_links_between(const Mesh& mesh, ElementId a, ElementId b, std::vector<LinkId>& links) {
+  if (const auto link = find_link(mesh, a, b)) {
+    links.push_back(*link);
+    return;
+  }
+  const std::size_t before = links.size();
+  const auto add_ways = [&](bool over_two) {
+    for (const ElementId first : mesh.neighbours_of(a)) {
+      for (const ElementId last : mesh.neighbours_of(b)) {
+        if (over_two ? find_link(mesh, first, last).has_value() : first == last) {
+          links.push_back(*find_link(mesh, a, first));
+          links.push_back(*find_link(mesh, last, b));
+        }
+      }
+    }
+  };
+  add_ways(false);
+  if (links.size() == before) {
+    add_ways(true);
+  }
+}
+
+/// Returns the old links around a new one that lies inside a face or a cell.
+std::vector<LinkId> links_around(const Split& split, LinkId link) {
+  std::set<ElementId> corners;  // between which it lies
+  std::vector<ElementId> open(split.after->links[link].begin(), split.after->links[link].end());
+  while (!open.empty()) {
+    const ElementId one = open.back();
+    open.pop_back();
+    if (one < split.before->element_count()) {
+      corners.insert(one);
+    } else {
+      const auto& of = split.edit.elements[one - split.before->element_count()].of;
+      open.insert(open.end(), of.begin(), of.end());
+    }
+  }
+  std::vector<LinkId> result;
+  for (auto a = corners.begin(); a != corners.end(); ++a) {
+    for (auto b = std::next(a); b != corners.end(); ++b) {
+      add_links_between(*split.before, *a, *b, result);
+    }
+  }
+  return result;
+}
+
+LinkSoftness mean(const Softness& softness, const std::vector<LinkId>& links) {
+  LinkSoftness result;
+  for (const auto& [parameter, value] : softness_numbers) {
+    double sum = 0;
+    for (const LinkId link : links) {
+      sum += softness.of(link).*value;
+    }
+    result.*value = sum / double(links.size());
+  }
+  return result;
+}
+
+/// A link on an old one takes its softness. A link inside a face or a cell has the mean of the links at its ends, or of
+/// those around it.
 std::shared_ptr<const Softness> softness_after(const Split& split, const std::shared_ptr<const Softness>& softness) {
   if (softness->links.empty()) {
     return softness;
   }
   Softness result{softness->global, {}, softness->energy, softness->axes};
   for (LinkId link = 0; link < split.parents.size(); ++link) {
-    LinkId one = split.parents[link], other = one;
-    if (one == Split::none) {
-      one = split.link_at(split.after->links[link][0]);
-      other = split.link_at(split.after->links[link][1]);
-      one = one == Split::none ? other : one;
-      other = other == Split::none ? one : other;
+    if (const LinkId on = split.parents[link]; on != Split::none) {
+      if (softness->links.contains(on)) {
+        result.links.set(link, softness->of(on));
+      }
+      continue;
     }
-    if (one != Split::none && (softness->links.contains(one) || softness->links.contains(other))) {
-      result.links.set(link, between(softness->of(one), softness->of(other)));
+    std::vector<LinkId> from{split.link_at(split.after->links[link][0]), split.link_at(split.after->links[link][1])};
+    std::erase(from, Split::none);
+    if (from.empty()) {
+      from = links_around(split, link);
+    }
+    if (std::ranges::any_of(from, [&](LinkId one) { return softness->links.contains(one); })) {
+      result.links.set(link, mean(*softness, from));
     }
   }
   return std::make_shared<const Softness>(std::move(result));

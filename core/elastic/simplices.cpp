@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mesh/cells.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/error.h"
 #include "mesh/fixed_matrix.h"
 #include "mesh/layers.h"
@@ -287,41 +288,6 @@ namespace {
 // Pins that are closer to one line or point than this share of the object's size do not hold it.
 constexpr double apart_from = 1e-6;
 
-/// The elements joined by cells, as a forest: the root of each element names its part.
-class AnchorForest {
- public:
-  explicit AnchorForest(const Simplices& simplices, ElementId count) : parent_(count), in_cell_(count, false) {
-    for (ElementId e = 0; e < count; ++e) {
-      parent_[e] = e;
-    }
-    for (std::size_t s = 0; s < simplices.count(); ++s) {
-      const auto corners = simplices.corners_of(s);
-      for (const ElementId corner : corners) {
-        in_cell_[corner] = true;
-        join(corners[0], corner);
-      }
-    }
-  }
-
-  ElementId root(ElementId element) {
-    while (parent_[element] != element) {
-      element = parent_[element] = parent_[parent_[element]];
-    }
-    return element;
-  }
-  bool in_cell(ElementId element) const { return in_cell_[element]; }
-
- private:
-  /// Joins two parts. The lower id becomes the root, so a part is named after its first element.
-  void join(ElementId a, ElementId b) {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent_[high] = low;
-  }
-
-  std::vector<ElementId> parent_;
-  std::vector<bool> in_cell_;
-};
-
 /// Subtracts from the points their component along the line through the origin with direction `unit`. Returns the
 /// longest remainder.
 Point furthest(const std::vector<Point>& from_first, const Point& unit) {
@@ -381,13 +347,21 @@ void check_part_held(const Mesh& mesh, ElementId part, const std::vector<Element
 
 void check_held(const Simplices& simplices, const Mesh& mesh, std::span<const ElementId> pins) {
   check_pinned(mesh, pins);
-  AnchorForest anchors(simplices, mesh.element_count());
-  std::map<ElementId, std::vector<ElementId>> pins_of;
+  DisjointSets parts(mesh.element_count());  // joined by cells
+  std::vector<bool> in_cell(mesh.element_count(), false);
+  for (std::size_t s = 0; s < simplices.count(); ++s) {
+    const auto corners = simplices.corners_of(s);
+    for (const ElementId corner : corners) {
+      in_cell[corner] = true;
+      parts.unite(corners[0], corner);
+    }
+  }
+  std::map<std::size_t, std::vector<ElementId>> pins_of;
   for (const ElementId pin : pins) {
-    pins_of[anchors.root(pin)].push_back(pin);
+    pins_of[parts.of(pin)].push_back(pin);
   }
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    if (anchors.in_cell(e) && anchors.root(e) == e) {
+    if (in_cell[e] && parts.of(e) == e) {
       check_part_held(mesh, e, pins_of[e]);
     }
   }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include "mesh/cells.h"
@@ -151,17 +150,22 @@ bool is_closed(const Mesh& mesh) {
   return there == back && std::ranges::adjacent_find(there) == there.end();
 }
 
-/// Sums the volumes of cells, each with the sign of its orientation at rest.
+/// Sums the volumes of cells without a cut link, each with the sign of its orientation at rest.
 template <class PositionOf>
-double volume_of_cells(const Mesh& mesh, PositionOf at) {
+double volume_of_cells(const Mesh& mesh, const Cuts& cuts, PositionOf at) {
   const auto rest = [&](ElementId e) { return mesh.rest_position(e); };
   double sum = 0;
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const double before = signed_volume(rest(a), rest(b), rest(c), rest(d));
-    sum += (before < 0 ? -1 : 1) * signed_volume(at(a), at(b), at(c), at(d));
+  for (const auto& cell : mesh.tetrahedra) {
+    if (is_whole(mesh, cuts, cell)) {
+      const auto& [a, b, c, d] = cell;
+      const double before = signed_volume(rest(a), rest(b), rest(c), rest(d));
+      sum += (before < 0 ? -1 : 1) * signed_volume(at(a), at(b), at(c), at(d));
+    }
   }
   for (const auto& cell : mesh.hexahedra) {
-    sum += (hexahedron_volume(cell, rest) < 0 ? -1 : 1) * hexahedron_volume(cell, at);
+    if (is_whole(mesh, cuts, cell)) {
+      sum += (hexahedron_volume(cell, rest) < 0 ? -1 : 1) * hexahedron_volume(cell, at);
+    }
   }
   return sum;
 }
@@ -199,45 +203,38 @@ std::optional<double> enclosed_volume(const Mesh& mesh, PositionOf at) {
 }
 
 template <class PositionOf>
-std::optional<double> volume(const Mesh& mesh, PositionOf at) {
+std::optional<double> volume(const Mesh& mesh, const Cuts& cuts, PositionOf at) {
   if (mesh.space_dimension < 2 || (mesh.space_dimension == 2 && mesh.triangles.empty())) {
     return std::nullopt;
   }
   if (mesh.space_dimension == 2) {
     return area_in_plane(mesh, at);
   }
-  return mesh.has_cells() ? std::optional(volume_of_cells(mesh, at)) : enclosed_volume(mesh, at);
+  return mesh.has_cells() ? std::optional(volume_of_cells(mesh, cuts, at)) : enclosed_volume(mesh, at);
 }
 
 }  // namespace
 
-std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions) {
-  return volume(mesh, [&](ElementId e) { return point_of(mesh, positions, e); });
+std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions, const Cuts& cuts) {
+  return volume(mesh, cuts, [&](ElementId e) { return point_of(mesh, positions, e); });
 }
 
 std::optional<CellFigures> cell_figures(const Mesh& mesh, const Cuts& cuts, const PositionView& positions) {
   if (!mesh.has_cells()) {
     return std::nullopt;
   }
-  CellFigures result{.parts = cuts.count() == 0 ? mesh.part_count : count_parts(mesh, cuts)};
-  double rest = 0, now = 0;  // of one cell
+  CellFigures result{.parts = cuts.count() == 0 ? mesh.part_count : count_parts(mesh, cuts),
+                     .rest_volume = volume_of_cells(mesh, cuts, [&](ElementId e) { return mesh.rest_position(e); }),
+                     .volume = volume_of(mesh, positions, cuts).value_or(0)};
   const auto add = [&](const std::array<ElementId, 4>& corner) {
-    std::array<Point, 4> before, after;
-    for (std::size_t i = 0; i < corner.size(); ++i) {
-      before[i] = mesh.rest_position(corner[i]);
-      after[i] = point_of(mesh, positions, corner[i]);
-    }
-    rest += std::apply(signed_volume, before);
-    now += std::apply(signed_volume, after);
-    result.worst_quality = std::min(result.worst_quality.value_or(1), tetrahedron_quality(before));
+    std::array<Point, 4> at;
+    std::ranges::transform(corner, at.begin(), [&](ElementId e) { return mesh.rest_position(e); });
+    result.worst_quality = std::min(result.worst_quality.value_or(1), tetrahedron_quality(at));
   };
   const auto add_cell = [&](const auto& cell, auto add_tetrahedra) {
     if (is_whole(mesh, cuts, cell)) {
-      rest = now = 0;
       add_tetrahedra(cell);
       ++result.cells;
-      result.rest_volume += std::abs(rest);
-      result.volume += rest < 0 ? -now : now;
     }
   };
   for (const auto& cell : mesh.tetrahedra) {
@@ -249,9 +246,9 @@ std::optional<CellFigures> cell_figures(const Mesh& mesh, const Cuts& cuts, cons
   return result;
 }
 
-std::optional<double> volume_change(const Mesh& mesh, const PositionView& positions) {
-  const auto rest = volume(mesh, [&](ElementId e) { return mesh.rest_position(e); });
-  return rest && *rest > 0 ? std::optional(*volume_of(mesh, positions) / *rest - 1) : std::nullopt;
+std::optional<double> volume_change(const Mesh& mesh, const PositionView& positions, const Cuts& cuts) {
+  const auto rest = volume(mesh, cuts, [&](ElementId e) { return mesh.rest_position(e); });
+  return rest && *rest > 0 ? std::optional(*volume_of(mesh, positions, cuts) / *rest - 1) : std::nullopt;
 }
 
 }  // namespace chainmail

@@ -23,15 +23,15 @@ std::optional<double> largest_principal_stretch(const Mesh& mesh, const Position
 /// Returns the volume of a deformed object (mesh units to the power 3): of its cells, or of what its faces enclose. In
 /// a plane it is the area of its faces. Cells and faces count with the sign that they have at rest: a part that is
 /// turned inside out counts negative. None for an object without cells and faces, and for faces in space that are not
-/// closed.
-std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions);
+/// closed. Cells with a cut link are gone and do not count; faces do.
+std::optional<double> volume_of(const Mesh& mesh, const PositionView& positions, const Cuts& cuts = {});
 
-/// Figures about the cells of an object, without those that have a cut link. Hexahedra count as the tetrahedra for
-/// which they stand: see for_each_tetrahedron.
+/// Figures about the cells of an object, without those that have a cut link. The quality of a hexahedron is that of the
+/// tetrahedra for which it stands: see for_each_tetrahedron.
 struct CellFigures {
   std::uint64_t cells = 0;
   std::uint64_t parts = 0;                // of the object: no uncut link joins them
-  double rest_volume = 0, volume = 0;     // at rest and now (mesh units to the power 3)
+  double rest_volume = 0, volume = 0;     // at rest and now, see volume_of
   std::optional<double> worst_quality{};  // at rest, see tetrahedron_quality; none if all cells are gone
 };
 
@@ -40,6 +40,6 @@ std::optional<CellFigures> cell_figures(const Mesh& mesh, const Cuts& cuts, cons
 
 /// Returns the change of the volume, relative to that at rest: −0.1 if a tenth is lost. None where volume_of has none,
 /// or if the volume at rest is 0.
-std::optional<double> volume_change(const Mesh& mesh, const PositionView& positions);
+std::optional<double> volume_change(const Mesh& mesh, const PositionView& positions, const Cuts& cuts = {});
 
 }  // namespace chainmail

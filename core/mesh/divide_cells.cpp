@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -326,29 +327,23 @@ void CellDivider::keep_quality() {
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     edges_[i].point = static_cast<ElementId>(mesh_.element_count() + i);  // see place()
   }
-  std::vector<const Crossed*> divided, todo;
+  std::unordered_map<ElementId, std::vector<const Crossed*>> divided_at;  // by corner
+  std::set<const Crossed*> todo;                                          // in the order of cells
   for (const Crossed& one : crossed_) {
     if (is_divided(one)) {
-      divided.push_back(&one);
+      todo.insert(&one);
+      std::ranges::for_each(one.tetrahedron.corner, [&](ElementId corner) { divided_at[corner].push_back(&one); });
     }
   }
-  todo = divided;
-  std::vector<std::uint8_t> is_new(mesh_.element_count());
   while (!todo.empty()) {
     std::vector<ElementId> snapped;
     for (const Crossed* one : todo) {
       improve(*one, snapped);
     }
-    const auto set_all = [&](std::uint8_t value) {
-      std::ranges::for_each(snapped, [&](ElementId element) { is_new[element] = value; });
-    };
-    set_all(1);
     todo.clear();
-    std::ranges::copy_if(divided, std::back_inserter(todo), [&](const Crossed* one) {
-      return is_divided(*one) &&
-             std::ranges::any_of(one->tetrahedron.corner, [&](ElementId corner) { return is_new[corner] != 0; });
-    });
-    set_all(0);
+    for (const ElementId element : snapped) {
+      todo.insert(divided_at[element].begin(), divided_at[element].end());
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/disjoint_sets.h"
+
 namespace chainmail {
 
 std::uint32_t count_parts(const Mesh& mesh, const Cuts& cuts, const Progress& progress) {
@@ -33,23 +35,6 @@ std::uint32_t count_parts(const Mesh& mesh, const Cuts& cuts, const Progress& pr
 }
 
 namespace {
-
-/// Disjoint sets, numbered from 0, that can be joined (Galler and Fischer 1964).
-class JoinedSets {
- public:
-  void add() { parents_.push_back(static_cast<std::uint32_t>(parents_.size())); }
-  std::uint32_t of(std::uint32_t one) {
-    while (parents_[one] != one) {
-      one = parents_[one] = parents_[parents_[one]];
-    }
-    return one;
-  }
-  /// Joins two sets, given by the numbers that of() returns. Both then have the first number.
-  void join(std::uint32_t into, std::uint32_t other) { parents_[other] = into; }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 /// Searches that start at the ends of the cut links. Two searches that meet become one. Each search also belongs to a
 /// group: the searches that these links would join if they were not cut.
@@ -90,7 +75,7 @@ class Searches {
   std::vector<std::uint32_t>& reached_by_;
   std::vector<ElementId> reached_;
   std::vector<Search> searches_;
-  JoinedSets met_, groups_;
+  DisjointSets met_, groups_;
   std::uint32_t exhausted_ = 0;  // searches that ended while others of their group were still live
 };
 
@@ -112,8 +97,8 @@ void Searches::reach(ElementId element, std::uint32_t search) {
 }
 
 void Searches::same_group(std::uint32_t one, std::uint32_t other) {
-  one = groups_.of(one);
-  other = groups_.of(other);
+  one = std::uint32_t(groups_.of(one));
+  other = std::uint32_t(groups_.of(other));
   if (one != other) {
     groups_.join(one, other);
     searches_[one].growing += searches_[other].growing;
@@ -147,7 +132,7 @@ void Searches::step(std::uint32_t search) {
   for_each_neighbour(mesh_, cuts_, element, [&](ElementId neighbour, EntryId) {
     if (reached_by_[neighbour] == 0) {
       reach(neighbour, search);
-    } else if (const std::uint32_t other = met_.of(reached_by_[neighbour] - 1); other != search) {
+    } else if (const auto other = std::uint32_t(met_.of(reached_by_[neighbour] - 1)); other != search) {
       meet(search, other);
     }
   });

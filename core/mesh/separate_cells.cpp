@@ -122,14 +122,25 @@ void CellSeparation::find_sides() {
 
 /// Tetrahedra with all corners on the blade belong to the side of a neighbour, so that they do not come off alone.
 void CellSeparation::take_sides_of_neighbours() {
-  std::vector<Interface> open;
-  std::ranges::copy_if(interfaces_, std::back_inserter(open), [this](const Interface& one) {
-    return sides_[one.piece[0]] == PieceSide::none || sides_[one.piece[1]] == PieceSide::none;
-  });
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& [corner, piece] : open) {
-      changed = take_side(piece[0], piece[1], corner[0]) || take_side(piece[1], piece[0], corner[0]) || changed;
+  std::unordered_map<std::uint32_t, std::vector<const Interface*>> open;  // by piece
+  std::vector<std::uint32_t> todo;                                        // pieces whose neighbours may take their side
+  for (const Interface& one : interfaces_) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (sides_[one.piece[1 - i]] == PieceSide::none) {
+        open[one.piece[i]].push_back(&one);
+        if (sides_[one.piece[i]] != PieceSide::none) {
+          todo.push_back(one.piece[i]);
+        }
+      }
+    }
+  }
+  for (std::size_t next = 0; next < todo.size(); ++next) {
+    const std::uint32_t from = todo[next];
+    for (const Interface* one : open[from]) {
+      const std::uint32_t piece = one->piece[0] == from ? one->piece[1] : one->piece[0];
+      if (take_side(piece, from, one->corner[0])) {
+        todo.push_back(piece);
+      }
     }
   }
 }

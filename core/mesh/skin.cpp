@@ -67,8 +67,9 @@ std::shared_ptr<const Skin> Skin::after(const MeshPointer& mesh, std::span<const
 
 bool Skin::contains(std::span<const ElementId> corners) const {
   const std::lock_guard guard(first_->mutex);
-  if (first_->sides.empty()) {
+  if (!first_->is_found) {
     first_->sides = sides_of_surface(first_->mesh);
+    first_->is_found = true;
   }
   return std::ranges::binary_search(first_->sides, carrier_of(corners));
 }

@@ -31,6 +31,7 @@ class Skin {
   struct First {
     MeshPointer mesh;
     std::mutex mutex;
+    bool is_found = false;
     std::vector<Carrier> sides;  // of the surface, and their triangles, sorted; found when they are first needed
   };
 

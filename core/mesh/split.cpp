@@ -348,8 +348,10 @@ class CutsAfter {
     add_removed(split.edit);
     for (LinkId link = 0; link < after_.link_count(); ++link) {
       const LinkId on = split.parents[link];
-      is_cut_[link] = on == Split::none ? is_inside_gone(link) : was_cut(on);
+      const auto& ends = after_.links[link];
+      is_cut_[link] = on == Split::none ? is_inside_gone({ends.begin(), ends.end()}) : was_cut(on);
     }
+    cut_corners(split);
     keep_stubs();
   }
 
@@ -386,7 +388,8 @@ class CutsAfter {
   }
   void add_removed(const SplitEdit& edit);
   bool was_cut(LinkId link) const { return std::ranges::binary_search(cuts_, link); }
-  bool is_inside_gone(LinkId link) const;
+  bool is_inside_gone(const Elements& elements) const;
+  void cut_corners(const Split& split);
   bool is_loose(const Mesh& mesh, ElementId element, auto is_cut) const {
     const auto links =
         std::span(mesh.entry_link).subspan(mesh.first_entry[element], mesh.neighbours_of(element).size());
@@ -442,9 +445,9 @@ void CutsAfter::add_removed(const SplitEdit& edit) {
   }
 }
 
-/// True if everything inside which a new link lies is gone. So no piece of it is whole, and nothing else is cut.
-bool CutsAfter::is_inside_gone(LinkId link) const {
-  const Elements carrier = together({after_.links[link].begin(), after_.links[link].end()});
+/// True if everything inside which something new lies is gone.
+bool CutsAfter::is_inside_gone(const Elements& elements) const {
+  const Elements carrier = together(elements);
   const auto found = removed_at_.find(carrier.front());
   bool result = false;
   for (std::size_t i = 0; found != removed_at_.end() && i < found->second.size(); ++i) {
@@ -456,6 +459,23 @@ bool CutsAfter::is_inside_gone(LinkId link) const {
     }
   }
   return result;
+}
+
+/// Cuts a link of each piece that still has none: a corner of a bent hexahedron that has all its links in sides that
+/// are not cut. A piece of the cell across that side may then be gone, too.
+void CutsAfter::cut_corners(const Split& split) {
+  for (const auto& corners : split.edit.tetrahedra) {
+    bool is_whole = is_inside_gone({corners.begin(), corners.end()});
+    LinkId inner = Split::none;
+    for_each_edge(corners, [&](ElementId a, ElementId b) {
+      const LinkId link = find_link(after_, a, b).value();
+      is_whole = is_whole && !is_cut_[link];
+      inner = split.parents[link] == Split::none ? link : inner;
+    });
+    if (is_whole && inner != Split::none) {
+      is_cut_[inner] = true;
+    }
+  }
 }
 
 /// An element all of whose links would be cut stays linked to its first neighbour, so that it is no part of its own.

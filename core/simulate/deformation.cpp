@@ -97,7 +97,7 @@ DeformSummary Deformation::summary() {
           statistics.violation,
           elastic_energy(mesh, body.softness(), body.cuts(), positions, body.elastic()),
           measure_displacement(mesh, positions),
-          volume_change(mesh, positions),
+          volume_change(mesh, positions, body.cuts()),
           inverted_cells(mesh, positions),
           largest_principal_stretch(mesh, positions),
           info(simulation_.relaxation().scheme).sweeps ? std::nullopt : simulation_.certificate(),

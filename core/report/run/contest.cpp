@@ -58,7 +58,7 @@ void add_shape(Row& row, const Mesh& mesh, const Softness& softness, const Cuts&
   if (reference) {
     row.set(figures::hausdorff, hausdorff_distance(mesh, positions, *reference));
   }
-  row.set(figures::volume_change, chainmail::volume_change(mesh, positions));
+  row.set(figures::volume_change, chainmail::volume_change(mesh, positions, cuts));
   row.set(figures::inverted_cells, chainmail::inverted_cells(mesh, positions));
   row.set(figures::stretch, largest_principal_stretch(mesh, positions));
   row.set(figures::violation_max, measure_violation(mesh, softness, cuts, positions).max);
