@@ -241,6 +241,13 @@ void MovesTest::splits_that_do_not_fit_are_refused_data() {
       "m.json: command 0: 'triangles' does not contain arrays of 3 ");
   row(R"({"do": "split", "elements": [], "triangles": [[0, 1, 7]]})", "m.json: command 0: split: a new face");
   row(R"({"do": "split", "elements": [], "polygons": [4, 0, 1, 2]})", "m.json: command 0: split: a new polygon");
+  row(R"({"do": "split", "elements": [], "tetrahedra": [[0, 1, 2, 3]]})",
+      "m.json: command 0: split: it adds cells to an object without cells");
+  row(R"({"do": "split", "elements": [], "hexahedra": [[0, 1, 2, 3, 0, 1, 2, 3]]})",
+      "m.json: command 0: split: it adds cells to an object without cells");
+  row(R"({"do": "split", "elements": [], "removed_cells": [0, 0]})",
+      "m.json: command 0: split: the cells to replace are not ascending numbers below 0");
+  row(R"({"do": "split", "elements": [], "polygons": [0, 0]})", "m.json: command 0: split: a new face");
   row(R"({"do": "split", "elements": [], "sides": []})", "m.json: command 0: ");
 }
 

@@ -23,6 +23,7 @@ class BladeTest : public QObject {
   void the_unit_of_length_does_not_matter();
   void a_blade_meets_elements_where_they_are();
   void a_plane_needs_no_direction();
+  void the_ends_of_a_blade_may_be_far_away();
   void what_a_blade_misses_stays_whole();
   void blades_that_do_not_fit_are_refused_data();
   void blades_that_do_not_fit_are_refused();
@@ -126,6 +127,22 @@ void BladeTest::a_plane_needs_no_direction() {
   }
 }
 
+void BladeTest::the_ends_of_a_blade_may_be_far_away() {
+  const auto from_to = [](double y) { return Blade{{{1.3, -y, 0}, {1.3, y, 0}}, Point(0, 0, 1)}; };
+  const SplitPointer near = split_of(tetrahedra(), from_to(9));
+  QVERIFY(near);
+  for (const double y : {1e5, 1e18, 1e100}) {
+    const SplitPointer far = split_of(tetrahedra(), from_to(y));
+    QVERIFY(far);
+    QCOMPARE(far->edit.tetrahedra, near->edit.tetrahedra);
+  }
+  // A line that goes far away and comes back elsewhere cuts twice.
+  const SplitPointer twice =
+      split_of(tetrahedra(), {{{1.3, -9, 0}, {1.3, 1e6, 0}, {2.6, 1e6, 0}, {2.6, -9, 0}}, Point(0, 0, 1)});
+  QVERIFY(twice);
+  QCOMPARE(twice->after->part_count, std::uint32_t{3});
+}
+
 void BladeTest::what_a_blade_misses_stays_whole() {
   const Point up(0, 0, 1);
   QVERIFY(!split_of(tetrahedra(), {{{9, -1, 0}, {9, 9, 0}}, up}));
@@ -146,6 +163,11 @@ void BladeTest::blades_that_do_not_fit_are_refused_data() {
   const auto along = [](const std::optional<Point>& direction) { return Blade{across.line, direction}; };
   row("tetrahedra", {{{1, 1, 1}}, across.along}, "its line has fewer than two points");
   row("tetrahedra", {{{1, 1, 1}, {1, nan, 1}}, across.along}, "a coordinate is not a finite number");
+  for (const double far : {1e101, 1e300, -1e308}) {
+    row("tetrahedra", {{{1, 1, 1}, {1, far, 1}}, across.along}, "a coordinate is too large");
+  }
+  row("tetrahedra", {std::vector<Point>(blade_point_limit + 1, Point(1, 1, 1)), across.along},
+      "its line has more than 10000 points");
   row("tetrahedra", along({}), "it has no direction");
   row("surface", along({}), "it has no direction");
   for (const Point& wrong : {Point(0, 0, 0), Point(0, nan, 1), Point(0, 0, infinity)}) {

@@ -279,6 +279,8 @@ void ShapeMeasuresTest::cells_with_a_cut_link_do_not_count() {
   QCOMPARE(found->cells, std::uint64_t{2});
   QCOMPARE(found->parts, std::uint64_t{1});
   QVERIFY(near(found->rest_volume, 2) && near(found->volume, 2));
+  QVERIFY(near(*volume_change(*mesh, Placed(*mesh, stretched), cuts), 0.3));
+  QCOMPARE(*volume_of(*mesh, rest, cuts), found->volume);
   for (LinkId link = 0; link < mesh->link_count(); ++link) {
     cuts.cut(link);
   }
@@ -293,7 +295,13 @@ void ShapeMeasuresTest::the_quality_of_tetrahedra_is_that_of_closed_forms() {
   const Corners regular{Point(1, 1, 1), Point(1, -1, -1), Point(-1, 1, -1), Point(-1, -1, 1)};
   const Corners corner{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
   const Corners flat{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(1, 1, 0)};
-  QVERIFY(near(tetrahedron_quality(regular), 1));
+  for (const double size : {1.0, 1e60, 1e-60, 1e100, 1e-100}) {
+    Corners scaled = regular;
+    std::ranges::for_each(scaled, [size](Point& one) { one *= size; });
+    QVERIFY(near(tetrahedron_quality(scaled), 1));
+  }
+  QCOMPARE(tetrahedron_quality({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, std::nan(""))}), 0.0);
+  QCOMPARE(tetrahedron_quality({Point(1, 1, 1), Point(1, 1, 1), Point(1, 1, 1), Point(1, 1, 1)}), 0.0);
   // Its inscribed sphere has the radius 1 / (3 + √3), and its circumscribed one √3 / 2.
   QVERIFY(near(tetrahedron_quality(corner), 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2)));
   QCOMPARE(tetrahedron_quality(flat), 0.0);

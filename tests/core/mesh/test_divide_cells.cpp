@@ -300,12 +300,12 @@ double whole_volume(const MeshPointer& mesh, const std::vector<LinkId>& cut) {
   return sum;
 }
 
-std::size_t new_tetrahedra_per_old_one(const Split& split) {
+double new_tetrahedra_per_old_one(const Split& split) {
   std::size_t old = 0;
   for (const CellId cell : split.edit.removed_cells) {
     old += cell < split.before->tetrahedra.size() ? 1 : 6;
   }
-  return (split.edit.tetrahedra.size() + 6 * split.edit.hexahedra.size()) / std::max<std::size_t>(old, 1);
+  return double(split.edit.tetrahedra.size() + 6 * split.edit.hexahedra.size()) / double(std::max<std::size_t>(old, 1));
 }
 
 void add_objects() {
@@ -484,6 +484,7 @@ void DivideCellsTest::ten_strokes_keep_the_cells_good() {
         std::mt19937_64 random(std::uint64_t(*rc::gen::inRange(0, 1 << 20)));
         MeshPointer mesh = block(hexahedra, jitter, random());
         const double uncut = worst_quality(*mesh);
+        int splits = 0;
         for (int cut = 0; cut < 10; ++cut) {
           Stroke stroke;
           for (std::uint64_t i = 2 + random() % 4; i > 0; --i) {
@@ -502,10 +503,12 @@ void DivideCellsTest::ten_strokes_keep_the_cells_good() {
           }
           RC_ASSERT(flaw_of(*split) == "");
           RC_ASSERT(split->after->part_count >= mesh->part_count);
-          RC_ASSERT(new_tetrahedra_per_old_one(*split) <= 6U);
+          RC_ASSERT(new_tetrahedra_per_old_one(*split) <= 6);
           RC_ASSERT(worst_quality(*split->after) >= std::min(uncut, least_piece_quality) - 1e-12);
           mesh = split->after;
+          ++splits;
         }
+        RC_ASSERT(splits > 0);
       },
       4));
 }
@@ -586,8 +589,12 @@ void DivideCellsTest::faces_are_divided_with_their_cells() {
     QVERIFY(surface.contains(one));
   }
   for (std::size_t i = 0; i < split->after->polygons.size(); i += 5) {
-    ++area;
-    QVERIFY(split->after->rest_position(split->after->polygons[i + 1]).x() >= 0);
+    std::array<Point, 4> at;
+    std::array<ElementId, 4> ring;
+    std::copy_n(split->after->polygons.begin() + std::ptrdiff_t(i) + 1, 4, ring.begin());
+    std::ranges::transform(ring, at.begin(), [&](ElementId e) { return split->after->rest_position(e); });
+    area += (at[2] - at[0]).cross(at[3] - at[1]).norm() / 2;
+    QVERIFY(is_outside(*split->after, ring));
   }
   QVERIFY(std::abs(area - 2 * (8 * 6 + 8 * 6 + 6 * 6)) < 1e-9);
 }
@@ -611,8 +618,10 @@ void DivideCellsTest::cells_that_are_gone_stay_gone() {
     const auto split = split_of(mesh, {{-30, 20 + 7.0 * double(seed)}, {200, 90 - 3.0 * double(seed)}});
     QVERIFY(split != nullptr);
     const auto after = cuts_after(*split, cut);
-    QVERIFY(std::abs(whole_volume(split->after, after) - whole_volume(mesh, cut)) < 1e-9);
-    // All pieces of a cell that is gone are gone, and what remains is on one of the two sides of the blade.
+    const double grown = whole_volume(split->after, after) - whole_volume(mesh, cut);
+    QVERIFY(grown < 1e-9);
+    QVERIFY(grown > -1e-9 || (hexahedra && jitter > 0));  // a diagonal may be that of a bent hexahedron that is gone
+    // What remains is on one of the two sides of the blade.
     const std::uint32_t parts = count_parts(*mesh, cuts_of(mesh, cut));
     QCOMPARE(count_parts(*split->after, cuts_of(split->after, after)), 2 * parts);
   }
@@ -622,33 +631,50 @@ void DivideCellsTest::cells_that_are_gone_stay_gone() {
   parts.tetrahedra = {{0, 1, 2, 3}};
   add_links_along_edges(parts);
   const MeshPointer mesh = build_mesh(std::move(parts));
-  for (const Stroke& stroke : {Stroke{{12, -9}, {-9, 12}}, Stroke{{7, 70}, {12, -70}}}) {
-    const auto split = split_of(mesh, seen_along_z(*mesh), stroke);
+  const std::vector<Eigen::Vector2d> alone{{0, 0}, {10, -9}, {10, 1}, {10, 9}},
+      paired{{0, 0}, {0, 5}, {10, 0}, {10, 5}};
+  for (const auto& at : {alone, paired}) {
+    std::vector<ViewPlace> places;
+    std::ranges::for_each(at, [&](const Eigen::Vector2d& one) { places.push_back({one}); });
+    const auto split = split_of(mesh, places, {{5, -90}, {5, 90}});
     QVERIFY(split != nullptr);
     const auto after = cuts_after(*split, std::vector<LinkId>{0, 1, 2});
     QCOMPARE(whole_volume(split->after, after), 0.0);
-    QVERIFY(count_parts(*split->after, cuts_of(split->after, after)) <= 3);
+    QCOMPARE(count_parts(*split->after, cuts_of(split->after, after)), at == alone ? 2U : 3U);
   }
 }
 
 void DivideCellsTest::edits_that_do_not_fit_are_refused() {
   const MeshPointer mesh = block(false, 0, 1);
-  const auto refused = [&](std::vector<std::uint32_t> removed, std::vector<Tetrahedron> tetrahedra) {
-    SplitEdit edit{{SplitPoint::copy(0)}, {}, {}, {}, {}, std::move(removed), std::move(tetrahedra), {}};
+  const auto problem_of = [](const MeshPointer& of, SplitEdit edit) {
     try {
-      make_split(mesh, std::move(edit));
-    } catch (const Error&) {
-      return true;
+      make_split(of, std::move(edit));
+    } catch (const Error& error) {
+      return error.problem();
     }
-    return false;
+    return std::string();
+  };
+  const auto problem = [&](std::vector<std::uint32_t> removed, std::vector<Tetrahedron> tetrahedra,
+                           std::vector<std::array<ElementId, 8>> hexahedra = {}) {
+    return problem_of(
+        mesh, {{SplitPoint::copy(0)}, {}, {}, {}, {}, std::move(removed), std::move(tetrahedra), std::move(hexahedra)});
   };
   const ElementId next = mesh->element_count();
   const auto cells = static_cast<std::uint32_t>(mesh->tetrahedra.size());
-  QVERIFY(!refused({0}, {{next, 1, 9, 70}}));
-  QVERIFY(refused({cells}, {{next, 1, 9, 70}}));
-  QVERIFY(refused({1, 0}, {{next, 1, 9, 70}}));
-  QVERIFY(refused({0}, {{next + 1, 1, 9, 70}}));
-  QVERIFY(refused({0}, {{next, 1, 1, 70}}));
+  const std::string order = "the cells to replace are not ascending numbers below " + std::to_string(cells),
+                    corners = "a new face or cell does not have three or more different corners that exist";
+  QCOMPARE(problem({0}, {{next, 1, 9, 70}}), std::string());
+  QCOMPARE(problem({cells}, {{next, 1, 9, 70}}), order);
+  QCOMPARE(problem({1, 0}, {{next, 1, 9, 70}}), order);
+  QCOMPARE(problem({0, 0}, {{next, 1, 9, 70}}), order);
+  QCOMPARE(problem({0}, {{next + 1, 1, 9, 70}}), corners);
+  QCOMPARE(problem({0}, {{next, 1, 1, 70}}), corners);
+  QCOMPARE(problem({0}, {}, {{next, 1, 2, 3, 4, 5, 6, next + 1}}), corners);
+  QCOMPARE(problem({0}, {}, {{next, 1, 2, 3, 4, 5, 6, 1}}), corners);
+  const MeshPointer cloth = generate({MeshKind::cloth, {3, 3, 1}, 1, {}});
+  const std::string no_cells = "it adds cells to an object without cells";
+  QCOMPARE(problem_of(cloth, {{SplitPoint::copy(0)}, {}, {}, {}, {}, {}, {{0, 1, 3, 9}}, {}}), no_cells);
+  QCOMPARE(problem_of(cloth, {{SplitPoint::copy(0)}, {}, {}, {}, {}, {}, {}, {{0, 1, 2, 3, 4, 5, 6, 9}}}), no_cells);
 }
 
 CHAINMAIL_TEST(DivideCellsTest)
