@@ -23,15 +23,6 @@ using Stroke = std::vector<Eigen::Vector2d>;  // in shares of the object's width
 
 double volume_of(const std::array<Point, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) / 6; }
 
-/// Three times the radius of the inscribed sphere, relative to that of the circumscribed one.
-double quality_of(const std::array<Point, 4>& p) {
-  const Point a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-  const double area = a.cross(b).norm() + b.cross(c).norm() + c.cross(a).norm() + (b - a).cross(c - a).norm();
-  const Point centre = a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
-  const double volume = std::abs(a.dot(b.cross(c)));  // times 6
-  return 3 * (volume / area) / (centre.norm() / (2 * volume));
-}
-
 struct Cells {
   std::size_t count = 0;
   double volume = 0;
@@ -44,7 +35,7 @@ Cells cells_of(const Mesh& mesh) {
     std::array<Point, 4> at;
     std::ranges::transform(corner, at.begin(), [&](ElementId e) { return mesh.rest_position(e); });
     cells.volume += volume_of(at);
-    cells.worst = std::min(cells.worst, quality_of(at));
+    cells.worst = std::min(cells.worst, tetrahedron_quality(at));
   };
   std::ranges::for_each(mesh.tetrahedra, add);
   for (const auto& cell : mesh.hexahedra) {

@@ -127,6 +127,8 @@ def test_a_split_of_faces():
     [
         (chainmail.make_tetra(3, 3, 3), [(1, 1, 1)], (0, 0, 1), "fewer than two points"),
         (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (np.nan, 2, 2)], (0, 0, 1), "not a finite number"),
+        (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (1e300, 2, 2)], (0, 0, 1), "a coordinate is too large"),
+        (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (1, 1e308, 2)], (0, 0, 1), "a coordinate is too large"),
         (chainmail.make_tetra(3, 3, 3), [(1, 1, 1), (1, 2, 2, 2)], (0, 0, 1), "line: it has more than 3 numbers"),
         (chainmail.make_tetra(3, 3, 3), [(1, -1), (1, 3)], None, "no direction"),
         (chainmail.make_tetra(3, 3, 3), [(1, -1), (1, 3)], (0, 0, 0), "has the length 0"),

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "body/blade.h"
+#include "body/snapshot.h"
 #include "core/hexahedra.h"
 #include "mesh/error.h"
 #include "mesh/generate.h"
@@ -24,6 +25,7 @@ class BladeTest : public QObject {
   void a_blade_meets_elements_where_they_are();
   void a_plane_needs_no_direction();
   void the_ends_of_a_blade_may_be_far_away();
+  void new_links_have_the_softness_around_them();
   void what_a_blade_misses_stays_whole();
   void blades_that_do_not_fit_are_refused_data();
   void blades_that_do_not_fit_are_refused();
@@ -141,6 +143,24 @@ void BladeTest::the_ends_of_a_blade_may_be_far_away() {
       split_of(tetrahedra(), {{{1.3, -9, 0}, {1.3, 1e6, 0}, {2.6, 1e6, 0}, {2.6, -9, 0}}, Point(0, 0, 1)});
   QVERIFY(twice);
   QCOMPARE(twice->after->part_count, std::uint32_t{3});
+}
+
+void BladeTest::new_links_have_the_softness_around_them() {
+  const LinkSoftness soft{0.5, 2, 0.5};
+  for (const char* name : {"tetrahedra", "hexahedra", "surface"}) {
+    const MeshPointer mesh = named(name);
+    const auto softness = std::make_shared<Softness>(Softness{{0.9, 1.2, 0.1}, {}});
+    for (LinkId link = 0; link < mesh->link_count(); ++link) {
+      softness->links.set(link, soft);
+    }
+    const SplitPointer split = split_of(mesh, across);
+    const auto after = object_after(*split, {mesh, {}, {}, softness}).softness;
+    for (LinkId link = 0; link < split->after->link_count(); ++link) {
+      for (const auto& [parameter, value] : softness_numbers) {
+        QVERIFY2(std::abs(after->of(link).*value - soft.*value) < 1e-12, name);
+      }
+    }
+  }
 }
 
 void BladeTest::what_a_blade_misses_stays_whole() {
