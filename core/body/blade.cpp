@@ -52,7 +52,8 @@ std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& stroke)
     result.emplace_back(at.cwiseMax(-view_width).cwiseMin(view_width));
   };
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
-    const Eigen::Vector2d from = stroke[i], way = stroke[i + 1] - from;
+    const Eigen::Vector2d& from = stroke[i];
+    const Eigen::Vector2d way = stroke[i + 1] - from;
     std::vector<double> shares;  // where the segment meets the lines of the sides
     for (Eigen::Index k = 0; k < 2; ++k) {
       for (const double side : {-view_width, view_width}) {

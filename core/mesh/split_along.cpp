@@ -13,7 +13,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <unordered_map>
 
@@ -139,7 +138,9 @@ void FaceDivider::find_sides() {
   if (reached_) {
     std::ranges::for_each(*reached_, find);
   } else {
-    std::ranges::for_each(std::views::iota(LinkId{0}, mesh_.link_count()), find);
+    for (LinkId link = 0; link < mesh_.link_count(); ++link) {
+      find(link);
+    }
   }
 }
 

@@ -366,7 +366,7 @@ PlaneMatrix matrix_of(const MeshPointer& mesh) {
 double energy_in(const PlaneMatrix& matrix, const PlaneMatrix::Vectors& displacements) {
   PlaneMatrix::Vectors forces;
   matrix.apply(displacements, forces);
-  return dot<float, 2>(displacements, forces);
+  return dot<float, float, 2>(displacements, forces);
 }
 
 /// Returns the iterations of conjugate gradients until an error has only a share of 1e-8 of its energy; most: 200.
@@ -378,7 +378,7 @@ int iterations_of(Multigrid<LinkMatrix<float, 2>>& grid, const PlaneMatrix& matr
   for (; iterations < 200 && energy_in(matrix, error) > enough; ++iterations) {
     matrix.apply(error, forces);
     grid.cycle(matrix, forces, step);
-    const double slope = dot<float, 2>(forces, step);
+    const double slope = dot<float, float, 2>(forces, step);
     add<float, 2>(step, slope / before, direction);
     direction = step;
     add<float, 2>(error, -slope / energy_in(matrix, direction), direction);
