@@ -330,6 +330,13 @@ class FollowedSimulation {
     const auto& at = expected_.positions;
     const Point inside = (1 - shares[0] - shares[1]) * at[of[0]] + shares[0] * at[of[1]] + shares[1] * at[of[2]];
     expected_.positions.push_back(inside);
+    // A triangle with a cut side is gone, and its pieces stay gone. The new element keeps one link.
+    std::array<ElementId, 3> corner = old.triangles[command.split->edit.removed.front()];
+    std::ranges::sort(corner);
+    const auto& [a, b, c] = corner;
+    if (expected_.cuts.contains({a, b}) || expected_.cuts.contains({b, c}) || expected_.cuts.contains({a, c})) {
+      expected_.cuts.insert({{b, old.element_count()}, {c, old.element_count()}});
+    }
     expected_.mesh = has_grown ? command.split->after : nullptr;
     expected_.softness = simulation_.body().shared_softness();  // the links are numbered anew
     let_go();
