@@ -20,8 +20,8 @@ void require(bool holds, const std::string& problem, const std::string& remedy) 
 /// Returns the direction across the plane of an object in two dimensions.
 Point across(const Mesh& mesh) { return Point::Unit(mesh.axes[0]).cross(Point::Unit(mesh.axes[1])); }
 
-constexpr double view_width =
-    1000;  // of the object in the view (pixels): StrokeInView moves strokes aside by a part of one
+// Of the object in the view (pixels). StrokeInView moves strokes aside by a part of a pixel.
+constexpr double view_width = 1000;
 
 /// Parallel projection along a direction, with the middle of the object at the origin.
 class ParallelView {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
+#include <unordered_map>
 
+#include "mesh/carriers.h"
+#include "mesh/cells.h"
 #include "mesh/error.h"
 
 namespace chainmail {
@@ -229,52 +231,56 @@ Snapshot SplitPositions::snapshot() {
   return std::move(result_);
 }
 
-/// Adds links around two old elements: the one that joins them, or the first and last ones of the ways between them
-/// over one or two others.
-void add_links_between(const Mesh& mesh, ElementId a, ElementId b, std::vector<LinkId>& links) {
-  if (const auto link = find_link(mesh, a, b)) {
-    links.push_back(*link);
-    return;
-  }
-  const std::size_t before = links.size();
-  const auto add_ways = [&](bool over_two) {
-    for (const ElementId first : mesh.neighbours_of(a)) {
-      for (const ElementId last : mesh.neighbours_of(b)) {
-        if (over_two ? find_link(mesh, first, last).has_value() : first == last) {
-          links.push_back(*find_link(mesh, a, first));
-          links.push_back(*find_link(mesh, last, b));
-        }
+/// Finds the old links around new ones that lie inside faces or cells.
+class LinksAround {
+ public:
+  explicit LinksAround(const Split& split)
+      : mesh_(*split.before), after_(*split.after), carriers_(mesh_.element_count()) {
+    carriers_.append(split.edit.elements);
+    for (const CellId cell : split.edit.removed_cells) {
+      if (cell >= mesh_.tetrahedra.size()) {
+        const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
+        for_each_pair(corners, [&](ElementId a, ElementId b) { hexahedron_of_.try_emplace(edge_key(a, b), &corners); });
       }
     }
-  };
-  add_ways(false);
-  if (links.size() == before) {
-    add_ways(true);
   }
-}
 
-/// Returns the old links around a new one that lies inside a face or a cell.
-std::vector<LinkId> links_around(const Split& split, LinkId link) {
-  std::set<ElementId> corners;  // between which it lies
-  std::vector<ElementId> open(split.after->links[link].begin(), split.after->links[link].end());
-  while (!open.empty()) {
-    const ElementId one = open.back();
-    open.pop_back();
-    if (one < split.before->element_count()) {
-      corners.insert(one);
-    } else {
-      const auto& of = split.edit.elements[one - split.before->element_count()].of;
-      open.insert(open.end(), of.begin(), of.end());
+  /// Returns the links between the old elements between which a new link lies. A diagonal of a hexahedron stands for
+  /// the edges of the hexahedron.
+  std::vector<LinkId> of(LinkId link) const {
+    std::vector<LinkId> result;
+    const auto add = [&](ElementId a, ElementId b) {
+      const auto found = find_link(mesh_, a, b);
+      if (found) {
+        result.push_back(*found);
+      }
+      return found.has_value();
+    };
+    const Carrier carrier = carriers_.of(after_.links[link]);
+    for_each_pair(elements_of(carrier), [&](ElementId a, ElementId b) {
+      const auto hexahedron = hexahedron_of_.find(edge_key(a, b));
+      if (!add(a, b) && hexahedron != hexahedron_of_.end()) {
+        for (const auto& [i, j] : hexahedron_edges) {
+          add((*hexahedron->second)[std::size_t(i)], (*hexahedron->second)[std::size_t(j)]);
+        }
+      }
+    });
+    return result;
+  }
+
+ private:
+  static void for_each_pair(std::span<const ElementId> elements, const auto& visit) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      for (std::size_t k = i + 1; k < elements.size(); ++k) {
+        visit(elements[i], elements[k]);
+      }
     }
   }
-  std::vector<LinkId> result;
-  for (auto a = corners.begin(); a != corners.end(); ++a) {
-    for (auto b = std::next(a); b != corners.end(); ++b) {
-      add_links_between(*split.before, *a, *b, result);
-    }
-  }
-  return result;
-}
+
+  const Mesh &mesh_, &after_;
+  Carriers carriers_;
+  std::unordered_map<EdgeKey, const std::array<ElementId, 8>*> hexahedron_of_;  // of two of its corners
+};
 
 LinkSoftness mean(const Softness& softness, const std::vector<LinkId>& links) {
   LinkSoftness result;
@@ -295,6 +301,7 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
     return softness;
   }
   Softness result{softness->global, {}, softness->energy, softness->axes};
+  const LinksAround around(split);
   for (LinkId link = 0; link < split.parents.size(); ++link) {
     if (const LinkId on = split.parents[link]; on != Split::none) {
       if (softness->links.contains(on)) {
@@ -305,7 +312,7 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
     std::vector<LinkId> from{split.link_at(split.after->links[link][0]), split.link_at(split.after->links[link][1])};
     std::erase(from, Split::none);
     if (from.empty()) {
-      from = links_around(split, link);
+      from = around.of(link);
     }
     if (std::ranges::any_of(from, [&](LinkId one) { return softness->links.contains(one); })) {
       result.links.set(link, mean(*softness, from));

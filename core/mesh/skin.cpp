@@ -7,33 +7,15 @@
 namespace chainmail {
 namespace {
 
-Skin::Carrier nowhere() {
-  Skin::Carrier carrier;
-  carrier.fill(no_element);
-  return carrier;
-}
-
-/// Inserts an element; the highest of six is lost.
-void insert(ElementId element, Skin::Carrier& all) {
-  const auto at = std::ranges::lower_bound(all, element);
-  if (at != all.end() && *at != element) {
-    std::move_backward(at, all.end() - 1, all.end());
-    *at = element;
-  }
-}
-
 /// Returns the corners of the sides of the surface, and of the triangles that a side of four corners may be divided
 /// into. Sorted.
-std::vector<Skin::Carrier> sides_of_surface(const MeshPointer& mesh) {
-  std::vector<Skin::Carrier> sides;
+std::vector<Carrier> sides_of_surface(const MeshPointer& mesh) {
+  std::vector<Carrier> sides;
+  const Carriers old(mesh->element_count());
   const auto add = [&](std::span<const ElementId> corners, ElementId without) {
-    Skin::Carrier all = nowhere();
-    for (const ElementId corner : corners) {
-      if (corner != without) {
-        insert(corner, all);
-      }
-    }
-    sides.push_back(all);
+    std::vector<ElementId> all(corners.begin(), corners.end());
+    std::erase(all, without);
+    sides.push_back(old.of(all));
   };
   const CellTable table(mesh);
   for (SideId number = 0; number < table.side_count(); ++number) {
@@ -51,17 +33,13 @@ std::vector<Skin::Carrier> sides_of_surface(const MeshPointer& mesh) {
 
 }  // namespace
 
+Skin::Skin(const MeshPointer& mesh) : first_(std::make_shared<First>()), carriers_(mesh->element_count()) {
+  first_->mesh = mesh;
+}
+
 std::shared_ptr<const Skin> Skin::after(const MeshPointer& mesh, std::span<const SplitPoint> appended) {
-  auto skin = std::make_shared<Skin>();
-  if (mesh->skin != nullptr) {
-    *skin = *mesh->skin;
-  } else {
-    skin->first_ = std::make_shared<First>();
-    skin->first_->mesh = mesh;
-  }
-  for (const SplitPoint& point : appended) {
-    skin->carriers_.push_back(skin->carrier_of(point.of));
-  }
+  auto skin = mesh->skin != nullptr ? std::make_shared<Skin>(*mesh->skin) : std::make_shared<Skin>(mesh);
+  skin->carriers_.append(appended);
   return skin;
 }
 
@@ -71,20 +49,7 @@ bool Skin::contains(std::span<const ElementId> corners) const {
     first_->sides = sides_of_surface(first_->mesh);
     first_->is_found = true;
   }
-  return std::ranges::binary_search(first_->sides, carrier_of(corners));
-}
-
-Skin::Carrier Skin::carrier_of(std::span<const ElementId> elements) const {
-  Carrier carrier = nowhere();
-  const ElementId count = first_->mesh->element_count();
-  for (const ElementId element : elements) {
-    if (element < count) {
-      insert(element, carrier);
-    } else {
-      std::ranges::for_each(carriers_[element - count], [&](ElementId one) { insert(one, carrier); });
-    }
-  }
-  return carrier;
+  return std::ranges::binary_search(first_->sides, carriers_.of(corners));
 }
 
 }  // namespace chainmail

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "mesh/split.h"
+#include "mesh/carriers.h"
 
 namespace chainmail {
 
@@ -15,9 +13,7 @@ namespace chainmail {
 /// are inner sides, which cuts have laid open.
 class Skin {
  public:
-  /// The elements of the undivided mesh between which something lies, ascending, then no_element. Of more than five,
-  /// the lowest: a side has at most four.
-  using Carrier = std::array<ElementId, 5>;
+  explicit Skin(const MeshPointer& undivided);
 
   /// Returns the skin of a mesh to which a split appends these elements. Takes time in proportion to the elements that
   /// all splits have appended.
@@ -35,10 +31,8 @@ class Skin {
     std::vector<Carrier> sides;  // of the surface, and their triangles, sorted; found when they are first needed
   };
 
-  Carrier carrier_of(std::span<const ElementId> elements) const;
-
-  std::shared_ptr<First> first_;   // the same after all splits
-  std::vector<Carrier> carriers_;  // of appended elements
+  std::shared_ptr<First> first_;  // the same after all splits
+  Carriers carriers_;
 };
 
 }  // namespace chainmail

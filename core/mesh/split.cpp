@@ -1,9 +1,9 @@
 #include "mesh/split.h"
 
-#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "mesh/carriers.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
 #include "mesh/skin.h"
@@ -337,21 +337,19 @@ class Origins {
 class CutsAfter {
  public:
   CutsAfter(const Split& split, std::span<const LinkId> cuts)
-      : before_(*split.before),
+      : split_(split),
+        before_(*split.before),
         after_(*split.after),
-        elements_(split.edit.elements),
         cuts_(cuts),
-        is_cut_(after_.link_count()) {
-    for (const SplitPoint& point : elements_) {
-      carriers_.push_back(together({point.of.begin(), point.of.end()}));
-    }
+        is_cut_(after_.link_count()),
+        carriers_(before_.element_count()) {
+    carriers_.append(split.edit.elements);
     add_removed(split.edit);
     for (LinkId link = 0; link < after_.link_count(); ++link) {
       const LinkId on = split.parents[link];
-      const auto& ends = after_.links[link];
-      is_cut_[link] = on == Split::none ? is_inside_gone({ends.begin(), ends.end()}) : was_cut(on);
+      is_cut_[link] = on == Split::none ? is_inside_gone(after_.links[link]) : was_cut(on);
     }
-    cut_corners(split);
+    cut_corners();
     keep_stubs();
   }
 
@@ -366,30 +364,16 @@ class CutsAfter {
   }
 
  private:
-  using Elements = std::vector<ElementId>;  // ascending
   /// A cell or a face that the split replaces.
   struct Removed {
-    Elements corners;
-    bool is_gone = false;  // it has a cut link
+    std::vector<ElementId> corners;  // ascending
+    bool is_gone = false;            // it has a cut link
   };
 
-  /// Returns the old elements between which some elements lie.
-  Elements together(const Elements& elements) const {
-    std::set<ElementId> all;
-    for (const ElementId one : elements) {
-      if (one < before_.element_count()) {
-        all.insert(one);
-      } else {
-        const Elements& carrier = carriers_[one - before_.element_count()];
-        all.insert(carrier.begin(), carrier.end());
-      }
-    }
-    return {all.begin(), all.end()};
-  }
   void add_removed(const SplitEdit& edit);
   bool was_cut(LinkId link) const { return std::ranges::binary_search(cuts_, link); }
-  bool is_inside_gone(const Elements& elements) const;
-  void cut_corners(const Split& split);
+  bool is_inside_gone(std::span<const ElementId> elements) const;
+  void cut_corners();
   bool is_loose(const Mesh& mesh, ElementId element, auto is_cut) const {
     const auto links =
         std::span(mesh.entry_link).subspan(mesh.first_entry[element], mesh.neighbours_of(element).size());
@@ -403,11 +387,11 @@ class CutsAfter {
   }
   void keep_stubs();
 
+  const Split& split_;
   const Mesh &before_, &after_;
-  std::span<const SplitPoint> elements_;
   std::span<const LinkId> cuts_;
   std::vector<bool> is_cut_;  // of each link after the split
-  std::vector<Elements> carriers_;
+  Carriers carriers_;
   std::vector<Removed> removed_;
   std::unordered_map<ElementId, std::vector<std::size_t>> removed_at_;  // by corner
 };
@@ -446,13 +430,22 @@ void CutsAfter::add_removed(const SplitEdit& edit) {
 }
 
 /// True if everything inside which something new lies is gone.
-bool CutsAfter::is_inside_gone(const Elements& elements) const {
-  const Elements carrier = together(elements);
-  const auto found = removed_at_.find(carrier.front());
+bool CutsAfter::is_inside_gone(std::span<const ElementId> elements) const {
+  const Carrier carrier = carriers_.of(elements);
+  const std::vector<std::size_t>* fewest = nullptr;
+  for (const ElementId one : elements_of(carrier)) {
+    const auto found = removed_at_.find(one);
+    if (found == removed_at_.end()) {
+      return false;
+    }
+    if (fewest == nullptr || found->second.size() < fewest->size()) {
+      fewest = &found->second;
+    }
+  }
   bool result = false;
-  for (std::size_t i = 0; found != removed_at_.end() && i < found->second.size(); ++i) {
-    if (const Removed& one = removed_[found->second[i]]; std::ranges::includes(one.corners, carrier)) {
-      if (!one.is_gone) {
+  for (const std::size_t i : *fewest) {
+    if (std::ranges::includes(removed_[i].corners, elements_of(carrier))) {
+      if (!removed_[i].is_gone) {
         return false;
       }
       result = true;
@@ -463,14 +456,14 @@ bool CutsAfter::is_inside_gone(const Elements& elements) const {
 
 /// Cuts a link of each piece that still has none: a corner of a bent hexahedron that has all its links in sides that
 /// are not cut. A piece of the cell across that side may then be gone, too.
-void CutsAfter::cut_corners(const Split& split) {
-  for (const auto& corners : split.edit.tetrahedra) {
-    bool is_whole = is_inside_gone({corners.begin(), corners.end()});
+void CutsAfter::cut_corners() {
+  for (const auto& corners : split_.edit.tetrahedra) {
+    bool is_whole = is_inside_gone(corners);
     LinkId inner = Split::none;
     for_each_edge(corners, [&](ElementId a, ElementId b) {
       const LinkId link = find_link(after_, a, b).value();
       is_whole = is_whole && !is_cut_[link];
-      inner = split.parents[link] == Split::none ? link : inner;
+      inner = split_.parents[link] == Split::none ? link : inner;
     });
     if (is_whole && inner != Split::none) {
       is_cut_[inner] = true;
@@ -481,10 +474,11 @@ void CutsAfter::cut_corners(const Split& split) {
 /// An element all of whose links would be cut stays linked to its first neighbour, so that it is no part of its own.
 /// What is gone stays so: it has other links there.
 void CutsAfter::keep_stubs() {
-  for (ElementId i = 0; i < elements_.size(); ++i) {
+  const auto& elements = split_.edit.elements;
+  for (ElementId i = 0; i < elements.size(); ++i) {
     keep_stub(before_.element_count() + i);
-    const ElementId of = elements_[i].of[0];
-    if (elements_[i].is_copy() && of < before_.element_count() &&
+    const ElementId of = elements[i].of[0];
+    if (elements[i].is_copy() && of < before_.element_count() &&
         !is_loose(before_, of, [this](LinkId link) { return was_cut(link); })) {
       keep_stub(of);
     }
