@@ -69,10 +69,12 @@ class StrokeRaster {
 /// Marks the squares of a segment, in steps of at most one square.
 void StrokeRaster::mark(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   constexpr double rounding = 1e-6;
-  // Never more than there are squares, except if the stroke is not finite.
-  const double steps = std::min(std::ceil((to - from).cwiseAbs().maxCoeff()) + 1, count + 1.0);
-  for (double i = 0; i < steps; ++i) {
-    const Eigen::Vector2d a = from + i / steps * (to - from), b = from + (i + 1) / steps * (to - from);
+  // Never more than there are squares along an axis, also if the stroke is not finite: min() takes its first value
+  // then.
+  const auto steps = static_cast<int>(std::min(count + 1.0, std::ceil((to - from).cwiseAbs().maxCoeff()) + 1));
+  const Eigen::Vector2d step = (to - from) / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Vector2d a = from + i * step, b = from + (i + 1) * step;
     const Square low = square_at(a.cwiseMin(b).array() - rounding), high = square_at(a.cwiseMax(b).array() + rounding);
     for (std::size_t y = low.y; y <= high.y; ++y) {
       for (std::size_t x = low.x; x <= high.x; ++x) {
