@@ -160,13 +160,13 @@ Point target_of(const Action& action, const Mesh& mesh, const Point& start) {
   return target;
 }
 
-SplitPointer split_of(const Action& action, const Body& body, Algorithm algorithm) {
-  return error_at(action.where, [&] {
-    SplitPointer split = split_along(action.blade, body);
-    require(split != nullptr, action.where, "nothing comes apart", "give a line that crosses the object");
-    check(algorithm, *split->after);  // some need a lattice
-    return split;
-  });
+void split(Deformation& deformation, const Action& action) {
+  const Simulation& simulation = deformation.simulation();
+  const SplitPointer split = error_at(action.where, [&] { return split_along(action.blade, simulation.body()); });
+  require(split != nullptr, action.where, "nothing comes apart", "give a line that crosses the object");
+  const MeshPointer after = split->after();  // kept until the simulation has it
+  error_at(action.where, [&] { check(simulation.statistics().algorithm, *after); });  // some need a lattice
+  deformation.apply(commands::Split{split});
 }
 
 void apply(Deformation& deformation, const Action& action, std::uint32_t steps) {
@@ -178,8 +178,7 @@ void apply(Deformation& deformation, const Action& action, std::uint32_t steps) 
   } else if (action.kind == grab) {
     deformation.apply(commands::Grab{elements_of(action, mesh)});
   } else if (action.kind == blade) {
-    const Simulation& simulation = deformation.simulation();
-    deformation.apply(commands::Split{split_of(action, simulation.body(), simulation.statistics().algorithm)});
+    split(deformation, action);
   } else if (action.of_handle) {
     deformation.move_handle(target_of(action, mesh, Point::Zero()), action.rotation, steps);
   } else {

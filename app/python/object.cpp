@@ -55,11 +55,12 @@ void Object::set_method(Algorithm method) {
 }
 
 void Object::split(const SplitPointer& split) {
-  check(method(), *split->after);
+  const MeshPointer mesh = split->after();
+  check(method(), *mesh);
   check_no_views("split");
-  const ObjectState file{split->before, {}, {}, std::make_shared<Softness>(Softness{{}, mesh_->softness})};
+  const ObjectState file{split->before(), {}, {}, std::make_shared<Softness>(Softness{{}, mesh_->softness})};
   auto after =
-      std::make_shared<MeshObject>(MeshObject{split->after, object_after(*split, file).softness->links, mesh_->remark});
+      std::make_shared<MeshObject>(MeshObject{mesh, object_after(*split, file).softness->links, mesh_->remark});
   deformer_.split(split, body().snapshot());
   mesh_ = std::move(after);
 }

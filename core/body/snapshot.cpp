@@ -145,13 +145,13 @@ class SplitPositions {
  public:
   SplitPositions(const Split& split, const Snapshot& positions, Precision precision)
       : split_(split),
-        after_mesh_(in_axes(split.after, positions.axes)),
+        after_mesh_(in_axes(split.after(), positions.axes)),
         after_(*after_mesh_),
-        old_(split.before->element_count()),
+        old_(split.old_count()),
         dimension_(std::size_t(after_.space_dimension)),
         precision_(precision),
         result_(positions),
-        rows_(split.edit.elements.size() * dimension_) {
+        rows_(split.edit().elements.size() * dimension_) {
     result_.blocks.resize(ElementBlocks(after_.element_count()).block_count());
   }
 
@@ -222,8 +222,8 @@ Snapshot::Block SplitPositions::block(std::size_t number) const {
 }
 
 Snapshot SplitPositions::snapshot() {
-  for (ElementId i = 0; i < split_.edit.elements.size(); ++i) {
-    place(old_ + i, split_.edit.elements[i]);
+  for (ElementId i = 0; i < split_.edit().elements.size(); ++i) {
+    place(old_ + i, split_.edit().elements[i]);
   }
   for (std::size_t number = old_ / ElementBlocks::block_elements; number < result_.blocks.size(); ++number) {
     result_.blocks[number] = block(number);
@@ -234,10 +234,10 @@ Snapshot SplitPositions::snapshot() {
 /// Finds the old links around new ones that lie inside faces or cells.
 class LinksAround {
  public:
-  explicit LinksAround(const Split& split)
-      : mesh_(*split.before), after_(*split.after), carriers_(mesh_.element_count()) {
-    carriers_.append(split.edit.elements);
-    for (const CellId cell : split.edit.removed_cells) {
+  LinksAround(const SplitLinks& links, const SplitEdit& edit)
+      : mesh_(*links.before), after_(*links.after), carriers_(mesh_.element_count()) {
+    carriers_.append(edit.elements);
+    for (const CellId cell : edit.removed_cells) {
       if (cell >= mesh_.tetrahedra.size()) {
         const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
         for_each_pair(corners, [&](ElementId a, ElementId b) { hexahedron_of_.try_emplace(edge_key(a, b), &corners); });
@@ -301,16 +301,18 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
     return softness;
   }
   Softness result{softness->global, {}, softness->energy, softness->axes};
-  const LinksAround around(split);
-  for (LinkId link = 0; link < split.parents.size(); ++link) {
-    if (const LinkId on = split.parents[link]; on != Split::none) {
+  const SplitLinks links(split);
+  const LinksAround around(links, split.edit());
+  for (LinkId link = 0; link < links.parents.size(); ++link) {
+    if (const LinkId on = links.parents[link]; on != SplitLinks::none) {
       if (softness->links.contains(on)) {
         result.links.set(link, softness->of(on));
       }
       continue;
     }
-    std::vector<LinkId> from{split.link_at(split.after->links[link][0]), split.link_at(split.after->links[link][1])};
-    std::erase(from, Split::none);
+    const auto& [a, b] = links.after->links[link];
+    std::vector<LinkId> from{links.link_at(a), links.link_at(b)};
+    std::erase(from, SplitLinks::none);
     if (from.empty()) {
       from = around.of(link);
     }
@@ -324,7 +326,14 @@ std::shared_ptr<const Softness> softness_after(const Split& split, const std::sh
 }  // namespace
 
 ObjectState object_after(const Split& split, const ObjectState& object) {
-  return {split.after, cuts_after(split, object.cuts), pins_after(split, object.pins),
+  const MeshPointer mesh = split.after();  // kept for what follows
+  ObjectState result = meshless_after(split, object);
+  result.mesh = mesh;
+  return result;
+}
+
+ObjectState meshless_after(const Split& split, const ObjectState& object) {
+  return {nullptr, cuts_after(split, object.cuts), pins_after(split, object.pins),
           softness_after(split, object.softness)};
 }
 

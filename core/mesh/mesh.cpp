@@ -265,6 +265,7 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->hexahedra = std::move(parts.hexahedra);
   mesh->texture = std::move(parts.texture);
   mesh->skin = std::move(parts.skin);
+  mesh->split = std::move(parts.split);
   mesh->lattice = parts.lattice;
   divide_polygons(*mesh, progress.part(0.8, 0.82));
   mesh->object_dimension = object_dimension(*mesh);

@@ -42,6 +42,7 @@ struct Lattice {
 };
 
 class Skin;
+class Split;
 
 /// Input of build_mesh, from a reader or a generator.
 struct MeshParts {
@@ -61,8 +62,9 @@ struct MeshParts {
   std::optional<Lattice> lattice;
   /// Picture on the faces or sections, if any.
   std::shared_ptr<const Texture> texture;
-  /// See Mesh::skin.
+  /// See Mesh::skin and Mesh::split.
   std::shared_ptr<const Skin> skin;
+  std::shared_ptr<const Split> split;
   /// Requested space dimension. Default: the axes on which the rest positions are not constant.
   std::optional<int> space_dimension;
 };
@@ -106,6 +108,8 @@ struct Mesh {
   std::shared_ptr<const Texture> texture;
   /// The surface before splits of cells; null without splits, when all of the surface is skin.
   std::shared_ptr<const Skin> skin;
+  /// The split that made it from another mesh; null if none did. See MeshSource.
+  std::shared_ptr<const Split> split;
   /// Number of parts that no link joins.
   std::uint32_t part_count = 0;
   /// True for a rectangular mesh: elements in a lattice, with links to the next element along its axes only.

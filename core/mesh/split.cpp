@@ -119,8 +119,9 @@ class MeshAfter {
  public:
   MeshAfter(const Mesh& mesh, const SplitEdit& edit) : mesh_(mesh), edit_(edit) {}
 
-  MeshPointer build(std::shared_ptr<const Skin> skin) {
+  MeshPointer build(std::shared_ptr<const Skin> skin, SplitPointer split) {
     parts_.skin = std::move(skin);
+    parts_.split = std::move(split);
     parts_.space_dimension = mesh_.space_dimension;
     parts_.texture = mesh_.texture;
     parts_.rest = rest_after(mesh_, edit_.elements);
@@ -287,25 +288,25 @@ void MeshAfter::link() {
 /// Finds on which link of the old mesh elements and links of the new one lie.
 class Origins {
  public:
-  explicit Origins(Split& split) : split_(split), old_(split.before->element_count()) {}
+  explicit Origins(SplitLinks& links) : links_(links), old_(links.before->element_count()) {}
 
-  void find() {
-    for (const SplitPoint& point : split_.edit.elements) {
-      const LinkId on = point.is_copy() || point.shares[1] != 0 ? Split::none : between(point.of[0], point.of[1]);
+  void find(std::span<const SplitPoint> appended) {
+    for (const SplitPoint& point : appended) {
+      const LinkId on = point.is_copy() || point.shares[1] != 0 ? SplitLinks::none : between(point.of[0], point.of[1]);
       const ElementId self = old_ + static_cast<ElementId>(original_.size());
       original_.push_back(point.is_copy() ? original(point.of[0]) : self);
-      split_.link_of.push_back(point.is_copy() ? split_.link_at(point.of[0]) : on);
+      links_.link_of.push_back(point.is_copy() ? links_.link_at(point.of[0]) : on);
     }
     // Most links are kept, in the same order.
-    const auto& before = split_.before->links;
+    const auto& before = links_.before->links;
     LinkId next = 0;
-    split_.parents.reserve(split_.after->links.size());
-    for (const auto& link : split_.after->links) {
+    links_.parents.reserve(links_.after->links.size());
+    for (const auto& link : links_.after->links) {
       while (next < before.size() && before[next] < link) {
         ++next;
       }
       const bool is_kept = next < before.size() && before[next] == link;
-      split_.parents.push_back(is_kept ? next : between(link[0], link[1]));
+      links_.parents.push_back(is_kept ? next : between(link[0], link[1]));
     }
   }
 
@@ -317,18 +318,18 @@ class Origins {
     a = original(a);
     b = original(b);
     if (a < old_ && b < old_) {
-      return a == b ? Split::none : find_link(*split_.before, a, b).value_or(Split::none);
+      return a == b ? SplitLinks::none : find_link(*links_.before, a, b).value_or(SplitLinks::none);
     }
-    const LinkId at_a = split_.link_at(a), at_b = split_.link_at(b);
-    const LinkId link = at_a == Split::none ? at_b : at_a;
-    return link != Split::none && is_on(a, at_a, link) && is_on(b, at_b, link) ? link : Split::none;
+    const LinkId at_a = links_.link_at(a), at_b = links_.link_at(b);
+    const LinkId link = at_a == SplitLinks::none ? at_b : at_a;
+    return link != SplitLinks::none && is_on(a, at_a, link) && is_on(b, at_b, link) ? link : SplitLinks::none;
   }
   bool is_on(ElementId element, LinkId at, LinkId link) const {
-    const auto& [from, to] = split_.before->links[link];
+    const auto& [from, to] = links_.before->links[link];
     return at == link || element == from || element == to;
   }
 
-  Split& split_;
+  SplitLinks& links_;
   ElementId old_;
   std::vector<ElementId> original_;  // of each appended element: itself, or what it is a copy of
 };
@@ -337,17 +338,18 @@ class Origins {
 class CutsAfter {
  public:
   CutsAfter(const Split& split, std::span<const LinkId> cuts)
-      : split_(split),
-        before_(*split.before),
-        after_(*split.after),
+      : edit_(split.edit()),
+        links_(split),
+        before_(*links_.before),
+        after_(*links_.after),
         cuts_(cuts),
         is_cut_(after_.link_count()),
         carriers_(before_.element_count()) {
-    carriers_.append(split.edit.elements);
-    add_removed(split.edit);
+    carriers_.append(edit_.elements);
+    add_removed();
     for (LinkId link = 0; link < after_.link_count(); ++link) {
-      const LinkId on = split.parents[link];
-      is_cut_[link] = on == Split::none ? is_inside_gone(after_.links[link]) : was_cut(on);
+      const LinkId on = links_.parents[link];
+      is_cut_[link] = on == SplitLinks::none ? is_inside_gone(after_.links[link]) : was_cut(on);
     }
     cut_corners();
     keep_stubs();
@@ -370,7 +372,7 @@ class CutsAfter {
     bool is_gone = false;            // it has a cut link
   };
 
-  void add_removed(const SplitEdit& edit);
+  void add_removed();
   bool was_cut(LinkId link) const { return std::ranges::binary_search(cuts_, link); }
   bool is_inside_gone(std::span<const ElementId> elements) const;
   void cut_corners();
@@ -387,7 +389,8 @@ class CutsAfter {
   }
   void keep_stubs();
 
-  const Split& split_;
+  const SplitEdit& edit_;
+  const SplitLinks links_;
   const Mesh &before_, &after_;
   std::span<const LinkId> cuts_;
   std::vector<bool> is_cut_;  // of each link after the split
@@ -396,7 +399,7 @@ class CutsAfter {
   std::unordered_map<ElementId, std::vector<std::size_t>> removed_at_;  // by corner
 };
 
-void CutsAfter::add_removed(const SplitEdit& edit) {
+void CutsAfter::add_removed() {
   const auto add = [this](const auto& corners, auto for_each) {
     Removed one{{corners.begin(), corners.end()}};
     for_each(corners, [&](ElementId a, ElementId b) {
@@ -415,15 +418,15 @@ void CutsAfter::add_removed(const SplitEdit& edit) {
   const auto add_cell = [&add](const auto& corners) {
     add(corners, [](const auto& cell, auto visit) { for_each_edge(cell, visit); });
   };
-  for (const std::uint32_t one : edit.removed) {
+  for (const std::uint32_t one : edit_.removed) {
     add_face(before_.triangles[one]);
   }
   for_each_polygon(before_.polygons, [&](std::uint32_t number, auto corners) {
-    if (std::ranges::binary_search(edit.removed_polygons, number)) {
+    if (std::ranges::binary_search(edit_.removed_polygons, number)) {
       add_face(corners);
     }
   });
-  for (const CellId cell : edit.removed_cells) {
+  for (const CellId cell : edit_.removed_cells) {
     const std::size_t tetrahedra = before_.tetrahedra.size();
     cell < tetrahedra ? add_cell(before_.tetrahedra[cell]) : add_cell(before_.hexahedra[cell - tetrahedra]);
   }
@@ -457,15 +460,15 @@ bool CutsAfter::is_inside_gone(std::span<const ElementId> elements) const {
 /// Cuts a link of each piece that still has none: a corner of a bent hexahedron that has all its links in sides that
 /// are not cut. A piece of the cell across that side may then be gone, too.
 void CutsAfter::cut_corners() {
-  for (const auto& corners : split_.edit.tetrahedra) {
+  for (const auto& corners : edit_.tetrahedra) {
     bool is_whole = is_inside_gone(corners);
-    LinkId inner = Split::none;
+    LinkId inner = SplitLinks::none;
     for_each_edge(corners, [&](ElementId a, ElementId b) {
       const LinkId link = find_link(after_, a, b).value();
       is_whole = is_whole && !is_cut_[link];
-      inner = split_.parents[link] == Split::none ? link : inner;
+      inner = links_.parents[link] == SplitLinks::none ? link : inner;
     });
-    if (is_whole && inner != Split::none) {
+    if (is_whole && inner != SplitLinks::none) {
       is_cut_[inner] = true;
     }
   }
@@ -474,7 +477,7 @@ void CutsAfter::cut_corners() {
 /// An element all of whose links would be cut stays linked to its first neighbour, so that it is no part of its own.
 /// What is gone stays so: it has other links there.
 void CutsAfter::keep_stubs() {
-  const auto& elements = split_.edit.elements;
+  const auto& elements = edit_.elements;
   for (ElementId i = 0; i < elements.size(); ++i) {
     keep_stub(before_.element_count() + i);
     const ElementId of = elements[i].of[0];
@@ -495,14 +498,72 @@ void check_can_split(const Mesh& mesh, const std::string& where) {
   }
 }
 
-SplitPointer make_split(MeshPointer mesh, SplitEdit edit) {
+SplitPointer make_split(const MeshPointer& mesh, SplitEdit edit) {
   check(edit, *mesh);
-  auto split = std::make_shared<Split>();
-  split->after = MeshAfter(*mesh, edit).build(mesh->has_cells() ? Skin::after(mesh, edit.elements) : nullptr);
-  split->before = std::move(mesh);
-  split->edit = std::move(edit);
-  Origins(*split).find();
-  return split;
+  return std::make_shared<const Split>(mesh, std::move(edit));
+}
+
+MeshSource::MeshSource(const MeshPointer& mesh) {
+  const bool is_known = mesh->split && mesh->split->kept() == mesh;  // otherwise it is a copy
+  is_known ? void(split_ = mesh->split) : void(first_ = mesh);
+}
+
+MeshPointer MeshSource::mesh() const {
+  std::vector<const Split*> missing;  // the last one first
+  MeshPointer mesh = first_;
+  for (const MeshSource* source = this; !mesh; mesh = mesh ? mesh : source->first_) {
+    const Split& split = *source->split_;
+    mesh = split.kept();
+    if (!mesh) {
+      missing.push_back(&split);
+      source = &split.before_;
+    }
+  }
+  for (auto split = missing.rbegin(); split != missing.rend(); ++split) {
+    mesh = (*split)->make_after(mesh);
+  }
+  return mesh;
+}
+
+Split::Split(const MeshPointer& before, SplitEdit edit)
+    : edit_(std::move(edit)),
+      old_count_(before->element_count()),
+      old_size_(mesh_size(*before)),
+      had_cells_(before->has_cells()),
+      before_(before) {}
+
+/// Splits that nobody else needs go one after another: one within the other, they would need a deep stack.
+Split::~Split() {
+  SplitPointer last = std::move(before_.split_);
+  while (last && last.use_count() == 1) {
+    SplitPointer next = std::move(last->before_.split_);
+    last = std::move(next);
+  }
+}
+
+MeshPointer Split::kept() const {
+  const std::lock_guard lock(mutex_);
+  return after_.lock();
+}
+
+MeshPointer Split::make_after(const MeshPointer& before) const {
+  const std::lock_guard lock(mutex_);
+  MeshPointer mesh = after_.lock();
+  if (!mesh) {
+    mesh = MeshAfter(*before, edit_)
+               .build(before->has_cells() ? Skin::after(before, edit_.elements) : nullptr, shared_from_this());
+    after_ = mesh;
+  }
+  return mesh;
+}
+
+SplitLinks::SplitLinks(const Split& split) : before(split.before()), after(split.after()) {
+  Origins(*this).find(split.edit().elements);
+}
+
+std::uint64_t mesh_size(const Mesh& mesh) {
+  return std::uint64_t{mesh.element_count()} + mesh.link_count() + mesh.triangles.size() + mesh.tetrahedra.size() +
+         mesh.hexahedra.size();
 }
 
 std::vector<Point> rest_after(const Mesh& mesh, std::span<const SplitPoint> points) {
@@ -545,10 +606,11 @@ std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts)
 
 std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins) {
   std::vector<ElementId> result(pins.begin(), pins.end());
-  for (ElementId i = 0; i < split.edit.elements.size(); ++i) {
+  const auto& appended = split.edit().elements;
+  for (ElementId i = 0; i < appended.size(); ++i) {
     const auto is_pinned = [&](ElementId one) { return std::ranges::binary_search(result, one); };
-    if (std::ranges::all_of(split.edit.elements[i].of, is_pinned)) {
-      result.push_back(split.before->element_count() + i);
+    if (std::ranges::all_of(appended[i].of, is_pinned)) {
+      result.push_back(split.old_count() + i);
     }
   }
   return result;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,13 +59,72 @@ struct SplitEdit {
   bool operator==(const SplitEdit&) const = default;
 };
 
-/// A mesh before and after a split, and how its links go over. The elements keep their ids. The links are numbered
-/// anew, because their numbers follow from their ends.
-struct Split {
+class Split;
+using SplitPointer = std::shared_ptr<const Split>;
+
+/// A mesh, held as what makes it: the mesh before all splits, and the splits. So it takes memory in proportion to what
+/// they change.
+class MeshSource {
+ public:
+  explicit MeshSource(const MeshPointer& mesh);
+
+  /// Returns the mesh: the same one as long as somebody keeps it. Otherwise it is made again, which takes time in
+  /// proportion to its size for each split after a mesh that somebody keeps. Safe to call from several threads.
+  MeshPointer mesh() const;
+
+ private:
+  friend class Split;
+
+  explicit MeshSource(SplitPointer split) : split_(std::move(split)) {}
+
+  MeshPointer first_;   // null after splits
+  SplitPointer split_;  // null before the first one
+};
+
+/// A change of a mesh by an edit. The elements keep their ids. The links are numbered anew, because their numbers
+/// follow from their ends. It keeps no mesh but the one before all splits.
+class Split : public std::enable_shared_from_this<Split> {
+ public:
+  /// For make_split(), which checks the edit.
+  Split(const MeshPointer& before, SplitEdit edit);
+  ~Split();
+  Split(const Split&) = delete;
+  Split& operator=(const Split&) = delete;
+
+  const SplitEdit& edit() const { return edit_; }
+  /// Number of elements before it.
+  ElementId old_count() const { return old_count_; }
+  /// Returns mesh_size() before it.
+  std::uint64_t old_size() const { return old_size_; }
+  /// True if there were cells before it.
+  bool had_cells() const { return had_cells_; }
+
+  /// Return the meshes. See MeshSource::mesh().
+  MeshPointer before() const { return before_.mesh(); }
+  MeshPointer after() const { return MeshSource(shared_from_this()).mesh(); }
+
+ private:
+  friend class MeshSource;
+
+  MeshPointer kept() const;
+  MeshPointer make_after(const MeshPointer& before) const;
+
+  SplitEdit edit_;
+  ElementId old_count_;
+  std::uint64_t old_size_;
+  bool had_cells_;
+  mutable MeshSource before_;
+  mutable std::mutex mutex_;
+  mutable std::weak_ptr<const Mesh> after_;
+};
+
+/// How the links of a mesh go over to the one after a split.
+struct SplitLinks {
   static constexpr LinkId none = std::numeric_limits<LinkId>::max();
 
+  explicit SplitLinks(const Split& split);
+
   MeshPointer before, after;
-  SplitEdit edit;
   /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face
   /// or a cell.
   std::vector<LinkId> parents;
@@ -77,7 +137,8 @@ struct Split {
   }
 };
 
-using SplitPointer = std::shared_ptr<const Split>;
+/// Returns the number of elements, links, triangles and cells together.
+std::uint64_t mesh_size(const Mesh& mesh);
 
 /// True if strokes may divide this mesh: it has cells, or it has faces and is not a lattice. A divided lattice of cells
 /// is no longer a lattice.
@@ -91,8 +152,9 @@ std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId
 /// Returns the rest positions of the elements of a mesh, and of elements that are appended to them.
 std::vector<Point> rest_after(const Mesh& mesh, std::span<const SplitPoint> points);
 
-/// Applies an edit. Throws Error, with the reason, if it does not fit the mesh.
-SplitPointer make_split(MeshPointer mesh, SplitEdit edit);
+/// Returns a split by an edit. Throws Error, with the reason, if it does not fit the mesh. The mesh after it is made
+/// when it is asked for.
+SplitPointer make_split(const MeshPointer& mesh, SplitEdit edit);
 
 /// Returns the links that are cut after the split: those on cut links, and new ones inside cells and faces that are
 /// gone, so that no piece of these comes back. Elements that would lose all links keep the first one. Ascending.

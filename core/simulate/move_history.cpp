@@ -13,7 +13,7 @@ constexpr std::size_t max_unreachable = 10'000;
 /// Returns the mesh that a command splits; null for other commands.
 MeshPointer mesh_before(const Command& command) {
   const auto* split = std::get_if<commands::Split>(&command);
-  return split == nullptr ? nullptr : split->split->before;
+  return split == nullptr ? nullptr : split->split->before();
 }
 
 }  // namespace
@@ -33,6 +33,17 @@ void MoveHistory::note(const Command& command) {
     begin_mesh(*std::get<ReplaceMesh>(command).mesh);
   } else if (!is_one_of<SetAlgorithm, SetRelaxation, SetElastic>(command)) {
     add(command);
+    if (const auto* split = std::get_if<commands::Split>(&command)) {
+      keep_recent(split->split->after());
+    }
+  }
+}
+
+void MoveHistory::keep_recent(MeshPointer mesh) {
+  recent_size_ += mesh_size(*mesh);
+  recent_.push_back(std::move(mesh));
+  for (; recent_size_ > kept_size && recent_.size() > 1; recent_.pop_front()) {
+    recent_size_ -= mesh_size(*recent_.front());
   }
 }
 
@@ -41,8 +52,7 @@ void MoveHistory::add(const Command& command) {
     timeline_.resize(position_);
     ++timeline_number_;
   }
-  // Splits contain meshes.
-  if (is_one_of<commands::Split>(command) || nodes_.size() > 2 * reachable_ + max_unreachable) {
+  if (nodes_.size() > 2 * reachable_ + max_unreachable) {
     drop_unreachable();
   }
   const Node before = last();
@@ -57,6 +67,8 @@ void MoveHistory::begin() {
   timeline_.clear();
   position_ = 0;
   ++timeline_number_;
+  recent_.clear();
+  recent_size_ = 0;
   drop_unreachable();
   beginning_ = static_cast<Node>(nodes_.size());
   nodes_.push_back({{}, none, 0});
@@ -159,13 +171,12 @@ MeshPointer first_mesh(const std::vector<Command>& commands) {
 }
 
 MeshPointer last_mesh(const MeshPointer& mesh, std::span<const Command> commands) {
-  MeshPointer last = mesh;
-  for (const Command& command : commands) {
-    if (const auto* split = std::get_if<commands::Split>(&command)) {
-      last = split->split->after;
+  for (std::size_t i = commands.size(); i > 0; --i) {
+    if (const auto* split = std::get_if<commands::Split>(&commands[i - 1])) {
+      return split->split->after();
     }
   }
-  return last;
+  return mesh;
 }
 
 std::size_t count_drags(std::span<const Command> commands) {
@@ -190,7 +201,8 @@ ObjectState MoveHistory::object(std::size_t position) const {
       add ? void(all.insert(one)) : void(all.erase(one));
     }
   };
-  object.mesh = first_mesh();
+  SplitPointer last;
+  MeshPointer kept;  // of the last split, so that the next one need not make it again
   for (std::size_t i = 0; i < position; ++i) {
     const Command& command = at(i);
     if (const auto* cut = std::get_if<commands::Cut>(&command)) {
@@ -206,11 +218,14 @@ ObjectState MoveHistory::object(std::size_t position) const {
     } else if (const auto* split = std::get_if<commands::Split>(&command)) {
       object.cuts.assign(cuts.begin(), cuts.end());
       object.pins.assign(pins.begin(), pins.end());
-      object = object_after(*split->split, object);
+      last = split->split;
+      kept = object.cuts.empty() && object.softness->links.empty() ? nullptr : last->after();
+      object = meshless_after(*last, object);
       cuts = {object.cuts.begin(), object.cuts.end()};
       pins = {object.pins.begin(), object.pins.end()};
     }
   }
+  object.mesh = last ? last->after() : first_mesh();
   object.cuts.assign(cuts.begin(), cuts.end());
   object.pins.assign(pins.begin(), pins.end());
   return object;

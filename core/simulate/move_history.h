@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <span>
 #include <vector>
@@ -77,6 +78,7 @@ class MoveHistory {
   void begin_mesh(const Mesh& mesh);
   void return_to(Node last);
   void drop_unreachable();
+  void keep_recent(MeshPointer mesh);
   Node last() const { return position_ == 0 ? beginning_ : timeline_[position_ - 1]; }
 
   // All commands that the timeline or a kept state may return to: commands after an undo form a branch.
@@ -87,6 +89,10 @@ class MoveHistory {
   std::size_t position_ = 0;
   std::uint64_t timeline_number_ = 0;
   std::map<commands::StateId, Node> kept_;  // the last command before each state was saved
+  // The meshes after the last splits, up to kept_size together: undo then need not make them again.
+  static constexpr std::uint64_t kept_size = 10'000'000;  // see mesh_size(); about 25 bytes each
+  std::deque<MeshPointer> recent_;
+  std::uint64_t recent_size_ = 0;
 };
 
 }  // namespace chainmail

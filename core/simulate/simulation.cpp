@@ -559,9 +559,9 @@ void Simulation::carry_out(const commands::Split& command) {
 /// restored.
 void Simulation::carry_out(const commands::KeepState& command) {
   try {
-    kept_[command.state] = current_state();
+    kept_.insert_or_assign(command.state, UndoState(current_state()));
   } catch (const std::bad_alloc&) {
-    kept_[command.state] = {body().object(), last_kept_, valid_};
+    kept_.insert_or_assign(command.state, UndoState({body().object(), last_kept_, valid_}));
     throw Error("undo", "there is not enough memory to keep these positions",
                 "save your work; undoing the next step returns to earlier positions");
   }
@@ -572,7 +572,7 @@ void Simulation::carry_out(const commands::RestoreState& command) {
   if (found == kept_.end()) {
     throw Error("state " + std::to_string(command.state), "this saved state does not exist", "save it first");
   }
-  restore(found->second);
+  restore(found->second.state());
 }
 
 void Simulation::carry_out(const commands::DropState& command) { kept_.erase(command.state); }

@@ -183,7 +183,7 @@ class Simulation {
   double closest_ = 0;               // residual, or largest step in mean rest lengths, that relaxation has reached
   std::uint64_t closest_sweep_ = 0;  // when: see Statistics::sweeps. 0: not yet
   bool has_begun_again_ = false;     // because it came no closer
-  std::map<commands::StateId, KeptState> kept_;
+  std::map<commands::StateId, UndoState> kept_;
   PassTimes times_;
   ViolationMeter meter_;
   Statistics statistics_;

@@ -210,7 +210,7 @@ void Deformer::replace(const ObjectState& object, Algorithm algorithm) {
 }
 
 Snapshot Deformer::split(const SplitPointer& split, const Snapshot& positions) {
-  if (!split || split->before != body_.mesh_pointer()) {
+  if (!split || split->before() != body_.mesh_pointer()) {
     throw Error("split", "the object is not the one that was split", "split this object");
   }
   Snapshot after = positions_after(*split, positions, body_.precision());
@@ -220,7 +220,7 @@ Snapshot Deformer::split(const SplitPointer& split, const Snapshot& positions) {
   if (std::ranges::none_of(handle, [this](ElementId one) { return body_.is_pinned(one); })) {
     set_last_handle(handle);
   }
-  for (ElementId e = split->before->element_count(); e < body_.mesh().element_count(); ++e) {
+  for (ElementId e = split->old_count(); e < body_.mesh().element_count(); ++e) {
     wake(std::span(&e, 1));
     wake(body_.mesh().neighbours_of(e));
   }

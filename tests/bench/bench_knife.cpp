@@ -109,7 +109,11 @@ void divide(const std::string& object, const MeshPointer& mesh, const std::strin
     return;
   }
   SplitPointer split;
-  const double build = milliseconds([&] { split = make_split(mesh, edit); });
+  MeshPointer divided;
+  const double build = milliseconds([&] {
+    split = make_split(mesh, edit);
+    divided = split->after();
+  });
   Deformer deformer(mesh, Algorithm::natural_queue, Precision::single_precision);
   const Deformer whole = deformer.copy();
   const Snapshot rest = deformer.body().snapshot();
@@ -117,7 +121,7 @@ void divide(const std::string& object, const MeshPointer& mesh, const std::strin
     Deformer copy = whole.copy();
     copy.split(split, rest);
   });
-  const Cells before = cells_of(*mesh), after = cells_of(*split->after);
+  const Cells before = cells_of(*mesh), after = cells_of(*divided);
   std::printf("| %s | %s | %zu | %zu | %zu | %.3f | %.3f | %.0e | %.0f | %.0f | %.0f |\n", object.c_str(), name.c_str(),
               before.count, edit.removed_cells.size(), after.count, before.worst, after.worst,
               std::abs(after.volume / before.volume - 1), find, build, carry_out);

@@ -177,7 +177,7 @@ Session session_of_file(const std::string& name) {
 }
 
 Session session_with(const SplitPointer& split) {
-  Session session = session_of(split->after);
+  Session session = session_of(split->after());
   session.moves = {commands::Split{split}};
   return session;
 }
@@ -311,7 +311,7 @@ void SchemasTest::add_moves() {
       commands::Relaxed{RelaxationScheme::mean, 1, commands::Relaxed::Start::awake, counts},
       commands::Split{split}};
   std::ostringstream out;
-  write_moves(out, moves, *split->after);
+  write_moves(out, moves, *split->after());
   add("all moves", "moves", out.str());
 }
 

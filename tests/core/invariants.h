@@ -197,7 +197,7 @@ class FollowedSimulation {
       return std::ranges::any_of(pin->elements, [this](ElementId e) { return held_.contains(e); });
     }
     if (const auto* split = std::get_if<commands::Split>(&command)) {
-      return split->split->before != simulation_.mesh_pointer();
+      return split->split->before() != simulation_.mesh_pointer();
     }
     const auto* restored = std::get_if<RestoreState>(&command);
     return (is_one_of<Drag>(command) && held_.empty()) || (restored != nullptr && !kept_.contains(restored->state));
@@ -323,21 +323,22 @@ class FollowedSimulation {
   void expect(const commands::DropState& command) { kept_.erase(command.state); }
   /// A split that puts one element into a triangle: three more links, all inside it, and two more triangles.
   void expect(const commands::Split& command) {
-    const Mesh &old = *expected_.mesh, &now = *command.split->after;
+    const MeshPointer divided = command.split->after();
+    const Mesh &old = *expected_.mesh, &now = *divided;
     const bool has_grown = now.element_count() == old.element_count() + 1 && now.link_count() == old.link_count() + 3 &&
                            now.triangles.size() == old.triangles.size() + 2;
-    const auto& [of, shares] = command.split->edit.elements.front();
+    const auto& [of, shares] = command.split->edit().elements.front();
     const auto& at = expected_.positions;
     const Point inside = (1 - shares[0] - shares[1]) * at[of[0]] + shares[0] * at[of[1]] + shares[1] * at[of[2]];
     expected_.positions.push_back(inside);
     // A triangle with a cut side is gone, and its pieces stay gone. The new element keeps one link.
-    std::array<ElementId, 3> corner = old.triangles[command.split->edit.removed.front()];
+    std::array<ElementId, 3> corner = old.triangles[command.split->edit().removed.front()];
     std::ranges::sort(corner);
     const auto& [a, b, c] = corner;
     if (expected_.cuts.contains({a, b}) || expected_.cuts.contains({b, c}) || expected_.cuts.contains({a, c})) {
       expected_.cuts.insert({{b, old.element_count()}, {c, old.element_count()}});
     }
-    expected_.mesh = has_grown ? command.split->after : nullptr;
+    expected_.mesh = has_grown ? divided : nullptr;
     expected_.softness = simulation_.body().shared_softness();  // the links are numbered anew
     let_go();
   }

@@ -161,15 +161,16 @@ MeshPointer two_triangles() {
 void MovesTest::splits_are_written_and_read() {
   const MeshPointer mesh = two_triangles();
   const auto split = make_split(mesh, {{SplitPoint::copy(0), SplitPoint::copy(2)}, {1}, {{4, 5, 3}}, {}, {}});
+  const MeshPointer divided = split->after();
   const std::vector<Command> moves{commands::Pin{{0}}, commands::Split{split}, commands::Grab{5},
-                                   commands::Drag{{1.0 / 3, 2, 0}}, commands::Cut{{*find_link(*split->after, 4, 5)}}};
+                                   commands::Drag{{1.0 / 3, 2, 0}}, commands::Cut{{*find_link(*divided, 4, 5)}}};
   std::ostringstream out;
-  write_moves(out, moves, *split->after);
+  write_moves(out, moves, *divided);
   QVERIFY(out.str().starts_with(R"({"version": 2,)"));
   const auto again = read_moves(out.str(), std::filesystem::path("m.json"), mesh);
   QCOMPARE(again.size(), moves.size());
-  QCOMPARE(std::get<commands::Split>(again[1]).split->edit, split->edit);
-  QCOMPARE(std::get<commands::Split>(again[1]).split->before, mesh);
+  QCOMPARE(std::get<commands::Split>(again[1]).split->edit(), split->edit());
+  QCOMPARE(std::get<commands::Split>(again[1]).split->before(), mesh);
   QCOMPARE(std::get<commands::Cut>(again[4]).links, std::get<commands::Cut>(moves[4]).links);
   std::ostringstream twice;
   write_moves(twice, again, *mesh);
@@ -213,16 +214,18 @@ void MovesTest::splits_of_cells_are_written_and_read() {
                        {{8, b, 9, d}, {8, 9, c, d}},
                        {{0, 1, 3, 2, 4, 5, 7, 6}}};
   const auto split = make_split(mesh, edit);
+  const MeshPointer divided = split->after();
   const std::vector<Command> moves{commands::Split{split}, commands::Grab{9}, commands::Drag{{1, 2, 0}}};
   std::ostringstream out;
-  write_moves(out, moves, *split->after);
+  write_moves(out, moves, *divided);
   QVERIFY(out.str().starts_with(R"({"version": 4,)"));
   const auto again = read_moves(out.str(), std::filesystem::path("m.json"), mesh);
   const Split& read = *std::get<commands::Split>(again[0]).split;
-  QCOMPARE(read.edit, edit);
-  QCOMPARE(read.after->tetrahedra, split->after->tetrahedra);
-  QCOMPARE(read.after->hexahedra, split->after->hexahedra);
-  QCOMPARE(read.after->links, split->after->links);
+  QCOMPARE(read.edit(), edit);
+  const MeshPointer read_mesh = read.after();
+  QCOMPARE(read_mesh->tetrahedra, divided->tetrahedra);
+  QCOMPARE(read_mesh->hexahedra, divided->hexahedra);
+  QCOMPARE(read_mesh->links, divided->links);
 }
 
 void MovesTest::splits_that_do_not_fit_are_refused_data() {

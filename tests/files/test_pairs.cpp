@@ -109,7 +109,7 @@ std::vector<Point> answer(const Scene& scene) {
   if (scene.splits) {
     const SplitPointer split = split_of(mesh);
     simulation.apply(commands::Split{split});
-    mesh = split->after;
+    mesh = split->after();
   }
   simulation.apply(commands::Cut{ids_of(*mesh, scene.cuts)});
   for (const ElementId pin : scene.pins) {
@@ -179,7 +179,7 @@ void leave_cut_links_out(Scene& scene) {
 
 void split_before(Scene& scene) {
   if (std::exchange(scene.splits, false)) {
-    scene.mesh = changed(*split_of(scene.mesh)->after, [](MeshParts&) {});
+    scene.mesh = changed(*split_of(scene.mesh)->after(), [](MeshParts&) {});
   }
 }
 

@@ -289,13 +289,14 @@ void SessionTest::a_split_object_comes_back_with_its_moves() {
   add_links_along_edges(parts);
   const MeshPointer mesh = build_mesh(std::move(parts));
   const auto split = make_split(mesh, {{SplitPoint::copy(0), SplitPoint::copy(2)}, {1}, {{4, 5, 3}}, {}, {}});
+  const MeshPointer divided = split->after();
   Session session;
-  session.mesh = split->after;
+  session.mesh = divided;
   session.pins = {5};
-  session.cuts = {*find_link(*split->after, 4, 5)};
+  session.cuts = {*find_link(*divided, 4, 5)};
   session.moves = {commands::Grab{1}, commands::Drag{{0.5, 1, 0}}, commands::Split{split}, commands::Pin{{5}}};
   session.panels = {{Algorithm::natural_queue, Precision::single_precision,
-                     snapshot_of({false, {4, 6}, {1, 2, 3, 4}}, *split->after, Precision::single_precision)}};
+                     snapshot_of({false, {4, 6}, {1, 2, 3, 4}}, *divided, Precision::single_precision)}};
   for (const std::size_t done : {4U, 3U, 2U}) {
     session.moves_done = done;
     if (done == 2) {  // the split has been undone
@@ -309,7 +310,7 @@ void SessionTest::a_split_object_comes_back_with_its_moves() {
     QCOMPARE(again.mesh->links, session.mesh->links);
     QCOMPARE(again.moves.size(), 4U);
     const auto& saved = *std::get<commands::Split>(again.moves[2]).split;
-    QCOMPARE(again.mesh, done > 2 ? saved.after : saved.before);
+    QCOMPARE(again.mesh, done > 2 ? saved.after() : saved.before());
     QCOMPARE(again.pins, session.pins);
     QCOMPARE(again.cuts, session.cuts);
   }

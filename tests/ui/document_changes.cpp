@@ -58,6 +58,7 @@ class DocumentChangesTest : public QObject {
   void a_change_ends_the_drag_in_the_solvers();
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
+  void undo_makes_the_mesh_of_a_split_again();
   void a_panel_may_be_removed_while_saving();
   void a_panel_that_is_added_shows_its_passes();
 
@@ -142,6 +143,36 @@ void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
   edits::split(document, split_of(document.mesh()));
   edits::replaceMesh(document, mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
   QVERIFY(document.softness() == own);
+}
+
+/// Undo steps and solvers keep what splits changed, not their meshes.
+void DocumentChangesTest::undo_makes_the_mesh_of_a_split_again() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  edits::split(document, split_of(document.mesh()));
+  const LinkId link = document.mesh()->link_count() - 1;
+  edits::cut(document, {link});
+  document.handle().grab(7);
+  document.handle().dragBy(Point(0.5, 1, 0));
+  document.handle().release();
+  const std::shared_ptr<const Session> before = session_of(document);
+  const std::weak_ptr<const Mesh> divided = document.mesh();
+  edits::replaceMesh(document, generate({MeshKind::grid, {3, 3, 1}, 1, {}}), QStringLiteral("other"),
+                     QStringLiteral("open"));
+  QVERIFY(is_idle(document));
+  QTRY_VERIFY(divided.expired());
+  document.undoStack().undo();
+  QVERIFY(is_idle(document));
+  const std::shared_ptr<const Session> after = session_of(document);
+  QCOMPARE(after->mesh->links, before->mesh->links);
+  QCOMPARE(after->cuts, std::vector<LinkId>{link});
+  QVERIFY(after->panels.front().positions == before->panels.front().positions);
+  QVERIFY(document.cuts().is_cut(link));
+  QCOMPARE(document.parts(), 1U);
+  document.undoStack().undo();
+  document.undoStack().undo();
+  QCOMPARE(document.mesh()->element_count(), mesh_->element_count() + 1);
+  document.undoStack().undo();
+  QCOMPARE(document.mesh(), mesh_);
 }
 
 /// The draft shares the solvers, and the panel is removed before its solver has reported its positions.

@@ -56,7 +56,7 @@ MeshPointer openBlock() {
       edit.removed_cells.push_back(cell);
     }
   }
-  return make_split(whole, std::move(edit))->after;
+  return make_split(whole, std::move(edit))->after();
 }
 
 }  // namespace

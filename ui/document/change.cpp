@@ -7,6 +7,25 @@
 
 namespace chainmail {
 
+void DocumentObject::sleep() {
+  if (mesh && mesh->split) {
+    sleeping_ = Sleeping{MeshSource(mesh), cuts.links()};
+    mesh.reset();
+    cuts = {};
+    parts = {};
+  }
+}
+
+void DocumentObject::wake() {
+  if (sleeping_) {
+    mesh = sleeping_->mesh.mesh();
+    cuts = Cuts(mesh);
+    parts = Parts(mesh);
+    parts.cut(cuts, sleeping_->cuts);
+    sleeping_.reset();
+  }
+}
+
 void Contents::goTo(const ObjectState& state) {
   auto other = std::make_shared<DocumentObject>(state, object->name);
   other->unsplit = object->unsplit;
@@ -66,6 +85,7 @@ bool Edit::mergeWith(const QUndoCommand* later) {
 }
 
 void Edit::exchange(const Contents& from, const Contents& to, bool done) {
+  to.object->wake();
   const commands::StateId now = executor_.newState();
   executor_.post(commands::KeepState{now});
   executor_.postSettings(

@@ -40,13 +40,25 @@ struct DocumentObject {
     parts.cut(cuts, object.cuts);
   }
 
-  MeshPointer mesh;
+  /// While undo or redo may return to the object, it keeps the splits that lead to its mesh, not the mesh.
+  void sleep();
+  void wake();
+
+  MeshPointer mesh;     // null while it sleeps
   MeshPointer unsplit;  // the mesh from which splits made this one; the same mesh without splits
   QString name;
   Cuts cuts;
   Parts parts;                                  // connected parts of the object with these cuts
   std::vector<ElementId> pins;                  // ascending
   std::shared_ptr<const Settings> before = {};  // which a lesson replaces while it is open
+
+ private:
+  struct Sleeping {
+    MeshSource mesh;
+    std::vector<LinkId> cuts;
+  };
+
+  std::optional<Sleeping> sleeping_;
 };
 
 /// The lesson of an object, if it is one. Captions and step change alone, so that they are small.

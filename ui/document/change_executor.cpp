@@ -139,6 +139,7 @@ std::vector<int> ChangeExecutor::panelsToSwitch(const Contents& from, const Cont
 void ChangeExecutor::show(Change& change, const Contents& from, const Contents& to, bool done) {
   const std::vector<int> panels = panelsToSwitch(from, to);
   const bool isOther = from.object != to.object;
+  to.object->wake();
   if (isOther) {  // first, because listeners still read elements of the old mesh
     document_.highlight().set({});
     document_.selection().set({});
@@ -154,6 +155,9 @@ void ChangeExecutor::show(Change& change, const Contents& from, const Contents& 
   showParts(change, done);
   if (isOther && done) {
     replaceUnfitAlgorithms();
+  }
+  if (isOther) {
+    from.object->sleep();
   }
 }
 

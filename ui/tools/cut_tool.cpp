@@ -62,8 +62,9 @@ void CutTool::cut(const View& view, const std::vector<LinkId>& links, const std:
   try {
     const auto loose = links_without_faces(*document_.mesh(), links);
     if (const SplitPointer split = view.search().splitAlong(stroke, links)) {
+      const MeshPointer after = split->after();
       for (int panel = 0; panel < document_.panels(); ++panel) {
-        check(document_.algorithm(panel), *split->after);  // some need a lattice
+        check(document_.algorithm(panel), *after);  // some need a lattice
       }
       edits::split(document_, split, loose);
     } else if (!loose.empty() || links.empty()) {

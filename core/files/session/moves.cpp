@@ -29,7 +29,7 @@ void MovesReader::scan(std::string_view text, const std::filesystem::path& path,
   for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + name.size())) {
     ++splits;
   }
-  check_split_parts(splits * split_parts_of(*mesh_));
+  check_split_parts(splits * mesh_size(*mesh_));
   scan_json(text, path, where_,
             {.content = "recorded moves",
              .packed = packed,
@@ -124,13 +124,13 @@ void MovesReader::points(const char* key, std::vector<SplitPoint>& all) {
 void MovesReader::split(SplitPointer& split) {
   SplitEdit edit;
   members(*this, edit);
-  split_parts_ += split_parts_of(*mesh_) + edit.elements.size();
+  split_parts_ += mesh_size(*mesh_) + edit.elements.size();
   check_split_parts(split_parts_);
   split = fields_.here([&] { return make_split(mesh_, std::move(edit)); });
+  mesh_ = split->after();
   const auto pins = pins_after(*split, std::vector(pinned_.begin(), pinned_.end()));
   pinned_ = {pins.begin(), pins.end()};
   grabbed_.clear();
-  mesh_ = split->after;
   principal_.reset();
 }
 
@@ -208,10 +208,20 @@ void MovesReader::check_split_parts(std::uint64_t parts) const {
   }
 }
 
+/// Returns the mesh of the next command. It is made only for commands that name links.
+const Mesh& MovesWriter::mesh() {
+  if (split_) {
+    after_split_ = split_->after();
+    mesh_ = after_split_.get();
+    split_.reset();
+  }
+  return *mesh_;
+}
+
 void MovesWriter::links(const char* key, const std::vector<LinkId>& all) {
   json_[key] = Json::array();
   for (const LinkId link : all) {
-    json_[key].push_back(mesh_->links[link]);
+    json_[key].push_back(mesh().links[link]);
   }
 }
 
@@ -231,15 +241,15 @@ void MovesWriter::points(const char* key, const std::vector<SplitPoint>& all) {
 }
 
 void MovesWriter::split(const SplitPointer& split) {
-  mesh_ = split->after.get();  // of the commands after this one
-  SplitEdit edit = split->edit;
+  split_ = split;
+  SplitEdit edit = split->edit();
   members(*this, edit);
 }
 
 void MovesWriter::softness(const char* key, const std::shared_ptr<const Softness>& softness) {
   add_softness(json_, *softness);
   for (const auto& [link, own] : softness->links) {
-    Json row = mesh_->links[link];
+    Json row = mesh().links[link];
     for (const SoftnessNumber& number : softness_numbers) {
       row.push_back(own.*number.value);
     }
@@ -253,11 +263,6 @@ void MovesWriter::counts(const char* panels, const char* slices,
     json_[panels].push_back(info(counts->algorithm(i)).name);
     json_[slices].push_back(counts->slices(i));
   }
-}
-
-std::uint64_t split_parts_of(const Mesh& mesh) {
-  return std::uint64_t{mesh.element_count()} + mesh.link_count() + mesh.triangles.size() + mesh.tetrahedra.size() +
-         mesh.hexahedra.size();
 }
 
 std::vector<Command> read_moves(std::string_view text, const std::filesystem::path& path, const std::string& where,
@@ -281,7 +286,7 @@ void write_moves(std::ostream& out, const std::vector<Command>& commands, const 
       std::ranges::any_of(commands, [](const Command& one) { return std::holds_alternative<commands::Relaxed>(one); });
   const bool cells = std::ranges::any_of(commands, [](const Command& command) {
     const auto* split = std::get_if<commands::Split>(&command);
-    return split != nullptr && split->split->before->has_cells();
+    return split != nullptr && split->split->had_cells();
   });
   out << "{\"version\": "
       << (cells     ? cells_version

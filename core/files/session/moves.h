@@ -52,9 +52,6 @@ inline constexpr std::uint64_t newest_moves_version = 4;
 /// links; "links" may be left out. So may "energy", and the numbers after the first three: they have their defaults
 /// then.
 
-/// Returns what counts toward limits::split_parts for a mesh after a split.
-std::uint64_t split_parts_of(const Mesh& mesh);
-
 /// Reads moves of a mesh from the text of a file. `path` appears in errors. Throws Error, with the number of the
 /// command from 0, for any command that a simulation of this mesh could not execute from rest; and Cancelled. Takes
 /// linear time, and little memory other than the commands and the text.

@@ -268,7 +268,11 @@ class MovesWriter {
   void described(const auto& one) { add_members(json_, one); }
 
  private:
+  const Mesh& mesh();
+
   const Mesh* mesh_;
+  MeshPointer after_split_;  // keeps mesh_
+  SplitPointer split_;       // the last one; null if mesh_ is the mesh after it
   Json json_;
 };
 

@@ -60,7 +60,7 @@ std::size_t weight(const Command& command) {
   return std::visit(
       [](const auto& one) -> std::size_t {
         if constexpr (requires { one.split; }) {
-          const SplitEdit& edit = one.split->edit;
+          const SplitEdit& edit = one.split->edit();
           return 1 + edit.elements.size() + edit.triangles.size() + edit.tetrahedra.size() + edit.hexahedra.size();
         } else if constexpr (requires { one.links; }) {
           return 1 + one.links.size();
@@ -82,7 +82,7 @@ bool moves_fit(const std::vector<Command>& moves) {
   for (const Command& command : moves) {
     all += weight(command);
     const auto* split = std::get_if<commands::Split>(&command);
-    parts += split == nullptr ? 0 : split_parts_of(*split->split->before) + split->split->edit.elements.size();
+    parts += split == nullptr ? 0 : split->split->old_size() + split->split->edit().elements.size();
   }
   return all > 0 && all <= limits::session_moves && parts <= limits::split_parts;
 }

@@ -31,8 +31,8 @@ inline constexpr std::size_t presets = 1000;    // of softness, in one file
 inline constexpr std::size_t session_panels = 16;        // of a session
 inline constexpr std::size_t session_moves = 1'000'000;  // with the links and elements that they name
 inline constexpr std::size_t moves = 10'000'000;         // in a file
-/// Elements, links, triangles and cells of all meshes after splits of recorded moves: each split keeps a mesh of its
-/// own.
+/// Elements, links, triangles and cells of all meshes after splits of recorded moves, which are made one after another
+/// while the moves are read.
 inline constexpr std::uint64_t split_parts = 100'000'000;
 inline constexpr std::size_t lesson_steps = 1000;  // of a lesson
 /// Largest grid of a VTK file that has fewer bytes than points.

@@ -224,7 +224,8 @@ bool is_outside(const Mesh& mesh, std::span<const ElementId> corners) {
 
 /// Returns what is wrong with the cells after a split; empty if nothing is.
 std::string flaw_of(const Split& split) {
-  const Mesh &before = *split.before, &after = *split.after;
+  const MeshPointer divided = split.after(), whole = split.before();
+  const Mesh &before = *whole, &after = *divided;
   if (!std::equal(before.rest.begin(), before.rest.end(), after.rest.begin())) {
     return "an old element has moved";
   }
@@ -240,7 +241,7 @@ std::string flaw_of(const Split& split) {
     return "the surface is not closed";
   }
   // Sides of hexahedra coincide with those of tetrahedra.
-  const Surface surface(std::make_shared<CellTable>(split.after));
+  const Surface surface(std::make_shared<CellTable>(divided));
   if (surface.triangles().size() != 3 * boundary(after).size()) {
     return "sides inside the object have no twin";
   }
@@ -302,10 +303,11 @@ double whole_volume(const MeshPointer& mesh, const std::vector<LinkId>& cut) {
 
 double new_tetrahedra_per_old_one(const Split& split) {
   std::size_t old = 0;
-  for (const CellId cell : split.edit.removed_cells) {
-    old += cell < split.before->tetrahedra.size() ? 1 : 6;
+  for (const CellId cell : split.edit().removed_cells) {
+    old += cell < split.before()->tetrahedra.size() ? 1 : 6;
   }
-  return double(split.edit.tetrahedra.size() + 6 * split.edit.hexahedra.size()) / double(std::max<std::size_t>(old, 1));
+  return double(split.edit().tetrahedra.size() + 6 * split.edit().hexahedra.size()) /
+         double(std::max<std::size_t>(old, 1));
 }
 
 void add_objects() {
@@ -337,13 +339,14 @@ void DivideCellsTest::a_stroke_across_makes_two_parts() {
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), middle(-offset * along.y(), offset * along.x());
     const auto split = split_of(mesh, places, {middle - 300 * along, middle + 10 * along, middle + 300 * along});
     QVERIFY(split != nullptr);
+    const MeshPointer divided = split->after();
     QCOMPARE(flaw_of(*split), std::string());
-    QCOMPARE(split->after->part_count, 2U);
+    QCOMPARE(divided->part_count, 2U);
     QVERIFY(new_tetrahedra_per_old_one(*split) <= 6);
-    QVERIFY(worst_quality(*split->after) >= std::min(worst_quality(*mesh), least_piece_quality) - 1e-12);
+    QVERIFY(worst_quality(*divided) >= std::min(worst_quality(*mesh), least_piece_quality) - 1e-12);
     // New elements between two are on the stroke.
-    for (ElementId i = 0; i < split->edit.elements.size(); ++i) {
-      const SplitPoint& point = split->edit.elements[i];
+    for (ElementId i = 0; i < split->edit().elements.size(); ++i) {
+      const SplitPoint& point = split->edit().elements[i];
       if (!point.is_copy()) {
         const auto at = point.mix<Eigen::Vector2d>(places[point.of[0]].at, places[point.of[1]].at, {0, 0});
         QVERIFY(std::abs(along.x() * (at - middle).y() - along.y() * (at - middle).x()) < 1e-4);
@@ -359,13 +362,14 @@ void DivideCellsTest::a_stroke_that_ends_inside_leaves_one_part() {
       const Stroke slit{{-40, 50 + i}, {20 + 7.3 * i, 60}};
       const auto split = split_of(mesh, slit);
       QVERIFY(split != nullptr);
+      const MeshPointer divided = split->after();
       QCOMPARE(flaw_of(*split), std::string());
-      QCOMPARE(split->after->part_count, 1U);
+      QCOMPARE(divided->part_count, 1U);
       // The cut is about as long as the stroke: no copy lies beyond its end.
       double furthest = 0;
-      for (ElementId e = mesh->element_count(); e < split->after->element_count(); ++e) {
-        if (split->edit.elements[e - mesh->element_count()].is_copy()) {
-          furthest = std::max(furthest, 20 * split->after->rest_position(e).x());
+      for (ElementId e = mesh->element_count(); e < divided->element_count(); ++e) {
+        if (split->edit().elements[e - mesh->element_count()].is_copy()) {
+          furthest = std::max(furthest, 20 * divided->rest_position(e).x());
         }
       }
       QVERIFY(furthest <= slit[1].x() + 10 && furthest >= slit[1].x() - 50);
@@ -388,11 +392,12 @@ void DivideCellsTest::only_cells_with_a_reached_link_are_crossed() {
     SplitEdit edit = divide_cells(*mesh, seen_along_z(*mesh), stroke, reached);
     QVERIFY(!edit.empty());
     const auto split = make_split(mesh, std::move(edit));
+    const MeshPointer divided = split->after();
     QCOMPARE(flaw_of(*split), std::string());
-    QCOMPARE(split->after->part_count, 1U);
+    QCOMPARE(divided->part_count, 1U);
     // The wound is one cell deep; the elements of the next layer are moved by up to 0.15.
-    for (ElementId e = mesh->element_count(); e < split->after->element_count(); ++e) {
-      QVERIFY(split->after->rest_position(e).z() >= top - 1.15);
+    for (ElementId e = mesh->element_count(); e < divided->element_count(); ++e) {
+      QVERIFY(divided->rest_position(e).z() >= top - 1.15);
     }
     QVERIFY(divide_cells(*mesh, seen_along_z(*mesh), stroke, std::span<const LinkId>()).empty());
   }
@@ -402,12 +407,13 @@ void DivideCellsTest::a_stroke_along_faces_only_doubles_elements() {
   for (const bool hexahedra : {false, true}) {
     const MeshPointer mesh = block(hexahedra, 0, 1);
     const auto split = split_of(mesh, {{60, -30}, {60, 200}});
+    const MeshPointer divided = split->after();
     QCOMPARE(flaw_of(*split), std::string());
-    QCOMPARE(split->after->part_count, 2U);
-    QCOMPARE(split->edit.elements.size(), std::size_t{size[1]} * size[2]);
-    QVERIFY(std::ranges::all_of(split->edit.elements, &SplitPoint::is_copy));
-    QCOMPARE(split->after->tetrahedra.size(), mesh->tetrahedra.size());
-    QCOMPARE(split->after->hexahedra.size(), mesh->hexahedra.size());
+    QCOMPARE(divided->part_count, 2U);
+    QCOMPARE(split->edit().elements.size(), std::size_t{size[1]} * size[2]);
+    QVERIFY(std::ranges::all_of(split->edit().elements, &SplitPoint::is_copy));
+    QCOMPARE(divided->tetrahedra.size(), mesh->tetrahedra.size());
+    QCOMPARE(divided->hexahedra.size(), mesh->hexahedra.size());
   }
 }
 
@@ -420,8 +426,9 @@ void DivideCellsTest::a_stroke_through_elements_makes_two_parts() {
     for (const bool hexahedra : {false, true}) {
       const auto split = split_of(block(hexahedra, 0, 1), stroke);
       QVERIFY2(split != nullptr && flaw_of(*split).empty(), name);
-      QVERIFY2(split->after->part_count == 2, name);
-      QVERIFY2(worst_quality(*split->after) >= least_piece_quality - 1e-12, name);
+      const MeshPointer divided = split->after();
+      QVERIFY2(divided->part_count == 2, name);
+      QVERIFY2(worst_quality(*divided) >= least_piece_quality - 1e-12, name);
     }
   }
 }
@@ -447,8 +454,9 @@ void DivideCellsTest::a_stroke_that_leaves_and_enters_again_makes_three_parts() 
     const MeshPointer mesh = block(seed % 2 == 1, 0.15, seed);
     const auto split = split_of(mesh, {{47, -30}, {49, 150}, {90, 160}, {111, -30}});
     QVERIFY(split != nullptr);
+    const MeshPointer divided = split->after();
     QCOMPARE(flaw_of(*split), std::string());
-    QCOMPARE(split->after->part_count, 3U);
+    QCOMPARE(divided->part_count, 3U);
   }
 }
 
@@ -498,14 +506,15 @@ void DivideCellsTest::ten_strokes_keep_the_cells_good() {
             along = Point::Unit(Eigen::Index(random() % 3));
           }
           const auto split = split_of(mesh, seen(*mesh, along, random() % 2 == 0 ? 0.05 : 0), stroke);
+          const MeshPointer divided = split->after();
           if (split == nullptr) {
             continue;
           }
           RC_ASSERT(flaw_of(*split) == "");
-          RC_ASSERT(split->after->part_count >= mesh->part_count);
+          RC_ASSERT(divided->part_count >= mesh->part_count);
           RC_ASSERT(new_tetrahedra_per_old_one(*split) <= 6);
-          RC_ASSERT(worst_quality(*split->after) >= std::min(uncut, least_piece_quality) - 1e-12);
-          mesh = split->after;
+          RC_ASSERT(worst_quality(*divided) >= std::min(uncut, least_piece_quality) - 1e-12);
+          mesh = divided;
           ++splits;
         }
         RC_ASSERT(splits > 0);
@@ -517,10 +526,11 @@ void DivideCellsTest::perspective_places_elements_on_the_stroke() {
   const MeshPointer mesh = block(false, 0.2, 4);
   const auto places = seen(*mesh, Point(1, 2, 3), 0.1);
   const auto split = split_of(mesh, places, {{-300, 12}, {300, 12}});
-  QCOMPARE(split->after->part_count, 2U);
-  const auto after = seen(*split->after, Point(1, 2, 3), 0.1);
-  for (ElementId i = 0; i < split->edit.elements.size(); ++i) {
-    if (!split->edit.elements[i].is_copy()) {
+  const MeshPointer divided = split->after();
+  QCOMPARE(divided->part_count, 2U);
+  const auto after = seen(*divided, Point(1, 2, 3), 0.1);
+  for (ElementId i = 0; i < split->edit().elements.size(); ++i) {
+    if (!split->edit().elements[i].is_copy()) {
       QVERIFY(std::abs(after[mesh->element_count() + i].at.y() - 12) < 1e-4);
     }
   }
@@ -533,9 +543,10 @@ void DivideCellsTest::nothing_behind_the_eye_is_divided() {
     places[e].distance = mesh->rest_position(e).z() > 2.5 ? -1 : 1;
   }
   const auto split = split_of(mesh, places, {{70, -30}, {70, 200}});
+  const MeshPointer divided = split->after();
   QCOMPARE(flaw_of(*split), std::string());
-  QCOMPARE(split->after->part_count, 1U);
-  for (const SplitPoint& point : split->edit.elements) {
+  QCOMPARE(divided->part_count, 1U);
+  for (const SplitPoint& point : split->edit().elements) {
     QVERIFY(point.is_copy() || mesh->rest_position(point.of[0]).z() < 2.5);
   }
 }
@@ -543,10 +554,11 @@ void DivideCellsTest::nothing_behind_the_eye_is_divided() {
 void DivideCellsTest::only_hexahedra_at_the_stroke_become_tetrahedra() {
   const MeshPointer mesh = block(true, 0, 1);
   const auto split = split_of(mesh, {{70, -30}, {70, 200}});
+  const MeshPointer divided = split->after();
   QCOMPARE(flaw_of(*split), std::string());
   const std::size_t layer = (size[1] - 1) * (size[2] - 1);
-  QCOMPARE(split->edit.removed_cells.size(), layer);
-  QCOMPARE(split->after->hexahedra.size(), mesh->hexahedra.size() - layer);
+  QCOMPARE(split->edit().removed_cells.size(), layer);
+  QCOMPARE(divided->hexahedra.size(), mesh->hexahedra.size() - layer);
 }
 
 void DivideCellsTest::faces_are_divided_with_their_cells_data() { add_objects(); }
@@ -574,27 +586,28 @@ void DivideCellsTest::faces_are_divided_with_their_cells() {
   add_links_along_edges(parts);
   const MeshPointer mesh = build_mesh(std::move(parts));
   const auto split = split_of(mesh, {{-30, 42}, {200, 87}});
+  const MeshPointer divided = split->after();
   QCOMPARE(flaw_of(*split), std::string());
-  QCOMPARE(split->after->part_count, 2U);
+  QCOMPARE(divided->part_count, 2U);
   std::set<Triangle> surface;
-  for (Triangle one : boundary(*split->after)) {
+  for (Triangle one : boundary(*divided)) {
     std::ranges::sort(one);
     surface.insert(one);
   }
   double area = 0;
-  for (Triangle one : std::span(split->after->triangles).first(split->after->own_triangles)) {
-    const Point a = split->after->rest_position(one[0]);
-    area += (split->after->rest_position(one[1]) - a).cross(split->after->rest_position(one[2]) - a).norm() / 2;
+  for (Triangle one : std::span(divided->triangles).first(divided->own_triangles)) {
+    const Point a = divided->rest_position(one[0]);
+    area += (divided->rest_position(one[1]) - a).cross(divided->rest_position(one[2]) - a).norm() / 2;
     std::ranges::sort(one);
     QVERIFY(surface.contains(one));
   }
-  for (std::size_t i = 0; i < split->after->polygons.size(); i += 5) {
+  for (std::size_t i = 0; i < divided->polygons.size(); i += 5) {
     std::array<Point, 4> at;
     std::array<ElementId, 4> ring;
-    std::copy_n(split->after->polygons.begin() + std::ptrdiff_t(i) + 1, 4, ring.begin());
-    std::ranges::transform(ring, at.begin(), [&](ElementId e) { return split->after->rest_position(e); });
+    std::copy_n(divided->polygons.begin() + std::ptrdiff_t(i) + 1, 4, ring.begin());
+    std::ranges::transform(ring, at.begin(), [&](ElementId e) { return divided->rest_position(e); });
     area += (at[2] - at[0]).cross(at[3] - at[1]).norm() / 2;
-    QVERIFY(is_outside(*split->after, ring));
+    QVERIFY(is_outside(*divided, ring));
   }
   QVERIFY(std::abs(area - 2 * (8 * 6 + 8 * 6 + 6 * 6)) < 1e-9);
 }
@@ -617,13 +630,14 @@ void DivideCellsTest::cells_that_are_gone_stay_gone() {
     }
     const auto split = split_of(mesh, {{-30, 20 + 7.0 * double(seed)}, {200, 90 - 3.0 * double(seed)}});
     QVERIFY(split != nullptr);
+    const MeshPointer divided = split->after();
     const auto after = cuts_after(*split, cut);
-    const double grown = whole_volume(split->after, after) - whole_volume(mesh, cut);
+    const double grown = whole_volume(divided, after) - whole_volume(mesh, cut);
     QVERIFY(grown < 1e-9);
     QVERIFY(grown > -1e-9 || (hexahedra && jitter > 0));  // a diagonal may be that of a bent hexahedron that is gone
     // What remains is on one of the two sides of the blade.
     const std::uint32_t parts = count_parts(*mesh, cuts_of(mesh, cut));
-    QCOMPARE(count_parts(*split->after, cuts_of(split->after, after)), 2 * parts);
+    QCOMPARE(count_parts(*divided, cuts_of(divided, after)), 2 * parts);
   }
   // One cell with all links at one element cut, which a blade separates from the others.
   MeshParts parts;
@@ -638,9 +652,10 @@ void DivideCellsTest::cells_that_are_gone_stay_gone() {
     std::ranges::for_each(at, [&](const Eigen::Vector2d& one) { places.push_back({one}); });
     const auto split = split_of(mesh, places, {{5, -90}, {5, 90}});
     QVERIFY(split != nullptr);
+    const MeshPointer divided = split->after();
     const auto after = cuts_after(*split, std::vector<LinkId>{0, 1, 2});
-    QCOMPARE(whole_volume(split->after, after), 0.0);
-    QCOMPARE(count_parts(*split->after, cuts_of(split->after, after)), at == alone ? 2U : 3U);
+    QCOMPARE(whole_volume(divided, after), 0.0);
+    QCOMPARE(count_parts(*divided, cuts_of(divided, after)), at == alone ? 2U : 3U);
   }
 }
 

@@ -337,7 +337,7 @@ void SimulationTest::every_setting_survives_another_mesh() {
   const auto split = split_of_two_triangles();
   Trace trace;
   const Progress job = Progress::watched();
-  Simulation simulation(split->before, noting_algorithm, Precision::single_precision);
+  Simulation simulation(split->before(), noting_algorithm, Precision::single_precision);
   simulation.set_threads(3);
   simulation.set_trace(&trace);
   simulation.set_progress(job);
