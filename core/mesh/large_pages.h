@@ -76,17 +76,32 @@ class LargeArray {
   std::unique_ptr<T, Release> values_;
 };
 
+/// Gives advice on the large pages that lie inside memory.
+inline void advise_large_pages([[maybe_unused]] const void* memory, [[maybe_unused]] std::size_t bytes,
+                               [[maybe_unused]] int advice) {
+#ifdef __linux__
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;
+  const std::uintptr_t end = (begin + bytes) / large_page * large_page;
+  if (first < end) {
+    ::madvise(reinterpret_cast<void*>(first), end - first, advice);  // NOLINT(performance-no-int-to-ptr)
+  }
+#endif
+}
+
 /// Moves values that are in memory already into large pages, if the system can.
 template <class T>
 void move_to_large_pages(std::span<const T> values) {
-#ifdef __linux__
   constexpr int collapse = 25;  // MADV_COLLAPSE of Linux 6.1, which older headers do not name and older systems refuse
-  const auto begin = reinterpret_cast<std::uintptr_t>(values.data());
-  const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;
-  const std::uintptr_t end = (begin + values.size_bytes()) / large_page * large_page;
-  if (first < end) {
-    ::madvise(reinterpret_cast<void*>(first), end - first, collapse);  // NOLINT(performance-no-int-to-ptr)
-  }
+  advise_large_pages(values.data(), values.size_bytes(), collapse);
+}
+
+/// Makes room in an empty vector. Its memory becomes large pages when it is first used, which is faster than moving it.
+template <class T>
+void reserve_in_large_pages(std::vector<T>& values, std::size_t count) {
+  values.reserve(count);
+#ifdef __linux__
+  advise_large_pages(values.data(), count * sizeof(T), MADV_HUGEPAGE);
 #endif
 }
 

@@ -44,8 +44,15 @@ void fill_neighbour_table(Mesh& mesh, const std::vector<std::array<ElementId, 2>
   mesh.neighbours.resize(kept);
 }
 
-/// Returns the entries of each row in ascending order of neighbour.
+/// Returns the entries of each row in ascending order of neighbour; nothing if all rows are in that order.
 std::vector<EntryId> ascending_entries(const Mesh& mesh, const Progress& progress) {
+  ElementId ascending = 0;
+  while (ascending < mesh.element_count() && std::ranges::is_sorted(mesh.neighbours_of(ascending))) {
+    ++ascending;
+  }
+  if (ascending == mesh.element_count()) {
+    return {};
+  }
   std::vector<EntryId> order(mesh.neighbours.size());
   std::iota(order.begin(), order.end(), EntryId{0});
   for (ElementId e = 0; e < mesh.element_count(); ++e) {
@@ -64,14 +71,15 @@ void number_links(Mesh& mesh, const Progress& progress) {
   // Elements are visited in ascending order, so an element meets its lower neighbours in ascending order too. In the
   // row of the higher element, the entry of a link is therefore the next one.
   std::vector<EntryId> next(mesh.first_entry.begin(), mesh.first_entry.end() - 1);
+  reserve_in_large_pages(mesh.entry_link, mesh.neighbours.size());
   mesh.entry_link.resize(mesh.neighbours.size());
-  mesh.links.reserve(mesh.neighbours.size() / 2);
+  reserve_in_large_pages(mesh.links, mesh.neighbours.size() / 2);
   for (ElementId a = 0; a < mesh.element_count(); ++a) {
     progress.part(0.3, 1).report(a, mesh.element_count());
     for (EntryId entry = mesh.first_entry[a]; entry < mesh.first_entry[a + 1]; ++entry) {
       const ElementId b = mesh.neighbours[entry];
       if (a < b) {
-        const EntryId twin = order[next[b]++];
+        const EntryId at = next[b]++, twin = order.empty() ? at : order[at];
         assert(mesh.neighbours[twin] == a && "a link is in both of its rows");
         mesh.entry_link[entry] = mesh.entry_link[twin] = mesh.link_count();
         mesh.links.push_back({a, b});
@@ -269,7 +277,8 @@ MeshPointer build_mesh(MeshParts parts, const Progress& progress) {
   mesh->lattice = parts.lattice;
   divide_polygons(*mesh, progress.part(0.8, 0.82));
   mesh->object_dimension = object_dimension(*mesh);
-  mesh->mean_link_length = mean_link_length(*mesh, progress.part(0.82, 0.9));
+  mesh->mean_link_length =
+      parts.mean_link_length ? *parts.mean_link_length : mean_link_length(*mesh, progress.part(0.82, 0.9));
   mesh->part_count = count_parts(*mesh, {}, progress.part(0.9, 1));
   mesh->box = box_of(*mesh);
   mesh->is_grid = is_grid(*mesh);

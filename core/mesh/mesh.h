@@ -65,6 +65,8 @@ struct MeshParts {
   /// See Mesh::skin and Mesh::split.
   std::shared_ptr<const Skin> skin;
   std::shared_ptr<const Split> split;
+  /// Mean rest length over the links (mesh units), if it is known.
+  std::optional<double> mean_link_length;
   /// Requested space dimension. Default: the axes on which the rest positions are not constant.
   std::optional<int> space_dimension;
 };

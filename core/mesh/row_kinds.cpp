@@ -7,6 +7,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/large_pages.h"
+#include "mesh/mesh.h"
+
 namespace chainmail {
 namespace {
 
@@ -28,10 +31,10 @@ class Shapes {
  public:
   explicit Shapes(Mesh& mesh) : mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.space_dimension)) {}
 
-  /// Most rows are like the row before, so the entry `alike` at the same position of that row is tried first.
+  /// Most rows are like the row after, so the entry `alike` at the same position of that row is tried first.
   bool add(EntryId entry, ElementId from, std::optional<EntryId> alike) {
     const PointBits bits = bits_of(from, mesh_.neighbours[entry]);
-    if (alike && *alike < entry && bits == known_[mesh_.entry_shape[*alike]]) {
+    if (alike && *alike > entry && bits == known_[mesh_.entry_shape[*alike]]) {
       mesh_.entry_shape[entry] = mesh_.entry_shape[*alike];
       return true;
     }
@@ -69,13 +72,16 @@ class Shapes {
   std::unordered_map<PointBits, std::uint16_t, Hash> numbers_;
 };
 
+/// From the last row: splits append elements, whose rows show soonest that there are too many shapes.
 bool number_all(Mesh& mesh, Shapes& shapes, const Progress& progress) {
-  for (ElementId e = 0; e < mesh.element_count(); ++e) {
-    progress.report(e, mesh.element_count());
-    const EntryId first = mesh.first_entry[e];
-    for (EntryId entry = first; entry < mesh.first_entry[e + 1]; ++entry) {
+  const ElementId count = mesh.element_count();
+  for (ElementId e = count; e-- > 0;) {
+    progress.report(count - e, count);
+    const EntryId first = mesh.first_entry[e], end = mesh.first_entry[e + 1];
+    for (EntryId entry = first; entry < end; ++entry) {
+      const EntryId below = end + (entry - first);
       const std::optional<EntryId> alike =
-          e > 0 ? std::optional(mesh.first_entry[e - 1] + (entry - first)) : std::nullopt;
+          e + 1 < count && below < mesh.first_entry[e + 2] ? std::optional(below) : std::nullopt;
       if (!shapes.add(entry, e, alike)) {
         return false;
       }
@@ -87,6 +93,7 @@ bool number_all(Mesh& mesh, Shapes& shapes, const Progress& progress) {
 }  // namespace
 
 void number_shapes(Mesh& mesh, const Progress& progress) {
+  reserve_in_large_pages(mesh.entry_shape, mesh.neighbours.size());
   mesh.entry_shape.resize(mesh.neighbours.size());
   Shapes shapes(mesh);
   if (number_all(mesh, shapes, progress)) {

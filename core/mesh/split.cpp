@@ -6,6 +6,7 @@
 #include "mesh/carriers.h"
 #include "mesh/cells.h"
 #include "mesh/error.h"
+#include "mesh/large_pages.h"
 #include "mesh/skin.h"
 
 namespace chainmail {
@@ -130,6 +131,7 @@ class MeshAfter {
     take_polygons();
     take_cells();
     link();
+    parts_.mean_link_length = mean_link_length();
     return build_mesh(std::move(parts_));
   }
 
@@ -140,6 +142,7 @@ class MeshAfter {
   void take_cells();
   std::vector<std::uint8_t> ends_of_dropped() const;
   void link();
+  std::optional<double> mean_link_length() const;
   void drop(ElementId a, ElementId b) { dropped_.insert(edge_key(a, b)); }
   void keep(ElementId a, ElementId b) { dropped_.erase(edge_key(a, b)); }
   void add(ElementId a, ElementId b) {
@@ -215,7 +218,7 @@ void MeshAfter::take_cells() {
   auto removed = edit_.removed_cells.begin();
   CellId number = 0;
   const auto take = [&](const auto& before, const auto& added, auto& after) {
-    after.reserve(before.size() + added.size());
+    reserve_in_large_pages(after, before.size() + added.size());
     for (const auto& cell : before) {
       if (const CellId id = number++; removed != edit_.removed_cells.end() && *removed == id) {
         ++removed;
@@ -259,7 +262,7 @@ void MeshAfter::link() {
   std::ranges::sort(entries);
   auto& neighbours = parts_.neighbours;
   const std::vector<std::uint8_t> is_end = ends_of_dropped();
-  neighbours.reserve(mesh_.neighbours.size() + entries.size());
+  reserve_in_large_pages(neighbours, mesh_.neighbours.size() + entries.size());
   auto next = entries.begin();
   for (ElementId e = 0; e < parts_.rest.size(); ++e) {
     parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
@@ -283,6 +286,27 @@ void MeshAfter::link() {
     }
   }
   parts_.first_entry.push_back(static_cast<EntryId>(neighbours.size()));
+}
+
+/// Returns the mean link length, from that before and what changed; nothing if rounding would show.
+std::optional<double> MeshAfter::mean_link_length() const {
+  constexpr double few = 1e-3;
+  const auto length = [this](EdgeKey edge) {
+    const auto [a, b] = ends_of(edge);
+    return (parts_.rest[b] - parts_.rest[a]).stableNorm();
+  };
+  std::vector<EdgeKey> dropped(dropped_.begin(), dropped_.end()), added(added_.begin(), added_.end());
+  std::ranges::sort(dropped);  // a sum in another order has other last digits
+  std::ranges::sort(added);
+  const double before = mesh_.mean_link_length * mesh_.link_count();
+  double sum = before;
+  for (const EdgeKey edge : dropped) {
+    sum -= find_link(mesh_, ends_of(edge)[0], ends_of(edge)[1]) ? length(edge) : 0;
+  }
+  for (const EdgeKey edge : added) {
+    sum += length(edge);
+  }
+  return sum > few * before ? std::optional(2 * sum / double(parts_.neighbours.size())) : std::nullopt;
 }
 
 /// Finds on which link of the old mesh elements and links of the new one lie.

@@ -128,6 +128,13 @@ std::string flaw_of(const Split& split) {
   if (!std::equal(before.rest.begin(), before.rest.end(), after.rest.begin())) {
     return "an old element has moved";
   }
+  double lengths = 0;
+  for (LinkId link = 0; link < after.link_count(); ++link) {
+    lengths += rest_length(after, link);
+  }
+  if (std::abs(after.mean_link_length * after.link_count() - lengths) > 1e-12 * lengths) {
+    return "the mean link length is that of other links";
+  }
   if (std::abs(total_area(after) - total_area(before)) > 1e-12 * total_area(before)) {
     return "the area has changed";
   }
