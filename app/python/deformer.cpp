@@ -88,7 +88,7 @@ std::size_t split(const Used<Mover>& object, const py::sequence& line, const py:
     return 0;
   }
   object->split(found);
-  return found->edit.elements.size();
+  return found->edit().elements.size();
 }
 
 int relax(const Used<Mover>& object, int sweeps, double step, RelaxationScheme scheme, double until) {

@@ -143,7 +143,7 @@ void BladeTest::the_ends_of_a_blade_may_be_far_away() {
   const SplitPointer twice =
       split_of(tetrahedra(), {{{1.3, -9, 0}, {1.3, 1e6, 0}, {2.6, 1e6, 0}, {2.6, -9, 0}}, Point(0, 0, 1)});
   QVERIFY(twice);
-  QCOMPARE(twice->after->part_count, std::uint32_t{3});
+  QCOMPARE(twice->after()->part_count, std::uint32_t{3});
 }
 
 void BladeTest::new_links_have_the_softness_around_them() {

@@ -143,7 +143,7 @@ void DividedSolidsTest::a_divided_notch_opens_as_one_meshed_beforehand() {
   QFETCH(Algorithm, algorithm);
   const double right = opening(notched_bar(), algorithm);
   const MeshPointer whole = bar(std::uint32_t(bar_length) + 1);
-  const double divided = opening(notch(whole)->after, algorithm);
+  const double divided = opening(notch(whole)->after(), algorithm);
   const double removed = opening(whole, algorithm, links_at_notch(*whole));
   qInfo("opening of the notch: meshed beforehand %.4f, divided %.4f, cells removed %.4f", right, divided, removed);
   QVERIFY(right > 0.5);

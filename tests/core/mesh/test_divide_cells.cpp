@@ -471,9 +471,9 @@ void DivideCellsTest::a_stroke_across_an_earlier_cut_makes_four_parts() {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const MeshPointer mesh = block(seed % 2 == 1, 0.15, seed);
     const auto first = split_of(mesh, {{71, -30}, {79, 150}});
-    const auto second = split_of(first->after, {{-30, 52}, {200, 69}});
+    const auto second = split_of(first->after(), {{-30, 52}, {200, 69}});
     QCOMPARE(flaw_of(*second), std::string());
-    QCOMPARE(second->after->part_count, 4U);
+    QCOMPARE(second->after()->part_count, 4U);
   }
 }
 
@@ -482,9 +482,9 @@ void DivideCellsTest::the_wound_has_the_area_of_the_blade_twice() {
     const MeshPointer mesh = block(hexahedra, 0, 1);
     QCOMPARE(inner_area(mesh), 0.0);
     const auto first = split_of(mesh, {{70, -30}, {70, 200}});
-    QVERIFY(std::abs(inner_area(first->after) - 2 * 6 * 6) < 1e-9);
-    const auto second = split_of(first->after, {{-30, 50}, {200, 50}});
-    QVERIFY(std::abs(inner_area(second->after) - 2 * (6 * 6 + 8 * 6)) < 1e-9);
+    QVERIFY(std::abs(inner_area(first->after()) - 2 * 6 * 6) < 1e-9);
+    const auto second = split_of(first->after(), {{-30, 50}, {200, 50}});
+    QVERIFY(std::abs(inner_area(second->after()) - 2 * (6 * 6 + 8 * 6)) < 1e-9);
   }
 }
 
