@@ -73,8 +73,8 @@ void BladeTest::a_blade_makes_two_parts() {
   QFETCH(QString, mesh);
   const MeshPointer before = named(mesh);
   const SplitPointer split = split_of(before, across);
-  const MeshPointer divided = split->after();
   QVERIFY(split && split->before() == before);
+  const MeshPointer divided = split->after();
   QCOMPARE(divided->part_count, std::uint32_t{2});
 }
 

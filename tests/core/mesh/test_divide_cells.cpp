@@ -513,10 +513,10 @@ void DivideCellsTest::ten_strokes_keep_the_cells_good() {
             along = Point::Unit(Eigen::Index(random() % 3));
           }
           const auto split = split_of(mesh, seen(*mesh, along, random() % 2 == 0 ? 0.05 : 0), stroke);
-          const MeshPointer divided = split->after();
           if (split == nullptr) {
             continue;
           }
+          const MeshPointer divided = split->after();
           RC_ASSERT(flaw_of(*split) == "");
           RC_ASSERT(divided->part_count >= mesh->part_count);
           RC_ASSERT(new_tetrahedra_per_old_one(*split) <= 6);

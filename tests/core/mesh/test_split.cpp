@@ -645,9 +645,12 @@ void SplitTest::many_splits_are_made_and_freed() {
   test::add_triangle(parts, 0, 1, 2);
   const MeshPointer mesh = build_mesh(std::move(parts));
   SplitPointer last;
+  MeshPointer divided = mesh;
   for (int i = 0; i < 50'000; ++i) {
-    last = make_split(last ? last->after() : mesh, SplitEdit{{}, {0}, {{0, 1, 2}}, {}, {}});
+    last = make_split(divided, SplitEdit{{}, {0}, {{0, 1, 2}}, {}, {}});
+    divided = last->after();
   }
+  divided.reset();
   QCOMPARE(last->after()->triangles, mesh->triangles);
   last.reset();
 }
