@@ -70,11 +70,15 @@ QString differs(const QImage& picture, const QString& name) {
       .arg(path, here);
 }
 
-/// Compares a view of a fixed size, independent of the window's size.
-QString differs(Workbench& bench, int panel, const QString& name) {
+/// Gives the views, which share a camera, a fixed size: independent of the window's size, and small, so that painting
+/// them takes little time.
+void fixViews(Workbench& bench) {
   for (int each = 0; each < bench.document().panels(); ++each) {
-    bench.view(each).setFixedSize(viewSize);  // the views share a camera
+    bench.view(each).setFixedSize(viewSize);
   }
+}
+
+QString differs(Workbench& bench, int panel, const QString& name) {
   bench.trigger("fitView");
   bench.view(panel).zoom(0.6);  // space for the deformed object; only the rest shape fits
   bench.settleFigures();
@@ -146,6 +150,7 @@ class WindowViews : public QObject {
     QFETCH(QStringList, actions);
     QFETCH(int, panel);
     Workbench bench(make(object));
+    fixViews(bench);
     edits::setPinned(bench.document(), {8}, true);
     edits::cut(bench.document(), object == volume ? cleft(*bench.document().mesh()) : std::vector<LinkId>{20});
     bench.settle();
@@ -154,7 +159,6 @@ class WindowViews : public QObject {
       bench.trigger(action.toUtf8().constData());
     }
     bench.settle();
-    // Drags with coordinates instead of the mouse, so that the size of the view has no influence.
     const ElementId grabbed = object == volume || object == whole ? 40 : 31;
     const Point from = bench.document().mesh()->rest_position(grabbed);
     bench.document().handle().grab(grabbed);
@@ -223,6 +227,7 @@ class WindowViews : public QObject {
   }
   static QImage dragged(double size, double x, const QStringList& actions) {
     Workbench bench(lying(size, x));
+    fixViews(bench);
     bench.document().selection().set({31});
     for (const QString& action : actions) {
       bench.trigger(action.toUtf8().constData());
@@ -233,8 +238,6 @@ class WindowViews : public QObject {
     bench.document().handle().drag(from + size * Point(1.3, 1.6, 0.8));
     bench.document().handle().release();
     bench.settle();
-    bench.view(0).setFixedSize(viewSize);
-    bench.view(1).setFixedSize(viewSize);
     bench.trigger("fitView");
     bench.settleFigures();
     bench.document().highlight().set({});
