@@ -29,6 +29,10 @@ struct BatchDensity {
   bool is_neo_hookean = true;
   Lame lame;
   const ExtendedDensity* extended = nullptr;
+  /// Of neo-Hookean tetrahedra: the ratios of volumes below which a parabola continues the energy of each, in place of
+  /// that of `extended`; and where their ratios are written. One for each batch, or null.
+  const FourNumbers* least_volumes = nullptr;
+  FourNumbers* ratios = nullptr;
 };
 
 struct BatchSum {

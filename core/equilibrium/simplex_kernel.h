@@ -87,9 +87,30 @@ KERNEL_FUNCTION V log_of_free_stretch(const V& log_volume, double mu, double lam
   return log - (mu * (square - 1.0) + lambda * (log_volume + free_axes * log)) / (2 * mu * square + free_axes * lambda);
 }
 
+/// What continues the density below a ratio of volumes.
+struct Continuation {
+  V least, slope, curvature;
+};
+KERNEL_FUNCTION Continuation continuation_of(const BatchDensity& density, std::size_t batch, const V& determinant) {
+  const ExtendedDensity& extended = *density.extended;
+  Continuation result{V{} + extended.least_volume(), V{} + extended.slope_below(), V{} + extended.curvature_below()};
+  if (density.least_volumes != nullptr) {
+    const double mu = density.lame.mu, lambda = density.lame.lambda;
+    const V& least = vector_of(density.least_volumes[batch]);
+    result.least = least;
+    const Bits is_below = (Bits)(determinant < least);
+    if ((is_below[0] | is_below[1] | is_below[2] | is_below[3]) != 0) {  // rarely, and a logarithm takes time
+      const V log = log_of(least);
+      result.slope = (lambda * log - mu) / least;
+      result.curvature = (lambda + mu - lambda * log) / (least * least);
+    }
+  }
+  return result;
+}
+
 template <int D>
-KERNEL_FUNCTION void density_at(const BatchDensity& density, const V& shape, const V& determinant, V& value,
-                                V& by_shape, V& by_volume) {
+KERNEL_FUNCTION void density_at(const BatchDensity& density, std::size_t batch, const V& shape, const V& determinant,
+                                V& value, V& by_shape, V& by_volume) {
   if (!density.is_neo_hookean) {
     for (int lane = 0; lane < 4; ++lane) {
       const auto one = density.extended->at(shape[lane], determinant[lane]);
@@ -100,15 +121,16 @@ KERNEL_FUNCTION void density_at(const BatchDensity& density, const V& shape, con
     return;
   }
   constexpr double free_axes = 3 - D;
-  const double mu = density.lame.mu, lambda = density.lame.lambda, curvature = density.extended->curvature_below();
-  const V inside = greater(determinant, V{} + density.extended->least_volume()), below = determinant - inside;
+  const double mu = density.lame.mu, lambda = density.lame.lambda;
+  const auto [least, slope, curvature] = continuation_of(density, batch, determinant);
+  const V inside = greater(determinant, least), below = determinant - inside;
   V log = log_of(inside);  // of the whole volume: with the axes that are free of stress
   if constexpr (D < 3) {
     log += free_axes * log_of_free_stretch(log, mu, lambda, free_axes);
   }
   // The free axes add μ/2 (s² − 1) each, which is −λ/2 ln J for the stretch s that minimizes W.
   value = mu / 2 * shape + log * (lambda / 2 * log - (mu + free_axes * lambda / 2)) +
-          below * (density.extended->slope_below() + curvature / 2 * below);
+          below * (slope + curvature / 2 * below);
   by_shape = V{} + mu / 2;
   by_volume = (lambda * log - mu) / inside + curvature * below;
 }
@@ -184,7 +206,8 @@ template <int D, bool wants_force>
 KERNEL_TARGET BatchSum evaluate(std::span<const SimplexBatch<D>> batches, const BatchDensity& density,
                                 const FourNumbers* displacements, FourNumbers* force) {
   V energy{}, least = V{} + 1;
-  for (const SimplexBatch<D>& batch : batches) {
+  for (std::size_t b = 0; b < batches.size(); ++b) {
+    const SimplexBatch<D>& batch = batches[b];
     V f[D][D], cofactor[D][D];
     find_strain<D>(batch, displacements, f);
     V shape{};  // |F|² less its value at rest
@@ -199,8 +222,11 @@ KERNEL_TARGET BatchSum evaluate(std::span<const SimplexBatch<D>> batches, const 
     }
     const V determinant = determinant_of<D>(f, cofactor), volume = vector_of(batch.volume);
     V value, by_shape, by_volume;
-    density_at<D>(density, shape, determinant, value, by_shape, by_volume);
+    density_at<D>(density, b, shape, determinant, value, by_shape, by_volume);
     energy += volume * value;
+    if (density.ratios != nullptr) {
+      vector_of(density.ratios[b]) = determinant;
+    }
     least = where_greater(volume, V{}, where_greater(least, determinant, determinant, least), least);
     if constexpr (wants_force) {
       by_shape *= 2.0 * volume;
