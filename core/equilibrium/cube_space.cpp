@@ -1,5 +1,6 @@
 #include "equilibrium/cube_space.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -112,36 +113,24 @@ bool CubeSpace::is_gone(std::uint32_t tetrahedron, const Cuts& cuts) const {
   return !is_whole(*mesh_, cuts, hexahedra[(tetrahedron - mesh_->tetrahedra.size()) / 6]);
 }
 
-double CubeSpace::volume_of(const std::array<Point3, 4>& c) {
-  std::array<Point3, 3> e;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      e[i][k] = c[i + 1][k] - c[0][k];
-    }
-  }
-  return std::abs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-         6;
+double CubeSpace::volume_of(const std::array<Point, 4>& c) {
+  return std::abs((c[1] - c[0]).cross(c[2] - c[0]).dot(c[3] - c[0])) / 6;
 }
 
 /// The unit is the spacing of elements, or a quarter of the longest cell.
 void CubeSpace::find_unit(const Progress& progress) {
-  Point3 low, high;
-  low.fill(INFINITY);
-  high.fill(-INFINITY);
+  Point low = Point::Constant(INFINITY), high = -low;
   double longest = 0, volume = 0;
   const auto tetrahedra = this->tetrahedra();
   for (std::uint32_t t = 0; t < tetrahedra.size(); ++t) {
     progress.report(t, tetrahedra.size());
     const auto corners = points_of(t);
     volume += volume_of(corners);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [least, most] = std::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
-      low[k] = std::min(low[k], least);
-      high[k] = std::max(high[k], most);
-      longest = std::max(longest, most - least);
-    }
+    const Point least = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2].cwiseMin(corners[3]));
+    const Point most = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2].cwiseMax(corners[3]));
+    low = low.cwiseMin(least);
+    high = high.cwiseMax(most);
+    longest = std::max(longest, (most - least).maxCoeff());
   }
   const double spacing = mesh_->lattice ? mesh_->lattice->spacing : std::cbrt(volume / mesh_->element_count());
   unit_ = std::max(spacing, longest / 4);
@@ -150,18 +139,16 @@ void CubeSpace::find_unit(const Progress& progress) {
   levels_.resize(2);
   Level& first = levels_[1];
   first.width = 2;
-  extent_ = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double side = (high[k] - low[k]) / unit_;
-    extent_ = std::max(extent_, side);
-    first.size[k] = std::max(1, int(std::ceil(side / first.width - 1e-9)));
+  extent_ = (high - low).maxCoeff() / unit_;
+  for (int k = 0; k < 3; ++k) {
+    first.size[std::size_t(k)] = std::max(1, int(std::ceil((high[k] - low[k]) / unit_ / first.width - 1e-9)));
   }
 }
 
-CubeSpace::Place CubeSpace::place_of(const Point3& point) const {
+CubeSpace::Place CubeSpace::place_of(const Point& point) const {
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
-    place[k] = std::clamp(int(std::floor(point[k] / 2 + 1e-12)), 0, levels_[1].size[k] - 1);
+    place[k] = std::clamp(int(std::floor(point[Eigen::Index(k)] / 2 + 1e-12)), 0, levels_[1].size[k] - 1);
   }
   return place;
 }
@@ -175,11 +162,7 @@ void CubeSpace::sort_tetrahedra(const Progress& progress) {
   for (std::uint32_t t = 0; t < count; ++t) {
     progress.report(t, count);
     const auto corners = points_of(t);
-    Point3 centre;
-    for (std::size_t k = 0; k < 3; ++k) {
-      centre[k] = (corners[0][k] + corners[1][k] + corners[2][k] + corners[3][k]) / 4;
-    }
-    const Place at = place_of(centre);
+    const Place at = place_of((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
     std::uint32_t& cube = level.cube_at[index_of(at, level.size)];
     if (cube == none) {
       cube = std::uint32_t(level.cubes.size());
@@ -312,12 +295,9 @@ void CubeSpace::sort_elements() {
   for (const Tetrahedron& t : tetrahedra()) {
     std::ranges::for_each(t, [&](ElementId e) { ++around[e]; });
   }
-  std::vector<std::uint8_t> is_inside(mesh_->element_count(), 0);
-  if (own_tetrahedra_.empty()) {
-    for (ElementId e = 0; e < around.size(); ++e) {
-      is_inside[e] = 2 * mesh_->neighbours_of(e).size() == around[e] + std::size_t{4} ? 1 : 0;
-    }
-  }
+  const auto is_skin = [&](ElementId e) {
+    return !own_tetrahedra_.empty() || 2 * mesh_->neighbours_of(e).size() != around[e] + std::size_t{4};
+  };
   const auto sort = [&](std::uint32_t Cube::*begin, std::vector<ElementId>& sorted, const auto& counts) {
     std::vector<std::uint32_t> next(level.cube_count(), 0);
     for (ElementId e = 0; e < home_.size(); ++e) {
@@ -339,10 +319,9 @@ void CubeSpace::sort_elements() {
     }
   };
   sort(&Cube::element, sorted_elements_, [](ElementId) { return true; });
-  sort(&Cube::skin, sorted_skin_, [&](ElementId e) { return is_inside[e] == 0; });
+  sort(&Cube::skin, sorted_skin_, is_skin);
   for (const ElementId e : sorted_skin_) {
-    const double* rest = mesh_->rest.data() + std::size_t{e} * 3;
-    rest_of_skin_.push_back({rest[0], rest[1], rest[2]});
+    rest_of_skin_.push_back(mesh_->rest_position(e));
   }
 }
 

@@ -24,7 +24,6 @@ class CubeSpace {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
   using Place = std::array<std::int32_t, 3>;
-  using Point3 = std::array<double, 3>;
   using Tetrahedron = std::array<ElementId, 4>;
 
   /// The cubes of a level are in Morton's order, so that what belongs to those inside a coarser one is a range. What is
@@ -104,23 +103,20 @@ class CubeSpace {
   const std::vector<ElementId>& sorted_elements() const { return sorted_elements_; }
   const std::vector<ElementId>& sorted_skin() const { return sorted_skin_; }
   /// The rest positions of these (mesh units), in their order: they are written often.
-  const std::vector<Point3>& rest_of_skin() const { return rest_of_skin_; }
+  const std::vector<Point>& rest_of_skin() const { return rest_of_skin_; }
   /// The part of level 1 to which an element belongs, or none without cells. It is in the element's cube if one of the
   /// element's cells is.
   std::uint32_t home(ElementId element) const { return home_[element]; }
   /// The part of another level that contains one of level 1.
   std::uint32_t ancestor(std::uint32_t part, int l) const;
   /// Returns the place of an element at rest.
-  Point3 point(ElementId element) const { return point_of(mesh_->rest.data() + std::size_t{element} * 3); }
-  Point3 point_of(const double* rest) const {
-    return {(rest[0] - origin_[0]) * per_unit_, (rest[1] - origin_[1]) * per_unit_, (rest[2] - origin_[2]) * per_unit_};
-  }
-  Interpolation interpolate(const Point3& point, int l, const Cube& cube) const {
+  Point point(ElementId element) const { return point_of(mesh_->rest.data() + std::size_t{element} * 3); }
+  Point point_of(const double* rest) const { return (Point::Map(rest) - origin_) * per_unit_; }
+  Interpolation interpolate(const Point& point, int l, const Cube& cube) const {
     const double steep = 1.0 / double(1 << l);
-    const double x = point[0] * steep - cube.at[0], y = point[1] * steep - cube.at[1],
-                 z = point[2] * steep - cube.at[2];
-    const int path = path_of[std::size_t(x >= y) | std::size_t(x >= z) << 1 | std::size_t(y >= z) << 2];
-    const std::array<double, 3> f{x, y, z};
+    const std::array f{point[0] * steep - cube.at[0], point[1] * steep - cube.at[1], point[2] * steep - cube.at[2]};
+    const int path =
+        path_of[std::size_t(f[0] >= f[1]) | std::size_t(f[0] >= f[2]) << 1 | std::size_t(f[1] >= f[2]) << 2];
     const auto& p = paths[std::size_t(path)];
     return {path, corners_of(path), {1 - f[p[0]], f[p[0]] - f[p[1]], f[p[1]] - f[p[2]], f[p[2]]}};
   }
@@ -131,27 +127,22 @@ class CubeSpace {
     const auto corners = points_of(tetrahedron);
     const double share = volume_of(corners) / 4;
     for (std::size_t i = 0; i < 4; ++i) {
-      Point3 at{};
-      for (std::size_t k = 0; k < 4; ++k) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          at[axis] += (k == i ? near : far) * corners[k][axis];
-        }
-      }
+      const Point at = far * (corners[0] + corners[1] + corners[2] + corners[3]) + (near - far) * corners[i];
       visit(interpolate(at, 1, cube).path, share);
     }
   }
-  std::array<Point3, 4> points_of(std::uint32_t tetrahedron) const {
+  std::array<Point, 4> points_of(std::uint32_t tetrahedron) const {
     const Tetrahedron& t = tetrahedra()[tetrahedron];
     return {point(t[0]), point(t[1]), point(t[2]), point(t[3])};
   }
-  static double volume_of(const std::array<Point3, 4>& corners);
+  static double volume_of(const std::array<Point, 4>& corners);
 
  private:
   using Pair = std::array<std::uint32_t, 2>;  // of parts that share an element
 
   void find_tetrahedra();
   void find_unit(const Progress& progress);
-  Place place_of(const Point3& point) const;
+  Place place_of(const Point& point) const;
   void sort_tetrahedra(const Progress& progress);
   std::vector<std::uint32_t> find_parts(const Cuts& cuts, const Progress& progress);
   std::vector<Pair> find_pairs(const std::vector<std::uint32_t>& part_of);
@@ -166,12 +157,12 @@ class CubeSpace {
   std::vector<Tetrahedron> own_tetrahedra_;              // unless they are those of the mesh
   std::vector<std::array<ElementId, 8>> own_hexahedra_;  // of a lattice without cells
   double unit_ = 1, per_unit_ = 1, extent_ = 1;
-  Point3 origin_{};  // mesh units
+  Point origin_ = Point::Zero();  // mesh units
   int reach_ = 1, top_ = 1;
   std::vector<Level> levels_;
   std::vector<std::uint32_t> sorted_tetrahedra_;
   std::vector<ElementId> sorted_elements_, sorted_skin_;
-  std::vector<Point3> rest_of_skin_;
+  std::vector<Point> rest_of_skin_;
   std::vector<std::uint32_t> home_;
 };
 

@@ -1,7 +1,6 @@
 #include "equilibrium/fixed_elements.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace chainmail {
@@ -55,7 +54,7 @@ void FixedElements::set(std::span<const ElementId> pins, std::span<const Element
 }
 
 void FixedElements::fix_nodes(ElementId element) {
-  const CubeSpace::Point3 point = space_.point(element);
+  const Point point = space_.point(element);
   std::uint32_t p = space_.home(element);
   for (int l = 1; l <= space_.top(); ++l) {
     const CubeSpace::Level& level = space_.level(l);
@@ -75,31 +74,22 @@ void FixedElements::fix_nodes(ElementId element) {
 
 /// True if a free neighbour is on the other side than the neighbours that are held.
 bool FixedElements::is_rim(ElementId element) const {
-  const Mesh& mesh = space_.mesh();
-  const CubeSpace::Point3 here = space_.point(element);
-  CubeSpace::Point3 away{};
+  const auto neighbours = space_.mesh().neighbours_of(element);
+  const Point here = space_.point(element);
+  Point away = Point::Zero();
   double count = 0;
-  for (const ElementId other : mesh.neighbours_of(element)) {
+  for (const ElementId other : neighbours) {
     if (is_held(other)) {
-      const CubeSpace::Point3 there = space_.point(other);
-      for (std::size_t k = 0; k < 3; ++k) {
-        away[k] += here[k] - there[k];
-      }
+      away += here - space_.point(other);
       ++count;
     }
   }
-  const double size = std::hypot(away[0], away[1], away[2]);
-  if (count > 0 && size < 0.2 * count) {
+  if (count > 0 && away.norm() < 0.2 * count) {
     return false;
   }
-  return std::ranges::any_of(mesh.neighbours_of(element), [&](ElementId other) {
-    const CubeSpace::Point3 there = space_.point(other);
-    double along = 0, square = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      along += away[k] * (there[k] - here[k]);
-      square += (there[k] - here[k]) * (there[k] - here[k]);
-    }
-    return !is_held(other) && (count == 0 || along > 0.6 * size * std::sqrt(square));
+  return std::ranges::any_of(neighbours, [&](ElementId other) {
+    const Point apart = space_.point(other) - here;
+    return !is_held(other) && (count == 0 || away.dot(apart) > 0.6 * away.norm() * apart.norm());
   });
 }
 

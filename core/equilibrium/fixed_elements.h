@@ -30,7 +30,7 @@ class FixedElements {
   /// Sum of the springs on a node, by the squares of weights, in units of the material's modulus.
   float spring(int l, std::uint32_t node) const { return spring_[std::size_t(l)][node]; }
   /// Where strain is singular: at the elements beside which the handle ends while the object goes on.
-  const std::vector<CubeSpace::Point3>& rim() const { return rim_; }
+  const std::vector<Point>& rim() const { return rim_; }
 
  private:
   void fix_nodes(ElementId element);
@@ -44,7 +44,7 @@ class FixedElements {
   std::vector<Doubles4> displacements_;
   std::vector<std::vector<ElementId>> at_node_;
   std::vector<std::vector<float>> spring_;
-  std::vector<CubeSpace::Point3> rim_;
+  std::vector<Point> rim_;
 };
 
 }  // namespace chainmail

@@ -1,5 +1,6 @@
 #include "equilibrium/local_levels.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,37 +15,19 @@ constexpr float least_share = 0.02F;
 // Each of a cube's tetrahedra counts at least this share of its mean, so that no node is without energy.
 constexpr float least_filled = 0.02F;
 
-using Shape = std::array<std::array<double, 3>, 3>;
-
-/// Writes the gradients of the shape functions of corners 1 to 3. Returns the volume.
-double shape_of(const std::array<CubeSpace::Point3, 4>& c, Shape& gradient) {
-  Shape e;
+/// Finds the gradients of the shape functions of corners 1 to 3. Returns the volume.
+double shape_of(const std::array<Point, 4>& c, LocalLevels::Shape& gradient) {
+  const std::array<Point, 3> edge{c[1] - c[0], c[2] - c[0], c[3] - c[0]};
+  const double determinant = edge[0].dot(edge[1].cross(edge[2]));
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      e[i][k] = c[i + 1][k] - c[0][k];
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto &a = e[(i + 1) % 3], &b = e[(i + 2) % 3];
-    gradient[i] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-  const double determinant = e[0][0] * gradient[0][0] + e[0][1] * gradient[0][1] + e[0][2] * gradient[0][2];
-  for (auto& row : gradient) {
-    for (double& one : row) {
-      one /= determinant;
-    }
+    gradient[i] = edge[(i + 1) % 3].cross(edge[(i + 2) % 3]) / determinant;
   }
   return std::abs(determinant) / 6;
 }
 
 /// Returns −V ∇a·∇b of two corners.
-double coupling(const Shape& g, double volume, std::size_t a, std::size_t b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double one = a > 0 ? g[a - 1][k] : -g[0][k] - g[1][k] - g[2][k];
-    sum += one * g[b - 1][k];
-  }
-  return -volume * sum;
+double coupling(const LocalLevels::Shape& g, double volume, std::size_t a, std::size_t b) {
+  return -volume * (a > 0 ? g[a - 1] : Point(-g[0] - g[1] - g[2])).dot(g[b - 1]);
 }
 
 }  // namespace
@@ -506,7 +489,7 @@ void LocalLevels::add_leaf(int l, std::uint32_t p) {
       points[i] = level.point[in_use_[std::size_t(l)][part.corner[corners[i]]]];
     }
     const auto& axes = CubeSpace::paths[path];
-    Shape gradient{};
+    Shape gradient{Point::Zero(), Point::Zero(), Point::Zero()};
     for (std::size_t i = 0; i < 3; ++i) {
       gradient[i][axes[i]] = steep;
       if (i < 2) {
@@ -528,7 +511,7 @@ void LocalLevels::add_tetrahedron(const std::array<std::uint32_t, 4>& points, co
     batch.corner[i][lane] = points[i];
     is_held = is_held || is_held_point_[points[i]] != 0;
     for (std::size_t k = 0; i > 0 && k < 3; ++k) {
-      batch.gradient[i - 1][k].at[lane] = gradient[i - 1][k];
+      batch.gradient[i - 1][k].at[lane] = gradient[i - 1][Eigen::Index(k)];
     }
   }
   batch.volume.at[lane] = volume;

@@ -20,6 +20,8 @@ class LocalLevels {
  public:
   static constexpr std::uint32_t none = CubeSpace::none;
   using Batch = SimplexBatch<3>;
+  /// The gradients of the shape functions of corners 1 to 3 of a tetrahedron.
+  using Shape = std::array<Point, 3>;
 
   struct Level {
     std::vector<std::uint32_t> node;   // its id in the space; on level 0, the element
@@ -54,7 +56,6 @@ class LocalLevels {
   /// The number of a node among those of its level that are in use, or none; and before the last change.
   std::uint32_t find(int l, std::uint32_t node) const { return in_use_[std::size_t(l)][node]; }
   std::uint32_t find_before(int l, std::uint32_t node) const { return before_[std::size_t(l)][node]; }
-  const Level& level_before(int l) const { return old_[std::size_t(l)]; }
 
   bool is_divided(int l, std::uint32_t cube) const { return divided_[std::size_t(l)][cube] != 0; }
   void set_divided(int l, std::uint32_t cube, bool divided);
@@ -111,8 +112,7 @@ class LocalLevels {
   void scan(std::uint32_t cube, const std::vector<std::uint8_t>& is_gone);
   void number_points();
   void add_batches();
-  void add_tetrahedron(const std::array<std::uint32_t, 4>& points, const std::array<std::array<double, 3>, 3>& gradient,
-                       double volume);
+  void add_tetrahedron(const std::array<std::uint32_t, 4>& points, const Shape& gradient, double volume);
   void add_leaf(int l, std::uint32_t part);
   void find_springs();
   void find_fixed_points();
@@ -127,8 +127,8 @@ class LocalLevels {
   std::vector<std::vector<std::uint8_t>> divided_;
   std::vector<std::vector<std::uint32_t>> cubes_;
   std::vector<std::uint8_t> is_fine_;
-  std::vector<std::uint32_t> explicit_;                          // tetrahedra with a fine element, or in a divided cube
-  std::vector<std::array<std::array<double, 3>, 3>> gradients_;  // of these: of the shape functions of corners 1 to 3
+  std::vector<std::uint32_t> explicit_;  // tetrahedra with a fine element, or in a divided cube
+  std::vector<Shape> gradients_;         // of these
   std::vector<double> volumes_;
   // What explicit tetrahedra leave of the parts of leaves of level 1.
   std::vector<std::uint32_t> left_of_;  // of each cube: the number of its first part below, or none

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace chainmail {
@@ -63,13 +64,6 @@ void LocalMinimum::follow_fixed() {
   is_outdated_ = true;
 }
 
-void LocalMinimum::forget() {
-  std::ranges::fill(at_, Doubles4{});
-  std::ranges::fill(before_, Doubles4{});
-  pairs_.clear();
-  has_frame_ = false;
-}
-
 double LocalMinimum::distance() const { return energy_ > 0 ? std::sqrt(slope_ / (2 * energy_)) * shrunk_ : 0; }
 
 double LocalMinimum::least_ratio() const {
@@ -88,10 +82,11 @@ bool LocalMinimum::is_too_wide(int l, std::uint32_t cube) const {
     return true;
   }
   const CubeSpace::Place& at = level.cubes[cube].at;
-  const auto distance = [&](const CubeSpace::Point3& low, const CubeSpace::Point3& high) {
+  const auto distance = [&](const Point& low, const Point& high) {
     double result = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      result = std::max({result, level.width * at[k] - high[k], low[k] - level.width * (at[k] + 1)});
+    for (int k = 0; k < 3; ++k) {
+      const double begin = level.width * at[std::size_t(k)];
+      result = std::max({result, begin - high[k], low[k] - begin - level.width});
     }
     return result;
   };
@@ -220,13 +215,7 @@ void LocalMinimum::list() {
   levels_.list(*is_gone_, 2 * lame_.mu + lame_.lambda);
   carry(values_, at_);
   carry(values_before_, before_);
-  for (Pair& pair : pairs_) {
-    carry_pair(pair);
-  }
-  std::erase_if(pairs_, [](Pair& pair) {  // joining cubes changes the products
-    const double was = std::exchange(pair.product, dot(pair.step, pair.change));
-    return !(pair.product > 0.8 * was && pair.product < 1.25 * was);
-  });
+  pairs_.clear();
   force_.resize(at_.size());
   ratios_.assign(levels_.batches().size(), Doubles4{} + 1);
   least_.assign(ratios_.size(), Doubles4{} + usual_least);
@@ -234,21 +223,31 @@ void LocalMinimum::list() {
   gradient_is_outdated_ = true;
 }
 
-template <class Vector, class Points>
-void LocalMinimum::carry(const std::vector<std::vector<Vector>>& old, Points& points) const {
-  points.assign(levels_.point_count(), Vector{});
-  std::vector<Vector> coarser, values;
+/// Carries the values of nodes that were in use before the last change over to the points.
+void LocalMinimum::carry(const Values& old, WideVectors& points) const {
+  interpolate(
+      [&](int l, std::uint32_t i) {
+        const std::uint32_t was = old.empty() ? CubeSpace::none : levels_.find_before(l, levels_.level(l).node[i]);
+        return was != CubeSpace::none ? &old[std::size_t(l)][was] : nullptr;
+      },
+      points);
+}
+
+/// Sets the points to known(level, node), if it is not null, and interpolates the others and those that hang.
+template <class Known>
+void LocalMinimum::interpolate(Known known, WideVectors& points) const {
+  points.assign(levels_.point_count(), Doubles4{});
+  std::vector<Doubles4> coarser, values;
   for (int l = levels_.top(); l >= 0; --l) {
     const LocalLevels::Level& level = levels_.level(l);
     const std::size_t ups = l == 0 ? 4 : 2;
-    values.assign(level.size(), Vector{});
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      const std::uint32_t was = old.empty() ? CubeSpace::none : levels_.find_before(l, level.node[i]);
-      if (was != CubeSpace::none && level.hangs[i] == 0) {
-        values[i] = old[std::size_t(l)][was];
+    values.assign(level.size(), Doubles4{});
+    for (std::uint32_t i = 0; i < level.size(); ++i) {
+      if (const Doubles4* own = level.hangs[i] == 0 ? known(l, i) : nullptr; own != nullptr) {
+        values[i] = *own;
       } else if (l < levels_.top()) {
         for (std::size_t k = 0; k < ups; ++k) {
-          values[i] += level.share[i][k] * coarser[level.up[i][k]];
+          values[i] += double(level.share[i][k]) * coarser[level.up[i][k]];
         }
       }
       if (level.point[i] != CubeSpace::none) {
@@ -259,92 +258,56 @@ void LocalMinimum::carry(const std::vector<std::vector<Vector>>& old, Points& po
   }
 }
 
-/// Forces on nodes that are no longer in use act on those they lay between, and those on nodes that are no longer
-/// points on finer ones.
-void LocalMinimum::carry_force(const Floats& old, Floats& force) const {
-  force.assign(levels_.point_count(), Floats4{});
-  std::vector<Floats> values(std::size_t(levels_.top()) + 1);
-  Floats here, coarser;
+/// Takes displacements of elements over: corners of cubes get means of what is near.
+void LocalMinimum::start_from(const Read& read) {
+  const CubeSpace& space = levels_.space();
+  Values sums(std::size_t(levels_.top()) + 1);  // the last number of each is the weight
   for (int l = 0; l <= levels_.top(); ++l) {
-    const LocalLevels::Level& level = levels_.level_before(l);
-    const std::size_t ups = l == 0 ? 4 : 2;
-    here.swap(coarser);
-    here.resize(level.size(), Floats4{});
-    coarser.assign(l < levels_.top() ? levels_.level_before(l + 1).size() : 0, Floats4{});
-    values[std::size_t(l)].assign(levels_.level(l).size(), Floats4{});
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      const Floats4 own = here[i] + (level.point[i] != CubeSpace::none ? old[level.point[i]] : Floats4{});
-      if (const std::uint32_t now = levels_.find(l, level.node[i]); now != CubeSpace::none) {
-        values[std::size_t(l)][now] += own;
-      } else if (l < levels_.top()) {
-        for (std::size_t k = 0; k < ups; ++k) {
-          coarser[level.up[i][k]] += level.share[i][k] * own;
+    auto& of = sums[std::size_t(l)];
+    of.assign(levels_.level(l).size(), Doubles4{});
+    for (std::uint32_t i = 0; l == 0 && i < of.size(); ++i) {
+      if (const ElementId e = levels_.level(0).node[i]; !fixed_.is_held(e)) {
+        read(e, of[i]);
+        of[i][3] = 1;
+      }
+    }
+    for (const std::uint32_t c : l > 0 ? levels_.cubes(l) : std::vector<std::uint32_t>()) {
+      const CubeSpace::Level& level = space.level(l);
+      for (std::uint32_t i = level.cubes[c].element; i < level.cubes[c + 1].element; ++i) {
+        const ElementId e = space.sorted_elements()[i];
+        if (fixed_.is_held(e)) {
+          continue;  // it moves later
+        }
+        const auto& corner = level.parts[space.ancestor(space.home(e), l)].corner;
+        const auto at = space.interpolate(space.point(e), l, level.cubes[c]);
+        Doubles4 displacement;
+        read(e, displacement);
+        displacement[3] = 1;
+        for (std::size_t k = 0; k < 4; ++k) {
+          of[levels_.find(l, corner[at.corner[k]])] += std::max(0.0, at.weight[k]) * displacement;
         }
       }
     }
-  }
-  std::vector<float> total;
-  for (int l = levels_.top(); l >= 0; --l) {
-    const LocalLevels::Level& level = levels_.level(l);
-    auto& of = values[std::size_t(l)];
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      if (level.point[i] != CubeSpace::none) {
-        force[level.point[i]] = of[i];
-      }
-    }
-    if (l == 0) {
-      break;
-    }
-    const LocalLevels::Level& fine = levels_.level(l - 1);
-    const std::size_t ups = l == 1 ? 4 : 2;
-    total.assign(level.size(), 0);
-    const auto for_each_up = [&](auto visit) {
-      for (std::size_t i = 0; i < fine.size(); ++i) {
-        for (std::size_t k = 0; k < ups; ++k) {
-          if (level.point[fine.up[i][k]] == CubeSpace::none && fine.share[i][k] > 0.25F) {
-            visit(i, fine.up[i][k], fine.share[i][k] > 0.999F ? 1000 * fine.share[i][k] : fine.share[i][k]);
-          }
-        }
-      }
-    };
-    for_each_up([&](std::size_t, std::uint32_t up, float share) { total[up] += share; });
-    for_each_up([&](std::size_t i, std::uint32_t up, float share) {
-      values[std::size_t(l) - 1][i] += share / total[up] * of[up];
-    });
-  }
-}
-
-void LocalMinimum::carry_pair(Pair& pair) {
-  std::vector<Floats> values(std::size_t(levels_.top()) + 1);
-  for (int l = 0; l <= levels_.top(); ++l) {
-    const LocalLevels::Level& level = levels_.level_before(l);
-    values[std::size_t(l)].assign(level.size(), Floats4{});
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      if (level.point[i] != CubeSpace::none) {
-        values[std::size_t(l)][i] = pair.step[level.point[i]];
-      }
-    }
-    if (l == 0) {
-      continue;
-    }
-    const LocalLevels::Level& fine = levels_.level_before(l - 1);
-    for (std::size_t i = 0; i < fine.size(); ++i) {  // from the same place on the finer level
-      for (std::size_t k = 0; k < (l == 1 ? 4 : 2); ++k) {
-        if (fine.share[i][k] > 0.999F && level.point[fine.up[i][k]] == CubeSpace::none) {
-          values[std::size_t(l)][fine.up[i][k]] = values[std::size_t(l) - 1][i];
-        }
-      }
+    for (Doubles4& sum : of) {
+      const double weight = sum[3];
+      sum[3] = 0;
+      sum = weight > 0 ? sum / weight : Doubles4{} + std::numeric_limits<double>::quiet_NaN();
     }
   }
-  Floats change;
-  carry(values, pair.step);
-  carry_force(pair.change, change);
-  pair.change = std::move(change);
+  interpolate(
+      [&](int l, std::uint32_t i) {
+        const Doubles4& own = sums[std::size_t(l)][i];
+        return own[0] == own[0] ? &own : nullptr;
+      },
+      at_);
+  before_ = at_;
+  has_frame_ = false;
+  pairs_.clear();
 }
 
 // The motion.
 
-int LocalMinimum::move(double size, int max_iterations) {
+int LocalMinimum::move(double size, int max_iterations, const Read& start) {
   if (is_outdated_) {
     levels_.spread(at_, values_);
     levels_.spread(before_, values_before_);
@@ -354,6 +317,9 @@ int LocalMinimum::move(double size, int max_iterations) {
     balance();
     list();
     is_outdated_ = false;
+  }
+  if (start) {
+    start_from(start);
   }
   predict();
   levels_.spread(at_, values_);
@@ -398,6 +364,13 @@ void LocalMinimum::predict() {
   extend();
 }
 
+void LocalMinimum::find_stretch(const LocalLevels::Spring& spring, Doubles4& apart) const {
+  apart = fixed_.displacement(spring.element);
+  for (std::size_t k = 0; k < 4; ++k) {
+    apart -= double(spring.weight[k]) * at_[spring.point[k]];
+  }
+}
+
 /// Moves the fixed points to where they are, and all others by Laplace's extension of that.
 void LocalMinimum::extend() {
   start_.assign(at_.size(), Doubles4{});
@@ -433,10 +406,8 @@ void LocalMinimum::extend() {
     if (!fixed_.is_held(spring.element)) {
       continue;
     }
-    Doubles4 apart = fixed_.displacement(spring.element);
-    for (std::size_t k = 0; k < 4; ++k) {
-      apart -= spring.weight[k] * at_[spring.point[k]];
-    }
+    Doubles4 apart;
+    find_stretch(spring, apart);
     most = std::max(most, square_of(apart));
     for (std::size_t k = 0; k < 4; ++k) {
       const Doubles4 pull = modulus * double(spring.weight[k]) * apart;
@@ -459,10 +430,8 @@ double LocalMinimum::find_force() {
   double energy = evaluate_batches<3>(levels_.batches(), density, four_numbers(at_), four_numbers(force_)).energy;
   const double modulus = 2 * lame_.mu + lame_.lambda;
   for (const auto& spring : levels_.springs()) {
-    Doubles4 apart = fixed_.displacement(spring.element);
-    for (std::size_t k = 0; k < 4; ++k) {
-      apart -= spring.weight[k] * at_[spring.point[k]];
-    }
+    Doubles4 apart;
+    find_stretch(spring, apart);
     energy += modulus / 2 * square_of(apart);
     for (std::size_t k = 0; k < 4; ++k) {
       force_[spring.point[k]] += modulus * double(spring.weight[k]) * apart;

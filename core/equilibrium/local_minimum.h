@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "elastic/material.h"
@@ -25,19 +26,25 @@ class LocalMinimum {
 
   void set_lame(const Lame& lame);
   /// `is_gone`: of each tetrahedron. `places`: the boxes of the cells that are gone, as two corners each.
-  using Box = std::array<CubeSpace::Point3, 2>;
+  using Box = std::array<Point, 2>;
   void set_gone(const std::vector<std::uint8_t>* is_gone, const std::vector<Box>* boxes);
   /// Call this after other elements were fixed.
   void follow_fixed();
-  /// Forgets all displacements.
-  void forget();
 
   /// Follows the fixed elements: extrapolates the last two frames, divides and joins cubes, and iterates until the
-  /// distance from the minimum is small. `size`: the length of the motion of the handle so far. Returns the number of
-  /// iterations.
-  int move(double size, int max_iterations);
+  /// distance from the minimum is small. `size`: the length of the motion of the handle so far. `start`, if given,
+  /// writes the displacement of an element from which it starts. Returns the number of iterations.
+  using Read = std::function<void(ElementId, Doubles4&)>;
+  int move(double size, int max_iterations, const Read& start);
   const LocalLevels& levels() const { return levels_; }
   const Doubles4& displacement(std::uint32_t point) const { return at_[point]; }
+  /// Returns those of all nodes of all levels in use, by level.
+  using Values = std::vector<std::vector<Doubles4>>;
+  Values displacements() const {
+    Values values;
+    levels_.spread(at_, values);
+    return values;
+  }
   /// Estimated distance from the minimum, as √(energy of the distance / energy).
   double distance() const;
   double energy() const { return energy_; }
@@ -59,12 +66,13 @@ class LocalMinimum {
   void divide(int l, std::uint32_t cube);
   void balance();
   void list();
-  template <class Vector, class Points>
-  void carry(const std::vector<std::vector<Vector>>& old, Points& points) const;
-  void carry_force(const Floats& old, Floats& force) const;
-  void carry_pair(Pair& pair);
+  void carry(const Values& old, WideVectors& points) const;
+  template <class Known>
+  void interpolate(Known known, WideVectors& points) const;
+  void start_from(const Read& read);
   void predict();
   void extend();
+  void find_stretch(const LocalLevels::Spring& spring, Doubles4& apart) const;
   double find_force();
   void harden();
   bool is_allowed() const;
@@ -82,7 +90,7 @@ class LocalMinimum {
   int since_change_ = 0;     // frames
   WideVectors at_, before_, force_, start_, old_force_;
   Floats residual_, direction_;
-  std::vector<std::vector<Doubles4>> values_, values_before_;
+  Values values_, values_before_;
   std::vector<std::vector<float>> rough_;
   WideVectors ratios_, tried_;  // of the volumes of each batch
   WideVectors least_;           // below which a parabola continues the energy

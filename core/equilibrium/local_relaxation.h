@@ -15,30 +15,28 @@ namespace chainmail {
 /// farther they are and the less the strain changes (see local_minimum.h). What is hidden inside the object is written
 /// only by finish().
 ///
-/// For objects with cells in space, with the neo-Hookean law and without valid regions that bind.
+/// For objects with cells in space, with the neo-Hookean law and open valid regions, which do not count here.
 class LocalRelaxation {
  public:
   struct Options {
     double theta = 0.5;
     double widest = 1.0 / 12;  // of the longest side of the object
     double tolerance = 0.01;
-    double shows = 0.002;  // the change at which hidden interpolation is written anew, per motion of the handle
     int max_iterations = 5;
     bool has_twin = false;  // also at half the resolution, for an estimate of the error
   };
   struct Result {
-    std::span<const ElementId> moved;  // that were written, each once
     std::size_t nodes = 0, tetrahedra = 0;
     int iterations = 0;
     double distance = 0;             // from the minimum over the unknowns, as √(energy of it / energy)
     std::optional<double> estimate;  // of the error: root mean square, relative to the displacements
     double least_ratio = 1;          // of volumes; below 0 if a tetrahedron is inverted
-    double milliseconds = 0;         // of this thread
-    double twin_milliseconds = 0;    // of these, for the estimate
   };
 
-  /// Returns true if a body's object and energy are of the kind that this is for.
+  /// Returns true if a body's object and energy are of the kind that this is for, and large enough to be worth it.
   static bool is_for(const Body& body);
+  /// Returns true if this was built for a body's object.
+  bool is_of(const Body& body) const { return mesh_ == body.stored_mesh(); }
 
   /// Builds the cubes: takes about as long as ten iterations to the equilibrium. Throws Cancelled.
   LocalRelaxation(const Body& body, const Options& options, const Progress& progress = {});
@@ -47,6 +45,10 @@ class LocalRelaxation {
   Result update(Body& body, std::span<const ElementId> held);
   /// Writes all elements.
   void finish(Body& body);
+  /// Call this when no handle moves any more: the next one starts from the positions of the body.
+  void release() { starts_anew_ = true; }
+  /// The elements that the last call wrote, each once.
+  std::span<const ElementId> moved() const { return moved_; }
 
  private:
   void follow(const Body& body, std::span<const ElementId> held);
@@ -55,10 +57,10 @@ class LocalRelaxation {
   void write(const View& view, bool everything);
   template <class View>
   void write_leaf(const View& view, int l, std::uint32_t cube, bool everything);
+  void read(const PositionView& positions, ElementId element, Doubles4& displacement) const;
   void read_fixed(const Body& body, std::span<const ElementId> elements);
   template <class View>
   void write_element(const View& view, ElementId element, const double* rest, const Doubles4& displacement);
-  bool is_stale(int l, std::uint32_t part);
   double difference() const;
 
   Options options_;
@@ -71,10 +73,8 @@ class LocalRelaxation {
   std::vector<LinkId> cut_links_;
   std::vector<std::uint8_t> is_gone_;  // of each tetrahedron
   std::vector<LocalMinimum::Box> boxes_;
-  bool has_begun_ = false;
+  bool has_begun_ = false, starts_anew_ = false;
   double size_ = 0;  // of the motion of the handle (units)
-  // Of each part: the displacements of its corners when it was written.
-  std::vector<std::vector<std::array<Floats4, 8>>> written_;
   std::vector<ElementId> moved_;
 };
 
