@@ -23,6 +23,10 @@ struct RelaxationResult {
   /// After an iteration: the estimated distance from the equilibrium, see EquilibriumCertificate.
   std::optional<double> residual = {};
   bool has_prepared = false;  // true if this iteration prepared later ones, which are much faster
+  /// After a slice that is fine only where needed: the estimated distance from the equilibrium, root mean square,
+  /// relative to the displacements; and the number of unknown positions.
+  std::optional<double> estimate = {};
+  std::size_t nodes = 0;
 };
 
 /// A set of elements, taken in ascending order. Costs nothing outside the range in use.

@@ -108,6 +108,8 @@ inline constexpr Parameter relax_step{
     .step = 0.05,
     .decimals = 2,
     .help = "share of the way to its relaxed position that an element moves in one sweep"};
+inline constexpr std::string_view fine_where_needed =
+    "with the scheme equilibrium and open regions, in large objects: fine only near the handle and cuts while it moves";
 inline constexpr Parameter relax_until{
     .name = "relax-until",
     .label = "Residual",

@@ -60,7 +60,8 @@ struct SetRelaxation {
   bool on = false;
   double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
-  bool anew = false;  // all elements begin again, even if it was on
+  bool anew = false;   // all elements begin again, even if it was on
+  bool local = false;  // with the scheme `equilibrium`: fine only where needed, see Deformer::set_relaxation
 
   bool operator==(const SetRelaxation&) const = default;
 };
@@ -71,7 +72,8 @@ struct Relax {
   std::uint32_t sweeps = 1;
   double step = parameters::relax_step.default_value;
   RelaxationScheme scheme = RelaxationScheme::mean;
-  double until = 0;  // residual to reach: see parameters::relax_until. 0: none
+  double until = 0;    // residual to reach: see parameters::relax_until. 0: none
+  bool local = false;  // fine only where needed, as in SetRelaxation
 };
 /// Number of slices of relaxation in each panel. A solver notes it when it reaches the command that follows them.
 class SliceCounts {
@@ -108,6 +110,7 @@ struct Relaxed {
   Start start = Start::goes_on;
   std::shared_ptr<const SliceCounts> counts;
   std::size_t panel = 0;  // of the simulation that carries it out
+  bool local = false;     // as in SetRelaxation
 };
 /// Sets the options of methods of elasticity and free-form deformation.
 struct SetElastic {
@@ -175,18 +178,21 @@ template <>
 inline constexpr std::array members_of<commands::SetRelaxation>{
     yes_or_no<&commands::SetRelaxation::on>("on", "true while the object relaxes in idle time"),
     choice<&commands::SetRelaxation::scheme>("scheme", relaxation_scheme_names, "what relaxation does"),
-    number<&commands::SetRelaxation::step>("step", parameters::relax_step)};
+    number<&commands::SetRelaxation::step>("step", parameters::relax_step),
+    left_out_by_default(yes_or_no<&commands::SetRelaxation::local>("local", parameters::fine_where_needed))};
 template <>
 inline constexpr std::array members_of<commands::Relax>{
     number<&commands::Relax::sweeps>("sweeps", parameters::relax_sweeps),
     may_be_absent(number<&commands::Relax::step>("step", parameters::relax_step)),
     may_be_absent(choice<&commands::Relax::scheme>("scheme", relaxation_scheme_names, "what relaxation does")),
-    left_out_by_default(number<&commands::Relax::until>("until", parameters::relax_until))};
+    left_out_by_default(number<&commands::Relax::until>("until", parameters::relax_until)),
+    left_out_by_default(yes_or_no<&commands::Relax::local>("local", parameters::fine_where_needed))};
 template <>
 inline constexpr std::array members_of<commands::Relaxed>{
     choice<&commands::Relaxed::scheme>("scheme", relaxation_scheme_names, "what relaxation did"),
     number<&commands::Relaxed::step>("step", parameters::relax_step),
-    choice<&commands::Relaxed::start>("start", commands::Relaxed::starts, "what happened before")};
+    choice<&commands::Relaxed::start>("start", commands::Relaxed::starts, "what happened before"),
+    left_out_by_default(yes_or_no<&commands::Relaxed::local>("local", parameters::fine_where_needed))};
 
 using Command = std::variant<commands::Grab, commands::Drag, commands::Release, commands::SetSoftness,
                              commands::SetRelaxation, commands::Relax, commands::Relaxed, commands::SetAlgorithm,

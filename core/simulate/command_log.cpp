@@ -37,7 +37,8 @@ void CommandLog::end_repetition() {
 
 void CommandLog::follow(const Command& command) {
   if (const auto* set = std::get_if<commands::SetRelaxation>(&command)) {
-    const bool begins = set->on && (!relaxation_.on || set->scheme != relaxation_.scheme || set->anew);
+    const bool begins = set->on && (!relaxation_.on || set->scheme != relaxation_.scheme ||
+                                    set->local != relaxation_.local || set->anew);
     start_ = begins ? Start::awake : start_;
     relaxation_ = *set;
   } else if (is_one_of<commands::RestoreState, commands::ReplaceMesh>(command)) {
@@ -51,7 +52,8 @@ std::shared_ptr<commands::SliceCounts> CommandLog::new_counts() const {
 
 std::shared_ptr<commands::SliceCounts> CommandLog::record_relaxation() {
   auto counts = new_counts();
-  history_.note(commands::Relaxed{relaxation_.scheme, relaxation_.step, std::exchange(start_, Start::goes_on), counts});
+  history_.note(commands::Relaxed{relaxation_.scheme, relaxation_.step, std::exchange(start_, Start::goes_on), counts,
+                                  0, relaxation_.local});
   return counts;
 }
 

@@ -1,5 +1,6 @@
 #include "simulate/deformation.h"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -80,7 +81,10 @@ void Deformation::pass(const commands::Drag& drag) {
     }
     traces_.push_back(std::move(trace));
   }
-  simulation_.relax(each_.relax, {simulation_.relaxation().step, simulation_.relaxation().scheme, each_.relax_until});
+  const auto& how = simulation_.relaxation();
+  const auto start = PassTimes::Clock::now();
+  simulation_.relax(each_.relax, {how.step, how.scheme, each_.relax_until, how.local});
+  passes_.back().relaxation_ms = std::chrono::duration<double, std::milli>(PassTimes::Clock::now() - start).count();
   each_.on_end();
 }
 
@@ -90,6 +94,10 @@ DeformSummary Deformation::summary() {
   simulation_.measure_all();
   const Statistics& statistics = simulation_.statistics();
   const auto positions = body.positions();
+  std::optional<DeformSummary::Local> local;
+  if (statistics.estimate) {
+    local = {*statistics.estimate, statistics.nodes};
+  }
   return {statistics.algorithm,
           mesh.element_count(),
           mesh.link_count(),
@@ -101,7 +109,8 @@ DeformSummary Deformation::summary() {
           inverted_cells(mesh, positions),
           largest_principal_stretch(mesh, positions),
           info(simulation_.relaxation().scheme).sweeps ? std::nullopt : simulation_.certificate(),
-          cell_figures(mesh, body.cuts(), positions)};
+          cell_figures(mesh, body.cuts(), positions),
+          local};
 }
 
 }  // namespace chainmail

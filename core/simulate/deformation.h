@@ -23,6 +23,12 @@ struct DeformSummary {
     double milliseconds = 0;
     std::optional<Point> stopped_at = {};  // where the pivot is, if the handle stopped before its target (mesh units)
     std::string remark = {};               // reason why it did not end as requested; usually empty
+    double relaxation_ms = 0;              // of the relaxation after it
+  };
+  /// Of relaxation that is fine only where needed, after the last pass.
+  struct Local {
+    double estimate = 0;  // see RelaxationResult
+    std::size_t nodes = 0;
   };
 
   Algorithm algorithm = Algorithm::natural_queue;
@@ -38,6 +44,7 @@ struct DeformSummary {
   std::optional<double> largest_stretch = {};              // principal stretch
   std::optional<EquilibriumCertificate> equilibrium = {};  // if it was relaxed to the equilibrium
   std::optional<CellFigures> cells = {};                   // of an object with cells
+  std::optional<Local> local = {};
 };
 
 /// A simulation that notes what each of its passes did.

@@ -49,7 +49,17 @@ void Simulation::prepare(ElementId element) {
 }
 
 void Simulation::apply(const Command& command) {
+  if (!is_one_of<commands::Drag, commands::Relaxed>(command)) {
+    complete_relaxation();
+  }
   std::visit([this](const auto& one) { carry_out(one); }, command);
+}
+
+/// Writes what is not seen during a drag, so that states that are kept are complete.
+void Simulation::complete_relaxation() {
+  if (deformer_.complete_relaxation()) {
+    mark(deformer_.relaxed());
+  }
 }
 
 void Simulation::pass(const std::shared_ptr<Handle>& handle, const Pose& target) {
@@ -208,6 +218,8 @@ RelaxationResult Simulation::take_relaxed(Relax relax) {
   try {
     const RelaxationResult slice = relax();
     statistics_.residual = slice.residual;  // sweeps have none
+    statistics_.estimate = slice.estimate;
+    statistics_.nodes = slice.nodes;
     if (slice.residual && std::exchange(relaxation_fails_, false)) {
       statistics_.remark.clear();
     }
@@ -225,6 +237,7 @@ RelaxationResult Simulation::take_relaxed(Relax relax) {
 void Simulation::refuse_relaxation(const std::string& reason) {
   statistics_.remark = reason;
   statistics_.residual.reset();
+  statistics_.estimate.reset();
   relaxation_fails_ = true;
   fall_asleep();
 }
@@ -236,7 +249,10 @@ void Simulation::relax(int count, const RelaxOptions& options) {
   }
   take_relaxed([&] {
     RelaxationResult result;
-    result.residual = deformer_.relax(count, options, [this] { mark(deformer_.relaxed()); }).residual;
+    const auto done = deformer_.relax(count, options, [this] { mark(deformer_.relaxed()); });
+    result.residual = done.residual;
+    result.estimate = done.estimate;
+    result.nodes = done.nodes;
     return result;
   });
 }
@@ -293,6 +309,7 @@ void Simulation::forget_passes() {
   statistics_.last_second = {};
   statistics_.remark.clear();
   statistics_.residual.reset();
+  statistics_.estimate.reset();
   statistics_.unsettled.reset();
   relaxation_fails_ = false;
   times_.clear();
@@ -428,14 +445,14 @@ void Simulation::carry_out(const commands::SetElastic& command) {
 }
 
 void Simulation::carry_out(const commands::Relax& command) {
-  relax(static_cast<int>(command.sweeps), {command.step, command.scheme, command.until});
+  relax(static_cast<int>(command.sweeps), {command.step, command.scheme, command.until, command.local});
 }
 
 void Simulation::carry_out(const commands::Relaxed& command) {
   check(parameters::relax_step, command.step);
   relaxation_on_ = repeats_slices_ = true;
   relaxation_step_ = command.step;
-  deformer_.set_relaxation(command.scheme);
+  deformer_.set_relaxation(command.scheme, command.local);
   if (command.start != commands::Relaxed::Start::goes_on) {
     begin_relaxation(command.start == commands::Relaxed::Start::awake);
   }
@@ -448,14 +465,15 @@ void Simulation::carry_out(const commands::Relaxed& command) {
 
 void Simulation::carry_out(const commands::SetRelaxation& command) {
   check(parameters::relax_step, command.step);
-  relaxation_ = {command.on, command.step, command.scheme};
+  relaxation_ = {command.on, command.step, command.scheme, false, command.local};
   repeats_slices_ = false;
   const bool was_on = std::exchange(relaxation_on_, command.on);
-  const bool is_other = deformer_.relaxation() != command.scheme;
+  const bool is_other = deformer_.relaxation() != command.scheme || deformer_.relaxes_locally() != command.local;
   relaxation_step_ = command.step;
-  deformer_.set_relaxation(command.scheme);
+  deformer_.set_relaxation(command.scheme, command.local);
   if (is_other) {
     statistics_.residual.reset();
+    statistics_.estimate.reset();
   }
   if (!command.on) {
     statistics_.unsettled.reset();
@@ -583,6 +601,7 @@ void Simulation::carry_out(const commands::SetPositions& command) {
 }
 
 SimulationState Simulation::hand_over() {
+  complete_relaxation();
   const auto copy = [](const std::shared_ptr<Handle>& handle) {
     return handle ? std::make_shared<const Handle>(*handle) : nullptr;
   };

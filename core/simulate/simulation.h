@@ -32,6 +32,9 @@ struct Statistics {
   std::uint64_t sweeps = 0;  // since the last pass; iterations with the scheme `equilibrium`
   /// After an iteration toward the equilibrium: the estimated distance from it, see EquilibriumCertificate.
   std::optional<double> residual;
+  /// After a slice that was fine only where needed: see RelaxationResult.
+  std::optional<double> estimate;
+  std::size_t nodes = 0;
   /// Reason why the last pass did not reach its target or did not converge, or why relaxation ended; usually empty.
   std::string remark;
 };
@@ -129,6 +132,7 @@ class Simulation {
   void carry_out(const commands::RestoreState& command);
   void carry_out(const commands::DropState& command);
 
+  void complete_relaxation();
   bool run_slice();
   void try_slice();
   bool comes_closer(double distance);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "body/snapshot.h"
+#include "equilibrium/local_relaxation.h"
 #include "exact/thread_team.h"
 #include "mesh/error.h"
 #include "mesh/parameters.h"
@@ -16,16 +18,18 @@ namespace {
 /// Relaxes with a scheme until the end of a block.
 class SchemeForNow {
  public:
-  SchemeForNow(Deformer& deformer, RelaxationScheme scheme) : deformer_(deformer), before_(deformer.relaxation()) {
-    deformer_.set_relaxation(scheme);
+  SchemeForNow(Deformer& deformer, RelaxationScheme scheme, bool local)
+      : deformer_(deformer), before_(deformer.relaxation()), was_local_(deformer.relaxes_locally()) {
+    deformer_.set_relaxation(scheme, local);
   }
   SchemeForNow(const SchemeForNow&) = delete;
   SchemeForNow& operator=(const SchemeForNow&) = delete;
-  ~SchemeForNow() { deformer_.set_relaxation(before_); }
+  ~SchemeForNow() { deformer_.set_relaxation(before_, was_local_); }
 
  private:
   Deformer& deformer_;
   RelaxationScheme before_;
+  bool was_local_;
 };
 
 }  // namespace
@@ -121,6 +125,7 @@ PassCount Deformer::move_along_axes(Handle& handle, const Pose& target, Trace* t
 void Deformer::note_handle(const Handle& handle) {
   set_last_handle(handle.elements());
   hold(handle.elements());
+  has_changed_ = true;
 }
 
 PassCount Deformer::move(ElementId element, const Point& target, Trace* trace) {
@@ -133,12 +138,14 @@ PassCount Deformer::move(ElementId element, const Point& target, Trace* trace) {
 void Deformer::cut(std::span<const LinkId> links) {
   check_links(body_.mesh(), links);
   body_.cut(links);
+  has_changed_ = true;
   wake_ends(links);
 }
 
 void Deformer::uncut(std::span<const LinkId> links) {
   check_links(body_.mesh(), links);
   body_.uncut(links);
+  has_changed_ = true;
   wake_ends(links);
 }
 
@@ -203,7 +210,7 @@ void Deformer::replace(const ObjectState& object, Algorithm algorithm) {
   Deformer other(object.mesh, fits(algorithm, *object.mesh) ? algorithm : Algorithm::natural_queue, body_.precision());
   other.body_.set_elastic(body_.elastic());
   other.body_.restore(object);
-  other.set_relaxation(scheme_);
+  other.set_relaxation(scheme_, is_local_);
   other.progress_ = progress_;
   other.threads_ = threads_;
   *this = std::move(other);
@@ -228,6 +235,7 @@ Snapshot Deformer::split(const SplitPointer& split, const Snapshot& positions) {
 }
 
 void Deformer::forget_handle() {
+  is_incomplete_ = false;  // all positions were set
   release();
   set_last_handle({});
 }
@@ -265,11 +273,13 @@ void Deformer::sleep() {
 void Deformer::forget_relaxation() {
   relaxation_.forget();
   equilibrium_.reset();
+  forget_local();
   awake_at_.reset();
 }
 
-void Deformer::set_relaxation(RelaxationScheme scheme) {
+void Deformer::set_relaxation(RelaxationScheme scheme, bool local) {
   scheme_ = scheme;
+  is_local_ = local;
   if (info(scheme).sweeps) {
     relaxation_.set_scheme(scheme);
   }
@@ -283,7 +293,10 @@ RelaxationResult Deformer::relax_slice(double step, std::uint64_t budget, std::s
   if (awake_at_ != body_.revisions().positions) {
     return {0, true, 0};  // asleep, or the positions were set since
   }
-  return equilibrate([&] { equilibrium_->iterate(body_, held, progress_); });
+  if (may_follow(held)) {
+    return follow(held);
+  }
+  return follows_ ? end_following() : equilibrate(held, [&] { equilibrium_->iterate(body_, held, progress_); });
 }
 
 Deformer::Relaxed Deformer::relax(int most, const RelaxOptions& options, const std::function<void()>& after_slice) {
@@ -295,12 +308,23 @@ Deformer::Relaxed Deformer::relax(int most, const RelaxOptions& options, const s
   if (most == 0 || !algorithm_.relaxes()) {
     return {};
   }
-  const SchemeForNow scheme(*this, options.scheme);
+  const SchemeForNow scheme(*this, options.scheme, options.local);
   Relaxed done;
   if (!info(options.scheme).sweeps) {
     const RunningPass running;
-    done.residual = equilibrate([&] { equilibrium_->solve(body_, held_, options.until, most, progress_); }).residual;
-    done.sweeps = equilibrium_->iterations();
+    const bool follows = may_follow(held_);
+    if (follows) {
+      const RelaxationResult slice = follow(held_);
+      done = {local_iterations_, {}, slice.estimate, slice.nodes};
+    }
+    if (follows_) {
+      end_following();
+    }
+    if (!follows) {
+      const auto solve = [&] { equilibrium_->solve(body_, held_, options.until, most, progress_); };
+      done.residual = equilibrate(held_, solve).residual;
+      done.sweeps = equilibrium_->iterations();
+    }
     if (after_slice) {
       after_slice();
     }
@@ -335,12 +359,8 @@ std::uint64_t Deformer::sweep(double step, const Progress& progress, const std::
 
 /// Runs iterations toward the equilibrium. If they fail in the middle, the next ones use nothing of them.
 template <class Solve>
-RelaxationResult Deformer::equilibrate(Solve solve) {
+void Deformer::try_equilibrate(Solve solve) {
   try {
-    if (!equilibrium_) {
-      equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
-    }
-    equilibrium_->set_threads(threads_);
     solve();
   } catch (const Error&) {
     throw;  // nothing has moved
@@ -349,15 +369,79 @@ RelaxationResult Deformer::equilibrate(Solve solve) {
   } catch (...) {
     body_.note_relaxation();
     equilibrium_.reset();
+    forget_local();
     throw;
   }
+}
+
+/// Runs them for the whole object.
+template <class Solve>
+RelaxationResult Deformer::equilibrate(std::span<const ElementId> held, Solve solve) {
+  try_equilibrate([&] {
+    if (!equilibrium_) {
+      equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
+    }
+    equilibrium_->set_threads(threads_);
+    solve();
+  });
+  if (local_ && held.empty()) {
+    local_->release();
+  }
+  has_changed_ = was_local_ = false;
   return {body_.mesh().element_count(), true, equilibrium_->largest_step(), equilibrium_->residual(),
           equilibrium_->has_prepared()};
+}
+
+bool Deformer::may_follow(std::span<const ElementId> held) const {
+  return is_local_ && has_changed_ && !held.empty() && LocalRelaxation::is_for(body_);
+}
+
+/// Runs iterations that are fine only where needed.
+RelaxationResult Deformer::follow(std::span<const ElementId> held) {
+  const bool is_new = !local_ || !local_->is_of(body_);
+  try_equilibrate([&] {
+    if (is_new) {
+      local_ = std::make_shared<LocalRelaxation>(body_, LocalRelaxation::Options{.has_twin = true}, progress_);
+    }
+    const LocalRelaxation::Result result = local_->update(body_, held);
+    // The steps are not known: the object has not settled.
+    local_slice_ = {body_.mesh().element_count(), true, std::numeric_limits<double>::infinity(), {}, is_new};
+    local_slice_.estimate = 2 * result.estimate.value_or(0) + result.distance;
+    local_slice_.nodes = result.nodes;
+    local_iterations_ = result.iterations;
+  });
+  has_changed_ = false;
+  follows_ = is_incomplete_ = was_local_ = true;
+  return local_slice_;
+}
+
+/// Completes the last slice that followed the handle.
+RelaxationResult Deformer::end_following() {
+  complete_relaxation();
+  follows_ = local_slice_.has_prepared = false;
+  return local_slice_;
+}
+
+bool Deformer::complete_relaxation() {
+  if (!std::exchange(is_incomplete_, false) || !local_ || !local_->is_of(body_)) {
+    return false;
+  }
+  local_->finish(body_);
+  was_local_ = true;
+  return true;
+}
+
+void Deformer::forget_local() {
+  local_.reset();
+  has_changed_ = follows_ = is_incomplete_ = was_local_ = false;
 }
 
 std::span<const ElementId> Deformer::relaxed() const {
   if (info(scheme_).sweeps) {
     return relaxation_.moved();
+  }
+  if (was_local_) {
+    return local_->moved();
   }
   return equilibrium_ ? equilibrium_->moved() : std::span<const ElementId>();
 }

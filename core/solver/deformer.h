@@ -19,6 +19,8 @@
 
 namespace chainmail {
 
+class LocalRelaxation;
+
 /// True if a body stores displacements from rest for an algorithm: for some always, and for all in single precision if
 /// the object lies far from the origin, where positions are too coarse.
 bool stores_displacements(const AlgorithmInfo& algorithm, const Body& body);
@@ -31,6 +33,8 @@ struct RelaxOptions {
   /// With the scheme `equilibrium`: the residual at which it ends, see EquilibriumCertificate; 0 to 1. With 0, all
   /// iterations run.
   double until = parameters::relax_until.default_value;
+  /// With the scheme `equilibrium`: fine only where needed, see set_relaxation().
+  bool local = false;
 };
 
 /// Deforms one object with one algorithm: a body, the method that answers its moves, and relaxation. The algorithm may
@@ -114,7 +118,9 @@ class Deformer {
   /// What relaxation that runs at once has done.
   struct Relaxed {
     int sweeps = 0;                       // or iterations, with the scheme `equilibrium`
-    std::optional<double> residual = {};  // after iterations
+    std::optional<double> residual = {};  // after iterations for the whole object
+    std::optional<double> estimate = {};  // after those that are fine only where needed, see RelaxationResult
+    std::size_t nodes = 0;
   };
   /// Runs sweeps of relaxation about the elements of the last move, until nothing moves or `most` have run. The scheme
   /// `equilibrium` runs iterations for the whole object instead, until the residual is small, and moves the elements
@@ -139,8 +145,15 @@ class Deformer {
   void sleep();
   /// Drops all that relaxation has kept, so that it goes on as a new solver would. Makes all elements inactive.
   void forget_relaxation();
-  void set_relaxation(RelaxationScheme scheme);
+  /// With `local`, the scheme `equilibrium` is fine only where needed, after the handle has moved or links were cut,
+  /// where LocalRelaxation is for the body and something is held. Slices write only what is fine or on the surface, the
+  /// first one after that writes all, and later ones iterate for the whole object.
+  void set_relaxation(RelaxationScheme scheme, bool local = false);
   RelaxationScheme relaxation() const { return scheme_; }
+  bool relaxes_locally() const { return is_local_; }
+  /// Writes what slices that are fine only where needed have left out. Changes nothing for later slices. Returns true
+  /// if it wrote elements, see relaxed().
+  bool complete_relaxation();
   /// Relaxes with a step in (0, 1] until a sweep ends or `budget` elements were visited. The scheme `equilibrium` runs
   /// one iteration; it ignores step and budget, and throws Error if pins contradict each other, and Cancelled. The
   /// elements of `held` (ascending) stay. If nothing is active, `visited` is 0 and the sweep has ended.
@@ -164,7 +177,13 @@ class Deformer {
   void store_for(const AlgorithmInfo& algorithm);
   PassCount move_along_axes(Handle& handle, const Pose& target, Trace* trace);
   template <class Solve>
-  RelaxationResult equilibrate(Solve solve);
+  void try_equilibrate(Solve solve);
+  template <class Solve>
+  RelaxationResult equilibrate(std::span<const ElementId> held, Solve solve);
+  bool may_follow(std::span<const ElementId> held) const;
+  RelaxationResult follow(std::span<const ElementId> held);
+  RelaxationResult end_following();
+  void forget_local();
   std::uint64_t sweep(double step, const Progress& progress, const std::function<void()>& after_slice);
   void wake_ends(std::span<const LinkId> links);
   void note_handle(const Handle& handle);
@@ -178,6 +197,14 @@ class Deformer {
   RelaxationScheme scheme_ = RelaxationScheme::mean;
   Relaxation relaxation_;                           // the schemes that sweep
   std::unique_ptr<EquilibriumSolver> equilibrium_;  // made by the first iteration
+  bool is_local_ = false;
+  std::shared_ptr<LocalRelaxation> local_;  // not shared: its type is not complete here
+  RelaxationResult local_slice_;            // the last one that followed the handle
+  int local_iterations_ = 0;                // of it
+  bool has_changed_ = false;                // the handle has moved, or links were cut, since the last iteration
+  bool follows_ = false;                    // the last slice followed the handle
+  bool is_incomplete_ = false;              // it left elements out
+  bool was_local_ = false;                  // the last slice, or completion, was that of `local_`
   /// Revision of the positions when the object was last woken; none: the scheme `equilibrium` sleeps.
   std::optional<std::uint64_t> awake_at_;
   Progress progress_;

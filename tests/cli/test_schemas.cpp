@@ -308,7 +308,9 @@ void SchemasTest::add_moves() {
       commands::Reset{},
       commands::Relax{3, 0.5, RelaxationScheme::link},
       commands::Relax{200, 1, RelaxationScheme::equilibrium, 0.001},
+      commands::Relax{200, 1, RelaxationScheme::equilibrium, 0, true},
       commands::Relaxed{RelaxationScheme::mean, 1, commands::Relaxed::Start::awake, counts},
+      commands::Relaxed{RelaxationScheme::equilibrium, 1, commands::Relaxed::Start::goes_on, counts, 0, true},
       commands::Split{split}};
   std::ostringstream out;
   write_moves(out, moves, *split->after());

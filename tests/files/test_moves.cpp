@@ -130,7 +130,8 @@ void MovesTest::what_is_written_reads_back() {
       commands::SetSoftness{{{0, 1, 0, 0.3, 2, -2}, {{5, {1, 1, 0, 0, 3, 4}}}, EnergyKind::corotated}},
       commands::Relax{3, 0.1, RelaxationScheme::link},
       commands::Reset{},
-      commands::Relax{200, 1, RelaxationScheme::equilibrium, 1.0 / 3}};
+      commands::Relax{200, 1, RelaxationScheme::equilibrium, 1.0 / 3},
+      commands::Relax{200, 1, RelaxationScheme::equilibrium, 0, true}};
   const std::string text = written(moves);
   const auto again = read(text);
   QCOMPARE(again.size(), moves.size());
@@ -142,6 +143,7 @@ void MovesTest::what_is_written_reads_back() {
   QCOMPARE(written(read(written(read(every_command)))), written(read(every_command)));
   QVERIFY(std::get<commands::Relax>(again[10]).scheme == RelaxationScheme::equilibrium);
   QCOMPARE(std::get<commands::Relax>(again[10]).until, 1.0 / 3);
+  QVERIFY(!std::get<commands::Relax>(again[10]).local && std::get<commands::Relax>(again[11]).local);
 }
 
 namespace {

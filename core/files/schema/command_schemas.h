@@ -105,8 +105,8 @@ inline Json with_rules(Json schema, const commands::Grab& /*one*/) {
 }
 inline Json with_rules(const Json& schema, const commands::Relax& /*one*/) {
   const Json equilibrium{{"const", info(RelaxationScheme::equilibrium).name}};
-  return with(schema, "dependencies",
-              {{"until", {{"properties", {{"scheme", equilibrium}}}, {"required", Json::array({"scheme"})}}}});
+  const Json needed{{"properties", {{"scheme", equilibrium}}}, {"required", Json::array({"scheme"})}};
+  return with(schema, "dependencies", {{"until", needed}, {"local", needed}});
 }
 
 /// Adds the schemas of a command, if it has a name: one for each choice of members that go together.

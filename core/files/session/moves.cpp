@@ -198,6 +198,9 @@ void MovesReader::follow(const commands::Relax& one) {
   if (one.until > 0 && info(one.scheme).sweeps) {
     fields_.fail("'until' works only with the scheme equilibrium", "leave it out, or choose this scheme");
   }
+  if (one.local && info(one.scheme).sweeps) {
+    fields_.fail("'local' works only with the scheme equilibrium", "leave it out, or choose this scheme");
+  }
 }
 
 void MovesReader::check_split_parts(std::uint64_t parts) const {

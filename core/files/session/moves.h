@@ -21,7 +21,7 @@ inline constexpr std::uint64_t newest_moves_version = 4;
 ///       {"do": "release"}, {"do": "cut", "links": [[0, 1]]}, {"do": "uncut", "links": [[0, 1]]},
 ///       {"do": "pin", "elements": [3]}, {"do": "unpin", "elements": [3]}, {"do": "reset"},
 ///       {"do": "relax", "sweeps": 3, "step": 1, "scheme": "mean"},
-///       {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 0.001},
+///       {"do": "relax", "sweeps": 200, "scheme": "equilibrium", "until": 0.001, "local": true},
 ///       {"do": "softness", "compression": 0.8, "stretch": 1.2, "shear": 0.1, …, "energy": "corotated",
 ///        "links": [[0, 1, 1, 1, 0, 1, 1, -1]]}]}
 ///
@@ -37,7 +37,7 @@ inline constexpr std::uint64_t newest_moves_version = 4;
 /// It is 3 if moves contain what relaxation in idle time did since the command before, for each panel:
 ///
 ///     {"do": "relaxed", "scheme": "mean", "step": 1, "start": "goes on", "awake" or "asleep",
-///        "panels": [algorithm…], "slices": [number…]}
+///        "panels": [algorithm…], "slices": [number…], "local": true if the setting had it}
 ///
 /// A slice is an iteration of the scheme `equilibrium`, or a sweep, but at most 20,000 elements of it. Another
 /// simulation repeats that of the panel with its algorithm. "awake" and "asleep" say that relaxation began anew before,

@@ -66,7 +66,8 @@ MeshPointer written_mesh(const Session& session);
 ///        "energy": "isotropic", "axial", "corotated" or "material",
 ///        "frame": {"kind": "object" or "given", "rotation": [x, y, z: the axis times the angle in radians]},
 ///        "own": [both ends and all numbers of each link with its own…]},
-///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1},
+///      "relaxation": {"on": false, "scheme": "mean", "link" or "equilibrium", "step": 1,
+///        "local": true if it is fine only where needed},
 ///      "elastic": {each member of ElasticOptions, which material.h describes},
 ///      "panels": [{"algorithm": "exact", "precision": "float" or "double", "from_rest": true,
 ///        "frame": [rotation, as above], "runs": [first, end of each run of elements that are given…], "held": [their

@@ -3,8 +3,10 @@
 #include "core/threads.h"
 #include "equilibrium/link_energy.h"
 #include "equilibrium/quasi_newton.h"
+#include "measure/shape_measures.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
+#include "mesh/layers.h"
 #include "program.h"
 
 namespace chainmail::test_settling {
@@ -30,6 +32,8 @@ class SettlingTest : public QObject {
   void a_solver_moves_nothing_before_it_is_woken();
   void a_cancelled_iteration_moves_nothing_and_goes_on();
   void a_thread_settles_between_passes();
+  void fine_only_where_needed_it_settles_as_without();
+  void fine_only_where_needed_it_is_repeated_to_the_bit();
 };
 
 namespace {
@@ -59,6 +63,57 @@ bool is_valid(const Simulation& simulation) {
   return measure_violation(simulation.mesh(), simulation.softness(), simulation.body().cuts(),
                            simulation.body().positions())
              .fraction == 0;
+}
+
+/// A solid of 24,576 cells in open regions, pinned at its left side, with a handle at its surface.
+class Solid {
+ public:
+  explicit Solid(bool local)
+      : simulation(make_mesh(MeshKind::tetra, {17, 17, 17}), Algorithm::exact, Precision::double_precision) {
+    play(commands::SetSoftness{Softness{{0, 3, 2}, {}, EnergyKind::material}});
+    play(commands::Pin{layer(simulation.mesh(), *find_side("left"))});
+    play(commands::SetRelaxation{true, 1, RelaxationScheme::equilibrium, false, local});
+    relax(0);
+    play(commands::Grab{std::vector<ElementId>{4771, 4772, 4788, 4789}});
+  }
+  void drag(double by) {
+    commands::Drag drag{Point(0, by / 2, by)};
+    drag.relative = true;
+    play(drag);
+  }
+  void play(const Command& command) {
+    simulation.apply(command);
+    const auto* set = std::get_if<commands::SetRelaxation>(&command);
+    start_ = set != nullptr ? commands::Relaxed::Start::awake : start_;
+    if (set == nullptr && !is_one_of<commands::KeepState>(command)) {
+      moves.push_back(command);
+    }
+  }
+  /// Runs slices, and records them.
+  void relax(std::uint32_t slices) {
+    const std::uint32_t before = simulation.slices();
+    for (std::uint32_t i = 0; i < slices && simulation.continue_relaxation(); ++i) {
+    }
+    const auto counts = std::make_shared<commands::SliceCounts>(1);
+    counts->note(0, Algorithm::exact, simulation.slices() - before);
+    const commands::SetRelaxation& how = simulation.relaxation();
+    moves.push_back(commands::Relaxed{how.scheme, how.step, std::exchange(start_, commands::Relaxed::Start::goes_on),
+                                      counts, 0, how.local});
+  }
+
+  Simulation simulation;
+  std::vector<Command> moves;
+
+ private:
+  commands::Relaxed::Start start_ = commands::Relaxed::Start::goes_on;
+};
+
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
+  double largest = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    largest = std::max(largest, std::abs(one[i] - other[i]));
+  }
+  return largest;
 }
 
 /// Steps until it sleeps. Returns the number of steps; 0 if that takes too many, or if a state on the way is not valid.
@@ -339,6 +394,59 @@ void SettlingTest::a_thread_settles_between_passes() {
   // The thread ends while the object settles.
   solver.post(commands::Drag{Point(70, 60, 0)});
   QVERIFY(wait_for_passes(solver, 31));
+}
+
+void SettlingTest::fine_only_where_needed_it_settles_as_without() {
+  Solid local(true), whole(false);
+  for (Solid* solid : {&local, &whole}) {
+    for (int i = 1; i <= 4; ++i) {
+      solid->drag(0.7 * i);
+      solid->relax(1);
+      QCOMPARE(solid->simulation.statistics().estimate.has_value(), solid == &local);
+      QVERIFY(solid->simulation.statistics().residual.has_value() != (solid == &local));
+    }
+  }
+  QVERIFY(local.simulation.statistics().nodes < local.simulation.mesh().element_count() / 2);
+  QVERIFY(*local.simulation.statistics().estimate < 0.2);
+  local.relax(1);  // writes what is inside
+  const auto followed = positions_of(local.simulation);
+  for (Solid* solid : {&local, &whole}) {
+    solid->relax(300);
+    QVERIFY(!solid->simulation.statistics().relaxing && !solid->simulation.statistics().estimate);
+    QVERIFY(solid->simulation.statistics().residual.value_or(1) <= 1e-4);
+  }
+  const auto settled = positions_of(local.simulation);
+  QVERIFY(largest_difference(settled, positions_of(whole.simulation)) < 0.01);
+  const double apart = largest_difference(followed, settled);
+  QVERIFY2(apart > 1e-4 && apart < 0.3, qPrintable(QString::number(apart)));
+}
+
+/// Also where states are kept in between, which are complete.
+void SettlingTest::fine_only_where_needed_it_is_repeated_to_the_bit() {
+  Solid solid(true);
+  for (int i = 1; i <= 3; ++i) {
+    solid.drag(i);
+    solid.relax(1);
+    solid.play(commands::KeepState{1});
+  }
+  const auto kept = positions_of(solid.simulation);
+  solid.play(commands::Cut{{solid.simulation.mesh().entry_link[solid.simulation.mesh().first_entry[4772]]}});
+  solid.drag(2);
+  solid.relax(4);
+  solid.play(commands::Release{});
+  solid.relax(3);
+  solid.play(commands::Grab{std::vector<ElementId>{4700, 4701}});
+  solid.drag(-1);
+  solid.relax(2);
+  Simulation again(solid.simulation.mesh_pointer(), Algorithm::exact, Precision::double_precision);
+  again.set_threads(2);
+  for (const Command& command : solid.moves) {
+    again.apply(command);
+  }
+  QVERIFY(same_bits(positions_of(again), positions_of(solid.simulation)));
+  carry_out(solid.simulation, commands::RestoreState{1});
+  QVERIFY(same_bits(positions_of(solid.simulation), kept));
+  QVERIFY(inverted_cells(solid.simulation.mesh(), solid.simulation.body().positions()).value_or(1) == 0);
 }
 
 CHAINMAIL_TEST(SettlingTest)
