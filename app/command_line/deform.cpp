@@ -92,6 +92,8 @@ void complete(DeformArguments& arguments) {
   const bool sweeps = info(schedule.how.scheme).sweeps;
   require(!sweeps || !arguments.mesh->options.has("--relax-until"), "--relax-until",
           "it works only with --relaxation equilibrium", "add --relaxation equilibrium");
+  require(!sweeps || !schedule.how.local, "--local", "it works only with --relaxation equilibrium",
+          "add --relaxation equilibrium");
   schedule.relax = schedule.relax.value_or(sweeps ? 0 : equilibrium_iterations);
   if (arguments.script && !arguments.global.energy) {
     arguments.global.energy = link_energy;
@@ -191,6 +193,8 @@ void add_model(Options& options, DeformArguments& arguments) {
   add_relaxation(options, false, schedule.how.scheme);
   options.add_numbers(schedule.how);
   options.add(parameters::relax_until, schedule.until);
+  options.add("--local", Choices<bool>{{"off", false}, {"on", true}},
+              std::string(parameters::fine_where_needed) + " [off]", schedule.how.local);
   add_precision(options, arguments.precision);
   add_elastic(options, arguments.elastic, arguments.law);
   add_space(*arguments.mesh);

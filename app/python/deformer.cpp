@@ -91,10 +91,10 @@ std::size_t split(const Used<Mover>& object, const py::sequence& line, const py:
   return found->edit().elements.size();
 }
 
-int relax(const Used<Mover>& object, int sweeps, double step, RelaxationScheme scheme, double until) {
+int relax(const Used<Mover>& object, int sweeps, double step, RelaxationScheme scheme, double until, bool local) {
   const std::uint64_t visits = std::uint64_t{object->mesh().element_count()} * std::uint64_t(std::max(sweeps, 0));
   return run(*object, scheme == RelaxationScheme::equilibrium || visits > quick_visits, [&](Deformer& deformer) {
-    return deformer.relax(sweeps, {step, scheme, until}).sweeps;
+    return deformer.relax(sweeps, {step, scheme, until, local}).sweeps;
   });
 }
 
@@ -209,13 +209,15 @@ void add_relaxation(MoverClass& deformer) {
   const RelaxOptions defaults;
   deformer
       .def("relax", &relax, py::arg("sweeps"), py::kw_only(), py::arg("step") = defaults.step,
-           py::arg("scheme") = defaults.scheme, py::arg("until") = defaults.until,
+           py::arg("scheme") = defaults.scheme, py::arg("until") = defaults.until, py::arg("local") = defaults.local,
            "Runs sweeps of relaxation about the elements of the last move, until nothing moves or this many have\n"
            "run.\n\n"
            "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is\n"
            "the share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or\n"
            "`equilibrium`, which runs iterations instead, for all elements, until the distance from the equilibrium\n"
-           "is at most `until`. Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers\n"
+           "is at most `until`. With `local`, after a move of a large object with open regions, they are fine only "
+           "near\n"
+           "the handle and cuts. Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers\n"
            "are equilibria. Raises Error for a number out of its range; and Cancelled, which keeps the positions\n"
            "that were reached.")
       .def(

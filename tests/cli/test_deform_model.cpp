@@ -16,6 +16,7 @@ class DeformModelTest : public QObject {
     QCOMPARE(program_->run("generate line 4 -o line.dat").code, 0);
   }
   void regions_lie_along_a_frame();
+  void a_large_object_is_fine_only_where_needed();
   void what_does_not_fit_is_refused_data();
   void what_does_not_fit_is_refused();
 
@@ -51,6 +52,28 @@ void DeformModelTest::regions_lie_along_a_frame() {
   const auto square = program_->run("deform square.obj --algorithm exact --move 15:6,5 --frame object");
   QCOMPARE(square.code, 0);
   QVERIFY2(square.error.startsWith("chainmail: --frame object: the object has equal spreads"), square.error);
+}
+
+void DeformModelTest::a_large_object_is_fine_only_where_needed() {
+  QCOMPARE(program_->run("generate tetra 17x17x17 -o solid.msh").code, 0);
+  const QByteArray drag =
+      "deform solid.msh --algorithm exact --compression 0 --stretch 3 --shear 2 --pin left --grab 4910-4912 --by 0,0,2 "
+      "--steps 3 --relaxation equilibrium --positions a.csv --json a.json ";
+  QCOMPARE(program_->run(drag + "--local on").code, 0);
+  const QJsonObject local = program_->json("a.json");
+  const auto at_local = rows_of(program_->read("a.csv"));
+  QCOMPARE(local["relaxation"]["milliseconds"].toArray().size(), 3);
+  QVERIFY(local["relaxation"]["nodes"].toInt() > 0 && local["relaxation"]["nodes"].toInt() < 17 * 17 * 17);
+  QVERIFY(local["relaxation"]["estimate"].toDouble(1) < 0.2);
+  QVERIFY(!local.contains("equilibrium"));  // it has no certificate
+  QCOMPARE(program_->run(drag + "--local off").code, 0);
+  const QJsonObject whole = program_->json("a.json");
+  QVERIFY(!whole.contains("relaxation") && whole.contains("equilibrium"));
+  const auto at_whole = rows_of(program_->read("a.csv"));
+  QVERIFY(at_local != at_whole);
+  QVERIFY(local["energy"].toDouble() < 1.3 * whole["energy"].toDouble());
+  const auto sweeps = program_->run("deform solid.msh --algorithm exact --by 0:1 --local on");
+  QVERIFY2(sweeps.code == 2 && sweeps.error.startsWith("chainmail: --local: "), sweeps.error);
 }
 
 void DeformModelTest::what_does_not_fit_is_refused_data() {

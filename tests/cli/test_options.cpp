@@ -100,6 +100,7 @@ constexpr Row rows[]{
     {"deform", "--relaxation", "link", "none", "", "motion energy"},
     {"deform", "--relax-step", "0.5", "0|1.5", "", "motion energy"},
     {"deform", "--relax-until", "0.5", "-1", "--relaxation equilibrium --relax 200", "motion energy"},
+    {"deform", "--local", "on", "maybe", "--relaxation equilibrium --relax 200", "nothing: the object is small"},
     {"deform", "--precision", "float", "half", "", "motion energy"},
     {"deform", "--young", "2", "0", "", "energy"},
     {"deform", "--poisson", "0.4", "0.5", "", "motion energy"},

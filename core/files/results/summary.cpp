@@ -167,6 +167,14 @@ void write_json(std::ostream& out, const DeformSummary& summary) {
                            {"regions_bind", found->binds},
                            {"iterations", found->iterations}};
   }
+  if (const auto& local = summary.local) {
+    Json milliseconds = Json::array();
+    for (const auto& pass : summary.passes) {
+      milliseconds.push_back(pass.relaxation_ms);
+    }
+    json["relaxation"] = {
+        {"milliseconds", std::move(milliseconds)}, {"nodes", local->nodes}, {"estimate", local->estimate}};
+  }
   add_cells(json, summary.cells);
   out << of_kind(json_kinds::deform, json).dump(2) << '\n';
 }
@@ -246,6 +254,10 @@ void write_text(std::ostream& out, const DeformSummary& summary) {
     }
     out << "largest violation " << found->violation << " rest lengths, valid regions "
         << (found->binds ? "bind" : "do not bind") << '\n';
+  }
+  if (const auto& local = summary.local) {
+    out << "relaxed with " << local->nodes << " unknown positions: about " << 100 * local->estimate
+        << "% from the equilibrium\n";
   }
 }
 

@@ -83,6 +83,10 @@ Member deform() {
                             {"energy_gap", or_null(number("estimated energy above the least (relative)"))},
                             {"regions_bind", boolean("true if valid regions change the equilibrium")},
                             {"iterations", count()}};
+  const Members relaxation{
+      {"milliseconds", array_of(from_zero(), "of the relaxation after each pass (ms)")},
+      {"nodes", count("number of unknown positions after the last pass")},
+      {"estimate", from_zero("estimated distance from the equilibrium then, root mean square (relative)")}};
   return of_kind(
       json_kinds::deform, "Output of chainmail deform --json",
       {{"algorithm", algorithm()},
@@ -94,7 +98,8 @@ Member deform() {
        {"displacement", object(spread, {}, "of elements from rest (mesh units)")}},
       joined({cell_figures,
               {{"shape", object(shape, {}, "of an object with cells or faces; null: no such figure")},
-               {"equilibrium", object(equilibrium, {}, "certificate, after relaxation to the equilibrium")}}}));
+               {"equilibrium", object(equilibrium, {}, "certificate, after relaxation to the equilibrium")},
+               {"relaxation", object(relaxation, {}, "after relaxation that is fine only where needed")}}}));
 }
 
 Json points(std::string_view help) { return array_of(point(), help, 1); }
