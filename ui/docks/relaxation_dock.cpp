@@ -21,6 +21,7 @@ RelaxationDock::RelaxationDock(Document& document)
     : document_(document),
       on_(new QCheckBox(QStringLiteral("Relax in idle time"))),
       scheme_(new QComboBox),
+      local_(new QCheckBox(QStringLiteral("Fine only where needed"))),
       step_(new ParameterRow(parameters::relax_step)),
       residual_(new QLabel) {
   on_->setObjectName(QStringLiteral("relaxationOn"));
@@ -36,8 +37,13 @@ RelaxationDock::RelaxationDock(Document& document)
   row->addWidget(new QLabel(QStringLiteral("by")));
   row->addWidget(scheme_);
   column->addLayout(row);
+  column->addWidget(local_);
   column->addWidget(step_);
   column->addWidget(residual_);
+  local_->setObjectName(QStringLiteral("relaxationLocal"));
+  local_->setToolTip(QStringLiteral(
+      "While the handle moves, solves for fewer positions in objects of 20,000 cells or more with open regions:\n"
+      "fine near the handle and cuts, coarse elsewhere. What is inside follows when the handle rests."));
   residual_->setObjectName(QStringLiteral("residual"));
   residual_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   residual_->setToolTip(QStringLiteral(
@@ -48,6 +54,7 @@ RelaxationDock::RelaxationDock(Document& document)
   content->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // leaves the height to other docks
   setWidget(new DockScroll(content));
   connect(on_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
+  connect(local_, &QCheckBox::toggled, this, [this] { edits::setRelaxation(document_, chosen()); });
   connect(scheme_, &QComboBox::currentIndexChanged, this, [this] {
     scheme_->currentData() == toMaterial ? edits::relaxToMaterial(document_)
                                          : edits::setRelaxation(document_, chosen());
@@ -87,19 +94,21 @@ void RelaxationDock::fillSchemes() {
 commands::SetRelaxation RelaxationDock::chosen() const {
   const int scheme = scheme_->currentData().toInt();
   return {on_->isChecked(), step_->value(),
-          scheme == toMaterial ? RelaxationScheme::equilibrium : RelaxationScheme(scheme)};
+          scheme == toMaterial ? RelaxationScheme::equilibrium : RelaxationScheme(scheme), false, local_->isChecked()};
 }
 
 void RelaxationDock::showRelaxation() {
-  const QSignalBlocker blockOn(on_), blockScheme(scheme_);
+  const QSignalBlocker blockOn(on_), blockScheme(scheme_), blockLocal(local_);
   const auto& relaxation = document_.relaxation();
   on_->setChecked(relaxation.on);
   scheme_->setCurrentIndex(
       scheme_->findData(edits::isRelaxedToMaterial(document_) ? toMaterial : int(relaxation.scheme)));
+  local_->setChecked(relaxation.local);
   step_->show(relaxation.step);
   const bool sweeps = info(relaxation.scheme).sweeps;
   step_->disable(sweeps ? QString() : QStringLiteral("The equilibrium has no step: it moves the whole object at once"));
   residual_->setVisible(!sweeps);
+  local_->setVisible(!sweeps);
   showResidual();
 }
 

@@ -27,6 +27,7 @@ class RelaxationDock : public QDockWidget {
   Document& document_;
   QCheckBox* on_;
   QComboBox* scheme_;
+  QCheckBox* local_;
   ParameterRow* step_;
   QLabel* residual_;
   QTimer refresh_;

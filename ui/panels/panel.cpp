@@ -341,7 +341,10 @@ QStringList Panel::states(const Statistics& statistics) const {
   if (!document_.pins().empty()) {
     states << QStringLiteral("%L1 pinned").arg(document_.pins().size());
   }
-  if (statistics.relaxing) {
+  if (statistics.estimate) {
+    states
+        << QStringLiteral("about %1 % from the full equilibrium").arg(shownNumber(100 * *statistics.estimate, 'g', 1));
+  } else if (statistics.relaxing) {
     states << (statistics.residual ? QStringLiteral("settling, iteration %L1") : QStringLiteral("relaxing, sweep %L1"))
                   .arg(statistics.sweeps);
   }
