@@ -13,8 +13,6 @@ namespace {
 
 // A cube is full if the object fills this share of it. Tetrahedra count where their centres are, which rounds.
 constexpr double full = 0.75;
-// The coarsest level has at most this many nodes, so that its matrix can be inverted.
-constexpr std::size_t max_coarsest = 216;
 
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
@@ -71,8 +69,7 @@ CubeSpace::CubeSpace(MeshPointer mesh, const Cuts& cuts, const Progress& progres
   find_reach();
   join_corners(levels_.back(), pairs);
   find_full(levels_.back());
-  while (count_of(levels_.back().size) > 1) {  // those above the top tell how thick the object is
-    top_ += levels_.back().node_count() > max_coarsest ? 1 : 0;
+  while (count_of(levels_.back().size) > 1) {
     make_coarser(pairs);
   }
 }

@@ -78,8 +78,8 @@ class CubeSpace {
 
   const Mesh& mesh() const { return *mesh_; }
   double unit() const { return unit_; }
-  /// Levels 1 to top(). Level 0 are the elements and has no cubes.
-  int top() const { return top_; }
+  /// Levels 1 to top(), which has one cube. Level 0 are the elements and has no cubes.
+  int top() const { return int(levels_.size()) - 1; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
   /// How many cubes of level 1 apart the homes of the elements of a cell are at most, and its own cube from them.
   int reach() const { return reach_; }
@@ -88,7 +88,7 @@ class CubeSpace {
 
   /// True if the object is at least four times as thick as a cube here. Wider cubes are too stiff in bending.
   bool is_thick(int l, std::uint32_t cube) const {
-    for (int i = 0; i < 2 && l + 1 < int(levels_.size()); ++i) {
+    for (int i = 0; i < 2 && l < top(); ++i) {
       cube = level(l++).cubes[cube].parent;
     }
     return level(l).is_full[cube] != 0;
@@ -158,7 +158,7 @@ class CubeSpace {
   std::vector<std::array<ElementId, 8>> own_hexahedra_;  // of a lattice without cells
   double unit_ = 1, per_unit_ = 1, extent_ = 1;
   Point origin_ = Point::Zero();  // mesh units
-  int reach_ = 1, top_ = 1;
+  int reach_ = 1;
   std::vector<Level> levels_;
   std::vector<std::uint32_t> sorted_tetrahedra_;
   std::vector<ElementId> sorted_elements_, sorted_skin_;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "elastic/dense.h"
-
 namespace chainmail {
 namespace {
 
@@ -14,6 +12,8 @@ namespace {
 constexpr float least_share = 0.02F;
 // Each of a cube's tetrahedra counts at least this share of its mean, so that no node is without energy.
 constexpr float least_filled = 0.02F;
+// The coarsest level has a few nodes.
+constexpr int rounds_of_coarsest = 6;
 
 /// Finds the gradients of the shape functions of corners 1 to 3. Returns the volume.
 double shape_of(const std::array<Point, 4>& c, LocalLevels::Shape& gradient) {
@@ -100,9 +100,6 @@ void LocalLevels::list(const std::vector<std::uint8_t>& is_gone, double modulus)
   add_batches();
   find_springs();
   find_fixed_points();
-  if (!has_coarsest_) {
-    invert_coarsest();
-  }
 }
 
 void LocalLevels::list_level(int l, double modulus) {
@@ -558,33 +555,6 @@ void LocalLevels::find_fixed_points() {
   }
 }
 
-void LocalLevels::invert_coarsest() {
-  const Level& level = levels_.back();
-  const auto n = Eigen::Index(level.size());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), inverse = Eigen::MatrixXd::Identity(n, n);
-  const auto couple = [&](std::size_t i, std::size_t j, float weight) {
-    if (i != j && level.keep[i] > 0 && level.keep[j] > 0) {
-      a(Eigen::Index(i), Eigen::Index(j)) -= weight;
-    }
-  };
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    a(Eigen::Index(i), Eigen::Index(i)) = level.keep[i] > 0 ? 1.000001 * level.diagonal[i] + 1e-9 : 1;
-    for (std::size_t k = 0; k < 6; ++k) {
-      couple(i, level.next[i][k], level.weight[i][k]);
-    }
-  }
-  for (const auto& [i, j, weight] : level.more) {
-    couple(i, j, weight);
-    couple(j, i, weight);
-  }
-  if (factor_positive(a)) {
-    solve_lower(a, inverse);
-    solve_lower_transposed(a, inverse);
-  }
-  coarsest_.assign(inverse.data(), inverse.data() + inverse.size());
-  has_coarsest_ = true;
-}
-
 void LocalLevels::multiply(const Level& level, int l, const std::vector<Floats4>& x, std::vector<Floats4>& result) {
   if (l == 0) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -647,13 +617,14 @@ void LocalLevels::cycle(const std::vector<Floats4>& q, std::vector<Floats4>& z) 
     multiply(level, l, level.x, level.t);
   }
   Level& last = levels_.back();
-  for (std::size_t i = 0; i < last.size(); ++i) {
-    Floats4 sum{};
-    const float* column = coarsest_.data() + i * last.size();
-    for (std::size_t j = 0; j < last.size(); ++j) {
-      sum += column[j] * last.r[j];
+  std::ranges::fill(last.x, Floats4{});
+  for (int round = 0; round < rounds_of_coarsest; ++round) {
+    smooth(last, top(), last.y);
+    multiply(last, top(), last.y, last.t);
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      last.x[i] += last.y[i];
+      last.r[i] -= last.keep[i] * last.t[i];
     }
-    last.x[i] = last.keep[i] * sum;
   }
   for (int l = top() - 1; l >= 0; --l) {
     Level& level = levels_[std::size_t(l)];

@@ -74,8 +74,6 @@ class LocalLevels {
   void list(const std::vector<std::uint8_t>& is_gone, double modulus);
   /// Forgets the Laplacian around elements, after cuts.
   void forget_rows();
-  /// Forgets the matrix of the coarsest level, after other elements were fixed.
-  void forget_coarsest() { has_coarsest_ = false; }
   /// The tetrahedra of fine elements, and those of leaves, as a batch each.
   const std::vector<Batch>& batches() const { return batches_; }
   std::size_t tetrahedron_count() const { return tetrahedron_count_; }
@@ -116,7 +114,6 @@ class LocalLevels {
   void add_leaf(int l, std::uint32_t part);
   void find_springs();
   void find_fixed_points();
-  void invert_coarsest();
   static void multiply(const Level& level, int l, const std::vector<Floats4>& x, std::vector<Floats4>& result);
   static void smooth(Level& level, int l, std::vector<Floats4>& x);
 
@@ -142,8 +139,6 @@ class LocalLevels {
   std::vector<std::uint8_t> is_held_point_;
   std::vector<Spring> springs_;
   std::vector<FixedPoint> fixed_points_;
-  std::vector<float> coarsest_;  // the inverse of the coarsest matrix
-  bool has_coarsest_ = false;
 };
 
 inline void LocalLevels::spread(const WideVectors& points, std::vector<std::vector<Doubles4>>& values) const {

@@ -44,7 +44,6 @@ void add(std::vector<Floats4>& sum, float factor, const std::vector<Floats4>& ot
 void LocalMinimum::set_lame(const Lame& lame) {
   lame_ = lame;
   extended_ = ExtendedDensity({}, lame, 3);
-  levels_.forget_coarsest();
   pairs_.clear();
   is_outdated_ = true;
 }
@@ -58,7 +57,6 @@ void LocalMinimum::set_gone(const std::vector<std::uint8_t>* is_gone, const std:
 }
 
 void LocalMinimum::follow_fixed() {
-  levels_.forget_coarsest();
   pairs_.clear();
   has_frame_ = false;
   is_outdated_ = true;
@@ -271,9 +269,10 @@ void LocalMinimum::start_from(const Read& read) {
         of[i][3] = 1;
       }
     }
+    const std::uint32_t stride = 1U << 3 * std::max(0, l - 2);  // about 64 elements of each cube are enough
     for (const std::uint32_t c : l > 0 ? levels_.cubes(l) : std::vector<std::uint32_t>()) {
       const CubeSpace::Level& level = space.level(l);
-      for (std::uint32_t i = level.cubes[c].element; i < level.cubes[c + 1].element; ++i) {
+      for (std::uint32_t i = level.cubes[c].element; i < level.cubes[c + 1].element; i += stride) {
         const ElementId e = space.sorted_elements()[i];
         if (fixed_.is_held(e)) {
           continue;  // it moves later
