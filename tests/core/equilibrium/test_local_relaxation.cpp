@@ -37,6 +37,7 @@ class LocalRelaxationTest : public QObject {
   void loops_there_and_back_end_where_they_began();
   void the_unit_of_length_does_not_matter();
   void a_rod_bends();
+  void it_starts_where_the_object_is();
 };
 
 namespace {
@@ -427,6 +428,25 @@ void LocalRelaxationTest::a_rod_bends() {
   const Scene scene(block({65, 5, 5}), Point(64, 2, 4), 1.1, 10);
   const double error = difference(dragged(scene, {.max_iterations = 30}).at, equilibrium(scene, 1));
   QVERIFY2(error < 0.06, std::to_string(error).c_str());
+}
+
+/// Others may have moved the object before.
+void LocalRelaxationTest::it_starts_where_the_object_is() {
+  const Scene scene = block_scene();
+  const auto wanted = equilibrium(scene, 1);
+  const auto after_one_iteration = [&](bool is_there) {
+    Body body = scene.body();
+    scene.move(body, 1);
+    if (is_there) {
+      EquilibriumSolver::make(3, false)->solve(body, scene.held, 1e-4, 200);
+    }
+    LocalRelaxation relaxation(body, {.max_iterations = 1});
+    relaxation.update(body, scene.held);
+    relaxation.finish(body);
+    return difference(displacements(body), wanted);
+  };
+  const double there = after_one_iteration(true), at_rest = after_one_iteration(false);
+  QVERIFY2(there < 0.1 && there < at_rest / 2, qPrintable(QString("%1 against %2").arg(there).arg(at_rest)));
 }
 
 CHAINMAIL_TEST(LocalRelaxationTest)
