@@ -381,12 +381,19 @@ class WindowDocks : public QObject {
     QCOMPARE(bench.document().softness(), (LinkSoftness{0, 3, 2}));
     QCOMPARE(bench.find<QComboBox>("preset")->currentText(), QStringLiteral("Open regions (material)"));
     QCOMPARE(scheme->currentText(), QStringLiteral("material"));
+    auto* local = bench.find<QCheckBox>("relaxationLocal");
+    QVERIFY(!local->isHidden());
+    local->click();
+    QVERIFY(bench.document().relaxation().local);
+    bench.trigger("undo");
+    QVERIFY(!bench.document().relaxation().local && !local->isChecked());
     edits::setSoftness(bench.document(), {0.5, 3, 2}, QStringLiteral("compression"));
     QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
     bench.trigger("undo");
     bench.trigger("undo");
     QVERIFY(!bench.document().relaxation().on);
     QCOMPARE(scheme->currentText(), QStringLiteral("mean"));
+    QVERIFY(local->isHidden());
   }
 
   void theEquilibriumShowsItsResidual() {
